@@ -1,0 +1,31 @@
+# joulepath_module(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...])
+#
+# One static library per folder of the house, with the namespaced alias that everything links:
+# joulepath::NAME. A module without sources is an interface library (headers only).
+function(joulepath_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target joulepath_${name})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    joulepath_warnings(${target})
+    target_link_libraries(${target} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(joulepath::${name} ALIAS ${target})
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/joulepath>)
+  target_link_libraries(${target} ${scope} ${ARG_PUBLIC})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY JOULEPATH_MODULES ${target})
+endfunction()
+
+# The warnings that every target of ours is built with.
+function(joulepath_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    $<$<BOOL:${JOULEPATH_WERROR}>:-Werror>)
+endfunction()

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/sided.hpp"
+
+namespace joulepath {
+
+inline constexpr double kGravity_m_s2 = 9.80665;
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Lengths of a two-wheel differential drive [P1, Fig. 1].
+struct Geometry {
+  Sided<double> wheel_radius_m{};
+  double half_track_m{};               ///< l: from the axis of symmetry to a wheel, HALF the track
+  double center_of_mass_offset_m{};    ///< d: from the axle midpoint P0 forward to the chassis' center of mass
+};
+
+/// Masses and moments of inertia. m = m_c + 2 m_w + m_p.
+struct Inertia {
+  double chassis_mass_kg{};               ///< m_c: without wheels and rotors
+  double wheel_mass_kg{};                 ///< m_w: one wheel and its rotor
+  double chassis_yaw_inertia_kg_m2{};     ///< I_c: about the chassis' own center of mass
+  double payload_yaw_inertia_m2{};        ///< yaw inertia of a payload about its own center, per kg
+  double wheel_axle_inertia_kg_m2{};      ///< I_w + I_s: wheel and motor about the axle, seen at the wheel
+  double wheel_diameter_inertia_kg_m2{};  ///< I_m: wheel and rotor about a diameter
+};
+
+/// One wheel's motor and gear, with friction seen at the wheel [P1, Eqs. (14)-(16)].
+struct Motor {
+  double gear_ratio{};                 ///< n
+  double resistance_ohm{};             ///< R
+  double torque_constant_Nm_A{};       ///< Kt
+  double voltage_constant_V_s_rad{};   ///< Kv
+  double viscous_friction_Nm_s_rad{};  ///< nu
+  double friction_torque_Nm{};         ///< T_m: Coulomb friction, opposes the wheel's own motion
+  double max_voltage_V{kNoLimit};
+  double max_current_A{kNoLimit};
+  double inductance_H{};               ///< L: only the simulator looks at it; 0 = neglected
+
+  double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }        ///< Kt n
+  double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }   ///< Kv n
+};
+
+/// What the motion may not exceed; an absent limit is infinite. SI units; all values are magnitudes.
+struct Limits {
+  double speed_m_s{kNoLimit};
+  double acceleration_m_s2{kNoLimit};
+  double deceleration_m_s2{kNoLimit};
+  double lateral_acceleration_m_s2{kNoLimit};
+  double yaw_rate_rad_s{kNoLimit};
+  double yaw_acceleration_rad_s2{kNoLimit};
+  double wheel_acceleration_rad_s2{kNoLimit};
+  double jerk_m_s3{kNoLimit};
+  double traction_coefficient{kNoLimit};  ///< wheel force / normal load
+  double motor_power_W{kNoLimit};         ///< electrical, per motor
+  double battery_power_W{kNoLimit};       ///< at the battery's terminals, standby included
+  double max_payload_kg{kNoLimit};
+};
+
+/// One row of `limits: by_payload`: the keys given override the limit at this payload; between rows
+/// each key is interpolated linearly, and held constant outside of the rows that name it.
+struct PayloadLimits {
+  double payload_kg{};
+  std::map<std::string, double> limit_by_key{};
+};
+
+/// What of a negative motor power comes back: `wheel` clips each wheel alone, `bus` clips the sum.
+enum class PowerSharing { wheel, bus };
+
+struct PowerSupply {
+  double standby_W{};
+  double regeneration_efficiency{};  ///< eta in [0, 1]: P_battery = max(P, eta P)
+  PowerSharing sharing{PowerSharing::wheel};
+};
+
+struct Battery {
+  double capacity_Wh{kNoLimit};
+  double open_circuit_voltage_V{kNoLimit};
+  double internal_resistance_ohm{};
+  double reserve_fraction{};
+};
+
+/// Outline of the robot in its own frame (x forward, origin at the axle midpoint): a disc or a polygon.
+struct Footprint {
+  double radius_m{};
+  std::vector<std::array<double, 2>> polygon_m{};
+};
+
+/// One entry of `effects:`: a catalog name with its parameters; `side` where the effect has one.
+struct EffectSetting {
+  std::string name{};
+  std::map<std::string, double> parameters{};
+  std::optional<Side> side{};
+  std::vector<std::array<double, 4>> cells{};  ///< floor_patch only: x_min, x_max, y_min, y_max each
+};
+
+/// All that a robot file says.
+struct Robot {
+  std::string name{};
+  Geometry geometry{};
+  Inertia inertia{};
+  Sided<Motor> motor{};
+  std::optional<double> payload_offset_m{};  ///< absent: the payload sits at center_of_mass_offset_m
+  std::optional<Limits> limits{};
+  std::vector<PayloadLimits> limits_by_payload{};
+  PowerSupply power{};
+  Battery battery{};
+  Footprint footprint{};
+  std::vector<EffectSetting> effects{};
+  std::map<std::string, double> uncertainty{};  ///< relative 1-sigma by key; absent = exact
+
+  double total_mass_kg(double payload_kg) const {
+    return inertia.chassis_mass_kg + 2 * inertia.wheel_mass_kg + payload_kg;
+  }
+  double payload_offset_or_default_m() const {
+    return payload_offset_m.value_or(geometry.center_of_mass_offset_m);
+  }
+};
+
+}  // namespace joulepath
