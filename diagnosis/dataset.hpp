@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/config_error.hpp"
+#include "model/prescribed_motion.hpp"
+#include "model/robot.hpp"
+#include "model/trajectory.hpp"
+
+namespace joulepath {
+
+/// Payload from this time of the run on.
+struct PayloadStep {
+  double from_s{};
+  double payload_kg{};
+};
+
+/// Something about a log that is not physics: held values, clock jumps, wrapped counters, columns ignored.
+struct LogArtifact {
+  std::string kind{};     ///< clock_jump | gap | held_value | wrapped | unsigned | ignored_columns |
+                          ///< missing_values | resampled
+  std::string run{};      ///< name of the run, empty = the whole dataset
+  std::string channel{};  ///< column, empty = all
+  std::string description{};
+  std::size_t count{};  ///< samples or events
+  double first_time_s{};
+};
+
+enum class RunUse { any, diagnosis, validation };
+
+/// One run: a log with its circumstances, or an energy-only record of a prescribed motion.
+struct Run {
+  std::string name{};  ///< the file as the dataset names it; `runs[3]` for an energy-only run
+  Trajectory log{};    ///< payload_kg is filled for every sample; empty for an energy-only run
+  std::optional<Trajectory> predicted{};  ///< another simulator's prediction, its own time base
+  std::optional<PrescribedMotion> motion{};
+  std::optional<Sided<double>> measured_energy_J{};
+  std::optional<double> battery_energy_Wh{};
+  std::vector<PayloadStep> payload{};  ///< in order of time; one entry = constant
+  bool payload_known{};                ///< false: neither the dataset nor the log says it; 0 is taken
+  std::string surface{};
+  std::optional<double> start_time_s{};  ///< time of day
+  RunUse use{RunUse::any};
+  bool current_sign_from_motion{};  ///< the log's currents are unsigned: sign taken from the wheel's motion
+  SourceMark mark{};
+};
+
+struct Dataset {
+  std::string file{};
+  std::string robot_file{};  ///< empty: the dataset names none
+  Robot robot{};
+  std::vector<Run> runs{};
+  std::vector<LogArtifact> artifacts{};
+};
+
+}  // namespace joulepath
