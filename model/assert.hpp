@@ -14,9 +14,9 @@ class InternalError : public std::logic_error {
 }  // namespace joulepath
 
 /// Checks a promise between parts of the program; kept in Release.
-#define JOULEPATH_ASSERT(condition, message)                                                        \
-  do {                                                                                              \
-    if (!(condition))                                                                               \
+#define JOULEPATH_ASSERT(condition, message)                                                           \
+  do {                                                                                                 \
+    if (!(condition))                                                                                  \
       throw ::joulepath::InternalError(std::string(__FILE__) + ":" + std::to_string(__LINE__) + ": " + \
-                                       (message));                                                  \
+                                       (message));                                                     \
   } while (false)

@@ -17,8 +17,8 @@ inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Lengths of a two-wheel differential drive [P1, Fig. 1].
 struct Geometry {
   Sided<double> wheel_radius_m{};
-  double half_track_m{};               ///< l: from the axis of symmetry to a wheel, HALF the track
-  double center_of_mass_offset_m{};    ///< d: from the axle midpoint P0 forward to the chassis' center of mass
+  double half_track_m{};             ///< l: from the axis of symmetry to a wheel, HALF the track
+  double center_of_mass_offset_m{};  ///< d: from the axle midpoint P0 forward to the chassis' center of mass
 };
 
 /// Masses and moments of inertia. m = m_c + 2 m_w + m_p.
@@ -41,10 +41,10 @@ struct Motor {
   double friction_torque_Nm{};         ///< T_m: Coulomb friction, opposes the wheel's own motion
   double max_voltage_V{kNoLimit};
   double max_current_A{kNoLimit};
-  double inductance_H{};               ///< L: only the simulator looks at it; 0 = neglected
+  double inductance_H{};  ///< L: only the simulator looks at it; 0 = neglected
 
-  double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }        ///< Kt n
-  double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }   ///< Kv n
+  double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }       ///< Kt n
+  double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }  ///< Kv n
 };
 
 /// What the motion may not exceed; an absent limit is infinite. SI units; all values are magnitudes.

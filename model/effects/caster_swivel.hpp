@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Casters have to swivel when the course changes; until they have, they push against the turn.
+/// The memory is the course that they have settled on, a lag in distance travelled:
+///   d memory/ds = (course - memory)/trail,   moment = moment_Nm (course - memory).
+struct CasterSwivel {
+  double moment_Nm{};
+  double trail_m{};
+
+  static constexpr EffectInfo info{
+      .name = "caster_swivel",
+      .kind = "resistance",
+      .stage = Stage::body,
+      .law = "yaw moment of that size against the swivel, decaying as exp(-s/trail) after a change of course",
+      .validity =
+          "casters that trail behind; a change of course is read from the yaw rate, a reversal on a straight "
+          "line is not seen",
+      .source = "first-order lag in distance of the caster angle",
+      .gazebo = "a swivel joint with <friction>",
+      .mujoco = "a hinge with frictionloss at the caster fork"};
+  static constexpr auto parameters() {
+    return std::array{
+        EffectParameter<CasterSwivel>{"moment_Nm", "N m", -100, 1000, 0.5,
+                                      "moment against a full change of course", &CasterSwivel::moment_Nm},
+        EffectParameter<CasterSwivel>{"trail_m", "m", 0.005, 10, 0.1,
+                                      "distance over which the casters come round", &CasterSwivel::trail_m}};
+  }
+
+  double memory_rate_per_m(double memory, double course) const { return (course - memory) / trail_m; }
+
+  template <class Real>
+  BodyLoad<Real> body_load(const BodyContext<Real>& body) const {
+    return {Real(0.0), Real(moment_Nm * (body.site.course - body.memory))};
+  }
+};
+
+}  // namespace joulepath

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/effects/caster_swivel.hpp"
+#include "model/effects/center_of_mass_offset.hpp"
+#include "model/effects/coulomb_friction.hpp"
+#include "model/effects/current_sensor_gain.hpp"
+#include "model/effects/current_sensor_offset.hpp"
+#include "model/effects/direction_dependent_friction.hpp"
+#include "model/effects/dragging_wheel.hpp"
+#include "model/effects/driver_voltage_drop.hpp"
+#include "model/effects/floor_patch.hpp"
+#include "model/effects/floor_slope.hpp"
+#include "model/effects/gear_efficiency.hpp"
+#include "model/effects/payload_mass_error.hpp"
+#include "model/effects/quadratic_drag.hpp"
+#include "model/effects/regeneration_error.hpp"
+#include "model/effects/rolling_resistance.hpp"
+#include "model/effects/standby_power_error.hpp"
+#include "model/effects/stribeck_friction.hpp"
+#include "model/effects/supply_sag.hpp"
+#include "model/effects/time_misalignment.hpp"
+#include "model/effects/torque_constant_error.hpp"
+#include "model/effects/track_width_error.hpp"
+#include "model/effects/turning_scrub.hpp"
+#include "model/effects/viscous_friction.hpp"
+#include "model/effects/wheel_radius_error.hpp"
+#include "model/effects/wheel_radius_mismatch.hpp"
+#include "model/effects/wheel_slip.hpp"
+#include "model/effects/winding_heating.hpp"
+#include "model/effects/winding_resistance_error.hpp"
+#include "model/effects/yaw_inertia_error.hpp"
+
+namespace joulepath {
+
+/// The catalog: every effect that the simulator, the planner, the diagnosis and the documents know.
+/// To add one, write its file and name it here.
+using Effect =
+    std::variant<RollingResistance, FloorPatch, StribeckFriction, CoulombFriction, DraggingWheel,
+                 DirectionDependentFriction, ViscousFriction, GearEfficiency, TurningScrub, CasterSwivel,
+                 QuadraticDrag, WheelSlip, PayloadMassError, CenterOfMassOffset, YawInertiaError,
+                 WheelRadiusError, WheelRadiusMismatch, TrackWidthError, FloorSlope, WindingResistanceError,
+                 WindingHeating, TorqueConstantError, DriverVoltageDrop, StandbyPowerError, RegenerationError,
+                 SupplySag, CurrentSensorOffset, CurrentSensorGain, TimeMisalignment>;
+
+/// What is known of one parameter of one effect; `member` aside, as EffectParameter.
+struct ParameterDescription {
+  std::string name{};
+  std::string unit{};
+  double min{};
+  double max{};
+  double typical{};
+  std::string meaning{};
+};
+
+struct EffectDescription {
+  EffectInfo info{};
+  bool has_side{};
+  bool has_cells{};
+  std::vector<ParameterDescription> parameters{};
+};
+
+/// All effects, in the catalog's order.
+const std::vector<EffectDescription>& effect_catalog();
+
+/// The catalog's entry of that name, or nullptr.
+const EffectDescription* find_effect(const std::string& name);
+
+/// The effect that a robot file's entry means. Throws ConfigError (without a mark) for an unknown
+/// name or parameter, a missing parameter or side, or a value out of range.
+Effect make_effect(const EffectSetting& setting);
+
+/// The robot file's entry that means this effect; inverse of make_effect().
+EffectSetting setting_of(const Effect& effect);
+
+}  // namespace joulepath

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Both drives rub more (or less) than the robot file says.
+struct CoulombFriction {
+  double torque_Nm{};
+
+  static constexpr EffectInfo info{.name = "coulomb_friction",
+                                   .kind = "resistance",
+                                   .stage = Stage::parameters,
+                                   .law = "T_m + torque, both wheels",
+                                   .validity = "as the motor model",
+                                   .source = "[P1, Eq. (14)]",
+                                   .gazebo = "<dynamics><friction> of the wheel joint",
+                                   .mujoco = "frictionloss of the wheel joint"};
+  static constexpr auto parameters() {
+    return std::array{EffectParameter<CoulombFriction>{"torque_Nm", "N m", -50, 50, 0.05,
+                                                       "change of the friction torque, both wheels alike",
+                                                       &CoulombFriction::torque_Nm}};
+  }
+
+  void adjust(Robot& robot) const {
+    robot.motor.left.friction_torque_Nm += torque_Nm;
+    robot.motor.right.friction_torque_Nm += torque_Nm;
+  }
+};
+
+}  // namespace joulepath

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// The current sensors read too much or too little, in proportion.
+struct CurrentSensorGain {
+  double fraction{};
+
+  static constexpr EffectInfo info{.name = "current_sensor_gain",
+                                   .kind = "instruments",
+                                   .stage = Stage::instrument,
+                                   .law = "reading (1 + fraction), both sides",
+                                   .validity = "logs only",
+                                   .source = "-",
+                                   .gazebo = "sensor gain of the log",
+                                   .mujoco = "sensor gain of the log"};
+  static constexpr auto parameters() {
+    return std::array{EffectParameter<CurrentSensorGain>{
+        "fraction", "1", -0.95, 10, 0.03, "relative error of the reading", &CurrentSensorGain::fraction}};
+  }
+
+  void distort(Trajectory& log) const {
+    for (Side side : kSides)
+      for (double& current_A : log.motor_current_A[side]) current_A *= 1.0 + fraction;
+  }
+};
+
+}  // namespace joulepath

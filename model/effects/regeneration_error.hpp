@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// The driver returns another part of the braking energy than the robot file says.
+struct RegenerationError {
+  double efficiency{};
+
+  static constexpr EffectInfo info{.name = "regeneration_error",
+                                   .kind = "electrical",
+                                   .stage = Stage::supply,
+                                   .law = "efficiency replaces the robot file's",
+                                   .validity = "any",
+                                   .source = "-",
+                                   .gazebo = "none",
+                                   .mujoco = "none"};
+  static constexpr auto parameters() {
+    return std::array{EffectParameter<RegenerationError>{"efficiency", "1", 0.0, 1.0, 0.5,
+                                                         "of negative motor power that comes back",
+                                                         &RegenerationError::efficiency}};
+  }
+
+  void adjust(Robot& robot) const { robot.power.regeneration_efficiency = efficiency; }
+};
+
+}  // namespace joulepath

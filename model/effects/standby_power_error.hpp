@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Computer and sensors draw other than the robot file says.
+struct StandbyPowerError {
+  double power_W{};
+
+  static constexpr EffectInfo info{.name = "standby_power_error",
+                                   .kind = "electrical",
+                                   .stage = Stage::supply,
+                                   .law = "standby + power",
+                                   .validity = "any",
+                                   .source = "-",
+                                   .gazebo = "none",
+                                   .mujoco = "none"};
+  static constexpr auto parameters() {
+    return std::array{EffectParameter<StandbyPowerError>{
+        "power_W", "W", -10000.0, 100000.0, 2.0, "change of the standby power", &StandbyPowerError::power_W}};
+  }
+
+  void adjust(Robot& robot) const { robot.power.standby_W += power_W; }
+};
+
+}  // namespace joulepath

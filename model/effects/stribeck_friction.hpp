@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Friction that falls with speed: what a lubricated gear has on top of Coulomb friction when slow.
+struct StribeckFriction {
+  double torque_Nm{};
+  double speed_rad_s{};
+
+  static constexpr EffectInfo info{.name = "stribeck_friction",
+                                   .kind = "resistance",
+                                   .stage = Stage::wheel,
+                                   .law = "torque exp(-(|q'|/speed)^2) against the wheel",
+                                   .validity = "lubricated gears at low speed",
+                                   .source = "Stribeck curve, Gaussian form",
+                                   .gazebo = "none",
+                                   .mujoco = "none"};
+  static constexpr auto parameters() {
+    return std::array{
+        EffectParameter<StribeckFriction>{"torque_Nm", "N m", -5, 50, 0.1,
+                                          "at standstill, on top of Coulomb friction",
+                                          &StribeckFriction::torque_Nm},
+        EffectParameter<StribeckFriction>{"speed_rad_s", "rad/s", 0.01, 100, 1.0,
+                                          "wheel speed over which it fades", &StribeckFriction::speed_rad_s}};
+  }
+
+  template <class Real>
+  Real shaft_torque_Nm(const WheelContext<Real>& wheel) const {
+    using std::exp;
+    const Real ratio = wheel.speed_rad_s / speed_rad_s;
+    return torque_Nm * wheel.direction * exp(-(ratio * ratio));
+  }
+};
+
+}  // namespace joulepath

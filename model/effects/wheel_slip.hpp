@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Driven wheels turn a little faster than the floor passes by.
+struct WheelSlip {
+  double creep_stiffness_N_s_m{};
+
+  static constexpr EffectInfo info{
+      .name = "wheel_slip",
+      .kind = "resistance",
+      .stage = Stage::contact,
+      .law = "contact force = creep_stiffness (r q' - speed of the wheel's contact point)",
+      .validity = "small creep, no sliding",
+      .source = "linear creep (Kalker)",
+      .gazebo = "<surface><friction><ode><slip1>",
+      .mujoco = "solref/solimp and slide friction of the contact"};
+  static constexpr auto parameters() {
+    return std::array{EffectParameter<WheelSlip>{"creep_stiffness_N_s_m", "N s/m", 1.0, 1000000000.0, 2000,
+                                                 "force per speed of creep; small = slippery",
+                                                 &WheelSlip::creep_stiffness_N_s_m}};
+  }
+
+  double creep_m_s_N() const { return 1.0 / creep_stiffness_N_s_m; }
+};
+
+}  // namespace joulepath

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "model/effects/effect.hpp"
+
+namespace joulepath {
+
+/// Windings warm up over the day, and copper resists more when warm.
+struct WindingHeating {
+  double final_fraction{};
+  double time_constant_s{};
+
+  static constexpr EffectInfo info{
+      .name = "winding_heating",
+      .kind = "electrical",
+      .stage = Stage::winding,
+      .law = "R (1 + final_fraction (1 - exp(-t/time_constant))), t the time of day since cold",
+      .validity = "a day of similar work",
+      .source = "first-order thermal model of the winding",
+      .gazebo = "none",
+      .mujoco = "none"};
+  static constexpr auto parameters() {
+    return std::array{
+        EffectParameter<WindingHeating>{"final_fraction", "1", -0.5, 2, 0.1, "relative rise when warm",
+                                        &WindingHeating::final_fraction},
+        EffectParameter<WindingHeating>{"time_constant_s", "s", 1, 100000.0, 200, "of the warming",
+                                        &WindingHeating::time_constant_s}};
+  }
+
+  double resistance_factor(double time_of_day_s) const {
+    return 1.0 + final_fraction * (1.0 - std::exp(-time_of_day_s / time_constant_s));
+  }
+};
+
+}  // namespace joulepath

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "model/dynamics.hpp"
+#include "model/effects/catalog.hpp"
+
+namespace joulepath {
+
+/// A robot together with its effects, ready to be evaluated: effects that only change constants are
+/// already in `robot`; the others are kept in `effects`. Instrument effects are left out: they change
+/// what a log shows, not what the robot does.
+struct Plant {
+  Robot robot{};
+  std::vector<Effect> effects{};
+  double payload_factor{1.0};     ///< what is on board / what is stated
+  double torque_loss_fraction{};  ///< of the gears
+  double creep_m_s_N{};           ///< speed lost at the contact per force
+  double driver_voltage_drop_V{};
+
+  double payload_kg(double stated_kg) const { return payload_factor * stated_kg; }
+  double resistance_factor(double time_of_day_s) const;
+};
+
+/// The plant of a robot file: its own `effects:`, and more if given. Throws ConfigError for an effect
+/// that the catalog does not hold.
+[[nodiscard]] Plant make_plant(const Robot& robot, const std::vector<EffectSetting>& more_effects = {});
+
+/// The plant of the robot as its file describes it without any effect.
+[[nodiscard]] Plant make_nominal_plant(Robot robot);
+
+/// Applies the instrument effects among `effects` to a log, in their order.
+void distort_log(const std::vector<Effect>& effects, Trajectory& log);
+
+/// Moves the memories of a plant's effects on by a distance (m, or rad of spin times half track) on a
+/// constant course; exact for first-order lags.
+void advance_memory(const Plant& plant, double distance_m, double course, EffectMemory& memory);
+
+/// Watts or newtons that an effect adds come through this: calls function(effect, memory).
+template <class Function>
+void for_each_effect(const Plant& plant, const EffectMemory& memory, Function&& function) {
+  std::size_t slot = 0;
+  for (std::size_t index = 0; index < plant.effects.size(); ++index)
+    std::visit(
+        [&](const auto& effect) {
+          double remembered = 0.0;
+          if constexpr (requires { effect.memory_rate_per_m(0.0, 0.0); }) remembered = memory[slot++];
+          function(index, effect, remembered);
+        },
+        plant.effects[index]);
+}
+
+}  // namespace joulepath

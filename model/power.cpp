@@ -1,0 +1,83 @@
+#include "model/power.hpp"
+
+#include <cmath>
+
+namespace joulepath {
+
+double PowerByCause::motor_W() const {
+  double sum_W = copper_W + coulomb_friction_W + viscous_friction_W + kinetic_W;
+  for (double watts : effect_W) sum_W += watts;
+  return sum_W;
+}
+
+double PowerByCause::total_W() const { return motor_W() + not_recovered_W + standby_W; }
+
+PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion, const Site& site) {
+  const Robot& robot = plant.robot;
+  const Sided<WheelState<double>> wheels = operating_point(plant, motion, site);
+  const MassProperties mass = mass_properties(robot, plant.payload_kg(site.payload_kg));
+  const double v = motion.speed_m_s;
+  const double omega = motion.yaw_rate_rad_s;
+  const Wrench<double> inertial = inertial_wrench(mass, motion);
+  const Sided<double> acceleration =
+      wheel_speeds_rad_s(robot.geometry, motion.acceleration_m_s2, motion.yaw_acceleration_rad_s2);
+  const double hot = plant.resistance_factor(site.time_of_day_s);
+
+  PowerByCause watts{.standby_W = robot.power.standby_W,
+                     .effect_W = std::vector<double>(plant.effects.size(), 0.0)};
+  watts.kinetic_W = inertial.force_N * v + inertial.moment_Nm * omega;
+  for (Side side : kSides) {
+    const WheelState<double>& wheel = wheels[side];
+    const Motor& motor = robot.motor[side];
+    watts.copper_W += hot * motor.resistance_ohm * wheel.current_A * wheel.current_A;
+    watts.coulomb_friction_W += motor.friction_torque_Nm * site.wheel_direction[side] * wheel.speed_rad_s;
+    watts.viscous_friction_W += motor.viscous_friction_Nm_s_rad * wheel.speed_rad_s * wheel.speed_rad_s;
+    watts.kinetic_W += robot.inertia.wheel_axle_inertia_kg_m2 * acceleration[side] * wheel.speed_rad_s;
+    // Kt i q' against Kv i q': equal constants in SI; where a file gives others, the rest is copper's.
+    watts.copper_W += (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * wheel.current_A *
+                      wheel.speed_rad_s;
+  }
+  for_each_effect(plant, site.memory, [&](std::size_t index, const auto& effect, double memory) {
+    double& effect_W = watts.effect_W[index];
+    const BodyContext<double> body{robot, site, mass.mass_kg, mass.first_moment_kg_m, v, omega, memory};
+    if constexpr (requires { effect.body_load(body); }) {
+      const BodyLoad<double> load = effect.body_load(body);
+      effect_W += load.force_N * v + load.moment_Nm * omega;
+    }
+    for (Side side : kSides) {
+      const WheelState<double>& wheel = wheels[side];
+      const WheelContext<double> context{.site = site,
+                                         .side = side,
+                                         .speed_rad_s = wheel.speed_rad_s,
+                                         .direction = site.wheel_direction[side],
+                                         .radius_m = robot.geometry.wheel_radius_m[side],
+                                         .normal_load_N = 0.5 * mass.mass_kg * kGravity_m_s2};
+      if constexpr (requires { effect.shaft_torque_Nm(context); })
+        effect_W += effect.shaft_torque_Nm(context) * wheel.speed_rad_s;
+      if constexpr (requires { effect.torque_loss_fraction(); })
+        effect_W += effect.torque_loss_fraction() / plant.torque_loss_fraction * plant.torque_loss_fraction *
+                    std::abs(wheel.torque_Nm) * site.wheel_direction[side] * wheel.speed_rad_s;
+      if constexpr (requires { effect.creep_m_s_N(); })
+        effect_W += effect.creep_m_s_N() * wheel.contact_force_N * wheel.contact_force_N;
+      if constexpr (requires { effect.voltage_drop_V(); })
+        effect_W += effect.voltage_drop_V() * std::abs(wheel.current_A);
+    }
+  });
+  const Sided<double> power_W{wheels.left.power_W, wheels.right.power_W};
+  watts.not_recovered_W = supply_power_W(robot.power, power_W) - (power_W.left + power_W.right);
+  return watts;
+}
+
+BatteryLoad battery_load(const Battery& battery, double terminal_power_W) {
+  const double U = battery.open_circuit_voltage_V;
+  const double R = battery.internal_resistance_ohm;
+  if (!std::isfinite(U)) return {.terminal_voltage_V = U};
+  if (R == 0.0) return {.current_A = terminal_power_W / U, .terminal_voltage_V = U};
+  const double discriminant = U * U - 4 * R * terminal_power_W;
+  if (discriminant < 0) return {.possible = false};
+  const double current_A = 2 * terminal_power_W / (U + std::sqrt(discriminant));
+  return {
+      .current_A = current_A, .terminal_voltage_V = U - R * current_A, .loss_W = R * current_A * current_A};
+}
+
+}  // namespace joulepath
