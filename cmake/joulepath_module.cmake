@@ -24,8 +24,10 @@ function(joulepath_module name)
   set_property(GLOBAL APPEND PROPERTY JOULEPATH_MODULES ${target})
 endfunction()
 
-# The warnings that every target of ours is built with.
+# The warnings that every target of ours is built with. GCC 12 raises two of them falsely inside of
+# std::string (GCC bugs 105329 and 105562): left out for GCC alone.
 function(joulepath_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
     $<$<BOOL:${JOULEPATH_WERROR}>:-Werror>)
 endfunction()

@@ -18,7 +18,7 @@ bool absorb(const Type& effect, Plant& plant) {
   else if constexpr (requires { effect.payload_kg(1.0); })
     return plant.payload_factor *= effect.payload_kg(1.0), false;
   else if constexpr (requires { effect.torque_loss_fraction(); })
-    plant.torque_loss_fraction = 1 - (1 - plant.torque_loss_fraction) * (1 - effect.torque_loss_fraction());
+    plant.torque_loss_fraction += effect.torque_loss_fraction();
   else if constexpr (requires { effect.creep_m_s_N(); })
     plant.creep_m_s_N += effect.creep_m_s_N();
   else if constexpr (requires { effect.voltage_drop_V(); })

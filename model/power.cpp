@@ -55,8 +55,8 @@ PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion
       if constexpr (requires { effect.shaft_torque_Nm(context); })
         effect_W += effect.shaft_torque_Nm(context) * wheel.speed_rad_s;
       if constexpr (requires { effect.torque_loss_fraction(); })
-        effect_W += effect.torque_loss_fraction() / plant.torque_loss_fraction * plant.torque_loss_fraction *
-                    std::abs(wheel.torque_Nm) * site.wheel_direction[side] * wheel.speed_rad_s;
+        effect_W += effect.torque_loss_fraction() * std::abs(wheel.torque_Nm) * site.wheel_direction[side] *
+                    wheel.speed_rad_s;
       if constexpr (requires { effect.creep_m_s_N(); })
         effect_W += effect.creep_m_s_N() * wheel.contact_force_N * wheel.contact_force_N;
       if constexpr (requires { effect.voltage_drop_V(); })
