@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/prescribed_motion.hpp"
+#include "planner/path/path_point.hpp"
+
+namespace joulepath {
+
+/// Position and its derivatives by the curve parameter t in [0, 1] of a cubic Bezier [P1, Eq. (34)].
+struct BezierDerivatives {
+  std::array<double, 2> position_m{};
+  std::array<double, 2> first_m{};
+  std::array<double, 2> second_m{};
+  std::array<double, 2> third_m{};
+};
+
+[[nodiscard]] BezierDerivatives bezier_derivatives(const BezierPoints& points_m, double t);
+
+/// A regular cubic Bezier (|B'| > 0 on [0, 1]; see bezier_chain.hpp for what is refused) by arc length.
+///
+///   kappa = B' x B'' / |B'|^3,
+///   d kappa / d s = (B' x B''' / |B'|^3 - 3 (B' x B'') (B' . B'') / |B'|^5) / |B'|
+///
+/// s(t) is tabulated by adaptive Gauss-Legendre quadrature; t(s) by Newton's method to 1e-13.
+class BezierSegment {
+ public:
+  explicit BezierSegment(const BezierPoints& points_m);
+
+  double length_m() const { return knots_.back().s_m; }
+  PathPoint at(double s_m) const;
+  /// Curve parameter at an arc length.
+  double parameter(double s_m) const;
+  const BezierPoints& points_m() const { return points_m_; }
+
+ private:
+  struct Knot {
+    double t{};
+    double s_m{};
+    double speed_m{};  ///< |B'|
+    double heading_rad{};
+    std::array<double, 2> tangent_m{};  ///< B'
+  };
+  double speed_m(double t) const;
+  double arc_m(double from_t, double to_t) const;
+  void refine(double from_t, double to_t, double whole_m, int depth);
+  void append_knot(double t, double arc_from_last_m);
+  const Knot& knot_before(double s_m) const;
+
+  BezierPoints points_m_{};
+  double scale_m_{};
+  std::vector<Knot> knots_{};
+};
+
+}  // namespace joulepath

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "model/trajectory.hpp"
+
+namespace joulepath {
+
+/// Where a path is after a length s of travel (s >= 0 grows along the travel, also in reverse).
+struct PathPoint {
+  Pose pose{};                      ///< of the axle midpoint; heading of the ROBOT, continuous, not wrapped
+  double curvature_per_m{};         ///< d heading / d s; the yaw rate is curvature * ds/dt
+  double curvature_slope_per_m2{};  ///< d curvature / d s
+};
+
+}  // namespace joulepath

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "planner/path/path.hpp"
+
+namespace joulepath {
+
+/// Largest breaches of the laws that tie a piece's channels together, found by sampling between
+/// breakpoints: position against the integral of the heading, heading against the integral of the
+/// curvature, curvature against the integral of its slope (Gauss-Legendre between samples).
+struct CurveBreach {
+  double position_m{};
+  double heading_rad{};
+  double curvature_per_m{};
+};
+
+CurveBreach curve_breach(const PathPiece& piece, int samples_per_stretch = 200);
+
+}  // namespace joulepath
