@@ -1,0 +1,103 @@
+#include "planner/time_split.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace joulepath {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// Legs with E(T) = c/T + p T and a shortest time: dE/dT = -price gives T = sqrt(c/(p + price)).
+struct Leg {
+  double c{};
+  double shortest_s{};
+};
+
+TimeSplitRequest request_of(const std::vector<Leg>& legs, std::vector<double> latest_s) {
+  return {.legs = legs.size(),
+          .duration_s =
+              [legs](std::size_t k, double price_W) {
+                return std::isinf(price_W)
+                           ? legs[k].shortest_s
+                           : std::max(legs[k].shortest_s, std::sqrt(legs[k].c / (2.0 + price_W)));
+              },
+          .latest_arrival_s = std::move(latest_s),
+          .earliest_arrival_s = std::vector<double>(legs.size(), 0.0),
+          .dwell_s = std::vector<double>(legs.size(), 0.0),
+          .lowest_price_W = 0.0};
+}
+
+TEST(TimeSplit, WithoutDeadlinesNobodyPaysForTime) {
+  const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {kNone, kNone}));
+  EXPECT_EQ(split.price_W, (std::vector<double>{0.0, 0.0}));
+  EXPECT_NEAR(split.arrival_s[1], std::sqrt(50.0) + 5.0, 1e-12);
+}
+
+TEST(TimeSplit, OneDeadlineIsMetExactlyAtOnePrice) {
+  const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}, {400, 1}}, {kNone, kNone, 20.0}));
+  EXPECT_NEAR(split.arrival_s[2], 20.0, 1e-6);
+  EXPECT_LE(split.arrival_s[2], 20.0 + 1e-12);
+  EXPECT_EQ(split.price_W[0], split.price_W[2]);
+  // closed form: sum sqrt(c) / sqrt(2 + price) = 20
+  const double roots = 10 + std::sqrt(50.0) + 20;
+  EXPECT_NEAR(split.price_W[0], std::pow(roots / 20, 2) - 2, 1e-6);
+}
+
+TEST(TimeSplit, PriceFallsBehindAnEarlyDeadlineThatBinds) {
+  const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {4.0, 30.0}));
+  EXPECT_NEAR(split.arrival_s[0], 4.0, 1e-6);
+  EXPECT_GT(split.price_W[0], 1.0);
+  EXPECT_EQ(split.price_W[1], 0.0);
+}
+
+TEST(TimeSplit, LooseEarlyDeadlineDoesNotBind) {
+  const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {9.0, 10.0}));
+  EXPECT_NEAR(split.price_W[0], split.price_W[1], 1e-4 * split.price_W[0]);
+  EXPECT_NEAR(split.arrival_s[1], 10.0, 1e-6);
+}
+
+TEST(TimeSplit, SaysWhichDeadlineCannotBeMetAndByHowMuch) {
+  const TimeSplit split = split_time(request_of({{100, 3}, {50, 2}}, {kNone, 4.0}));
+  ASSERT_TRUE(split.late.has_value());
+  EXPECT_EQ(split.late->leg, 1u);
+  EXPECT_NEAR(split.late->amount_s, 1.0, 1e-9);
+}
+
+TEST(TimeSplit, NoRandomFeasibleSplitIsCheaper) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Leg> legs;
+    std::vector<double> latest_s;
+    double total_s = 0;
+    for (int k = 0; k < 4; ++k) {
+      legs.push_back({10 + 200 * uniform(random), 0.5});
+      total_s += 0.6 + 6 * uniform(random);
+      latest_s.push_back(uniform(random) < 0.6 ? total_s : kNone);
+    }
+    const TimeSplit split = split_time(request_of(legs, latest_s));
+    ASSERT_FALSE(split.late);
+    const auto energy_J = [&](const std::vector<double>& durations_s) {
+      double sum_J = 0;
+      for (std::size_t k = 0; k < legs.size(); ++k)
+        sum_J += legs[k].c / durations_s[k] + 2.0 * durations_s[k];
+      return sum_J;
+    };
+    const double best_J = energy_J(split.duration_s);
+    for (int shake = 0; shake < 200; ++shake) {
+      std::vector<double> other_s = split.duration_s;
+      for (double& d : other_s) d = std::max(0.5, d * (1 + 0.1 * (uniform(random) - 0.5)));
+      double arrival_s = 0;
+      bool in_time = true;
+      for (std::size_t k = 0; k < legs.size(); ++k) in_time &= (arrival_s += other_s[k]) <= latest_s[k];
+      if (in_time) EXPECT_GE(energy_J(other_s), best_J * (1 - 1e-6));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace joulepath
