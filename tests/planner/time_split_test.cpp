@@ -94,7 +94,9 @@ TEST(TimeSplit, NoRandomFeasibleSplitIsCheaper) {
       double arrival_s = 0;
       bool in_time = true;
       for (std::size_t k = 0; k < legs.size(); ++k) in_time &= (arrival_s += other_s[k]) <= latest_s[k];
-      if (in_time) EXPECT_GE(energy_J(other_s), best_J * (1 - 1e-6));
+      if (in_time) {
+        EXPECT_GE(energy_J(other_s), best_J * (1 - 1e-6));
+      }
     }
   }
 }
