@@ -1,0 +1,36 @@
+#include "model/energy.hpp"
+
+namespace joulepath {
+
+double EnergyByCause::motion_J() const {
+  double sum_J = copper_J + coulomb_friction_J + viscous_friction_J + kinetic_J + not_recovered_J;
+  for (const auto& [name, energy_J] : effects_J) sum_J += energy_J;
+  return sum_J;
+}
+
+void EnergyByCause::add(const Plant& plant, const PowerByCause& watts, double duration_s) {
+  copper_J += watts.copper_W * duration_s;
+  coulomb_friction_J += watts.coulomb_friction_W * duration_s;
+  viscous_friction_J += watts.viscous_friction_W * duration_s;
+  kinetic_J += watts.kinetic_W * duration_s;
+  not_recovered_J += watts.not_recovered_W * duration_s;
+  standby_J += watts.standby_W * duration_s;
+  for (std::size_t k = 0; k < watts.effect_W.size(); ++k) {
+    const auto name =
+        std::visit([](const auto& effect) { return std::string(effect.info.name); }, plant.effects[k]);
+    effects_J[name] += watts.effect_W[k] * duration_s;
+  }
+}
+
+EnergyByCause& EnergyByCause::operator+=(const EnergyByCause& other) {
+  copper_J += other.copper_J;
+  coulomb_friction_J += other.coulomb_friction_J;
+  viscous_friction_J += other.viscous_friction_J;
+  kinetic_J += other.kinetic_J;
+  not_recovered_J += other.not_recovered_J;
+  standby_J += other.standby_J;
+  for (const auto& [name, energy_J] : other.effects_J) effects_J[name] += energy_J;
+  return *this;
+}
+
+}  // namespace joulepath
