@@ -1,0 +1,106 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config_error.hpp"
+
+namespace joulepath {
+
+/// A YAML or JSON value with the place where it stands: the parsed file, free of the parser's types.
+struct Value {
+  enum class Kind { null, scalar, list, map };
+  struct Entry;
+
+  Kind kind{Kind::null};
+  std::string text{};  ///< of a scalar
+  bool quoted{};       ///< of a scalar: it is a string whatever it looks like
+  int line{};
+  int column{};
+  std::vector<Value> items{};
+  std::vector<Entry> entries{};  ///< in the file's order, keys unique
+};
+
+struct Value::Entry {
+  std::string key{};
+  int line{};
+  int column{};
+  Value value{};
+};
+
+/// A value seen from a reader: typed access whose errors name file, line, column and dotted path.
+/// It points into a Document, which must outlive it.
+class Node {
+ public:
+  Node(const Value& value, std::string_view file, std::string path) : value_(&value), file_(file), path_(std::move(path)) {}
+
+  [[nodiscard]] Value::Kind kind() const { return value_->kind; }
+  [[nodiscard]] const Value& value() const { return *value_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] SourceMark mark() const;
+
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] std::optional<Node> find(std::string_view key) const;  ///< absent also where the value is null
+  [[nodiscard]] Node operator[](std::string_view key) const;           ///< throws ConfigError when absent
+  [[nodiscard]] std::vector<Node> items() const;                       ///< of a list
+  [[nodiscard]] std::vector<std::pair<std::string, Node>> entries() const;
+
+  [[nodiscard]] double number() const;
+  [[nodiscard]] long integer() const;
+  [[nodiscard]] bool boolean() const;
+  [[nodiscard]] const std::string& text() const;
+
+  [[nodiscard]] double number_or(std::string_view key, double fallback) const;
+  [[nodiscard]] bool boolean_or(std::string_view key, bool fallback) const;
+  [[nodiscard]] std::string text_or(std::string_view key, std::string_view fallback) const;
+  [[nodiscard]] std::optional<double> optional_number(std::string_view key) const;
+
+  /// What stands here, shortened, for a message: `"abc"`, `a list of 3`, `a map with keys x_m, y_m`.
+  [[nodiscard]] std::string described() const;
+  [[noreturn]] void fail(std::string accepted, std::string hint = {}) const;
+  [[noreturn]] void fail_found(std::string found, std::string accepted, std::string hint = {}) const;
+
+ private:
+  const Value* value_;
+  std::string_view file_;
+  std::string path_;
+};
+
+/// How files that name other files are read.
+struct ReadOptions {
+  bool untrusted{};  ///< names in the input may not be absolute or leave the input's folder
+};
+
+/// One parsed file.
+class Document {
+ public:
+  /// Parses YAML (JSON is YAML too). Throws ConfigError: syntax, duplicate key, several documents, too large.
+  static Document parse(std::string_view text, std::string file, int first_line = 1);
+  /// Reads and parses a file. Throws ConfigError when it cannot be read; `named_by` is where its name stands.
+  static Document load(const std::string& file, const SourceMark& named_by = {});
+
+  [[nodiscard]] Node root() const { return {*root_, *file_, ""}; }
+  [[nodiscard]] const std::string& file() const { return *file_; }
+
+ private:
+  std::unique_ptr<const std::string> file_;
+  std::unique_ptr<const Value> root_;
+};
+
+/// A file's whole content. Throws ConfigError when it cannot be read.
+[[nodiscard]] std::string read_text_file(const std::string& file, const SourceMark& named_by = {});
+
+/// The file that a node names, relative to the file that holds the node.
+[[nodiscard]] std::string resolve_file(const Node& node, const ReadOptions& options);
+
+/// A finite number in decimal notation as YAML 1.2 writes it; empty when the text is none.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// The candidate nearest to a mistyped word, empty when none is near.
+[[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace joulepath

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// Which numbers are accepted.
+struct Range {
+  double min{-std::numeric_limits<double>::infinity()};
+  double max{std::numeric_limits<double>::infinity()};
+  bool above_min{};  ///< min itself is not accepted
+};
+
+inline constexpr Range kAny{};
+inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range kNotNegative{0.0};
+inline constexpr Range kFraction{0.0, 1.0};
+
+/// What a value of a file may be: the one description that the readers check against, that JSON Schemas
+/// are written from, and that error messages quote.
+struct Schema {
+  enum class Kind { number, integer, boolean, text, choice, list, map, dictionary, any_of };
+  struct Key;
+
+  Kind kind{Kind::map};
+  Range range{};                       ///< number, integer
+  std::vector<std::string> choices{};  ///< choice
+  std::vector<Schema> parts{};         ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
+  std::size_t min_items{};             ///< list; map: how many keys at least
+  std::size_t max_items{std::numeric_limits<std::size_t>::max()};
+  std::vector<Key> keys{};                             ///< map
+  std::vector<std::vector<std::string>> exactly_one{};  ///< map: of each group one key must be there
+
+  Schema with_exactly_one(std::vector<std::string> group) &&;
+};
+
+struct Schema::Key {
+  std::string name{};
+  Schema schema{};
+  std::string says{};  ///< one sentence for editors
+  bool required{};
+};
+
+[[nodiscard]] Schema number(Range range = kAny);
+[[nodiscard]] Schema integer(Range range = kAny);
+[[nodiscard]] Schema boolean();
+[[nodiscard]] Schema text();
+[[nodiscard]] Schema choice(std::vector<std::string> words);
+[[nodiscard]] Schema list(Schema item, std::size_t min_items = 0,
+                          std::size_t max_items = std::numeric_limits<std::size_t>::max());
+[[nodiscard]] Schema map(std::vector<Schema::Key> keys);
+[[nodiscard]] Schema dictionary(Schema item);  ///< any keys
+[[nodiscard]] Schema any_of(std::vector<Schema> alternatives);
+[[nodiscard]] Schema sided(const Schema& value);  ///< the value, or {left: , right: }
+[[nodiscard]] Schema::Key required(std::string name, Schema schema, std::string says = {});
+[[nodiscard]] Schema::Key optional(std::string name, Schema schema, std::string says = {});
+
+/// The kinds of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's and has no such line.
+struct FileKind {
+  std::string name{};
+  Schema (*schema)(){};
+  std::string says{};
+};
+[[nodiscard]] const std::vector<FileKind>& file_kinds();
+
+/// What the schema accepts, in words: `a number > 0`, `one of: wheel, bus`.
+[[nodiscard]] std::string accepted_by(const Schema& schema);
+
+/// Checks a value and all below it. Throws ConfigError at the first mistake.
+void check_value(const Node& node, const Schema& schema);
+
+/// Checks the `schema:` line (absent: version 1 of the kind expected) and the whole document.
+void check_document(const Document& document, const std::string& kind, const Schema& schema);
+
+/// JSON Schema (draft 2020-12) of a kind, pretty-printed.
+[[nodiscard]] std::string json_schema(const FileKind& kind);
+
+}  // namespace joulepath
