@@ -25,7 +25,8 @@ class TreeBuilder {
     Value value;
     set_mark(node.Mark(), value.line, value.column);
     if (depth > kMaxDepth || ++count_ > kMaxValues)
-      fail(value.line, value.column, "", depth > kMaxDepth ? "lists and maps more than 64 deep" : "more than 2,000,000 values",
+      fail(value.line, value.column, "",
+           depth > kMaxDepth ? "lists and maps more than 64 deep" : "more than 2,000,000 values",
            "a file of ordinary size");
     switch (node.Type()) {
       case YAML::NodeType::Scalar:
@@ -40,7 +41,8 @@ class TreeBuilder {
       case YAML::NodeType::Map:
         build_map(node, depth, value);
         break;
-      default: value.kind = Value::Kind::null;
+      default:
+        value.kind = Value::Kind::null;
     }
     return value;
   }
@@ -51,7 +53,8 @@ class TreeBuilder {
     for (const auto& pair : node) {
       Value::Entry entry;
       set_mark(pair.first.Mark(), entry.line, entry.column);
-      if (!pair.first.IsScalar()) fail(entry.line, entry.column, "", "a key that is a list or a map", "a word as key");
+      if (!pair.first.IsScalar())
+        fail(entry.line, entry.column, "", "a key that is a list or a map", "a word as key");
       entry.key = pair.first.Scalar();
       const auto same = std::find_if(value.entries.begin(), value.entries.end(),
                                      [&](const Value::Entry& other) { return other.key == entry.key; });
@@ -70,7 +73,8 @@ class TreeBuilder {
 
   [[noreturn]] void fail(int line, int column, std::string key, std::string found, std::string accepted,
                          std::string hint = {}) const {
-    throw ConfigError({{file_, line, column}, std::move(key), std::move(found), std::move(accepted), std::move(hint)});
+    throw ConfigError(
+        {{file_, line, column}, std::move(key), std::move(found), std::move(accepted), std::move(hint)});
   }
 
   const std::string& file_;
@@ -100,7 +104,8 @@ int edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i)
     for (std::size_t j = 1; j <= b.size(); ++j) {
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[a.size()][b.size()];
 }
@@ -164,7 +169,8 @@ std::vector<std::pair<std::string, Node>> Node::entries() const {
   if (kind() != Value::Kind::map) fail("a map (key: value)");
   std::vector<std::pair<std::string, Node>> nodes;
   for (const auto& entry : value_->entries)
-    nodes.emplace_back(entry.key, Node(entry.value, file_, path_.empty() ? entry.key : path_ + "." + entry.key));
+    nodes.emplace_back(entry.key,
+                       Node(entry.value, file_, path_.empty() ? entry.key : path_ + "." + entry.key));
   return nodes;
 }
 
@@ -232,10 +238,14 @@ std::optional<double> Node::optional_number(std::string_view key) const {
 
 std::string Node::described() const {
   switch (kind()) {
-    case Value::Kind::null: return "nothing";
-    case Value::Kind::scalar: return value_->quoted ? "the text \"" + shortened(value_->text) + "\"" : shortened(value_->text);
-    case Value::Kind::list: return value_->items.empty() ? "an empty list" : "a list of " + std::to_string(value_->items.size());
-    case Value::Kind::map: break;
+    case Value::Kind::null:
+      return "nothing";
+    case Value::Kind::scalar:
+      return value_->quoted ? "the text \"" + shortened(value_->text) + "\"" : shortened(value_->text);
+    case Value::Kind::list:
+      return value_->items.empty() ? "an empty list" : "a list of " + std::to_string(value_->items.size());
+    case Value::Kind::map:
+      break;
   }
   std::string keys;
   for (std::size_t i = 0; i < value_->entries.size() && i < 4; ++i)
@@ -244,7 +254,9 @@ std::string Node::described() const {
   return value_->entries.empty() ? "an empty map" : "a map with " + keys;
 }
 
-void Node::fail(std::string accepted, std::string hint) const { fail_found(described(), std::move(accepted), std::move(hint)); }
+void Node::fail(std::string accepted, std::string hint) const {
+  fail_found(described(), std::move(accepted), std::move(hint));
+}
 
 void Node::fail_found(std::string found, std::string accepted, std::string hint) const {
   throw ConfigError({mark(), path_, std::move(found), std::move(accepted), std::move(hint)});
@@ -259,7 +271,11 @@ Document Document::parse(std::string_view text, std::string file, int first_line
   try {
     const std::vector<YAML::Node> roots = YAML::LoadAll(copy);
     if (roots.size() > 1)
-      throw ConfigError({{document.file(), 0, 0}, "", std::to_string(roots.size()) + " YAML documents", "one", "remove the --- lines"});
+      throw ConfigError({{document.file(), 0, 0},
+                         "",
+                         std::to_string(roots.size()) + " YAML documents",
+                         "one",
+                         "remove the --- lines"});
     TreeBuilder builder(document.file(), first_line);
     document.root_ = std::make_unique<const Value>(roots.empty() ? Value{} : builder.build(roots.front(), 0));
   } catch (const YAML::Exception& error) {
@@ -286,11 +302,13 @@ std::string read_text_file(const std::string& file, const SourceMark& named_by) 
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     const std::string reason = std::strerror(errno);
-    throw ConfigError({mark, subject, "no readable file (" + reason + ")", "a file that can be read",
-                       named_by.file.empty() ? "" : "relative paths are relative to the file that names them"});
+    throw ConfigError(
+        {mark, subject, "no readable file (" + reason + ")", "a file that can be read",
+         named_by.file.empty() ? "" : "relative paths are relative to the file that names them"});
   }
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw ConfigError({mark, subject, "a file that cannot be read to its end", "a readable file", ""});
+  if (stream.bad())
+    throw ConfigError({mark, subject, "a file that cannot be read to its end", "a readable file", ""});
   return text;
 }
 

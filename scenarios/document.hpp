@@ -36,7 +36,8 @@ struct Value::Entry {
 /// It points into a Document, which must outlive it.
 class Node {
  public:
-  Node(const Value& value, std::string_view file, std::string path) : value_(&value), file_(file), path_(std::move(path)) {}
+  Node(const Value& value, std::string_view file, std::string path)
+      : value_(&value), file_(file), path_(std::move(path)) {}
 
   [[nodiscard]] Value::Kind kind() const { return value_->kind; }
   [[nodiscard]] const Value& value() const { return *value_; }
@@ -44,9 +45,10 @@ class Node {
   [[nodiscard]] SourceMark mark() const;
 
   [[nodiscard]] bool has(std::string_view key) const;
-  [[nodiscard]] std::optional<Node> find(std::string_view key) const;  ///< absent also where the value is null
-  [[nodiscard]] Node operator[](std::string_view key) const;           ///< throws ConfigError when absent
-  [[nodiscard]] std::vector<Node> items() const;                       ///< of a list
+  [[nodiscard]] std::optional<Node> find(
+      std::string_view key) const;                            ///< absent also where the value is null
+  [[nodiscard]] Node operator[](std::string_view key) const;  ///< throws ConfigError when absent
+  [[nodiscard]] std::vector<Node> items() const;              ///< of a list
   [[nodiscard]] std::vector<std::pair<std::string, Node>> entries() const;
 
   [[nodiscard]] double number() const;

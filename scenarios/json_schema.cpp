@@ -12,7 +12,8 @@ Json schema_json(const Schema& schema);
 
 Json number_json(const Schema& schema) {
   Json json{{"type", schema.kind == Schema::Kind::integer ? "integer" : "number"}};
-  if (std::isfinite(schema.range.min)) json[schema.range.above_min ? "exclusiveMinimum" : "minimum"] = schema.range.min;
+  if (std::isfinite(schema.range.min))
+    json[schema.range.above_min ? "exclusiveMinimum" : "minimum"] = schema.range.min;
   if (std::isfinite(schema.range.max)) json["maximum"] = schema.range.max;
   return json;
 }
@@ -66,15 +67,22 @@ Json map_json(const Schema& schema) {
 Json schema_json(const Schema& schema) {
   switch (schema.kind) {
     case Schema::Kind::number:
-    case Schema::Kind::integer: return number_json(schema);
-    case Schema::Kind::boolean: return {{"type", "boolean"}};
-    case Schema::Kind::text: return {{"type", "string"}};
-    case Schema::Kind::choice: return choice_json(schema);
-    case Schema::Kind::list: return list_json(schema);
-    case Schema::Kind::map: return map_json(schema);
+    case Schema::Kind::integer:
+      return number_json(schema);
+    case Schema::Kind::boolean:
+      return {{"type", "boolean"}};
+    case Schema::Kind::text:
+      return {{"type", "string"}};
+    case Schema::Kind::choice:
+      return choice_json(schema);
+    case Schema::Kind::list:
+      return list_json(schema);
+    case Schema::Kind::map:
+      return map_json(schema);
     case Schema::Kind::dictionary:
       return {{"type", "object"}, {"additionalProperties", schema_json(schema.parts.front())}};
-    case Schema::Kind::any_of: break;
+    case Schema::Kind::any_of:
+      break;
   }
   Json alternatives = Json::array();
   for (const auto& part : schema.parts) alternatives.push_back(schema_json(part));

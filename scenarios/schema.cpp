@@ -17,7 +17,8 @@ std::string range_text(const Range& range) {
   const bool low = range.min > -std::numeric_limits<double>::infinity();
   const bool high = range.max < std::numeric_limits<double>::infinity();
   if (low && high)
-    return (range.above_min ? " > " + number_text(range.min) + " and <= " : " from " + number_text(range.min) + " to ") +
+    return (range.above_min ? " > " + number_text(range.min) + " and <= "
+                            : " from " + number_text(range.min) + " to ") +
            number_text(range.max);
   if (low) return (range.above_min ? " > " : " >= ") + number_text(range.min);
   if (high) return " <= " + number_text(range.max);
@@ -32,10 +33,13 @@ std::string joined(const std::vector<std::string>& words) {
 
 Value::Kind shape_of(const Schema& schema) {
   switch (schema.kind) {
-    case Schema::Kind::list: return Value::Kind::list;
+    case Schema::Kind::list:
+      return Value::Kind::list;
     case Schema::Kind::map:
-    case Schema::Kind::dictionary: return Value::Kind::map;
-    default: return Value::Kind::scalar;
+    case Schema::Kind::dictionary:
+      return Value::Kind::map;
+    default:
+      return Value::Kind::scalar;
   }
 }
 
@@ -43,14 +47,16 @@ void check_number(const Node& node, const Schema& schema) {
   const double value =
       schema.kind == Schema::Kind::integer ? static_cast<double>(node.integer()) : node.number();
   const Range& range = schema.range;
-  if (value < range.min || value > range.max || (range.above_min && value <= range.min)) node.fail(accepted_by(schema));
+  if (value < range.min || value > range.max || (range.above_min && value <= range.min))
+    node.fail(accepted_by(schema));
 }
 
 void check_choice(const Node& node, const Schema& schema) {
   if (node.kind() == Value::Kind::scalar &&
       std::find(schema.choices.begin(), schema.choices.end(), node.value().text) != schema.choices.end())
     return;
-  const std::string near = node.kind() == Value::Kind::scalar ? nearest_word(node.value().text, schema.choices) : "";
+  const std::string near =
+      node.kind() == Value::Kind::scalar ? nearest_word(node.value().text, schema.choices) : "";
   node.fail(accepted_by(schema), near.empty() ? "" : "did you mean " + near + "?");
 }
 
@@ -106,7 +112,8 @@ void check_map(const Node& node, const Schema& schema) {
     const bool present = std::any_of(node.value().entries.begin(), node.value().entries.end(),
                                      [&](const auto& entry) { return entry.key == key.name; });
     if (key.required && !present)
-      throw ConfigError({node.mark(), dotted(node, key.name), "nothing", accepted_by(key.schema), "this key is required"});
+      throw ConfigError(
+          {node.mark(), dotted(node, key.name), "nothing", accepted_by(key.schema), "this key is required"});
   }
   check_groups(node, schema);
   if (node.value().entries.size() < schema.min_items || node.value().entries.size() > schema.max_items)
@@ -123,7 +130,8 @@ void check_any_of(const Node& node, const Schema& schema) {
 std::pair<std::string, std::string> kind_and_version(const std::string& line) {
   const std::string prefix = "joulepath/";
   const auto slash = line.rfind('/');
-  if (line.compare(0, prefix.size(), prefix) != 0 || slash == std::string::npos || slash < prefix.size()) return {};
+  if (line.compare(0, prefix.size(), prefix) != 0 || slash == std::string::npos || slash < prefix.size())
+    return {};
   return {line.substr(prefix.size(), slash - prefix.size()), line.substr(slash + 1)};
 }
 
@@ -138,16 +146,21 @@ Schema number(Range range) { return {.kind = Schema::Kind::number, .range = rang
 Schema integer(Range range) { return {.kind = Schema::Kind::integer, .range = range}; }
 Schema boolean() { return {.kind = Schema::Kind::boolean}; }
 Schema text() { return {.kind = Schema::Kind::text}; }
-Schema choice(std::vector<std::string> words) { return {.kind = Schema::Kind::choice, .choices = std::move(words)}; }
+Schema choice(std::vector<std::string> words) {
+  return {.kind = Schema::Kind::choice, .choices = std::move(words)};
+}
 Schema list(Schema item, std::size_t min_items, std::size_t max_items) {
-  return {.kind = Schema::Kind::list, .parts = {std::move(item)}, .min_items = min_items, .max_items = max_items};
+  return {
+      .kind = Schema::Kind::list, .parts = {std::move(item)}, .min_items = min_items, .max_items = max_items};
 }
 Schema map(std::vector<Schema::Key> keys) { return {.kind = Schema::Kind::map, .keys = std::move(keys)}; }
 Schema dictionary(Schema item) { return {.kind = Schema::Kind::dictionary, .parts = {std::move(item)}}; }
 Schema any_of(std::vector<Schema> alternatives) {
   return {.kind = Schema::Kind::any_of, .parts = std::move(alternatives)};
 }
-Schema sided(const Schema& value) { return any_of({value, map({required("left", value), required("right", value)})}); }
+Schema sided(const Schema& value) {
+  return any_of({value, map({required("left", value), required("right", value)})});
+}
 Schema::Key required(std::string name, Schema schema, std::string says) {
   return {std::move(name), std::move(schema), std::move(says), true};
 }
@@ -157,12 +170,18 @@ Schema::Key optional(std::string name, Schema schema, std::string says) {
 
 std::string accepted_by(const Schema& schema) {
   switch (schema.kind) {
-    case Schema::Kind::number: return "a number" + range_text(schema.range);
-    case Schema::Kind::integer: return "a whole number" + range_text(schema.range);
-    case Schema::Kind::boolean: return "true or false";
-    case Schema::Kind::text: return "a text";
-    case Schema::Kind::choice: return "one of: " + joined(schema.choices);
-    case Schema::Kind::dictionary: return "a map whose values are each " + accepted_by(schema.parts.front());
+    case Schema::Kind::number:
+      return "a number" + range_text(schema.range);
+    case Schema::Kind::integer:
+      return "a whole number" + range_text(schema.range);
+    case Schema::Kind::boolean:
+      return "true or false";
+    case Schema::Kind::text:
+      return "a text";
+    case Schema::Kind::choice:
+      return "one of: " + joined(schema.choices);
+    case Schema::Kind::dictionary:
+      return "a map whose values are each " + accepted_by(schema.parts.front());
     case Schema::Kind::list: {
       const bool exact = schema.min_items == schema.max_items;
       const std::string count = exact                  ? " of " + std::to_string(schema.min_items)
@@ -176,7 +195,8 @@ std::string accepted_by(const Schema& schema) {
       for (const auto& key : schema.keys) names.push_back(key.name);
       return "a map with keys " + joined(names);
     }
-    case Schema::Kind::any_of: break;
+    case Schema::Kind::any_of:
+      break;
   }
   std::string text;
   for (const auto& part : schema.parts) text += (text.empty() ? "" : ", or ") + accepted_by(part);
@@ -184,16 +204,24 @@ std::string accepted_by(const Schema& schema) {
 }
 
 void check_value(const Node& node, const Schema& schema) {
-  if (node.kind() == Value::Kind::null) node.fail(accepted_by(schema), "leave the key away to take the default");
+  if (node.kind() == Value::Kind::null)
+    node.fail(accepted_by(schema), "leave the key away to take the default");
   switch (schema.kind) {
     case Schema::Kind::number:
-    case Schema::Kind::integer: return check_number(node, schema);
-    case Schema::Kind::boolean: return static_cast<void>(node.boolean());
-    case Schema::Kind::text: return static_cast<void>(node.text());
-    case Schema::Kind::choice: return check_choice(node, schema);
-    case Schema::Kind::list: return check_list(node, schema);
-    case Schema::Kind::map: return check_map(node, schema);
-    case Schema::Kind::any_of: return check_any_of(node, schema);
+    case Schema::Kind::integer:
+      return check_number(node, schema);
+    case Schema::Kind::boolean:
+      return static_cast<void>(node.boolean());
+    case Schema::Kind::text:
+      return static_cast<void>(node.text());
+    case Schema::Kind::choice:
+      return check_choice(node, schema);
+    case Schema::Kind::list:
+      return check_list(node, schema);
+    case Schema::Kind::map:
+      return check_map(node, schema);
+    case Schema::Kind::any_of:
+      return check_any_of(node, schema);
     case Schema::Kind::dictionary:
       if (node.kind() != Value::Kind::map) node.fail(accepted_by(schema));
       for (const auto& [name, child] : node.entries()) check_value(child, schema.parts.front());
@@ -203,13 +231,17 @@ void check_value(const Node& node, const Schema& schema) {
 void check_document(const Document& document, const std::string& kind, const Schema& schema) {
   const Node root = document.root();
   if (root.kind() != Value::Kind::map)
-    root.fail(root.kind() == Value::Kind::null ? "a file of kind " + kind + "; this one is empty" : accepted_by(schema));
+    root.fail(root.kind() == Value::Kind::null ? "a file of kind " + kind + "; this one is empty"
+                                               : accepted_by(schema));
   if (const auto line = root.find("schema")) {
     const std::string expected = "joulepath/" + kind + "/1";
     const auto [found_kind, version] = kind_and_version(line->text());
-    if (found_kind == kind && version != "1") line->fail(expected, "this program reads version 1 of this kind of file");
+    if (found_kind == kind && version != "1")
+      line->fail(expected, "this program reads version 1 of this kind of file");
     if (found_kind != kind)
-      line->fail(expected, found_kind.empty() ? "" : "this is a file of kind " + found_kind + ", where one of kind " + kind + " is needed");
+      line->fail(expected, found_kind.empty() ? ""
+                                              : "this is a file of kind " + found_kind +
+                                                    ", where one of kind " + kind + " is needed");
   }
   check_value(root, schema);
 }

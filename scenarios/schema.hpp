@@ -29,10 +29,11 @@ struct Schema {
   Kind kind{Kind::map};
   Range range{};                       ///< number, integer
   std::vector<std::string> choices{};  ///< choice
-  std::vector<Schema> parts{};         ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
-  std::size_t min_items{};             ///< list; map: how many keys at least
+  std::vector<Schema>
+      parts{};              ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
+  std::size_t min_items{};  ///< list; map: how many keys at least
   std::size_t max_items{std::numeric_limits<std::size_t>::max()};
-  std::vector<Key> keys{};                             ///< map
+  std::vector<Key> keys{};                              ///< map
   std::vector<std::vector<std::string>> exactly_one{};  ///< map: of each group one key must be there
 
   Schema with_exactly_one(std::vector<std::string> group) &&;

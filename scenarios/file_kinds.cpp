@@ -1,0 +1,16 @@
+#include "scenarios/map_file.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath {
+
+const std::vector<FileKind>& file_kinds() {
+  static const std::vector<FileKind> kinds{
+      {"robot", robot_schema, "parameters, limits and uncertainty of a differential-drive robot"},
+      {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
+      {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
+  };
+  return kinds;
+}
+
+}  // namespace joulepath

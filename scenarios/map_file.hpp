@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "planner/path/occupancy_grid.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Schema map_schema();
+
+/// Reads a Nav2 map: YAML and the image that it names, as Nav2's map server does. Throws ConfigError.
+///
+///   occupancy = 1 - shade (shade when negated); trinary: occupied above occupied_thresh, free below
+///   free_thresh, unknown between; scale: linear between, see-through pixels unknown; raw: the pixel's value.
+[[nodiscard]] OccupancyGrid read_map(const std::string& file, const SourceMark& named_by = {},
+                                     const ReadOptions& options = {});
+
+}  // namespace joulepath

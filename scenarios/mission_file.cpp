@@ -1,0 +1,222 @@
+#include "scenarios/mission_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenarios/map_file.hpp"
+#include "scenarios/motion_entry.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath {
+namespace {
+
+ItemMarks marks_of(const Node& node) {
+  ItemMarks marks{.path = node.path(), .item = node.mark()};
+  for (const auto& [key, value] : node.entries()) marks.keys[key] = value.mark();
+  return marks;
+}
+
+std::map<std::string, Station> read_stations(const Node& node) {
+  std::map<std::string, Station> stations;
+  for (const auto& [name, place] : node.entries())
+    stations[name] = {.x_m = place["x_m"].number(),
+                      .y_m = place["y_m"].number(),
+                      .heading_rad = place.optional_number("heading_rad"),
+                      .charger_W = place.number_or("charger_W", 0.0),
+                      .marks = marks_of(place)};
+  return stations;
+}
+
+/// A station's name, checked against those that the mission knows.
+std::string station_named(const Node& node, const std::map<std::string, Station>& stations) {
+  const std::string& name = node.text();
+  if (stations.contains(name)) return name;
+  std::vector<std::string> names;
+  std::string known;
+  for (const auto& [station, place] : stations) {
+    names.push_back(station);
+    known += (known.empty() ? "" : ", ") + station;
+  }
+  const std::string near = nearest_word(name, names);
+  node.fail(known.empty() ? "a station; this mission has no stations" : "one of the stations: " + known,
+            near.empty() ? "" : "did you mean " + near + "?");
+}
+
+StartRequest read_start(const Node& node, const std::map<std::string, Station>& stations) {
+  StartRequest start{.battery_fraction = node.optional_number("battery_fraction"), .marks = marks_of(node)};
+  const auto heading = node.optional_number("heading_rad");
+  if (const auto name = node.find("station")) {
+    start.station = station_named(*name, stations);
+    const Station& station = stations.at(start.station);
+    for (const char* key : {"x_m", "y_m"})
+      if (const auto extra = node.find(key)) extra->fail("a station or a position, not both");
+    start.heading_given = heading || station.heading_rad;
+    start.pose = {station.x_m, station.y_m, heading.value_or(station.heading_rad.value_or(0.0))};
+  } else {
+    start.heading_given = heading.has_value();
+    start.pose = {node["x_m"].number(), node["y_m"].number(), heading.value_or(0.0)};
+  }
+  return start;
+}
+
+PayloadAlongLeg read_payload(const Node& node) {
+  if (node.kind() == Value::Kind::map) return {node["from"].number(), node["to"].number()};
+  return {node.number(), node.number()};
+}
+
+LegRequest read_leg(const Node& node, const std::map<std::string, Station>& stations) {
+  LegRequest leg{.dwell_s = node.number_or("dwell_s", 0.0),
+                 .deadline_s = node.optional_number("deadline_s"),
+                 .duration_s = node.optional_number("duration_s"),
+                 .start_speed_m_s = node.number_or("start_speed_m_s", 0.0),
+                 .end_speed_m_s = node.number_or("end_speed_m_s", 0.0),
+                 .marks = marks_of(node)};
+  if (const auto to = node.find("to")) leg.to = station_named(*to, stations);
+  if (const auto path = node.find("path"))
+    leg.path = PathRequest{read_bezier((*path)["bezier_m"]), path->text_or("frame", "start") == "map"
+                                                                 ? PathRequest::Frame::map
+                                                                 : PathRequest::Frame::start};
+  if (const auto motion = node.find("motion")) leg.motion = read_motion(*motion);
+  if (const auto payload = node.find("payload_kg")) leg.payload = read_payload(*payload);
+  if (leg.motion)
+    for (const char* key : {"deadline_s", "duration_s", "start_speed_m_s", "end_speed_m_s"})
+      if (const auto extra = node.find(key))
+        extra->fail("nothing beside motion", "a prescribed motion has its own times and speeds");
+  return leg;
+}
+
+VisitRequest read_visit(const Node& node, const std::map<std::string, Station>& stations) {
+  VisitRequest visit{.payload_kg = node.number_or("payload_kg", 0.0),
+                     .payload_given = node.has("payload_kg"),
+                     .dwell_s = node.number_or("dwell_s", 0.0),
+                     .marks = marks_of(node)};
+  visit.kind = node.has("pick")   ? VisitRequest::Kind::pick
+               : node.has("drop") ? VisitRequest::Kind::drop
+                                  : VisitRequest::Kind::pass;
+  const char* key = visit.kind == VisitRequest::Kind::pick   ? "pick"
+                    : visit.kind == VisitRequest::Kind::drop ? "drop"
+                                                             : "go";
+  visit.station = station_named(node[key], stations);
+  if (visit.kind == VisitRequest::Kind::pick && !visit.payload_given)
+    node.fail("payload_kg beside pick", "how much is taken on here?");
+  if (visit.kind == VisitRequest::Kind::pass && visit.payload_given)
+    node["payload_kg"].fail("nothing beside go");
+  if (const auto window = node.find("window_s")) {
+    const auto ends = window->items();
+    visit.window_s = {ends[0].number(), ends[1].number()};
+    if (visit.window_s->first > visit.window_s->second)
+      window->fail_found("a window that ends before it begins", "[earliest, latest]");
+  }
+  return visit;
+}
+
+std::vector<SpeedZone> read_speed_zones(const Node& node, std::size_t legs) {
+  std::vector<SpeedZone> zones;
+  for (const auto& item : node.items()) {
+    SpeedZone zone{.leg = static_cast<std::size_t>(item["leg"].integer()),
+                   .from_m = item["from_m"].number(),
+                   .to_m = item["to_m"].number(),
+                   .speed_m_s = item["speed_m_s"].number(),
+                   .marks = marks_of(item)};
+    if (zone.leg >= legs)
+      item["leg"].fail("a leg of this mission, 0 to " + std::to_string(legs - 1), "legs are counted from 0");
+    if (zone.from_m >= zone.to_m) item["to_m"].fail("a number > from_m");
+    zones.push_back(zone);
+  }
+  return zones;
+}
+
+Objective read_objective(const Node& node) {
+  const std::string word = node.text_or("minimize", "energy");
+  Objective objective{.deadline_s = node.optional_number("deadline_s"),
+                      .time_value_W = node.number_or("time_value_W", 0.0),
+                      .marks = marks_of(node)};
+  objective.minimize = word == "time"              ? Objective::Minimize::time
+                       : word == "energy_and_time" ? Objective::Minimize::energy_and_time
+                                                   : Objective::Minimize::energy;
+  const auto value = node.find("time_value_W");
+  if (word == "energy_and_time" && !value)
+    node.fail("time_value_W beside energy_and_time", "how many watts is a second worth?");
+  if (word != "energy_and_time" && value) value->fail("nothing, unless minimize is energy_and_time");
+  return objective;
+}
+
+/// What must hold between the parts of a mission.
+void check_consistency(const Node& root, const MissionRequest& mission) {
+  const int ways = int(root.has("legs")) + int(root.has("visit")) + int(root.has("order"));
+  const bool empty = mission.legs.empty() && mission.visit.empty() && mission.order_file.empty();
+  if (empty) root.fail_found("a mission with nothing to do", "legs, visit or order with at least one entry");
+  if (ways > 1 && !(root.has("legs") && mission.legs.empty()) &&
+      !(root.has("visit") && mission.visit.empty()))
+    root.fail_found("more than one of legs, visit, order", "one of them");
+  if (root.has("payload_by_action") && !root.has("order"))
+    root["payload_by_action"].fail("nothing, unless there is an order");
+  const bool graph_or_map = !mission.map_file.empty() || !mission.route_graph_file.empty();
+  for (const auto& leg : mission.legs)
+    if (!leg.to.empty() && !graph_or_map)
+      throw ConfigError({leg.marks.at("to"), leg.marks.key_path("to"), "a leg to a station, but no map",
+                         "map: and the name of a Nav2 map file",
+                         "without a map every leg gives its path or motion"});
+  if (!mission.visit.empty() && !graph_or_map)
+    root["visit"].fail("a mission with a map", "name it with map:");
+}
+
+}  // namespace
+
+MissionRequest mission_from(const Document& document, const ReadOptions& options) {
+  static const Schema schema = mission_schema();
+  check_document(document, "mission", schema);
+  const Node root = document.root();
+  const auto file_named = [&](const char* key) {
+    const auto node = root.find(key);
+    return node ? resolve_file(*node, options) : std::string();
+  };
+  MissionRequest mission{.file = document.file(),
+                         .name = root.text_or("name", std::filesystem::path(document.file()).stem().string()),
+                         .robot_file = file_named("robot"),
+                         .map_file = file_named("map"),
+                         .keepout_file = file_named("keepout"),
+                         .route_graph_file = file_named("route_graph"),
+                         .clearance_m = root.number_or("clearance_m", 0.0),
+                         .order_file = file_named("order"),
+                         .marks = marks_of(root)};
+  if (const auto mask = root.find("speed_mask"))
+    mission.speed_mask = SpeedMaskRequest{
+        resolve_file((*mask)["file"], options),
+        mask->text_or("kind", "percent") == "absolute" ? SpeedMask::Kind::absolute : SpeedMask::Kind::percent,
+        mask->number_or("base", 100.0), mask->number_or("multiplier", -1.0)};
+  if (const auto stations = root.find("stations")) mission.stations = read_stations(*stations);
+  if (const auto start = root.find("start")) mission.start = read_start(*start, mission.stations);
+  if (const auto legs = root.find("legs"))
+    for (const auto& leg : legs->items()) mission.legs.push_back(read_leg(leg, mission.stations));
+  if (const auto visits = root.find("visit"))
+    for (const auto& visit : visits->items()) mission.visit.push_back(read_visit(visit, mission.stations));
+  if (const auto zones = root.find("speed_zones"))
+    mission.speed_zones = read_speed_zones(*zones, mission.legs.size());
+  if (const auto objective = root.find("objective")) mission.objective = read_objective(*objective);
+  if (const auto actions = root.find("payload_by_action"))
+    for (const auto& [action, payload] : actions->entries())
+      mission.payload_by_action[action] = payload.number();
+  check_consistency(root, mission);
+  return mission;
+}
+
+MissionRequest read_mission(const std::string& file, const ReadOptions& options) {
+  return mission_from(Document::load(file), options);
+}
+
+MissionWorld read_world(const MissionRequest& request, const ReadOptions& options) {
+  MissionWorld world{.robot = read_robot(request.robot_file, request.marks.at("robot"))};
+  if (!request.map_file.empty()) world.map = read_map(request.map_file, request.marks.at("map"), options);
+  if (!request.keepout_file.empty())
+    world.keepout = read_map(request.keepout_file, request.marks.at("keepout"), options);
+  if (request.speed_mask)
+    world.speed_mask =
+        SpeedMask{read_map(request.speed_mask->file, request.marks.at("speed_mask"), options),
+                  request.speed_mask->kind, request.speed_mask->base, request.speed_mask->multiplier};
+  if (!request.route_graph_file.empty())
+    world.route_graph = read_route_graph(request.route_graph_file, request.marks.at("route_graph"));
+  return world;
+}
+
+}  // namespace joulepath

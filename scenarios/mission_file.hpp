@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "planner/mission_request.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Schema mission_schema();
+
+/// Reads a mission file; names of stations and legs are checked, files that it names are resolved but not
+/// read.
+[[nodiscard]] MissionRequest read_mission(const std::string& file, const ReadOptions& options = {});
+
+/// The mission of a parsed document; a line of JSON lines becomes a document with its own first line.
+[[nodiscard]] MissionRequest mission_from(const Document& document, const ReadOptions& options = {});
+
+/// Reads the files that a mission names. Throws ConfigError at the key that names a broken one.
+[[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {});
+
+/// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).
+[[nodiscard]] RouteGraph read_route_graph(const std::string& file, const SourceMark& named_by = {});
+
+}  // namespace joulepath

@@ -1,0 +1,110 @@
+#include "scenarios/effect_list.hpp"
+#include "scenarios/limit_keys.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr Range positive_up_to(double max) { return {0.0, max, true}; }
+
+Schema geometry_schema() {
+  return map({required("wheel_radius_m", sided(number(positive_up_to(5))),
+                       "radius, not diameter; one value or left and right"),
+              required("half_track_m", number(positive_up_to(10)),
+                       "HALF the distance between the wheels' contact points"),
+              optional("center_of_mass_offset_m", number({-10, 10}),
+                       "from the axle midpoint forward to the chassis' center of mass; default 0")});
+}
+
+Schema inertia_schema() {
+  return map(
+      {required("chassis_mass_kg", number(kPositive), "without wheels and rotors"),
+       required("wheel_mass_kg", number(kNotNegative), "one wheel and its rotor"),
+       required("chassis_yaw_inertia_kg_m2", number(kNotNegative), "about the chassis' own center of mass"),
+       required("payload_yaw_inertia_m2", number(kNotNegative),
+                "yaw inertia of a payload about its own center, per kg"),
+       required("wheel_axle_inertia_kg_m2", number(kNotNegative),
+                "wheel and motor about the axle, seen at the wheel, per wheel"),
+       required("wheel_diameter_inertia_kg_m2", number(kNotNegative), "wheel and rotor about a diameter")});
+}
+
+Schema motor_schema() {
+  const Schema positive = sided(number(kPositive)), not_negative = sided(number(kNotNegative));
+  return map({required("gear_ratio", positive, "motor turns per wheel turn"),
+              required("resistance_ohm", positive, "of the winding, warm"),
+              required("torque_constant_Nm_A", positive, "Kt, at the motor's shaft"),
+              required("voltage_constant_V_s_rad", positive,
+                       "Kv, at the motor's shaft; equals Kt in SI units for most motors"),
+              required("viscous_friction_Nm_s_rad", not_negative, "seen at the wheel"),
+              required("friction_torque_Nm", not_negative, "Coulomb friction, seen at the wheel"),
+              optional("max_voltage_V", positive, "absent: no limit"),
+              optional("max_current_A", positive, "absent: no limit"),
+              optional("inductance_H", not_negative, "only the simulator uses it; default 0")});
+}
+
+std::vector<Schema::Key> limit_schema_keys() {
+  std::vector<Schema::Key> keys;
+  for (const auto& limit : kLimitKeys)
+    keys.push_back(optional(std::string(limit.name), number(kNotNegative),
+                            std::string(limit.says) + "; absent: no limit"));
+  return keys;
+}
+
+Schema limits_schema() {
+  std::vector<Schema::Key> keys = limit_schema_keys(), row = limit_schema_keys();
+  row.insert(row.begin(), required("payload_kg", number(kNotNegative), "these limits hold at this payload"));
+  keys.push_back(optional("by_payload", list(map(row), 1),
+                          "limits that depend on payload: interpolated between rows, overrides"));
+  return map(std::move(keys));
+}
+
+Schema power_schema() {
+  return map({optional("standby_W", number(kNotNegative), "computer, sensors, drives at rest; default 0"),
+              optional("regeneration_efficiency", number(kFraction),
+                       "what of a negative motor power comes back; default 0"),
+              optional("sharing", choice({"wheel", "bus"}),
+                       "wheel: each wheel's power is clipped alone; bus: their sum is")});
+}
+
+Schema battery_schema() {
+  return map(
+      {optional("capacity_Wh", number(kPositive)), optional("open_circuit_voltage_V", number(kPositive)),
+       optional("internal_resistance_ohm", number(kNotNegative), "default 0"),
+       optional("reserve_fraction", number({0.0, 0.99}), "of the capacity that must remain; default 0")});
+}
+
+Schema footprint_schema() {
+  return map({optional("radius_m", number(kPositive), "a disc about the axle midpoint"),
+              optional("polygon_m", list(list(number(), 2, 2), 3),
+                       "corners [x, y], x forward, y left, origin at the axle midpoint")})
+      .with_exactly_one({"radius_m", "polygon_m"});
+}
+
+Schema uncertainty_schema() {
+  std::vector<Schema::Key> keys;
+  for (const Schema& section :
+       {geometry_schema(), inertia_schema(), motor_schema(), power_schema(), battery_schema()})
+    for (const auto& key : section.keys)
+      if (key.name != "sharing") keys.push_back(optional(key.name, number(kFraction)));
+  keys.push_back(optional("payload_kg", number(kFraction)));
+  return map(std::move(keys));
+}
+
+}  // namespace
+
+Schema robot_schema() {
+  return map(
+      {optional("schema", text(), "joulepath/robot/1"), optional("name", text()),
+       required("geometry", geometry_schema()), required("inertia", inertia_schema()),
+       required("motor", motor_schema(), "each value once, or as {left: , right: }"),
+       optional(
+           "payload_offset_m", number({-10, 10}),
+           "where a payload's center sits, forward of the axle midpoint; absent: at center_of_mass_offset_m"),
+       optional("limits", limits_schema(), "what the motion may not exceed; planning needs them"),
+       optional("power", power_schema()), optional("battery", battery_schema()),
+       optional("footprint", footprint_schema()),
+       optional("effects", effect_list_schema(), "effects added to the nominal model"),
+       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: exact")});
+}
+
+}  // namespace joulepath
