@@ -1,0 +1,95 @@
+// blind_plant: writes a data set whose cause is known to its label alone. It shares nothing with the
+// programs that it examines: no header, no library, no formula's implementation, no time stepping.
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+#include "oracle.hpp"
+
+namespace {
+
+constexpr const char* kUsage =
+    "usage: blind_plant --effect NAME[,NAME] [--size X[,X]] [--robot nomad|warehouse|small] [--protocol "
+    "24|12|6]\n"
+    "                   [--level 0|1] [--seed S] --out DIR [--label FILE] [--oracle]\n"
+    "       blind_plant --list\n"
+    "  --effect   none, a catalog name, a foreign kind, or two of them\n"
+    "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
+    "  --label    where the label goes (default: DIR/truth.yaml; apart from DIR for a blind run)\n"
+    "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::string part;
+  for (char c : text + ",") {
+    if (c != ',')
+      part += c;
+    else if (!part.empty())
+      parts.push_back(std::exchange(part, ""));
+  }
+  return parts;
+}
+
+int list_names() {
+  for (const std::string& name : blind::catalog_names()) std::cout << "catalog " << name << "\n";
+  for (const std::string& name : blind::foreign_names()) std::cout << "foreign " << name << "\n";
+  return 0;
+}
+
+blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
+  const auto get = [&](const std::string& key, const std::string& fallback) {
+    const auto at = given.find(key);
+    return at == given.end() ? fallback : at->second;
+  };
+  blind::CaseRequest request;
+  for (const std::string& name : split(get("--effect", "none")))
+    if (name != "none" && name != "null") request.effects.push_back(name);
+  for (const std::string& size : split(get("--size", ""))) request.sizes.push_back(std::stod(size));
+  request.robot = get("--robot", "nomad");
+  request.runs = std::stoi(get("--protocol", "24"));
+  request.level = std::stoi(get("--level", "0"));
+  request.seed = std::stoull(get("--seed", "1"));
+  if (request.runs < 1 || request.runs > 24 || request.level < 0 || request.level > 1 ||
+      request.effects.size() > 2)
+    throw std::invalid_argument("protocol is 1 to 24 runs, level 0 or 1, at most two effects");
+  return request;
+}
+
+int run(int argc, char** argv) {
+  std::map<std::string, std::string> given;
+  bool oracle = false;
+  for (int k = 1; k < argc; ++k) {
+    const std::string key = argv[k];
+    if (key == "--list") return list_names();
+    if (key == "--oracle")
+      oracle = true;
+    else if (key.rfind("--", 0) == 0 && k + 1 < argc)
+      given[key] = argv[++k];
+    else
+      throw std::invalid_argument("unexpected argument '" + key + "'");
+  }
+  for (const auto& [key, value] : given)
+    if (std::string(" --effect --size --robot --protocol --level --seed --out --label ")
+            .find(" " + key + " ") == std::string::npos)
+      throw std::invalid_argument("unknown option " + key);
+  if (!given.count("--out")) throw std::invalid_argument("--out is missing");
+  const blind::Case c = blind::draw_case(request_of(given));
+  const std::string out = given["--out"];
+  blind::write_case(c, out, given.count("--label") ? given["--label"] : out + "/truth.yaml", oracle);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "blind_plant: " << error.what() << "\n" << kUsage;
+    return 2;
+  }
+}

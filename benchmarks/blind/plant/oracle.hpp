@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace blind {
+
+struct Case;
+
+/// What somebody who knows everything but the calibration error could say, computed before any diagnosis.
+struct OracleResult {
+  /// 2 ln(likelihood ratio) expected for the true effects at their true size against none, calibration
+  /// errors profiled with their prior and per-run scatter marginalized, under the true noise covariance.
+  double likelihood_ratio{};
+  /// The same for each effect alone, the others profiled: pairs, one figure per effect.
+  std::map<std::string, double> each{};
+  /// Share of the summed absolute power gap to the nominal model, by axis and cell.
+  std::map<std::string, std::map<std::string, double>> where{};
+  double energy_gap_percent{};  ///< sum over runs |nominal - true| energy / true energy
+};
+
+inline constexpr double kDetectable = 25.0;
+
+[[nodiscard]] OracleResult consult_oracle(const Case& c);
+[[nodiscard]] std::string oracle_lines(const OracleResult& result);
+
+}  // namespace blind
