@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "model/plant.hpp"
+#include "planner/path/path.hpp"
+
+namespace joulepath {
+
+/// Payload as stated, linear in the path coordinate (equal ends: constant).
+struct PayloadAlongPath {
+  double from_kg{};
+  double to_kg{};
+};
+
+/// How the body moves per unit of the path coordinate s, whose rate is u = ds/dt >= 0:
+///   v = along u,   omega = turn u,   omega' = turn a + turn_slope u^2,   a = du/dt.
+/// A curve has along = +/-1 and turn = kappa; a turn in place has along = 0 and turn = +/-1.
+struct PathRates {
+  double along{};
+  double turn{};
+  double turn_slope{};
+};
+
+/// A piece of path driven by a plant: all that depends on the place alone. Values; the piece and the
+/// plant are referred to and must outlive it.
+class PathMotion {
+ public:
+  PathMotion(const PathPiece& piece, const Plant& plant, PayloadAlongPath payload,
+             double time_of_day_start_s = 0.0, const EffectMemory& memory = {});
+
+  double length() const { return length_; }
+  const PathPiece& piece() const { return *piece_; }
+  const Plant& plant() const { return *plant_; }
+  double time_of_day_start_s() const { return time_of_day_start_s_; }
+  double payload_kg(double s) const;
+
+  PathRates rates(double s) const;
+  /// Directions are those of the path's tangent, so they hold at rest too; `time_s` since the start.
+  Site site(double s, double time_s) const;
+  /// What casters remember at s.
+  EffectMemory memory(double s) const;
+
+  /// Body motion at rate u with acceleration a of the path coordinate.
+  template <class Real>
+  static BodyMotion<Real> body_motion(const PathRates& rates, const Real& u, const Real& a) {
+    return {Real(rates.along * u), Real(rates.along * a), Real(rates.turn * u),
+            Real(rates.turn * a + rates.turn_slope * (u * u))};
+  }
+
+ private:
+  void tabulate_memory(const EffectMemory& start);
+
+  const PathPiece* piece_{};
+  const Plant* plant_{};
+  PayloadAlongPath payload_{};
+  double time_of_day_start_s_{};
+  double length_{};
+  double memory_step_{};
+  std::vector<EffectMemory> memory_{};  ///< every memory_step_; empty without such effects
+};
+
+}  // namespace joulepath
