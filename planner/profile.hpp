@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/power.hpp"
+#include "model/energy.hpp"
 #include "planner/infeasibility.hpp"
 #include "planner/path_motion.hpp"
 
@@ -77,21 +77,6 @@ struct Profile {
 
 /// The profile with constant acceleration between nodes: b_k = rate_k^2.
 [[nodiscard]] Profile profile_from_squares(const std::vector<double>& s, const std::vector<double>& b);
-
-/// Joules at the battery's terminals by cause, waiting included: they add up to total_J().
-struct EnergyByCause {
-  double copper_J{};
-  double coulomb_friction_J{};
-  double viscous_friction_J{};
-  double kinetic_J{};
-  double not_recovered_J{};
-  double standby_J{};
-  std::vector<double> effect_J{};  ///< in the order of Plant::effects
-
-  double motion_J() const;  ///< without standby
-  double total_J() const;
-  EnergyByCause& operator+=(const EnergyByCause& other);
-};
 
 /// Dense quadrature of power_by_cause() along a profile (Gauss-Legendre within each segment, split where
 /// the power changes its sign).
