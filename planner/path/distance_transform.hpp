@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace joulepath {
+
+/// Squared Euclidean distance, in cells, from each cell's center to the nearest marked cell's center;
+/// `kNoneMarked` where nothing is marked. Exact, O(cells): lower envelope of parabolas along columns,
+/// then along rows (P. F. Felzenszwalb, D. P. Huttenlocher, "Distance Transforms of Sampled
+/// Functions", Theory of Computing 8 (2012) 415-428). `marked[row * width + column] != 0`.
+[[nodiscard]] std::vector<float> squared_distance_transform(const std::vector<std::uint8_t>& marked,
+                                                            int width, int height);
+
+inline constexpr float kNoneMarked = 1e12F;
+
+}  // namespace joulepath

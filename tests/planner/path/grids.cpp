@@ -1,0 +1,50 @@
+#include "tests/planner/path/grids.hpp"
+
+#include <random>
+
+namespace joulepath {
+namespace {
+
+void fill(OccupancyGrid& grid, double x0_m, double y0_m, double x1_m, double y1_m) {
+  for (int row = 0; row < grid.height; ++row)
+    for (int column = 0; column < grid.width; ++column) {
+      const auto c = grid.center_of({column, row});
+      if (c[0] > x0_m && c[0] < x1_m && c[1] > y0_m && c[1] < y1_m)
+        grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = 100;
+    }
+}
+
+}  // namespace
+
+OccupancyGrid free_grid(int width, int height, double resolution_m) {
+  OccupancyGrid grid;
+  grid.width = width;
+  grid.height = height;
+  grid.resolution_m = resolution_m;
+  grid.occupancy_percent.assign(static_cast<std::size_t>(width * height), 0);
+  return grid;
+}
+
+OccupancyGrid random_grid(int width, int height, double resolution_m, double occupied_share, unsigned seed) {
+  OccupancyGrid grid = free_grid(width, height, resolution_m);
+  std::mt19937 random(seed);
+  for (auto& cell : grid.occupancy_percent)
+    if (static_cast<double>(random()) < occupied_share * 4294967296.0) cell = 100;
+  return grid;
+}
+
+OccupancyGrid warehouse_grid(unsigned seed, double length_m, double depth_m, double resolution_m) {
+  OccupancyGrid grid = free_grid(static_cast<int>(length_m / resolution_m),
+                                 static_cast<int>(depth_m / resolution_m), resolution_m);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (double y = 3; y + 1.2 < depth_m - 2; y += 3.0)
+    for (double x = 3; x + 8 < length_m - 2; x += 10.5) fill(grid, x, y, x + 8, y + 1.2);
+  for (int i = 0; i < 40; ++i) {
+    const double x = length_m * unit(random), y = depth_m * unit(random);
+    fill(grid, x, y, x + 0.3 + 0.5 * unit(random), y + 0.3 + 0.5 * unit(random));
+  }
+  return grid;
+}
+
+}  // namespace joulepath

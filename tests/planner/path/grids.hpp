@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/path/occupancy_grid.hpp"
+
+namespace joulepath {
+
+OccupancyGrid free_grid(int width, int height, double resolution_m);
+/// Each cell occupied with a probability.
+OccupancyGrid random_grid(int width, int height, double resolution_m, double occupied_share, unsigned seed);
+/// 60 x 40 m at 5 cm (or of another size): shelf rows with aisles, cross aisles and stray pallets.
+OccupancyGrid warehouse_grid(unsigned seed, double length_m = 60, double depth_m = 40,
+                             double resolution_m = 0.05);
+
+}  // namespace joulepath

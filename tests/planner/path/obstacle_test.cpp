@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "planner/path/distance_transform.hpp"
+#include "planner/path/footprint_checker.hpp"
+#include "planner/path/polygon_distance.hpp"
+#include "tests/planner/path/grids.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Distance to the nearest blocked square by looking at every cell.
+double brute_force_distance_m(const OccupancyGrid& grid, double x_m, double y_m) {
+  double best =
+      std::min({x_m, y_m, grid.width * grid.resolution_m - x_m, grid.height * grid.resolution_m - y_m});
+  for (int row = 0; row < grid.height; ++row)
+    for (int column = 0; column < grid.width; ++column) {
+      if (grid.at({column, row}) == 0) continue;
+      const auto c = grid.center_of({column, row});
+      const double h = 0.5 * grid.resolution_m;
+      best = std::min(
+          best, std::hypot(std::max(0.0, std::abs(x_m - c[0]) - h), std::max(0.0, std::abs(y_m - c[1]) - h)));
+    }
+  return std::max(best, 0.0);
+}
+
+TEST(DistanceTransform, EqualsBruteForce) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    const int width = 1 + static_cast<int>(random() % 40), height = 1 + static_cast<int>(random() % 40);
+    std::vector<std::uint8_t> marked(static_cast<std::size_t>(width * height));
+    for (auto& cell : marked) cell = random() % 23 == 0;
+    const auto distance = squared_distance_transform(marked, width, height);
+    for (int i = 0; i < width * height; ++i) {
+      double best = kNoneMarked;
+      for (int j = 0; j < width * height; ++j)
+        if (marked[static_cast<std::size_t>(j)] != 0)
+          best = std::min(best, std::pow(i % width - j % width, 2) + std::pow(i / width - j / width, 2));
+      EXPECT_EQ(distance[static_cast<std::size_t>(i)], static_cast<float>(best));
+    }
+  }
+}
+
+TEST(ObstacleField, DistanceIsExactAndWithinItsBounds) {
+  const OccupancyGrid grid = random_grid(60, 40, 0.05, 0.02, 5);
+  const ObstacleField field(grid);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> x(0, 3), y(0, 2);
+  for (int i = 0; i < 2000; ++i) {
+    const double px = x(random), py = y(random), truth = brute_force_distance_m(grid, px, py);
+    EXPECT_NEAR(field.distance_m(px, py), truth, 1e-12);
+    const auto bounds = field.distance_bounds_m(px, py);
+    EXPECT_LE(bounds.lower_m, truth + 1e-6);
+    EXPECT_GE(bounds.upper_m, truth - 1e-6);
+    for (const double radius : {0.03, 0.1, 0.2}) EXPECT_EQ(field.disc_free(px, py, radius), truth >= radius);
+  }
+}
+
+TEST(ObstacleField, TurnedGridsSeeTheSameFloor) {
+  OccupancyGrid grid = random_grid(50, 50, 0.1, 0.03, 9);
+  const ObstacleField straight(grid);
+  grid.origin = {4.0, -3.0, 0.7};
+  const ObstacleField turned(grid);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(0, 5);
+  for (int i = 0; i < 500; ++i) {
+    const double px = u(random), py = u(random), c = std::cos(0.7), s = std::sin(0.7);
+    EXPECT_NEAR(turned.distance_m(4 + c * px - s * py, -3 + s * px + c * py), straight.distance_m(px, py),
+                1e-9);
+  }
+}
+
+TEST(ObstacleField, KeepoutBlocksAndItsOutsideDoesNot) {
+  const OccupancyGrid map = free_grid(100, 100, 0.1);
+  OccupancyGrid keepout = free_grid(20, 20, 0.05);  // its own resolution and place
+  keepout.origin = {4, 4, 0};
+  for (auto& cell : keepout.occupancy_percent) cell = 100;
+  const ObstacleField field(map, &keepout);
+  EXPECT_NEAR(field.distance_m(3.0, 4.5), 1.0, 1e-12);
+  EXPECT_EQ(field.nearest(3.0, 4.5).layer, ObstacleField::Layer::keepout);
+  EXPECT_EQ(field.distance_m(4.5, 4.5), 0.0);
+  EXPECT_NEAR(field.distance_m(8.5, 8.0), 1.5, 1e-12);  // the map's rim
+}
+
+TEST(ObstacleField, UnknownAndOutsideAreObstacles) {
+  OccupancyGrid map = free_grid(40, 40, 0.1);
+  map.occupancy_percent[20 * 40 + 20] = kUnknownCell;
+  const ObstacleField field(map);
+  EXPECT_EQ(field.distance_m(2.05, 2.05), 0.0);
+  EXPECT_EQ(field.distance_m(-1.0, 2.0), 0.0);
+  EXPECT_NEAR(field.distance_m(0.3, 2.0), 0.3, 1e-12);
+}
+
+TEST(PolygonDistance, SquareAgainstSquare) {
+  const std::vector<Point2> unit{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  EXPECT_NEAR(square_distance_m(unit, {3, 0}, 0.5), 1.5, 1e-15);
+  EXPECT_NEAR(square_distance_m(unit, {2, 2}, 0.5), std::hypot(0.5, 0.5), 1e-15);
+  EXPECT_LE(square_distance_m(unit, {0, 0}, 0.1), 0.0);
+  EXPECT_LE(square_distance_m(unit, {0, 0}, 5.0), 0.0);    // the square holds the polygon
+  EXPECT_LE(square_distance_m(unit, {1.2, 0}, 0.5), 0.0);  // edges cross
+}
+
+TEST(FootprintChecker, DiscAndManyCorneredPolygonAgree) {
+  const OccupancyGrid grid = random_grid(80, 80, 0.05, 0.004, 21);
+  const ObstacleField field(grid);
+  Footprint disc{0.3, {}}, polygon{};
+  for (int i = 0; i < 720; ++i)
+    polygon.polygon_m.push_back({0.3 * std::cos(kPi * i / 360), 0.3 * std::sin(kPi * i / 360)});
+  const FootprintChecker round(field, disc, 0.05), cornered(field, polygon, 0.05);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(0.2, 3.8);
+  int near = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Pose pose{u(random), u(random), u(random)};
+    const double slack = round.slack_m(pose);
+    if (std::abs(slack) > 0.05 || slack < -0.2) continue;
+    EXPECT_NEAR(cornered.slack_m(pose), slack, 1e-5);
+    ++near;
+  }
+  EXPECT_GT(near, 50);
+}
+
+TEST(FootprintChecker, LongRobotPassesAlongButCannotTurn) {
+  OccupancyGrid grid = free_grid(100, 20, 0.05);  // a corridor of 1 m, walls are the map's rim
+  const ObstacleField field(grid);
+  Footprint robot{};
+  robot.polygon_m = {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}};
+  const FootprintChecker checker(field, robot, 0.05);
+  EXPECT_FALSE(checker.first_collision(straight_piece({1, 0.5, 0}, 3.0)).has_value());
+  const auto turn = checker.first_collision(PathPiece{TurnInPlace{{2.5, 0.5, 0}, kPi / 2}});
+  ASSERT_TRUE(turn.has_value());
+  // Its corner at (0.6, 0.3) reaches the clearance line 0.45 m from the axis at this angle:
+  EXPECT_NEAR(turn->s, std::asin(0.45 / std::hypot(0.6, 0.3)) - std::atan2(0.3, 0.6), 5e-3);
+}
+
+TEST(FootprintChecker, SaysWhereAndByHowMuch) {
+  OccupancyGrid grid = free_grid(100, 100, 0.1);
+  for (int row = 0; row < 100; ++row) grid.occupancy_percent[static_cast<std::size_t>(row * 100 + 60)] = 100;
+  const ObstacleField field(grid);
+  const FootprintChecker checker(field, {0.25, {}}, 0.05);
+  const auto hit = checker.first_collision(straight_piece({2, 5, 0}, 6.0));
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(hit->s, 6.0 - 0.3 - 2.0, 0.003);
+  EXPECT_NEAR(hit->obstacle.x_m, 6.0, 1e-9);
+  EXPECT_LT(hit->short_by_m, 0.003);
+  EXPECT_NEAR(checker.pose_collision({5.9, 5, 0})->short_by_m, 0.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace joulepath
