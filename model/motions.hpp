@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "model/prescribed_motion.hpp"
+#include "model/robot.hpp"
+#include "model/trajectory.hpp"
+
+namespace joulepath {
+
+struct Interval {
+  double from_s{};
+  double to_s{};
+};
+
+/// A prescribed motion over time. Speeds are linear between the samples, and there is a sample wherever
+/// an acceleration changes, so that interpolation is exact (nearly so on a Bezier curve).
+struct TimedMotion {
+  Trajectory trajectory{};           ///< speeds, wheel speeds, pose, arc length, curvature, payload
+  std::vector<Interval> coasting{};  ///< when the motors carry no current
+};
+
+struct TimingOptions {
+  Pose start{};
+  double start_time_s{};
+  double payload_kg{};
+  double sample_period_s{0.02};
+};
+
+/// The motion over time that prescriptions mean, one after the other. What a prescription leaves out
+/// comes from the robot's limits; a coasting robot slows down as its model (with its effects) says.
+///
+/// Throws ConfigError (without a mark) where a value is needed that neither gives, or where the
+/// prescription contradicts itself (no room to brake).
+[[nodiscard]] TimedMotion timed_motion(const Robot& robot, const std::vector<PrescribedMotion>& motions,
+                                       const TimingOptions& options = {});
+
+}  // namespace joulepath
