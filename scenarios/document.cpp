@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -81,6 +82,19 @@ class TreeBuilder {
   int first_line_;
   std::size_t count_{};
 };
+
+constexpr std::string_view kDataDirectory = "${JOULEPATH_DATA_DIR}";
+
+/// The text of a node with ${JOULEPATH_DATA_DIR} at its beginning filled in from the environment.
+std::string with_data_directory(const Node& node, const ReadOptions& options) {
+  const std::string& name = node.text();
+  if (options.untrusted || name.compare(0, kDataDirectory.size(), kDataDirectory) != 0) return name;
+  const char* folder = std::getenv("JOULEPATH_DATA_DIR");
+  if (!folder)
+    node.fail("a file; the environment variable JOULEPATH_DATA_DIR is not set",
+              "set it to the folder that holds the data");
+  return std::string(folder) + name.substr(kDataDirectory.size());
+}
 
 std::string shortened(const std::string& text) {
   std::string clean;
@@ -314,7 +328,7 @@ std::string read_text_file(const std::string& file, const SourceMark& named_by) 
 
 std::string resolve_file(const Node& node, const ReadOptions& options) {
   namespace fs = std::filesystem;
-  const fs::path name = node.text();
+  const fs::path name = with_data_directory(node, options);
   if (name.empty()) node.fail_found("an empty text", "the name of a file");
   const fs::path folder = fs::path(node.mark().file).parent_path();
   const fs::path resolved = name.is_absolute() ? name : folder / name;

@@ -1,3 +1,4 @@
+#include "scenarios/dataset_file.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
@@ -8,6 +9,7 @@ const std::vector<FileKind>& file_kinds() {
   static const std::vector<FileKind> kinds{
       {"robot", robot_schema, "parameters, limits and uncertainty of a differential-drive robot"},
       {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
+      {"dataset", dataset_schema, "run logs, what they were measured with, and how to read their columns"},
       {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
   };
   return kinds;

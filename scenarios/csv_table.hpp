@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config_error.hpp"
+
+namespace joulepath {
+
+/// The columns of a CSV file that someone wanted, as numbers; an empty cell is NaN.
+struct CsvTable {
+  std::string file{};
+  std::vector<std::string> header{};           ///< all names, in the file's order
+  std::vector<std::vector<double>> columns{};  ///< one per name; empty where it was not wanted
+  std::vector<int> line_of_row{};
+
+  [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
+  [[nodiscard]] std::size_t rows() const { return line_of_row.size(); }
+};
+
+/// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (the header tells),
+/// quotes, CRLF and a byte order mark are fine, lines that begin with # are comments. Throws ConfigError with
+/// line and column: no header, a name twice, a row of another length, text or a non-finite number in a wanted
+/// column.
+[[nodiscard]] CsvTable read_csv(const std::string& file,
+                                const std::function<bool(const std::string&)>& wanted,
+                                const SourceMark& named_by = {});
+[[nodiscard]] CsvTable parse_csv(std::string_view text, std::string file,
+                                 const std::function<bool(const std::string&)>& wanted);
+
+}  // namespace joulepath

@@ -1,0 +1,166 @@
+#include "scenarios/dataset_file.hpp"
+
+#include <algorithm>
+
+#include "scenarios/csv_table.hpp"
+#include "scenarios/motion_entry.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath {
+namespace {
+
+std::vector<PayloadStep> read_payload(const Node& node) {
+  if (node.kind() == Value::Kind::scalar) return {{0.0, node.number()}};
+  std::vector<PayloadStep> steps;
+  for (const auto& item : node.items()) {
+    steps.push_back({item["from_s"].number(), item["kg"].number()});
+    if (steps.size() > 1 && steps.back().from_s <= steps[steps.size() - 2].from_s)
+      item["from_s"].fail("a time after the step before");
+  }
+  return steps;
+}
+
+void fill_payload(Run& run) {
+  Trajectory& log = run.log;
+  if (run.payload.empty()) {
+    run.payload_known = !log.payload_kg.empty();
+    if (log.payload_kg.empty()) log.payload_kg.assign(log.size(), 0.0);
+    if (!log.size()) run.payload = {{0.0, 0.0}};
+    for (std::size_t i = 0; i < log.size(); ++i)
+      if (i == 0 || log.payload_kg[i] != log.payload_kg[i - 1])
+        run.payload.push_back({log.time_s[i], log.payload_kg[i]});
+    return;
+  }
+  run.payload_known = true;
+  log.payload_kg.resize(log.size());
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    while (step + 1 < run.payload.size() && log.time_s[i] >= run.payload[step + 1].from_s) ++step;
+    log.payload_kg[i] = run.payload[step].payload_kg;
+  }
+}
+
+class RunReader {
+ public:
+  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options)
+      : dataset_(dataset), sources_(sources), options_(options) {}
+
+  void read(const Node& node) {
+    Run run{.name = node.path(),
+            .surface = node.text_or("surface", ""),
+            .start_time_s = node.optional_number("start_time_s"),
+            .mark = node.mark()};
+    const std::string use = node.text_or("use", "any");
+    run.use = use == "diagnosis" ? RunUse::diagnosis : use == "validation" ? RunUse::validation : RunUse::any;
+    if (const auto payload = node.find("payload_kg")) run.payload = read_payload(*payload);
+    read_energy(node, run);
+    if (node.has("motion"))
+      read_energy_only(node, run);
+    else
+      read_log(node, run);
+    fill_payload(run);
+    dataset_.runs.push_back(std::move(run));
+  }
+
+ private:
+  static void read_energy(const Node& node, Run& run) {
+    if (const auto energy = node.find("measured_energy_J"))
+      run.measured_energy_J = Sided<double>{(*energy)["left"].number(), (*energy)["right"].number()};
+    run.battery_energy_Wh = node.optional_number("battery_energy_Wh");
+  }
+
+  static void read_energy_only(const Node& node, Run& run) {
+    run.motion = read_motion(node["motion"]);
+    if (!run.measured_energy_J && !run.battery_energy_Wh)
+      node.fail("measured_energy_J or battery_energy_Wh beside motion",
+                "a run without a log needs the energy that it took");
+    if (const auto predicted = node.find("predicted")) predicted->fail("nothing beside motion");
+  }
+
+  void read_log(const Node& node, Run& run) {
+    std::vector<LogFileName> files;
+    const auto add = [&](const Node& name) { files.push_back({resolve_file(name, options_), name.mark()}); };
+    if (const auto names = node.find("files"))
+      for (const auto& name : names->items()) add(name);
+    else
+      add(node["file"]);
+    run.name = node.has("file") ? node["file"].text() : node["files"].items().front().text();
+    RunLog log = read_run_log(files, sources_, dataset_.robot.geometry, run.name);
+    run.log = std::move(log.trajectory);
+    run.current_sign_from_motion = log.current_sign_from_motion;
+    dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
+    if (const auto predicted = node.find("predicted")) read_predicted(*predicted, run);
+  }
+
+  /// Another simulator writes the format's own names (then `columns:` is not for it), or the log's.
+  void read_predicted(const Node& node, Run& run) {
+    const std::string file = resolve_file(node, options_);
+    const auto header = read_csv(
+                            file, [](const std::string&) { return false; }, node.mark())
+                            .header;
+    const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
+    run.predicted = read_run_log({{file, node.mark()}}, own_names ? ColumnSources{} : sources_,
+                                 dataset_.robot.geometry, node.text())
+                        .trajectory;
+  }
+
+  Dataset& dataset_;
+  const ColumnSources& sources_;
+  const ReadOptions& options_;
+};
+
+Schema run_schema() {
+  const Schema payload =
+      any_of({number(kNotNegative),
+              list(map({required("from_s", number()), required("kg", number(kNotNegative))}), 1)});
+  return map({optional("file", text(), "run log (CSV)"),
+              optional("files", list(text(), 1), "several logs of one run, aligned by time"),
+              optional("motion", motion_schema(), "an energy-only run: what was driven"),
+              optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
+              optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),
+              optional("surface", text()), optional("use", choice({"any", "diagnosis", "validation"})),
+              optional("predicted", text(), "another simulator's prediction of this run (CSV)"),
+              optional("measured_energy_J", map({required("left", number()), required("right", number())})),
+              optional("battery_energy_Wh", number())})
+      .with_exactly_one({"file", "files", "motion"});
+}
+
+}  // namespace
+
+Schema dataset_schema() {
+  return map({optional("schema", text(), "joulepath/dataset/1"), optional("name", text()),
+              optional("robot", text(), "robot file"),
+              optional("columns", column_sources_schema(), "only where the log's own names or units differ"),
+              required("runs", list(run_schema(), 1))});
+}
+
+Dataset read_dataset(const std::string& file, const ReadOptions& options,
+                     const std::optional<std::string>& robot_file) {
+  static const Schema schema = dataset_schema();
+  const Document document = Document::load(file);
+  check_document(document, "dataset", schema);
+  const Node root = document.root();
+  Dataset dataset{.file = file};
+  if (!robot_file && !root.has("robot"))
+    root.fail_found("no robot", "robot: and the name of a robot file", "or give it with --robot");
+  dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
+  dataset.robot = read_robot(dataset.robot_file, robot_file ? SourceMark{} : root["robot"].mark());
+  const auto columns = root.find("columns");
+  const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
+  RunReader reader(dataset, sources, options);
+  for (const auto& run : root["runs"].items()) reader.read(run);
+  return dataset;
+}
+
+Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file) {
+  Dataset dataset{.file = log_file, .robot_file = robot_file, .robot = read_robot(robot_file)};
+  RunLog log = read_run_log(log_file, dataset.robot.geometry);
+  Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
+  fill_payload(run);
+  dataset.runs.push_back(std::move(run));
+  dataset.artifacts = std::move(log.artifacts);
+  return dataset;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,362 @@
+#include "scenarios/run_log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "scenarios/csv_table.hpp"
+#include "scenarios/log_repair.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kEpochClock_s = 1e6;  // a clock that begins later than this counts from no start of a run
+
+bool is_orientation(const std::string& name) {
+  return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns),
+                     [&](const char* q) { return name == q; });
+}
+
+/// The names by which a file may know one of the format's columns.
+std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources) {
+  const auto source = sources.find(column);
+  return source == sources.end() || source->second.from.empty() ? std::vector<std::string>{column}
+                                                                : source->second.from;
+}
+
+/// One file of a run: its columns in the format's names and units, on its own times.
+class LogFile {
+ public:
+  LogFile(const LogFileName& name, const ColumnSources& sources, const std::string& run)
+      : sources_(sources), run_(run) {
+    table_ = read_csv(
+        name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
+    if (table_.rows() < 2)
+      throw ConfigError(
+          {{name.file, 0, 0}, "", std::to_string(table_.rows()) + " rows", "at least 2 samples", ""});
+    read_times();
+    for (const auto& column : log_columns())
+      if (column.measured && column.name != "time_s") read_channel(column.name);
+    for (const char* name_of : kOrientationColumns) read_channel(name_of);
+    if (!used_orientation()) return;
+    heading_from_orientation();
+  }
+
+  std::vector<double> times{};
+  std::map<std::string, std::vector<double>> channels{};
+  std::vector<LogArtifact> artifacts{};
+
+  [[nodiscard]] const CsvTable& table() const { return table_; }
+
+ private:
+  [[nodiscard]] bool wanted(const std::string& header) const {
+    const auto names = [&](const std::string& column) {
+      const auto in_file = names_in_file(column, sources_);
+      return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
+    };
+    for (const auto& column : log_columns())
+      if (column.measured && names(column.name)) return true;
+    return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
+  }
+
+  const std::vector<double>* raw(const std::string& column) const {
+    for (const auto& name : names_in_file(column, sources_))
+      if (const auto* values = table_.find(name)) return values;
+    return nullptr;
+  }
+
+  ColumnSource source(const std::string& column) const {
+    const auto found = sources_.find(column);
+    return found == sources_.end() ? ColumnSource{} : found->second;
+  }
+
+  [[noreturn]] void fail_time(std::size_t row, std::string found, std::string accepted,
+                              std::string hint = {}) const {
+    throw ConfigError({{table_.file, table_.line_of_row[row], 1},
+                       names_in_file("time_s", sources_).front(),
+                       std::move(found),
+                       std::move(accepted),
+                       std::move(hint)});
+  }
+
+  void read_times() {
+    const auto* values = raw("time_s");
+    if (!values) {
+      const std::string expected = names_in_file("time_s", sources_).front();
+      const std::string near = nearest_word(expected, table_.header);
+      throw ConfigError({{table_.file, 1, 1},
+                         "",
+                         "no column " + expected,
+                         "a column with the time of each sample",
+                         near.empty() ? "map the log's own name under columns: time_s: {from: ...}"
+                                      : "map it under columns: time_s: {from: " + near + "}?"});
+    }
+    times = *values;
+    const ColumnSource mapping = source("time_s");
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (!std::isfinite(times[i])) fail_time(i, "an empty cell", "the time of every sample");
+    if (mapping.wraps_at)
+      if (const auto wraps = unwrap_counter(times, *mapping.wraps_at))
+        artifacts.push_back(
+            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
+    for (double& time_s : times) time_s = mapping.scale * time_s + mapping.offset;
+    for (std::size_t i = 1; i < times.size(); ++i)
+      if (times[i] <= times[i - 1]) fail_backward(i, mapping);
+  }
+
+  [[noreturn]] void fail_backward(std::size_t i, const ColumnSource& mapping) const {
+    char found[96];
+    std::snprintf(found, sizeof found, "%.9g s after %.9g s", times[i], times[i - 1]);
+    const bool wrapped = !mapping.wraps_at && times[i - 1] - times[i] > 0.5 * (times[i - 1] - times[0]) &&
+                         times[i] >= 0.0 && i > 2;
+    fail_time(i, found, "times that increase strictly",
+              wrapped ? "does the clock start again at 0? Give columns: time_s: {wraps_at: ...}" : "");
+  }
+
+  void read_channel(const std::string& name) {
+    const auto* values = raw(name);
+    if (!values) return;
+    std::vector<double> channel = *values;
+    const ColumnSource mapping = source(name);
+    if (const auto missing = fill_missing(times, channel))
+      artifacts.push_back({"missing_values", run_, name,
+                           channel.empty() ? "the column is empty" : "empty cells, filled by interpolation",
+                           missing, 0.0});
+    if (channel.empty()) return;
+    if (mapping.wraps_at)
+      if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
+        artifacts.push_back(
+            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
+    for (double& value : channel) value = mapping.scale * value + mapping.offset;
+    if (mapping.derivative) channel = change_per_second(times, channel);
+    if (mapping.delay_s != 0.0) {
+      std::vector<double> shifted = times;
+      for (double& time_s : shifted) time_s -= mapping.delay_s;
+      channel = interpolated(shifted, channel, times);
+    }
+    channels[name] = std::move(channel);
+  }
+
+  [[nodiscard]] bool used_orientation() const {
+    return !channels.contains("heading_rad") && channels.contains("orientation_w") &&
+           channels.contains("orientation_z");
+  }
+
+  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
+  void heading_from_orientation() {
+    const auto part = [&](const char* name) {
+      return channels.contains(name) ? channels[name] : std::vector<double>(times.size(), 0.0);
+    };
+    const auto w = part("orientation_w"), x = part("orientation_x"), y = part("orientation_y"),
+               z = part("orientation_z");
+    std::vector<double> heading_rad(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double norm = w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      if (norm < 0.25 || norm > 4.0)
+        throw ConfigError({{table_.file, table_.line_of_row[i], 1},
+                           "orientation_w",
+                           "a quaternion of length " + std::to_string(std::sqrt(norm)),
+                           "a unit quaternion",
+                           ""});
+      heading_rad[i] = std::atan2(2.0 * (w[i] * z[i] + x[i] * y[i]),
+                                  w[i] * w[i] + x[i] * x[i] - y[i] * y[i] - z[i] * z[i]);
+    }
+    unwrap_angle(heading_rad);
+    channels["heading_rad"] = std::move(heading_rad);
+  }
+
+  const ColumnSources& sources_;
+  const std::string& run_;
+  CsvTable table_{};
+};
+
+/// Takes the channels of all files to the times of the first, where all overlap.
+void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+  double begin_s = files.front().times.front(), end_s = files.front().times.back();
+  for (const auto& file : files) {
+    begin_s = std::max(begin_s, file.times.front());
+    end_s = std::min(end_s, file.times.back());
+  }
+  const auto& base = files.front().times;
+  const auto first = std::lower_bound(base.begin(), base.end(), begin_s),
+             last = std::upper_bound(base.begin(), base.end(), end_s);
+  if (last - first < 2)
+    throw ConfigError({{files.back().table().file, 0, 0},
+                       "time_s",
+                       "times that do not overlap with those of " + files.front().table().file,
+                       "files of one run on one clock",
+                       "map time_s so that all files count alike"});
+  log.trajectory.time_s.assign(first, last);
+  const auto skip = static_cast<std::size_t>(first - base.begin()),
+             rows = static_cast<std::size_t>(last - first);
+  for (std::size_t f = 0; f < files.size(); ++f)
+    for (auto& [name, values] : files[f].channels) {
+      const LogColumn* column = find_log_column(name);
+      if (!column || !column->channel(log.trajectory).empty()) continue;
+      if (f == 0) {
+        column->channel(log.trajectory)
+            .assign(values.begin() + static_cast<long>(skip),
+                    values.begin() + static_cast<long>(skip + rows));
+        continue;
+      }
+      if (name == "heading_rad") unwrap_angle(values);
+      column->channel(log.trajectory) = interpolated(files[f].times, values, log.trajectory.time_s);
+    }
+  if (files.size() > 1)
+    log.artifacts.push_back({"resampled", run, "",
+                             "several files, taken to the times of the first by linear interpolation",
+                             files.size() - 1, log.trajectory.time_s.front()});
+}
+
+void note_ignored(const std::vector<LogFile>& files, const ColumnSources& sources, RunLog& log,
+                  const std::string& run) {
+  std::string ignored;
+  std::size_t count = 0;
+  for (const auto& file : files)
+    for (const auto& header : file.table().header) {
+      bool known = find_log_column(header) != nullptr || is_orientation(header);
+      for (const auto& [column, source] : sources)
+        known = known || std::find(source.from.begin(), source.from.end(), header) != source.from.end();
+      if (known) continue;
+      ignored += (ignored.empty() ? "" : ", ") + (header.empty() ? std::string("(no name)") : header);
+      ++count;
+    }
+  if (count > 0) log.artifacts.push_back({"ignored_columns", run, "", ignored, count, 0.0});
+}
+
+void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnSources& sources) {
+  for (const auto& [column, source] : sources) {
+    if (source.from.empty()) continue;
+    std::vector<std::string> headers;
+    for (const auto& file : files)
+      headers.insert(headers.end(), file.table().header.begin(), file.table().header.end());
+    const bool found = std::any_of(source.from.begin(), source.from.end(), [&](const std::string& name) {
+      return std::find(headers.begin(), headers.end(), name) != headers.end();
+    });
+    if (found) continue;
+    const std::string near = nearest_word(source.from.front(), headers);
+    throw ConfigError({source.mark, "columns." + column + ".from", source.from.front(),
+                       "a column of " + files.front().table().file,
+                       near.empty() ? "" : "did you mean " + near + "?"});
+  }
+}
+
+/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from pose where nothing else is
+/// there.
+void derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
+                   std::vector<LogArtifact>& artifacts) {
+  const auto have_wheels = [&] {
+    return !log.wheel_speed_rad_s.left.empty() && !log.wheel_speed_rad_s.right.empty();
+  };
+  const auto have_body = [&] { return !log.linear_speed_m_s.empty() && !log.angular_speed_rad_s.empty(); };
+  const std::size_t n = log.size();
+  if (!have_wheels() && !have_body() && !log.position_x_m.empty() && !log.position_y_m.empty() &&
+      !log.heading_rad.empty()) {
+    std::vector<double> heading = log.heading_rad;
+    unwrap_angle(heading);
+    log.angular_speed_rad_s = change_per_second(log.time_s, heading);
+    const auto vx = change_per_second(log.time_s, log.position_x_m),
+               vy = change_per_second(log.time_s, log.position_y_m);
+    log.linear_speed_m_s.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double middle = i == 0 ? heading[0] : 0.5 * (heading[i] + heading[i - 1]);
+      log.linear_speed_m_s[i] = vx[i] * std::cos(middle) + vy[i] * std::sin(middle);
+    }
+    artifacts.push_back(
+        {"derived", run, "linear_speed_m_s", "speeds derived from the pose's differences", n, 0.0});
+  }
+  if (!have_wheels() && have_body()) {
+    for (const Side side : kSides) {
+      auto& wheel = log.wheel_speed_rad_s[side];
+      wheel.resize(n);
+      for (std::size_t i = 0; i < n; ++i)
+        wheel[i] =
+            (log.linear_speed_m_s[i] + side_sign(side) * geometry.half_track_m * log.angular_speed_rad_s[i]) /
+            geometry.wheel_radius_m[side];
+    }
+    artifacts.push_back({"derived", run, "wheel_speed_left_rad_s",
+                         "wheel speeds derived from linear and angular speed", n, 0.0});
+  }
+}
+
+void sign_unsigned_channels(Trajectory& log, const ColumnSources& sources, const std::string& run,
+                            RunLog& result) {
+  for (const auto& [name, source] : sources) {
+    const LogColumn* column = find_log_column(name);
+    if (!source.is_unsigned || !column || column->channel(log).empty()) continue;
+    const Side side = name.find("left") != std::string::npos ? Side::left : Side::right;
+    const auto& speed = log.wheel_speed_rad_s[side];
+    auto& values = column->channel(log);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (speed[i] < 0.0) values[i] = -values[i];
+    if (name.rfind("motor_current", 0) == 0) result.current_sign_from_motion = true;
+    result.artifacts.push_back(
+        {"unsigned", run, name,
+         "the log has no sign; it is taken from the wheel's motion, so braking looks like driving",
+         values.size(), 0.0});
+  }
+}
+
+void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
+  auto& times = log.trajectory.time_s;
+  const double start_s = times.front();
+  if (std::abs(start_s) < kEpochClock_s) return;
+  for (double& time_s : times) time_s -= start_s;
+  char text[96];
+  std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are counted from there", start_s);
+  log.artifacts.push_back({"clock_origin", run, "time_s", text, 1, 0.0});
+}
+
+}  // namespace
+
+RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& sources,
+                    const Geometry& geometry, const std::string& run) {
+  std::vector<LogFile> files;
+  files.reserve(names.size());
+  for (const auto& name : names) files.emplace_back(name, sources, run);
+  check_mapped_columns_found(files, sources);
+  RunLog log;
+  for (const auto& file : files)
+    log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
+  merge(files, log, run);
+  derive_speeds(log.trajectory, geometry, run, log.artifacts);
+  if (log.trajectory.wheel_speed_rad_s.left.empty() || log.trajectory.wheel_speed_rad_s.right.empty())
+    throw ConfigError({{names.front().file, 1, 1},
+                       "",
+                       "no motion",
+                       "wheel_speed_left_rad_s and wheel_speed_right_rad_s, or linear_speed_m_s and "
+                       "angular_speed_rad_s, or a pose",
+                       "map the log's own names under columns:"});
+  start_epoch_clock_at_zero(log, run);
+  auto odd = find_artifacts(log.trajectory, run);
+  log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());
+  sign_unsigned_channels(log.trajectory, sources, run, log);
+  note_ignored(files, sources, log, run);
+  return log;
+}
+
+RunLog read_run_log(const std::string& file, const Geometry& geometry) {
+  return read_run_log({{file, {}}}, {}, geometry, file);
+}
+
+std::string run_log_text(const Trajectory& trajectory) {
+  Trajectory copy = trajectory;
+  std::vector<const std::vector<double>*> channels;
+  std::string text;
+  for (const auto& column : log_columns()) {
+    const auto& values = column.channel(copy);
+    if (values.empty()) continue;
+    text += (channels.empty() ? "" : ",") + column.name;
+    channels.push_back(&values);
+  }
+  text += '\n';
+  char buffer[32];
+  for (std::size_t row = 0; row < trajectory.size(); ++row)
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, (*channels[i])[row]).ptr);
+      text += i + 1 < channels.size() ? ',' : '\n';
+    }
+  return text;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/dataset.hpp"
+#include "model/robot.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/log_columns.hpp"
+
+namespace joulepath {
+
+/// One run as its files tell it: the channels that are there, and what is odd about them.
+struct RunLog {
+  Trajectory trajectory{};
+  std::vector<LogArtifact> artifacts{};
+  bool current_sign_from_motion{};
+};
+
+/// A log file and where it is named (for messages).
+struct LogFileName {
+  std::string file{};
+  SourceMark named_by{};
+};
+
+/// Reads one run from one or several files; with several, all channels are taken to the times of the first
+/// by linear interpolation, where all overlap. Speeds that are missing are derived where the other pair is
+/// there (wheels from body and back with `geometry`; body from pose). Throws ConfigError: no time, time that
+/// does not increase (with the line), no motion at all, malformed cells; odd but usable things become
+/// artifacts.
+[[nodiscard]] RunLog read_run_log(const std::vector<LogFileName>& files, const ColumnSources& sources,
+                                  const Geometry& geometry, const std::string& run_name);
+
+/// A log with the format's own column names.
+[[nodiscard]] RunLog read_run_log(const std::string& file, const Geometry& geometry);
+
+/// The trajectory as CSV in the run log format: all channels that are present, shortest exact numbers.
+[[nodiscard]] std::string run_log_text(const Trajectory& trajectory);
+
+}  // namespace joulepath

@@ -1,0 +1,219 @@
+#include "scenarios/dataset_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "scenarios/run_log.hpp"
+#include "tests/scenarios/scratch_directory.hpp"
+
+namespace joulepath {
+namespace {
+
+const std::string kNomad = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
+const std::string kShared = JOULEPATH_SOURCE_DIR "/../shared/data";
+
+std::string dataset_yaml(const std::string& rest) { return "robot: " + kNomad + "\n" + rest; }
+
+const LogArtifact* artifact(const Dataset& dataset, const std::string& kind,
+                            const std::string& channel = "") {
+  for (const auto& a : dataset.artifacts)
+    if (a.kind == kind && (channel.empty() || a.channel == channel)) return &a;
+  return nullptr;
+}
+
+TEST(DatasetFile, ColumnsMayStandInAnyOrderAndUnknownOnesAreListed) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv",
+                "note,wheel_speed_right_rad_s,time_s,wheel_speed_left_rad_s\nx,2,0.1,1\ny,2.5,0.2,1.5\n");
+  const Dataset dataset = read_dataset(
+      scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv, payload_kg: 5.7, start_time_s: 60}]")));
+  ASSERT_EQ(dataset.runs.size(), 1u);
+  const auto& run = dataset.runs[0];
+  EXPECT_EQ(run.name, "a.csv");
+  EXPECT_EQ(run.log.wheel_speed_rad_s.right, (std::vector<double>{2, 2.5}));
+  EXPECT_EQ(run.log.wheel_speed_rad_s.left, (std::vector<double>{1, 1.5}));
+  EXPECT_EQ(run.log.payload_kg, (std::vector<double>{5.7, 5.7}));
+  EXPECT_EQ(run.start_time_s, 60.0);
+  ASSERT_TRUE(artifact(dataset, "ignored_columns"));
+  EXPECT_EQ(artifact(dataset, "ignored_columns")->description, "note");
+}
+
+TEST(DatasetFile, MappingScalesOffsetsSignsAndUnwraps) {
+  const ScratchDirectory scratch;
+  scratch.write(
+      "a.csv", "stamp;velL;velR;curL\r\n65000;0.1;-0.1;1.59\r\n65500;0.1;-0.1;1.59\r\n464;0.1;-0.1;1.59\r\n");
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml(R"(
+columns:
+  time_s: {from: stamp, scale: 1.0e-3, wraps_at: 65536}
+  wheel_speed_left_rad_s: {from: velL, scale: -10}
+  wheel_speed_right_rad_s: {from: velR, scale: 10}
+  motor_current_left_A: {from: curL, offset: -0.59, unsigned: true}
+runs: [{file: a.csv}]
+)")));
+  const auto& run = dataset.runs[0];
+  EXPECT_NEAR(run.log.time_s[2], 66.0, 1e-9);
+  EXPECT_NEAR(run.log.wheel_speed_rad_s.left[0], -1.0, 1e-12);
+  EXPECT_NEAR(run.log.motor_current_A.left[1], -1.0, 1e-12);  // the wheel turns backward
+  EXPECT_TRUE(run.current_sign_from_motion);
+  EXPECT_FALSE(run.payload_known);
+  EXPECT_TRUE(artifact(dataset, "wrapped"));
+  EXPECT_TRUE(artifact(dataset, "unsigned", "motor_current_left_A"));
+}
+
+TEST(DatasetFile, EncoderTicksBecomeSpeeds) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", "time_s,l,r\n0,65534,3\n0.5,0,1\n1.0,2,65535\n");
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml(R"(
+columns:
+  wheel_speed_left_rad_s: {from: l, scale: 0.25, wraps_at: 65536, derivative: true}
+  wheel_speed_right_rad_s: {from: r, scale: 0.25, wraps_at: 65536, derivative: true}
+runs: [{file: a.csv}]
+)")));
+  EXPECT_EQ(dataset.runs[0].log.wheel_speed_rad_s.left, (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(dataset.runs[0].log.wheel_speed_rad_s.right, (std::vector<double>{-1, -1, -1}));
+}
+
+TEST(DatasetFile, SeveralFilesAreAlignedByTimeWhereTheyOverlap) {
+  const ScratchDirectory scratch;
+  scratch.write("odom.csv",
+                "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n");
+  scratch.write("power.csv", "time_s,battery_voltage_V\n0.5,24\n2.5,26\n");
+  const Dataset dataset = read_dataset(scratch.write(
+      "d.yaml", dataset_yaml("runs: [{files: [odom.csv, power.csv], payload_kg: [{from_s: 0, kg: 0}, "
+                             "{from_s: 2, kg: 8.25}], surface: marble, use: validation}]")));
+  const auto& run = dataset.runs[0];
+  EXPECT_EQ(run.log.time_s, (std::vector<double>{1, 2}));
+  EXPECT_EQ(run.log.battery_voltage_V, (std::vector<double>{24.5, 25.5}));
+  EXPECT_EQ(run.log.payload_kg, (std::vector<double>{0, 8.25}));
+  EXPECT_EQ(run.use, RunUse::validation);
+  EXPECT_EQ(run.surface, "marble");
+}
+
+TEST(DatasetFile, WheelSpeedsComeFromBodySpeedsWithTheHalfTrack) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", "time_s,linear_speed_m_s,angular_speed_rad_s\n0,0.5,1\n1,0.5,-1\n");
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+  EXPECT_NEAR(dataset.runs[0].log.wheel_speed_rad_s.left[0], (0.5 - 0.165) / 0.1, 1e-12);
+  EXPECT_NEAR(dataset.runs[0].log.wheel_speed_rad_s.right[0], (0.5 + 0.165) / 0.1, 1e-12);
+}
+
+TEST(DatasetFile, QuaternionPosesGiveHeadingInAllQuadrantsAndSpeed) {
+  const ScratchDirectory scratch;
+  std::string csv =
+      "time_s,position_x_m,position_y_m,orientation_w,orientation_x,orientation_y,orientation_z\n";
+  for (int i = 0; i <= 100; ++i) {  // a circle of radius 2 at 0.5 m/s, more than once around
+    const double t = 0.3 * i, yaw = 0.25 * t;
+    csv += std::to_string(t) + "," + std::to_string(2 * std::sin(yaw)) + "," +
+           std::to_string(2 - 2 * std::cos(yaw)) + "," + std::to_string(std::cos(yaw / 2)) + ",0,0," +
+           std::to_string(std::sin(yaw / 2)) + "\n";
+  }
+  scratch.write("a.csv", csv);
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+  const Trajectory& log = dataset.runs[0].log;
+  EXPECT_NEAR(log.heading_rad.back(), 7.5, 1e-5);
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    EXPECT_NEAR(log.linear_speed_m_s[i], 0.5, 1e-3) << i;
+    EXPECT_NEAR(log.angular_speed_rad_s[i], 0.25, 1e-4) << i;
+  }
+}
+
+TEST(DatasetFile, EnergyOnlyRunKeepsItsMotion) {
+  const ScratchDirectory scratch;
+  const Dataset dataset = read_dataset(scratch.write(
+      "d.yaml",
+      dataset_yaml("runs: [{motion: {profile: constant_ramp, acceleration_m_s2: 0.2, ramp_s: 4, distance_m: "
+                   "10}, payload_kg: 8.25, measured_energy_J: {left: 74.66, right: 70.17}}]")));
+  const auto& run = dataset.runs[0];
+  EXPECT_EQ(run.log.size(), 0u);
+  ASSERT_TRUE(run.motion);
+  EXPECT_EQ(run.motion->profile, MotionProfile::constant_ramp);
+  EXPECT_EQ(run.motion->ramp_s, 4.0);
+  EXPECT_EQ(run.measured_energy_J->right, 70.17);
+  EXPECT_EQ(run.payload.front().payload_kg, 8.25);
+}
+
+TEST(DatasetFile, PredictionOfAnotherSimulatorIsRead) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", "t,l,r\n0,0,0\n1,1,1\n");
+  scratch.write("sim.csv", "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s\n0,7,7\n0.5,8,8\n1,9,9\n");
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml(R"(
+columns: {time_s: {from: t}, wheel_speed_left_rad_s: {from: l}, wheel_speed_right_rad_s: {from: r}}
+runs: [{file: a.csv, predicted: sim.csv}]
+)")));
+  ASSERT_TRUE(dataset.runs[0].predicted);
+  EXPECT_EQ(dataset.runs[0].predicted->wheel_speed_rad_s.left[1], 8.0);
+}
+
+TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsTold) {
+  const ScratchDirectory scratch;
+  std::string csv = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,battery_voltage_V\n";
+  double t = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    t += i == 100 ? 2.0 : 0.02;
+    const double left = i >= 120 && i < 160 ? 5.0 : 4.0 + std::sin(0.37 * i);
+    csv += std::to_string(t) + "," + std::to_string(left) + "," + std::to_string(4.0 + std::cos(0.41 * i)) +
+           "," + (i % 7 == 3 ? "" : std::to_string(24.0 + std::sin(1.7 * i))) + "\n";
+  }
+  scratch.write("a.csv", csv);
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+  ASSERT_TRUE(artifact(dataset, "clock_jump"));
+  EXPECT_NEAR(artifact(dataset, "clock_jump")->first_time_s, 2.0, 1e-9);
+  ASSERT_TRUE(artifact(dataset, "held_value", "wheel_speed_left_rad_s"));
+  EXPECT_FALSE(artifact(dataset, "held_value", "wheel_speed_right_rad_s"));
+  ASSERT_TRUE(artifact(dataset, "missing_values", "battery_voltage_V"));
+  EXPECT_EQ(artifact(dataset, "missing_values", "battery_voltage_V")->count, 29u);
+  for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
+}
+
+TEST(DatasetFile, WrittenLogReadsBackToTheLastBit) {
+  Trajectory log;
+  for (int i = 0; i < 50; ++i) {
+    log.time_s.push_back(i / 3.0);
+    log.wheel_speed_rad_s.left.push_back(std::sin(i));
+    log.wheel_speed_rad_s.right.push_back(-1e-17 * i);
+    log.heading_rad.push_back(std::exp(0.1 * i));
+    log.payload_kg.push_back(i > 20 ? 5.7 : 0.0);
+    log.energy_J.push_back(i);
+  }
+  const ScratchDirectory scratch;
+  const RunLog again = read_run_log(scratch.write("log.csv", run_log_text(log)), Geometry{});
+  EXPECT_EQ(again.trajectory.time_s, log.time_s);
+  EXPECT_EQ(again.trajectory.wheel_speed_rad_s, log.wheel_speed_rad_s);
+  EXPECT_EQ(again.trajectory.heading_rad, log.heading_rad);
+  EXPECT_EQ(again.trajectory.payload_kg, log.payload_kg);
+}
+
+TEST(DatasetFile, PracticeSetsReadWithoutArtifactsOfTheirOwn) {
+  const std::string practice = kShared + "/practice";
+  if (!std::filesystem::exists(practice)) GTEST_SKIP() << "the practice sets are not beside the repository";
+  for (const auto& folder : std::filesystem::directory_iterator(practice)) {
+    const Dataset dataset = read_dataset((folder.path() / "dataset.yaml").string());
+    EXPECT_EQ(dataset.runs.size(), 24u);
+    for (const auto& a : dataset.artifacts)
+      ADD_FAILURE() << folder.path() << " " << a.run << " " << a.kind << " " << a.channel << " "
+                    << a.description;
+    for (const auto& run : dataset.runs) {
+      EXPECT_GT(run.log.size(), 100u);
+      EXPECT_EQ(run.log.motor_current_A.left.size(), run.log.size());
+    }
+  }
+}
+
+TEST(DatasetFile, RealKobukiAndHuskyLogsRead) {
+  const std::string real = kShared + "/real";
+  if (!std::filesystem::exists(real)) GTEST_SKIP() << "the real logs are not beside the repository";
+  ASSERT_EQ(setenv("JOULEPATH_DATA_DIR", real.c_str(), 1), 0);
+  const Dataset kobuki = read_dataset(JOULEPATH_SOURCE_DIR "/scenarios/datasets/kobuki_wheelslip.yaml");
+  ASSERT_EQ(kobuki.runs.size(), 5u);
+  EXPECT_NEAR(kobuki.runs[0].log.time_s.back() - kobuki.runs[0].log.time_s.front(), 75.0, 1.0);
+  for (const auto& run : kobuki.runs)
+    for (const double speed : run.log.wheel_speed_rad_s.left) ASSERT_LT(std::abs(speed), 40.0) << run.name;
+  const Dataset husky = read_dataset(JOULEPATH_SOURCE_DIR "/scenarios/datasets/husky_borealtc.yaml");
+  EXPECT_EQ(husky.runs.size(), 71u);
+}
+
+}  // namespace
+}  // namespace joulepath
