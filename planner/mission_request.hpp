@@ -59,6 +59,7 @@ struct LegRequest {
   PayloadAlongLeg payload{};
   double dwell_s{};                    ///< after arrival
   std::optional<double> deadline_s{};  ///< arrival, counted from the mission's start
+  std::optional<double> earliest_s{};  ///< arrival; the robot waits at the stop (time windows of `visit`)
   std::optional<double> duration_s{};  ///< of this leg alone, without dwell
   double start_speed_m_s{};
   double end_speed_m_s{};

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/mission_request.hpp"
+#include "planner/path/path.hpp"
+#include "planner/plan.hpp"
+#include "planner/stretch.hpp"
+
+namespace joulepath {
+
+/// The path of a leg, or why there is none.
+struct LegPath {
+  Path path{};
+  std::string source{};  ///< bezier | ompl_bitstar | ...
+  std::optional<Infeasibility> infeasibility{};
+  std::vector<PathAlternative> alternatives{};
+};
+
+/// Finds the way of one leg from where the robot stands. Throws ConfigError, at the leg's own marks, for
+/// what is a mistake in the file (a curve with a cusp, a station inside of an obstacle).
+[[nodiscard]] LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const Pose& start,
+                               const MissionRequest& mission, const MissionWorld& world,
+                               const PlanOptions& options);
+
+}  // namespace joulepath

@@ -1,0 +1,34 @@
+#include "planner/leg_timing.hpp"
+
+#include <cmath>
+
+namespace joulepath {
+namespace {
+
+TimeGoal goal_for(double price_W) {
+  if (std::isinf(price_W)) return {.mode = TimeMode::minimum_time};
+  if (price_W == 0.0) return {.mode = TimeMode::free_time};
+  return {.mode = TimeMode::time_price, .price_W = price_W};
+}
+
+}  // namespace
+
+const std::vector<ProfileResult>& LegTiming::solve(double price_W, SolverChoice solver) {
+  auto [entry, fresh] = solved_.try_emplace({price_W, solver});
+  if (fresh)
+    for (ProfileRequest request : stretches_) {
+      request.time = goal_for(price_W);
+      request.solver = solver;
+      entry->second.push_back(solve_profile(request));
+    }
+  return entry->second;
+}
+
+double LegTiming::duration_s(double price_W, SolverChoice solver) {
+  double sum_s = 0.0;
+  for (const ProfileResult& result : solve(price_W, solver))
+    if (result.profile) sum_s += result.profile->duration_s();
+  return sum_s;
+}
+
+}  // namespace joulepath

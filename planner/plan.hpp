@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/energy.hpp"
+#include "planner/baselines/baseline.hpp"
+#include "planner/mission_request.hpp"
+#include "planner/profile.hpp"
+#include "planner/replay.hpp"
+
+namespace joulepath {
+
+/// A piece of path that is driven without a stop, as planned.
+struct StretchPlan {
+  ProfileRequest request;
+  Profile profile{};
+  SolveSummary summary{};
+  ReplayResult replay{};
+  EnergyByCause energy{};  ///< while driving
+};
+
+/// A baseline over several stretches: same path, same distance, same time.
+struct BaselineTotal {
+  std::string name{};
+  bool feasible{true};
+  std::string reason{};  ///< why it is not counted
+  double energy_J{};
+  double motion_energy_J{};
+  double duration_s{};
+  std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
+};
+
+/// What the planner looked at before it settled on a leg's path.
+struct PathAlternative {
+  std::string name{};
+  double energy_J{};  ///< standby and the price of time included
+  double duration_s{};
+  double distance_m{};
+  bool chosen{};
+};
+
+struct LegPlan {
+  std::string to{};  ///< station, `path` or `motion`
+  std::string path_source{};
+  SolveStatus status{SolveStatus::failed};
+  PayloadAlongLeg payload{};
+  std::vector<StretchPlan> stretches{};
+  std::optional<Trajectory> prescribed{};  ///< a prescribed motion, sampled; no stretches then
+  double start_s{};                        ///< departure, from the mission's start
+  double duration_s{};                     ///< driving
+  double dwell_s{};
+  double distance_m{};
+  double turned_rad{};
+  double price_of_time_W{};
+  EnergyByCause energy{};  ///< driving and dwell
+  std::vector<BaselineTotal> baselines{};
+  std::vector<PathAlternative> alternatives{};
+};
+
+/// Why a mission cannot be driven, and the smallest change found that would make it possible.
+struct PlanInfeasibility {
+  Infeasibility reason{};
+  std::size_t leg{};
+  double arc_length_m{};  ///< along the leg
+};
+
+struct BatteryAccount {
+  double start_fraction{};
+  double end_fraction{};
+  std::array<double, 2> interval_95{};  ///< of the end fraction, from the robot file's uncertainty
+  double loss_J{};                      ///< in the internal resistance
+  double required_capacity_Wh{};        ///< 95 % upper bound of energy and loss
+  double missions_per_charge{};
+  double lowest_voltage_V{};
+  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the reserve is touched
+  std::vector<double> fraction_after_leg{};
+};
+
+/// The answer to a mission.
+struct Plan {
+  std::string mission{};
+  SolveStatus status{SolveStatus::failed};
+  std::string message{};
+  std::vector<LegPlan> legs{};
+  EnergyByCause energy{};
+  double energy_sigma_J{};  ///< 1-sigma of energy from the robot file's uncertainty
+  double duration_s{};
+  double distance_m{};
+  double gap_percent{};
+  bool local{};
+  std::string solver{};
+  int iterations{};
+  double replay_energy_J{};
+  double worst_violation{};
+  std::string worst_limit{};
+  std::optional<BatteryAccount> battery{};
+  std::vector<BaselineTotal> baselines{};
+  std::optional<PlanInfeasibility> infeasibility{};
+};
+
+}  // namespace joulepath
