@@ -1,0 +1,177 @@
+#include "scenarios/plan_file.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "planner/plan_accounts.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kJoulesPerWh = 3600.0;
+
+/// JSON has no infinity: what is not finite is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json cause_json(const EnergyByCause& energy) {
+  Json effects = Json::object();
+  for (const auto& [name, energy_J] : energy.effects_J) effects[name] = energy_J;
+  return {{"copper", energy.copper_J},
+          {"coulomb_friction", energy.coulomb_friction_J},
+          {"viscous_friction", energy.viscous_friction_J},
+          {"kinetic", energy.kinetic_J},
+          {"standby", energy.standby_J},
+          {"effects", std::move(effects)},
+          {"not_recovered", energy.not_recovered_J}};
+}
+
+/// A baseline beside what the plan takes. `parameters` are the settings on the longest stretch, which
+/// `stretches` repeats for every one.
+Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, std::size_t longest) {
+  Json json{{"name", baseline.name}, {"feasible", baseline.feasible}};
+  if (!baseline.feasible) {
+    json["reason"] = baseline.reason;
+    return json;
+  }
+  json["energy_J"] = baseline.energy_J;
+  json["motion_energy_J"] = baseline.motion_energy_J;
+  json["duration_s"] = baseline.duration_s;
+  json["saving_percent"] = saving_percent(planned.total_J(), baseline.energy_J);
+  json["motion_saving_percent"] = saving_percent(planned.motion_J(), baseline.motion_energy_J);
+  if (longest < baseline.settings.size()) {
+    json["parameters"] = baseline.settings[longest];
+    json["stretches"] = baseline.settings;
+  }
+  return json;
+}
+
+Json payload_json(const PayloadAlongLeg& payload) {
+  if (payload.from_kg == payload.to_kg) return payload.from_kg;
+  return {{"from", payload.from_kg}, {"to", payload.to_kg}};
+}
+
+Json stretch_json(const StretchPlan& stretch) {
+  const bool turn = is_turn(stretch.request.piece);
+  const double length = piece_length(stretch.request.piece);
+  return {{"kind", turn                                     ? "turn_in_place"
+                   : travel_sign(stretch.request.piece) < 0 ? "curve_in_reverse"
+                                                            : "curve"},
+          {turn ? "angle_rad" : "length_m", turn ? turn_sign(stretch.request.piece) * length : length},
+          {"duration_s", stretch.profile.duration_s()},
+          {"energy_J", stretch.energy.total_J()},
+          {"solver", stretch.summary.solver},
+          {"iterations", stretch.summary.iterations},
+          {"nodes", stretch.summary.nodes},
+          {"optimality_gap_percent", number(stretch.summary.gap_percent)},
+          {"local", stretch.summary.local},
+          {"replay_energy_J", stretch.replay.energy_J},
+          {"worst_violation", stretch.replay.worst_violation}};
+}
+
+Json alternative_json(const PathAlternative& alternative) {
+  return {{"name", alternative.name},
+          {"energy_J", number(alternative.energy_J)},
+          {"duration_s", number(alternative.duration_s)},
+          {"distance_m", alternative.distance_m},
+          {"chosen", alternative.chosen}};
+}
+
+std::size_t longest_stretch(const LegPlan& leg) {
+  std::size_t longest = 0;
+  double most_s = -1.0;
+  for (std::size_t k = 0; k < leg.stretches.size(); ++k)
+    if (leg.stretches[k].profile.duration_s() > most_s) {
+      most_s = leg.stretches[k].profile.duration_s();
+      longest = k;
+    }
+  return longest;
+}
+
+Json leg_json(const LegPlan& leg) {
+  Json json{{"to", leg.to},
+            {"status", solve_status_name(leg.status)},
+            {"energy_J", leg.energy.total_J()},
+            {"motion_energy_J", leg.energy.motion_J()},
+            {"start_s", leg.start_s},
+            {"duration_s", leg.duration_s},
+            {"dwell_s", leg.dwell_s},
+            {"distance_m", leg.distance_m},
+            {"turned_rad", leg.turned_rad},
+            {"payload_kg", payload_json(leg.payload)},
+            {"price_of_time_W", leg.price_of_time_W},
+            {"path", leg.path_source},
+            {"energy_by_cause_J", cause_json(leg.energy)},
+            {"stretches", Json::array()},
+            {"alternatives", Json::array()},
+            {"baselines", Json::array()}};
+  for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
+  for (const PathAlternative& alternative : leg.alternatives)
+    json["alternatives"].push_back(alternative_json(alternative));
+  for (const BaselineTotal& baseline : leg.baselines)
+    json["baselines"].push_back(baseline_json(baseline, leg.energy, longest_stretch(leg)));
+  return json;
+}
+
+Json battery_json(const BatteryAccount& battery) {
+  Json json{{"start_fraction", battery.start_fraction},
+            {"end_fraction", battery.end_fraction},
+            {"interval_95", battery.interval_95},
+            {"required_capacity_Wh", battery.required_capacity_Wh},
+            {"missions_per_charge", battery.missions_per_charge},
+            {"lowest_voltage_V", number(battery.lowest_voltage_V)},
+            {"fraction_after_leg", battery.fraction_after_leg}};
+  json["fails_on_leg"] = battery.fails_on_leg ? Json(*battery.fails_on_leg) : Json(nullptr);
+  return json;
+}
+
+Json infeasibility_json(const PlanInfeasibility& verdict) {
+  return {{"constraint", verdict.reason.constraint},
+          {"leg", verdict.leg},
+          {"arc_length_m", verdict.arc_length_m},
+          {"x_m", verdict.reason.x_m},
+          {"y_m", verdict.reason.y_m},
+          {"amount", number(verdict.reason.amount)},
+          {"unit", verdict.reason.unit},
+          {"relaxation", verdict.reason.relaxation},
+          {"message", verdict.reason.message}};
+}
+
+void add_results(const Plan& plan, Json& json) {
+  json["energy_J"] = plan.energy.total_J();
+  json["motion_energy_J"] = plan.energy.motion_J();
+  json["energy_Wh"] = plan.energy.total_J() / kJoulesPerWh;
+  json["energy_sigma_J"] = plan.energy_sigma_J;
+  json["battery_loss_J"] = plan.battery ? plan.battery->loss_J : 0.0;
+  json["duration_s"] = plan.duration_s;
+  json["distance_m"] = plan.distance_m;
+  json["optimality_gap_percent"] = number(plan.gap_percent);
+  json["local"] = plan.local;
+  json["energy_by_cause_J"] = cause_json(plan.energy);
+  json["solver"] = {{"name", plan.solver}, {"iterations", plan.iterations}};
+  json["replay"] = {{"energy_J", plan.replay_energy_J},
+                    {"worst_violation", plan.worst_violation},
+                    {"limit", plan.worst_limit}};
+  if (plan.battery) json["battery"] = battery_json(*plan.battery);
+  json["legs"] = Json::array();
+  for (const LegPlan& leg : plan.legs) json["legs"].push_back(leg_json(leg));
+  json["baselines"] = Json::array();
+  for (const BaselineTotal& baseline : plan.baselines)
+    json["baselines"].push_back(baseline_json(baseline, plan.energy, 0));
+}
+
+}  // namespace
+
+std::string plan_json_text(const Plan& plan) {
+  Json json{
+      {"schema", "joulepath/plan/1"}, {"mission", plan.mission}, {"status", solve_status_name(plan.status)}};
+  if (!plan.message.empty()) json["message"] = plan.message;
+  if (plan.infeasibility)
+    json["infeasibility"] = infeasibility_json(*plan.infeasibility);
+  else if (plan.status != SolveStatus::failed)
+    add_results(plan, json);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace joulepath

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "planner/plan.hpp"
+
+namespace joulepath {
+
+/// `plan.json` of a plan (schema joulepath/plan/1): keys in a fixed order, the same bytes for the same plan.
+[[nodiscard]] std::string plan_json_text(const Plan& plan);
+
+}  // namespace joulepath
