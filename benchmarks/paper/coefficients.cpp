@@ -39,11 +39,11 @@ double dropped_coefficient(const Robot& robot, Side side) {
   return line.rho * line.j * line.j;
 }
 
-double polynomial_power_W(const PowerCoefficients& c, double wheel_acceleration_rad_s2, double wheel_speed_rad_s,
-                          double payload_kg) {
+double polynomial_power_W(const PowerCoefficients& c, double wheel_acceleration_rad_s2,
+                          double wheel_speed_rad_s, double payload_kg) {
   const double a = wheel_acceleration_rad_s2, w = wheel_speed_rad_s, m = payload_kg;
-  return c[0] * a * a + c[1] * a * w + c[2] * a * a * m + c[3] * a + c[4] * w * w + c[5] * a * w * m + c[6] * w +
-         c[7] * a * m + c[8];
+  return c[0] * a * a + c[1] * a * w + c[2] * a * a * m + c[3] * a + c[4] * w * w + c[5] * a * w * m +
+         c[6] * w + c[7] * a * m + c[8];
 }
 
 }  // namespace joulepath::bench

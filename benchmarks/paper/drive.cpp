@@ -51,8 +51,8 @@ std::vector<DriveSample> drive(const Plant& plant, double payload_kg, const Trac
   return samples;
 }
 
-Sided<double> drive_energy_J(const Plant& plant, double payload_kg, const Track& track, const SpeedProfile& profile,
-                             NegativePower negative) {
+Sided<double> drive_energy_J(const Plant& plant, double payload_kg, const Track& track,
+                             const SpeedProfile& profile, NegativePower negative) {
   Sided<double> sum_J{};
   for_each_step(plant, payload_kg, track, profile, 0.002, [&](const DriveSample& sample, double step_s) {
     for (Side side : kSides) {

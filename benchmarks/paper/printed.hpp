@@ -57,9 +57,9 @@ inline constexpr std::array<double, 6> kStraightAccelerations{0.125, 0.15, 0.175
 inline constexpr std::array<double, 5> kStraightPayloads{0, 2.5, 5.7, 8.25, 10.5};
 
 /// Table 5: |error| in percent, one row per acceleration, one column per payload.
-inline constexpr double kStraightErrors[6][5] = {{7.42, 5.29, 3.82, 7.89, 9.25}, {3.13, 0.13, 3.69, 5.11, 8.46},
-                                                 {5.99, 6.70, 0.69, 0.53, 2.85}, {7.33, 7.20, 0.75, 0.20, 1.92},
-                                                 {10.86, 8.10, 6.70, 5.33, 0.17}, {8.80, 9.85, 6.52, 7.94, 5.04}};
+inline constexpr double kStraightErrors[6][5] = {
+    {7.42, 5.29, 3.82, 7.89, 9.25}, {3.13, 0.13, 3.69, 5.11, 8.46},  {5.99, 6.70, 0.69, 0.53, 2.85},
+    {7.33, 7.20, 0.75, 0.20, 1.92}, {10.86, 8.10, 6.70, 5.33, 0.17}, {8.80, 9.85, 6.52, 7.94, 5.04}};
 
 inline constexpr double kStraightFitnessPercent = 96.67;
 inline constexpr double kBezierFitnessPercent = 81.25;  ///< Table 7: 26 of 32

@@ -8,8 +8,7 @@ namespace {
 
 /// Time to cover a distance from a speed at a constant acceleration that does not stop before it.
 double time_to_cover_s(double speed_m_s, double acceleration_m_s2, double distance_m) {
-  const double end_m_s =
-      std::sqrt(std::max(0.0, speed_m_s * speed_m_s + 2 * acceleration_m_s2 * distance_m));
+  const double end_m_s = std::sqrt(std::max(0.0, speed_m_s * speed_m_s + 2 * acceleration_m_s2 * distance_m));
   return 2 * distance_m / (speed_m_s + end_m_s);
 }
 
@@ -26,7 +25,8 @@ constexpr double kRounding_m = 1e-9;
 
 }  // namespace
 
-SpeedProfile ramp_then_cruise(double entry_speed_m_s, double acceleration_m_s2, double ramp_s, double distance_m) {
+SpeedProfile ramp_then_cruise(double entry_speed_m_s, double acceleration_m_s2, double ramp_s,
+                              double distance_m) {
   SpeedProfile profile;
   const double left_m = append(profile, {entry_speed_m_s, acceleration_m_s2, ramp_s}, distance_m);
   const double speed_m_s = entry_speed_m_s + acceleration_m_s2 * ramp_s;
@@ -34,7 +34,8 @@ SpeedProfile ramp_then_cruise(double entry_speed_m_s, double acceleration_m_s2, 
   return profile;
 }
 
-SpeedProfile repeated_ramps(double acceleration_m_s2, double ramp_s, double deceleration_m_s2, double distance_m) {
+SpeedProfile repeated_ramps(double acceleration_m_s2, double ramp_s, double deceleration_m_s2,
+                            double distance_m) {
   SpeedProfile profile;
   const double top_m_s = acceleration_m_s2 * ramp_s;
   double left_m = distance_m;
@@ -46,7 +47,8 @@ SpeedProfile repeated_ramps(double acceleration_m_s2, double ramp_s, double dece
 }
 
 SpeedProfile accelerate_throughout(double entry_speed_m_s, double acceleration_m_s2, double distance_m) {
-  return {{entry_speed_m_s, acceleration_m_s2, time_to_cover_s(entry_speed_m_s, acceleration_m_s2, distance_m)}};
+  return {
+      {entry_speed_m_s, acceleration_m_s2, time_to_cover_s(entry_speed_m_s, acceleration_m_s2, distance_m)}};
 }
 
 SpeedProfile up_and_down(double entry_speed_m_s, double acceleration_m_s2, double distance_m) {

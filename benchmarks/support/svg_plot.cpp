@@ -10,7 +10,8 @@ namespace joulepath::bench {
 namespace {
 
 constexpr double kLeft = 62, kTop = 34, kWidth = 520, kHeight = 300, kLegend = 190;
-constexpr const char* kPalette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+constexpr const char* kPalette[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                    "#e69f00", "#56b4e9", "#000000"};
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -55,8 +56,8 @@ std::string series_text(const PlotSeries& series, const Axis& x, const Axis& y, 
     marks += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>\n", at_x, at_y, color);
   }
   if (series.points) return marks;
-  return "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" + std::string(color) + "\" points=\"" + path +
-         "\"/>\n";
+  return "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" + std::string(color) + "\" points=\"" +
+         path + "\"/>\n";
 }
 
 }  // namespace
@@ -85,8 +86,9 @@ std::string svg_text(const Plot& plot) {
     out += format("<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>\n", kLeft, at, right);
     out += label(kLeft - 6, at + 4, "end", format("%.6g", std::abs(tick) < y.step / 1e6 ? 0.0 : tick));
   }
-  out += format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#555\"/>\n",
-                kLeft, kTop, kWidth, kHeight);
+  out +=
+      format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#555\"/>\n",
+             kLeft, kTop, kWidth, kHeight);
   out += label(kLeft, 20, "start", plot.title, "font-size=\"14\" font-weight=\"bold\"");
   out += label(kLeft + kWidth / 2, bottom + 40, "middle", plot.x_label);
   out += label(16, kTop + kHeight / 2, "middle", plot.y_label,
@@ -96,9 +98,10 @@ std::string svg_text(const Plot& plot) {
     const char* color = kPalette[(series.color < 0 ? i : static_cast<std::size_t>(series.color)) % 7];
     const double at = kTop + 10 + 18 * static_cast<double>(i);
     out += series_text(series, x, y, color);
-    out += series.points
-               ? format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>\n", right + 22, at, color)
-               : format("<path d=\"M%.1f %.1fh20\" stroke-width=\"2\" stroke=\"%s\"/>\n", right + 12, at, color);
+    out +=
+        series.points
+            ? format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>\n", right + 22, at, color)
+            : format("<path d=\"M%.1f %.1fh20\" stroke-width=\"2\" stroke=\"%s\"/>\n", right + 12, at, color);
     out += label(right + 38, at + 4, "start", series.name);
   }
   return out + "</svg>\n";
