@@ -8,6 +8,7 @@
 #include "model/operating_point.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/robot_file.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::bench {
