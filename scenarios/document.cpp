@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 namespace joulepath {
 namespace {
@@ -314,6 +315,7 @@ std::string read_text_file(const std::string& file, const SourceMark& named_by) 
   if (std::filesystem::is_directory(file, error))
     throw ConfigError({mark, subject, "a directory", "a file", ""});
   std::ifstream stream(file, std::ios::binary);
+  if (!stream && errno == EACCES) throw std::system_error(errno, std::generic_category(), file);
   if (!stream) {
     const std::string reason = std::strerror(errno);
     throw ConfigError(

@@ -1,4 +1,5 @@
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
@@ -11,6 +12,7 @@ const std::vector<FileKind>& file_kinds() {
       {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
       {"dataset", dataset_schema, "run logs, what they were measured with, and how to read their columns"},
       {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
+      {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
   };
   return kinds;
 }

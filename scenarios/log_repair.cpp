@@ -41,6 +41,17 @@ void find_gaps(const Trajectory& log, const std::string& run, std::vector<LogArt
   artifacts.push_back(gap);
 }
 
+/// How many different values a channel has.
+std::size_t distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+}
+
+/// A sensor with coarse steps repeats its values honestly; one with fine steps hardly ever does.
+bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
+  return 10 * distinct(values) > 9 * changes;
+}
+
 struct HoldStatistics {
   std::size_t changes{};        ///< how often the value changes
   std::size_t longest{};        ///< most equal values in a row, zeros aside
@@ -70,7 +81,7 @@ void find_held(const Trajectory& log, const std::string& run, const LogColumn& c
   const HoldStatistics statistics = holds(values);
   const double usual = static_cast<double>(values.size()) / static_cast<double>(statistics.changes);
   if (statistics.longest < kHeldSamples || static_cast<double>(statistics.longest) < 10.0 * usual ||
-      usual > 3.0)
+      usual > 3.0 || !has_fine_steps(values, statistics.changes))
     return;
   artifacts.push_back({.kind = "held_value",
                        .run = run,
@@ -84,17 +95,14 @@ void find_held(const Trajectory& log, const std::string& run, const LogColumn& c
 /// A channel with new values only at every k-th row: sampled slower than it is logged.
 void find_slow(const std::string& run, const LogColumn& column, const std::vector<double>& values,
                std::vector<LogArtifact>& artifacts) {
-  std::vector<double> distinct = values;
-  std::sort(distinct.begin(), distinct.end());
-  const auto kinds =
-      static_cast<std::size_t>(std::unique(distinct.begin(), distinct.end()) - distinct.begin());
   std::size_t moving = 0, changed = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] == 0.0) continue;
     ++moving;
     if (values[i] != values[i - 1]) ++changed;
   }
-  if (moving < 50 || kinds < moving / 10 || static_cast<double>(changed) > 0.6 * static_cast<double>(moving))
+  if (moving < 50 || !has_fine_steps(values, changed) ||
+      static_cast<double>(changed) > 0.6 * static_cast<double>(moving))
     return;
   const double every = static_cast<double>(moving) / static_cast<double>(std::max<std::size_t>(changed, 1));
   char text[96];

@@ -10,12 +10,6 @@
 namespace joulepath {
 namespace {
 
-ItemMarks marks_of(const Node& node) {
-  ItemMarks marks{.path = node.path(), .item = node.mark()};
-  for (const auto& [key, value] : node.entries()) marks.keys[key] = value.mark();
-  return marks;
-}
-
 std::map<std::string, Station> read_stations(const Node& node) {
   std::map<std::string, Station> stations;
   for (const auto& [name, place] : node.entries())
@@ -162,6 +156,12 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
 }
 
 }  // namespace
+
+ItemMarks marks_of(const Node& node) {
+  ItemMarks marks{.path = node.path(), .item = node.mark()};
+  for (const auto& [key, value] : node.entries()) marks.keys[key] = value.mark();
+  return marks;
+}
 
 MissionRequest mission_from(const Document& document, const ReadOptions& options) {
   static const Schema schema = mission_schema();

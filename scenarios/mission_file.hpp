@@ -19,6 +19,9 @@ namespace joulepath {
 /// Reads the files that a mission names. Throws ConfigError at the key that names a broken one.
 [[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {});
 
+/// Where a map of the file and each of its keys stand.
+[[nodiscard]] ItemMarks marks_of(const Node& node);
+
 /// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).
 [[nodiscard]] RouteGraph read_route_graph(const std::string& file, const SourceMark& named_by = {});
 

@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "scenarios/any_file.hpp"
+
+namespace joulepath {
+namespace {
+
+class Check : public Command {
+ public:
+  std::string name() const override { return "check"; }
+  std::string says() const override { return "validate input files and say what is wrong with them"; }
+  std::string examples() const override {
+    return "  joulepath check scenarios/missions/warehouse_pick.yaml\n"
+           "  joulepath check robot.yaml dataset.yaml runs/run_01.csv\n"
+           "  joulepath check --kind robot my_robot.yaml";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", files_,
+                   "robot, map, mission, dataset, fleet, run log, route graph, plan or diagnosis")
+        ->required();
+    app.add_option("--kind", kind_, "what the files are; default: as their schema line, name and keys tell");
+    add_common_flags(app, options_, "qju");
+  }
+
+  int run() override {
+    int code = kDone;
+    auto results = nlohmann::ordered_json::array();
+    for (const auto& file : files_) {
+      try {
+        const FileSummary summary = read_any_file(file, kind_, {options_.untrusted});
+        results.push_back({{"file", file},
+                           {"ok", true},
+                           {"kind", summary.kind},
+                           {"summary", summary.text},
+                           {"notes", summary.notes}});
+        if (!options_.json) tell(file, summary);
+      } catch (const ConfigError& error) {
+        code = kBadInput;
+        const auto& d = error.detail();
+        results.push_back({{"file", file},
+                           {"ok", false},
+                           {"error",
+                            {{"file", d.mark.file},
+                             {"line", d.mark.line},
+                             {"column", d.mark.column},
+                             {"key", d.key},
+                             {"found", d.found},
+                             {"accepted", d.accepted},
+                             {"hint", d.hint},
+                             {"message", error.what()}}}});
+        if (!options_.json)
+          std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << error.what() << '\n';
+      }
+    }
+    if (options_.json)
+      std::cout << results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return code;
+  }
+
+ private:
+  void tell(const std::string& file, const FileSummary& summary) const {
+    std::cout << file << ": " << paint(std::cout, Paint::good, "ok") << " (" << summary.kind
+              << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
+    if (!options_.quiet)
+      for (const auto& note : summary.notes) std::cerr << "  note: " << note << '\n';
+  }
+
+  std::vector<std::string> files_{};
+  std::string kind_{};
+  CommonOptions options_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_check_command() { return std::make_unique<Check>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace joulepath {
+
+/// What the program tells its caller; the same for every command.
+enum ExitCode : int {
+  kDone = 0,
+  kInfeasibleOrFailed = 1,  ///< also: a gap found where --fail-on-gap asks
+  kBadInput = 2,            ///< usage, input, or output exists
+  kInternalError = 3,
+  kEnvironment = 4,  ///< disk, permission, memory
+  kInterrupted = 130
+};
+
+/// The disk, a permission, the memory: neither the user's input nor our mistake.
+class EnvironmentError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A mistake in the command line that the parser cannot see.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
+/// options bound to its members; `run` reads, calculates, prints results on stdout and talk on stderr, and
+/// gives the exit code; errors are thrown (main.cpp tells them).
+class Command {
+ public:
+  Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+  virtual ~Command() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string says() const = 0;      ///< one line for the list of commands
+  [[nodiscard]] virtual std::string examples() const = 0;  ///< shown below the options
+  virtual void declare(CLI::App& app) = 0;
+  [[nodiscard]] virtual int run() = 0;
+};
+
+/// The flags that most commands share.
+struct CommonOptions {
+  bool quiet{};
+  bool json{};
+  bool force{};
+  bool untrusted{};
+};
+
+/// Adds those of the flags `qjfu` that are named (quiet, json, force, untrusted).
+void add_common_flags(CLI::App& app, CommonOptions& options, const std::string& which = "qj");
+
+}  // namespace joulepath

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/command.hpp"
+
+namespace joulepath {
+
+/// The commands, in the order of the help; each name stands for a function make_NAME_command().
+#define JOULEPATH_COMMANDS(COMMAND) \
+  COMMAND(check)                    \
+  COMMAND(schema)                   \
+  COMMAND(completion)
+
+#define JOULEPATH_DECLARE(name) [[nodiscard]] std::unique_ptr<Command> make_##name##_command();
+JOULEPATH_COMMANDS(JOULEPATH_DECLARE)
+#undef JOULEPATH_DECLARE
+
+[[nodiscard]] std::vector<std::unique_ptr<Command>> all_commands();
+
+}  // namespace joulepath

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <exception>
+
+namespace joulepath {
+
+/// Ctrl-C at a place where a command can stop.
+class Interrupted : public std::exception {
+ public:
+  [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// Ctrl-C ends the program at once with code 130 (results are renamed into place whole, so no half file
+/// stays), unless a PoliteInterrupt lives: then the first Ctrl-C only raises a flag, the second ends the
+/// program.
+void install_interrupt_handler();
+
+/// While it lives, the command itself asks whether Ctrl-C was pressed.
+class PoliteInterrupt {
+ public:
+  PoliteInterrupt();
+  ~PoliteInterrupt();
+  PoliteInterrupt(const PoliteInterrupt&) = delete;
+  PoliteInterrupt& operator=(const PoliteInterrupt&) = delete;
+
+  [[nodiscard]] static bool requested();
+};
+
+}  // namespace joulepath

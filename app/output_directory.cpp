@@ -1,0 +1,126 @@
+#include "app/output_directory.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "app/command.hpp"
+#include "model/assert.hpp"
+#include "model/config_error.hpp"
+
+namespace joulepath {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& doing, const std::string& reason) {
+  throw EnvironmentError("cannot " + doing + " " + path.string() + ": " + reason);
+}
+
+void refuse_existing(const fs::path& path) {
+  throw ConfigError({{path.string(), 0, 0}, "", "a file that exists", "a new name", "--force overwrites it"});
+}
+
+/// Writes and syncs a whole file.
+void write_whole(const fs::path& path, const std::string& content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) fail(path, "write", std::strerror(errno));
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const auto written = ::write(file, content.data() + done, content.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const std::string reason = std::strerror(errno);
+      ::close(file);
+      fail(path, "write", reason);
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  if (::close(file) != 0) fail(path, "write", std::strerror(errno));
+}
+
+void rename_over(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) fail(to, "write", error.message());
+}
+
+/// A directory that is gone at the end of the scope.
+class TemporaryDirectory {
+ public:
+  explicit TemporaryDirectory(const fs::path& beside)
+      : path_(beside.parent_path() /
+              ("." + beside.filename().string() + ".part-" + std::to_string(::getpid()))) {
+    std::error_code error;
+    if (!beside.parent_path().empty()) fs::create_directories(beside.parent_path(), error);
+    if (!error) fs::create_directory(path_, error);
+    if (error) fail(path_, "create", error.message());
+  }
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+fs::path without_trailing_slash(const std::string& directory) {
+  fs::path path = fs::path(directory).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+}  // namespace
+
+OutputDirectory::OutputDirectory(std::string directory, std::vector<std::string> names, bool force)
+    : directory_(without_trailing_slash(directory).string()), names_(std::move(names)) {
+  if (directory_.empty()) throw UsageError("--out needs the name of a directory");
+  std::error_code error;
+  if (fs::exists(directory_, error) && !fs::is_directory(directory_, error))
+    throw ConfigError({{directory_, 0, 0}, "", "a file", "a directory for the results", ""});
+  if (force) return;
+  for (const auto& name : names_)
+    if (fs::exists(fs::path(directory_) / name, error)) refuse_existing(fs::path(directory_) / name);
+}
+
+void OutputDirectory::write(const std::string& name, std::string content) {
+  JOULEPATH_ASSERT(std::find(names_.begin(), names_.end(), name) != names_.end(),
+                   "output file not announced: " + name);
+  content_[name] = std::move(content);
+}
+
+void OutputDirectory::commit() {
+  const fs::path target = directory_;
+  const TemporaryDirectory temporary(target);
+  for (const auto& [name, content] : content_) write_whole(temporary.path() / name, content);
+  std::error_code error;
+  fs::create_directories(target, error);
+  if (error) fail(target, "create", error.message());
+  for (const auto& name : names_)
+    if (!content_.contains(name)) {
+      fs::remove(target / name, error);
+      if (error) fail(target / name, "remove", error.message());
+    }
+  for (const auto& [name, content] : content_) rename_over(temporary.path() / name, target / name);
+}
+
+void write_output_file(const std::string& file, const std::string& content, bool force) {
+  const fs::path target = file;
+  std::error_code error;
+  if (fs::is_directory(target, error))
+    throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
+  if (!force && fs::exists(target, error)) refuse_existing(target);
+  const TemporaryDirectory temporary(target);
+  write_whole(temporary.path() / target.filename(), content);
+  rename_over(temporary.path() / target.filename(), target);
+}
+
+}  // namespace joulepath

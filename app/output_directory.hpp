@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace joulepath {
+
+/// The results of one command in one directory. Nothing is touched before commit(): files are then written
+/// under a temporary name beside the directory and renamed, so a killed run leaves no half file.
+class OutputDirectory {
+ public:
+  /// `names`: every file that the command may write. Throws ConfigError when one of them exists and `force`
+  /// is not given; with it, commit() removes those that the new results no longer have (a stale
+  /// trajectory.csv).
+  OutputDirectory(std::string directory, std::vector<std::string> names, bool force);
+
+  /// Adds one file; the name must be among those announced.
+  void write(const std::string& name, std::string content);
+
+  /// Writes all. Throws EnvironmentError (disk full, no permission); the directory is then as before.
+  void commit();
+
+  [[nodiscard]] const std::string& path() const { return directory_; }
+
+ private:
+  std::string directory_;
+  std::vector<std::string> names_;
+  std::map<std::string, std::string> content_{};
+};
+
+/// Writes one file under a temporary name and renames it. Throws ConfigError when it exists and `force` is
+/// not given, EnvironmentError when it cannot be written.
+void write_output_file(const std::string& file, const std::string& content, bool force);
+
+}  // namespace joulepath

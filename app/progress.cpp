@@ -1,0 +1,48 @@
+#include "app/progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace joulepath {
+namespace {
+
+constexpr double kSilent_s = 2.0;
+
+double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, std::size_t total, bool quiet)
+    : what_(std::move(what)), total_(total), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
+}
+
+void Progress::advance(std::size_t steps) {
+  done_ += steps;
+  if (quiet_) return;
+  const auto now = Clock::now();
+  if (seconds_between(start_, now) < kSilent_s || seconds_between(last_, now) < (on_terminal_ ? 0.2 : 10.0))
+    return;
+  show(now);
+}
+
+void Progress::show(Clock::time_point now) {
+  last_ = now;
+  shown_ = true;
+  const double elapsed_s = seconds_between(start_, now);
+  const double rate = static_cast<double>(done_) / elapsed_s;
+  const double left_s = rate > 0 ? static_cast<double>(total_ - std::min(done_, total_)) / rate : 0.0;
+  std::fprintf(stderr,
+               on_terminal_ ? "\r\033[K%s %zu/%zu, %.3g/s, %.0f s left" : "%s %zu/%zu, %.3g/s, %.0f s left\n",
+               what_.c_str(), done_, total_, rate, left_s);
+  std::fflush(stderr);
+}
+
+}  // namespace joulepath

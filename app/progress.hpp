@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace joulepath {
+
+/// Progress on stderr, silent for the first two seconds: a line with rate and time left that renews itself on
+/// a terminal, a plain line every ten seconds elsewhere. Never a part of any result.
+class Progress {
+ public:
+  Progress(std::string what, std::size_t total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void advance(std::size_t steps = 1);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(Clock::time_point now);
+
+  std::string what_;
+  std::size_t total_;
+  std::size_t done_{};
+  bool quiet_;
+  bool on_terminal_;
+  bool shown_{};
+  Clock::time_point start_{Clock::now()};
+  Clock::time_point last_{start_};
+};
+
+}  // namespace joulepath

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace joulepath {
+
+enum class Paint { error, warning, good, dim, bold };
+
+/// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
+[[nodiscard]] bool is_colored(const std::ostream& stream);
+
+/// The text in a color where the stream takes one.
+[[nodiscard]] std::string paint(const std::ostream& stream, Paint paint, const std::string& text);
+
+/// Columns of the terminal: COLUMNS, the tty's width, or 100.
+[[nodiscard]] int terminal_width();
+
+/// A number with so many significant digits, no exponent for ordinary sizes.
+[[nodiscard]] std::string figure(double value, int digits = 4);
+
+/// A plain table: first column left, the others right; widths from the content (UTF-8 counts by character).
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) : header_(std::move(header)) {}
+  void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  void rule() { rows_.emplace_back(); }  ///< a line across
+  void print(std::ostream& stream) const;
+
+ private:
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_{};
+};
+
+}  // namespace joulepath

@@ -1,0 +1,147 @@
+#include "scenarios/any_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/fleet_file.hpp"
+#include "scenarios/map_file.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+/// One note for each kind and channel, however many runs it concerns.
+std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
+  std::vector<std::string> notes;
+  std::vector<std::pair<const LogArtifact*, std::size_t>> groups;
+  for (const auto& a : artifacts) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      return group.first->kind == a.kind && group.first->channel == a.channel;
+    });
+    if (same == groups.end())
+      groups.emplace_back(&a, 1);
+    else
+      ++same->second;
+  }
+  for (const auto& [a, runs] : groups)
+    notes.push_back(a->kind + (a->channel.empty() ? "" : " " + a->channel) + ": " + a->description +
+                    (a->run.empty()
+                         ? ""
+                         : " [" + a->run + (runs > 1 ? " and " + counted(runs - 1, "other run") : "") + "]"));
+  return notes;
+}
+
+FileSummary summary_of_robot(const std::string& file) {
+  const Robot robot = read_robot(file);
+  FileSummary summary{"robot", robot.name, {}};
+  if (!robot.limits)
+    summary.notes.push_back("no limits: diagnose, estimate and calibrate work, plan does not");
+  if (!robot.effects.empty()) summary.text += ", " + counted(robot.effects.size(), "effect");
+  return summary;
+}
+
+FileSummary summary_of_map(const std::string& file, const ReadOptions& options) {
+  const OccupancyGrid grid = read_map(file, {}, options);
+  return {"map", std::to_string(grid.width) + " x " + std::to_string(grid.height) + " cells", {}};
+}
+
+FileSummary summary_of_mission(const std::string& file, const ReadOptions& options) {
+  const MissionRequest mission = read_mission(file, options);
+  const MissionWorld world = read_world(mission, options);
+  FileSummary summary{"mission", "", {}};
+  summary.text = !mission.order_file.empty() ? "an order"
+                 : mission.legs.empty()      ? counted(mission.visit.size(), "visit")
+                                             : counted(mission.legs.size(), "leg");
+  if (!world.robot.limits) summary.notes.push_back("its robot has no limits: plan needs them");
+  return summary;
+}
+
+FileSummary summary_of_dataset(const std::string& file, const ReadOptions& options) {
+  const Dataset dataset = read_dataset(file, options);
+  std::size_t samples = 0;
+  for (const auto& run : dataset.runs) samples += run.log.size();
+  return {"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
+          notes_of(dataset.artifacts)};
+}
+
+FileSummary summary_of_log(const std::string& file) {
+  const RunLog log = read_run_log(file, Geometry{.wheel_radius_m = {1.0, 1.0}, .half_track_m = 1.0});
+  return {"run log", counted(log.trajectory.size(), "sample"), notes_of(log.artifacts)};
+}
+
+FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options) {
+  const Fleet fleet = read_fleet(file, options);
+  for (const auto& robot : fleet.robots)
+    static_cast<void>(read_robot(robot.robot_file, robot.marks.at("robot")));
+  for (const auto& mission : fleet.mission_files) static_cast<void>(read_mission(mission, options));
+  return {"fleet",
+          counted(fleet.robots.size(), "robot") + ", " + counted(fleet.mission_files.size(), "mission"),
+          {}};
+}
+
+FileSummary summary_of_output(const Document& document, const FileKind& kind) {
+  check_document(document, kind.name, kind.schema());
+  return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
+}
+
+/// The kind as the document itself tells: by its schema line, else by a key that only one kind has.
+std::string kind_of(const Document& document) {
+  const Node root = document.root();
+  if (root.kind() != Value::Kind::map) return "";
+  if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar) {
+    for (const auto& kind : file_kinds())
+      if (line->text().rfind("joulepath/" + kind.name + "/", 0) == 0) return kind.name;
+    std::string names;
+    for (const auto& kind : file_kinds())
+      names += (names.empty() ? "" : ", ") + ("joulepath/" + kind.name + "/1");
+    line->fail("one of: " + names);
+  }
+  for (const auto& [key, kind] : {std::pair{"image", "map"},
+                                  {"runs", "dataset"},
+                                  {"missions", "fleet"},
+                                  {"legs", "mission"},
+                                  {"visit", "mission"},
+                                  {"order", "mission"},
+                                  {"features", "route graph"},
+                                  {"geometry", "robot"},
+                                  {"motor", "robot"},
+                                  {"inertia", "robot"}})
+    if (root.has(key)) return kind;
+  return "";
+}
+
+}  // namespace
+
+FileSummary read_any_file(const std::string& file, const std::string& given_kind,
+                          const ReadOptions& options) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
+    return summary_of_log(file);
+  const Document document = Document::load(file);
+  const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
+  if (kind == "robot") return summary_of_robot(file);
+  if (kind == "map") return summary_of_map(file, options);
+  if (kind == "mission") return summary_of_mission(file, options);
+  if (kind == "dataset") return summary_of_dataset(file, options);
+  if (kind == "fleet") return summary_of_fleet(file, options);
+  if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};
+  for (const auto& known : file_kinds())
+    if (known.name == kind) return summary_of_output(document, known);
+  const bool empty = document.root().kind() == Value::Kind::null;
+  throw ConfigError({{file, 1, 1},
+                     "",
+                     empty                ? "an empty file"
+                     : given_kind.empty() ? "a file of no known kind"
+                                          : "kind " + given_kind,
+                     "robot, map, mission, dataset, fleet, run log, route graph, plan or diagnosis",
+                     "a first line like `schema: joulepath/robot/1` tells the kind"});
+}
+
+}  // namespace joulepath

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// What a file holds, in a few words.
+struct FileSummary {
+  std::string kind{};
+  std::string text{};
+  std::vector<std::string> notes{};
+};
+
+/// Reads a file of any kind, with the files that it names, to see whether it is right. The kind is told by
+/// `kind`, the `schema:` line, the file's extension or its keys. Throws ConfigError.
+[[nodiscard]] FileSummary read_any_file(const std::string& file, const std::string& kind = {},
+                                        const ReadOptions& options = {});
+
+}  // namespace joulepath

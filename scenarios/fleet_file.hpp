@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "planner/fleet_request.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Schema fleet_schema();
+
+/// Reads a fleet file; robots and missions that it names are resolved, not read. Throws ConfigError.
+[[nodiscard]] Fleet read_fleet(const std::string& file, const ReadOptions& options = {});
+
+}  // namespace joulepath
