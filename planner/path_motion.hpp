@@ -36,8 +36,12 @@ class PathMotion {
   double payload_kg(double s) const;
 
   PathRates rates(double s) const;
-  /// Directions are those of the path's tangent, so they hold at rest too; `time_s` since the start.
-  Site site(double s, double time_s) const;
+  /// Rates and site at s; directions are those of the path's tangent, so they hold at rest too.
+  struct Place {
+    PathRates rates{};
+    Site site{};
+  };
+  Place place(double s, double time_s) const;
   /// What casters remember at s.
   EffectMemory memory(double s) const;
 

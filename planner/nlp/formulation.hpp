@@ -1,0 +1,39 @@
+#pragma once
+
+#include <tuple>
+
+#include "planner/nlp/terms/acceleration.hpp"
+#include "planner/nlp/terms/battery_power.hpp"
+#include "planner/nlp/terms/duration.hpp"
+#include "planner/nlp/terms/motor_current.hpp"
+#include "planner/nlp/terms/motor_power.hpp"
+#include "planner/nlp/terms/motor_voltage.hpp"
+#include "planner/nlp/terms/traction.hpp"
+#include "planner/nlp/terms/wheel_acceleration.hpp"
+#include "planner/nlp/terms/wheel_energy.hpp"
+#include "planner/nlp/terms/yaw_acceleration.hpp"
+
+namespace joulepath::nlp {
+
+/// The problem, for squares b_k of the rate at the nodes (b_k >= 0; speed, yaw rate, lateral acceleration
+/// and speed caps are bounds on b):
+///
+///   minimize    sum over segments of  sum_channels E + (1 - eta) z  +  (standby + price) dt   [Energy, Time]
+///   subject to  every row of Rows within its bounds, z >= 0, E + z >= 0,  sum dt <= or = duration
+using Rows = std::tuple<Acceleration, YawAcceleration, WheelAcceleration, MotorCurrent, MotorVoltage,
+                        MotorPower, Traction, BatteryPower>;
+using Energy = WheelEnergy;
+using Time = Duration;
+
+inline Rows rows_for(const Limits& limits) {
+  return {Acceleration{limits}, YawAcceleration{limits}, WheelAcceleration{limits}, MotorCurrent{},
+          MotorVoltage{},       MotorPower{limits},      Traction{limits},          BatteryPower{limits}};
+}
+
+template <class... Terms>
+constexpr bool all_are_terms(const std::tuple<Terms...>*) {
+  return (SegmentTerm<Terms> && ...);
+}
+static_assert(all_are_terms(static_cast<const Rows*>(nullptr)));
+
+}  // namespace joulepath::nlp

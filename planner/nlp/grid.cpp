@@ -1,0 +1,168 @@
+#include "planner/nlp/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/nlp/rate_cap.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+constexpr std::size_t kScan = 1000;
+
+/// Torques that the wheels need to creep along at s.
+Sided<double> rest_torque_Nm(const PathMotion& motion, double s) {
+  const PathMotion::Place place = motion.place(s, 0.0);
+  const auto wheels =
+      operating_point(motion.plant(), PathMotion::body_motion<double>(place.rates, 0.0, 0.0), place.site);
+  return {wheels.left.torque_Nm, wheels.right.torque_Nm};
+}
+
+double difference(const Sided<double>& x, const Sided<double>& y) {
+  return std::max(std::abs(x.left - y.left), std::abs(x.right - y.right));
+}
+
+/// Halves [low, high] towards the larger change; a jump keeps its size, a slope does not.
+void find_jump(const PathMotion& motion, double low, double high, const Sided<double>& at_low,
+               const Sided<double>& at_high, std::vector<double>& nodes) {
+  const double whole = difference(at_low, at_high);
+  Sided<double> left = at_low, right = at_high;
+  while (high - low > 1e-10 * motion.length()) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    const Sided<double> inside = rest_torque_Nm(motion, middle);
+    if (difference(left, inside) >= difference(inside, right)) {
+      high = middle;
+      right = inside;
+    } else {
+      low = middle;
+      left = inside;
+    }
+    if (difference(left, right) < 0.2 * whole) return;
+  }
+  nodes.push_back(0.5 * (low + high));
+}
+
+void add_jumps(const PathMotion& motion, std::vector<double>& nodes) {
+  const double length = motion.length();
+  Sided<double> before = rest_torque_Nm(motion, 1e-9 * length);
+  double scale = std::max({1e-9, std::abs(before.left), std::abs(before.right)});
+  for (std::size_t i = 1; i <= kScan; ++i) {
+    const double from = length * static_cast<double>(i - 1) / kScan,
+                 to = length * static_cast<double>(i) / kScan;
+    const Sided<double> here = rest_torque_Nm(motion, i == kScan ? length * (1 - 1e-9) : to);
+    scale = std::max({scale, std::abs(here.left), std::abs(here.right)});
+    if (difference(before, here) > 1e-3 * scale) find_jump(motion, from, to, before, here, nodes);
+    before = here;
+  }
+}
+
+bool torque_is_the_same_everywhere(const ProfileRequest& request) {
+  if (is_turn(request.piece)) return request.plant.effects.empty();
+  if (!request.plant.effects.empty()) return false;
+  const Curve& curve = std::get<Curve>(request.piece);
+  return std::all_of(curve.segments().begin(), curve.segments().end(), [](const CurveSegment& segment) {
+    const auto* line = std::get_if<LinearCurvature>(&segment);
+    return line && line->at(0).curvature_per_m == 0 && line->at(0).curvature_slope_per_m2 == 0;
+  });
+}
+
+/// Drops nodes that are closer together than rounding allows; both ends stay.
+std::vector<double> without_doubles(std::vector<double> nodes, double length) {
+  std::sort(nodes.begin(), nodes.end());
+  std::vector<double> kept{0.0};
+  for (double s : nodes)
+    if (s > kept.back() + 1e-8 * length && s < length * (1 - 1e-8)) kept.push_back(s);
+  kept.push_back(length);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request) {
+  std::vector<double> nodes = piece_breakpoints(request.piece);
+  if (!is_turn(request.piece))
+    for (const SpeedCap& cap : request.speed_caps) {
+      nodes.push_back(cap.from_m);
+      nodes.push_back(cap.to_m);
+    }
+  if (!torque_is_the_same_everywhere(request)) add_jumps(motion, nodes);
+  return without_doubles(std::move(nodes), motion.length());
+}
+
+double reference_rate(const ProfileRequest& request, double length, double s, double cap) {
+  const bool turn = is_turn(request.piece);
+  const auto finite = [](double value, double otherwise) {
+    return std::isfinite(value) && value > 0 ? value : otherwise;
+  };
+  const double up =
+      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.acceleration_m_s2, 1.0);
+  const double down =
+      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.deceleration_m_s2, up);
+  const double from_start = request.start_rate * request.start_rate + 2 * up * s;
+  const double from_end = request.end_rate * request.end_rate + 2 * down * (length - s);
+  return std::sqrt(std::min({from_start, from_end, cap}));
+}
+
+std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request, std::size_t count) {
+  const double length = motion.length();
+  std::vector<double> nodes = mandatory_nodes(motion, request);
+  const std::size_t cells = 4 * std::max<std::size_t>(count, 50);
+  const double h = length / static_cast<double>(cells);
+  std::vector<double> time(cells), bend(cells);
+  double total_time = 0, total_bend = 0;
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double s = (static_cast<double>(i) + 0.5) * h;
+    const PathRates rates = motion.rates(s);
+    const double u = reference_rate(request, length, s, rate_cap_squared(request, rates, s));
+    time[i] = h / std::max(u, 1e-6);
+    bend[i] =
+        is_turn(request.piece) ? 0.0 : h * (std::abs(rates.turn) + std::sqrt(std::abs(rates.turn_slope)));
+    total_time += time[i];
+    total_bend += bend[i];
+  }
+  // Bends get up to 0.4 of the nodes, by how much heading they turn; distance alone gets 0.1.
+  const double bend_share = total_bend > 0 ? 0.4 * total_bend / (total_bend + 1.0) : 0.0;
+  const double time_share = 0.9 - bend_share;
+  std::vector<double> cumulative(cells + 1, 0.0);
+  for (std::size_t i = 0; i < cells; ++i)
+    cumulative[i + 1] = cumulative[i] + time_share * time[i] / total_time +
+                        (total_bend > 0 ? bend_share * bend[i] / total_bend : 0.0) +
+                        0.1 / static_cast<double>(cells);
+  const auto place_of = [&](double share) {
+    const auto after = std::upper_bound(cumulative.begin(), cumulative.end(), share * cumulative.back());
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+        after - cumulative.begin() - 1, 0, static_cast<std::ptrdiff_t>(cells) - 1));
+    const double inside = (share * cumulative.back() - cumulative[i]) / (cumulative[i + 1] - cumulative[i]);
+    return (static_cast<double>(i) + std::clamp(inside, 0.0, 1.0)) * h;
+  };
+  // Between mandatory nodes the free ones are spread evenly in the density.
+  const auto share_of = [&](double s) {
+    const double cell = std::clamp(s / h, 0.0, static_cast<double>(cells));
+    const auto i = std::min(static_cast<std::size_t>(cell), cells - 1);
+    return (cumulative[i] + (cell - static_cast<double>(i)) * (cumulative[i + 1] - cumulative[i])) /
+           cumulative.back();
+  };
+  std::vector<double> grid{0.0};
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const double from = share_of(nodes[k]), to = share_of(nodes[k + 1]);
+    const auto parts = static_cast<std::size_t>(
+        std::max(1.0, std::round((to - from) * static_cast<double>(std::max<std::size_t>(count, 2)))));
+    for (std::size_t i = 1; i < parts; ++i)
+      grid.push_back(place_of(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts)));
+    grid.push_back(nodes[k + 1]);
+  }
+  // A node that rounding put upon its neighbour is left out.
+  return without_doubles(std::move(grid), length);
+}
+
+std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut) {
+  std::vector<double> grid{s.front()};
+  for (std::size_t k = 0; k + 1 < s.size(); ++k) {
+    if (cut[k]) grid.push_back(0.5 * (s[k] + s[k + 1]));
+    grid.push_back(s[k + 1]);
+  }
+  return grid;
+}
+
+}  // namespace joulepath::nlp

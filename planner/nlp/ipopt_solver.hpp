@@ -1,0 +1,18 @@
+#pragma once
+
+#include "planner/nlp/problem.hpp"
+#include "planner/nlp/solution.hpp"
+
+namespace joulepath::nlp {
+
+struct IpoptOptions {
+  double tolerance{1e-9};
+  int max_iterations{300};
+  bool warm{};  ///< the guess is nearly the solution
+};
+
+/// Solves with Ipopt (interior point, MUMPS), exact sparse derivatives, no output. `b_guess`: all nodes.
+[[nodiscard]] Solution solve_with_ipopt(const Problem& problem, const std::vector<double>& b_guess,
+                                        const IpoptOptions& options = {});
+
+}  // namespace joulepath::nlp

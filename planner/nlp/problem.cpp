@@ -1,0 +1,223 @@
+#include "planner/nlp/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/nlp/affine_fit.hpp"
+#include "planner/nlp/grid.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+/// How far inside of a segment its ends are looked at: the law may change at the node itself.
+constexpr double kInset = 1e-7;
+
+template <class Function, std::size_t... I>
+void for_term(std::size_t index, Rows& terms, Function&& function, std::index_sequence<I...>) {
+  ((I == index ? (function(std::get<I>(terms)), 0) : 0), ...);
+}
+
+template <class Real>
+Real evaluate(const Problem& problem, const ActiveRow& row, const Interval<Real>& interval) {
+  Real value{};
+  for_term(
+      row.term, const_cast<Rows&>(problem.terms), [&](const auto& term) { value = term(interval, row.row); },
+      std::make_index_sequence<std::tuple_size_v<Rows>>());
+  return value;
+}
+
+/// Share of the segment's length covered after a share tau of its time.
+double length_share(double u0, double u1, double tau) {
+  return u0 + u1 > 0 ? (2 * u0 * tau + (u1 - u0) * tau * tau) / (u0 + u1) : tau;
+}
+
+class Transcriber {
+ public:
+  Transcriber(const ProfileRequest& request, const PathMotion& motion, const Profile* previous)
+      : request_(request), motion_(motion), previous_(previous) {}
+
+  Segment segment(double s0, double s1) const {
+    Segment segment{.s0 = s0, .ds = s1 - s0, .plant = &request_.plant};
+    constexpr std::array<double, kLimitPoints> fractions{0.0, 0.5, 1.0};
+    for (std::size_t i = 0; i < kLimitPoints; ++i) segment.limit_points[i] = point(segment, fractions[i]);
+    const double u0 = rate(s0), u1 = rate(s1);
+    for (std::size_t q = 0; q < kEnergyPoints; ++q)
+      segment.energy_points[q] = point(segment, length_share(u0, u1, kEnergyTimes[q]));
+    return segment;
+  }
+
+ private:
+  double rate(double s) const {
+    if (s <= 0) return request_.start_rate;
+    if (s >= motion_.length()) return request_.end_rate;
+    if (previous_) return previous_->at_s(s).rate;
+    return reference_rate(request_, motion_.length(), s, rate_cap_squared(request_, motion_.rates(s), s));
+  }
+
+  SegmentPoint point(const Segment& segment, double fraction) const {
+    const double s = segment.s0 + segment.ds * std::clamp(fraction, kInset, 1 - kInset);
+    const double time_s = previous_ ? previous_->at_s(s).time_s : 0.0;
+    const PathMotion::Place place = motion_.place(s, time_s);
+    SegmentPoint result{.fraction = fraction, .rates = place.rates, .site = place.site};
+    result.affine = fit_affine(request_.plant, result.rates, result.site, result.wheel);
+    return result;
+  }
+
+  const ProfileRequest& request_;
+  const PathMotion& motion_;
+  const Profile* previous_{};
+};
+
+double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit, double from,
+                  double to) {
+  double factor = 1.0;
+  for (const Tightening& t : tightenings)
+    if (t.limit == limit && t.from < to && t.to > from) factor *= t.factor;
+  return factor;
+}
+
+/// Caps of a segment's two ends such that the chord between them stays below the cap inside.
+void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
+                const std::vector<Tightening>& tightenings, RateCap& cap0, RateCap& cap1) {
+  const double s1 = segment.s0 + segment.ds;
+  const auto capped = [&](double f) {
+    const double s = segment.s0 + segment.ds * std::clamp(f, kInset, 1 - kInset);
+    RateCap cap = rate_cap(request, motion.rates(s), s);
+    const double factor = factor_for(tightenings, cap.limit, segment.s0, s1);
+    cap.squared *= cap.limit == "lateral_acceleration" ? factor : factor * factor;
+    return cap;
+  };
+  const auto lower = [](RateCap& cap, const RateCap& to) {
+    if (to.squared < cap.squared) cap = to;
+  };
+  const RateCap at0 = capped(0), at1 = capped(1);
+  lower(cap0, at0);
+  lower(cap1, at1);
+  const PathRates first = segment.limit_points[0].rates, last = segment.limit_points[2].rates;
+  if (first.turn == last.turn && first.turn_slope == 0 && last.turn_slope == 0) return;
+  RateCap dip0 = at0, dip1 = at1;
+  for (double f : {0.2, 0.4, 0.6, 0.8}) {
+    const RateCap inside = capped(f);
+    const double chord = (1 - f) * at0.squared + f * at1.squared;
+    if (!(inside.squared < chord)) continue;
+    const double share = inside.squared / chord;
+    lower(dip0, {std::isfinite(share) ? at0.squared * share : inside.squared, inside.limit});
+    lower(dip1, {std::isfinite(share) ? at1.squared * share : inside.squared, inside.limit});
+  }
+  if (!std::isfinite(at0.squared) || !std::isfinite(at1.squared))
+    for (double f : {0.2, 0.4, 0.6, 0.8}) {
+      const RateCap inside = capped(f);
+      lower(dip0, inside);
+      lower(dip1, inside);
+    }
+  lower(cap0, dip0);
+  lower(cap1, dip1);
+}
+
+struct Box {
+  Range b{}, a{};
+};
+
+/// What b and a can be in a segment, by the bounds alone.
+Box box_of(const Problem& problem, std::size_t k) {
+  const double high0 = k == 0 ? problem.b_start : problem.cap[k].squared;
+  const double high1 = k + 1 == problem.segment_count() ? problem.b_end : problem.cap[k + 1].squared;
+  const double high = std::max(high0, high1), ds = problem.segments[k].ds;
+  const Limits& limits = problem.request->limits;
+  const PathRates& rates = problem.segments[k].limit_points[0].rates;
+  double up = high1 / (2 * ds), down = high0 / (2 * ds);
+  if (rates.along != 0) {
+    up = std::min(up, limits.acceleration_m_s2);
+    down = std::min(down, limits.deceleration_m_s2);
+  } else {
+    up = std::min(up, limits.yaw_acceleration_rad_s2);
+    down = std::min(down, limits.yaw_acceleration_rad_s2);
+  }
+  return {{0.0, high}, {-down, up}};
+}
+
+template <std::size_t Index>
+void add_rows(Problem& problem, std::size_t k, const Interval<Range>& interval,
+              const std::vector<Tightening>& tightenings) {
+  const auto& term = std::get<Index>(problem.terms);
+  using Term = std::decay_t<decltype(term)>;
+  const Segment& segment = problem.segments[k];
+  const double factor = factor_for(tightenings, Term::name, segment.s0, segment.s0 + segment.ds);
+  for (std::size_t row = 0; row < Term::rows; ++row) {
+    const Bounds bounds = term.bounds(segment, row);
+    if (!std::isfinite(bounds.low) && !std::isfinite(bounds.high)) continue;
+    const Range reach = term(interval, row);
+    const Bounds tight{bounds.low * factor, bounds.high * factor};
+    // The box itself is made of the first two terms, so they are not judged by it.
+    const bool makes_box = Index == 0 || (Index == 1 && segment.limit_points[0].rates.along == 0);
+    if (!makes_box && reach.low >= tight.low && reach.high <= tight.high) continue;
+    problem.rows.push_back({k, Index, row, tight, Term::name});
+  }
+}
+
+template <std::size_t... I>
+void add_all_rows(Problem& problem, std::size_t k, const std::vector<Tightening>& tightenings,
+                  std::index_sequence<I...>) {
+  const Box box = box_of(problem, k);
+  const Range u{0.0, std::sqrt(box.b.high)};
+  const Interval<Range> interval{problem.segments[k], box.b, box.b, u, u, box.a, Range()};
+  (add_rows<I>(problem, k, interval, tightenings), ...);
+}
+
+void set_objective(Problem& problem) {
+  const ProfileRequest& request = *problem.request;
+  const PowerSupply& supply = request.plant.robot.power;
+  const TimeGoal& time = request.time;
+  const bool minimum_time = time.mode == TimeMode::minimum_time;
+  problem.recovery_weight = 1 - supply.regeneration_efficiency;
+  if (problem.recovery_weight > 0 && !minimum_time)
+    problem.channels = supply.sharing == PowerSharing::bus ? 1 : 2;
+  problem.energy_weight = minimum_time ? 0.0 : 1.0;
+  problem.time_weight_W =
+      minimum_time ? 1.0 : supply.standby_W + (time.mode == TimeMode::time_price ? time.price_W : 0.0);
+  if (minimum_time || time.mode == TimeMode::free_time || !std::isfinite(time.duration_s)) return;
+  problem.duration_s = time.duration_s;
+  problem.duration_row = time.mode == TimeMode::fixed_time ? DurationRow::equal : DurationRow::at_most;
+}
+
+}  // namespace
+
+Problem transcribe(const ProfileRequest& request, const PathMotion& motion, const std::vector<double>& s,
+                   const std::vector<Tightening>& tightenings, const Profile* previous) {
+  Problem problem{.request = &request,
+                  .s = s,
+                  .cap = std::vector<RateCap>(s.size()),
+                  .b_start = request.start_rate * request.start_rate,
+                  .b_end = request.end_rate * request.end_rate,
+                  .terms = rows_for(request.limits)};
+  const Transcriber transcriber(request, motion, previous);
+  for (std::size_t k = 0; k + 1 < s.size(); ++k)
+    problem.segments.push_back(transcriber.segment(s[k], s[k + 1]));
+  for (std::size_t k = 0; k + 1 < s.size(); ++k)
+    lower_caps(request, motion, problem.segments[k], tightenings, problem.cap[k], problem.cap[k + 1]);
+  problem.first_row.push_back(0);
+  for (std::size_t k = 0; k < problem.segment_count(); ++k) {
+    add_all_rows(problem, k, tightenings, std::make_index_sequence<std::tuple_size_v<Rows>>());
+    problem.first_row.push_back(problem.rows.size());
+  }
+  set_objective(problem);
+  return problem;
+}
+
+Jet evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<Jet>& interval) {
+  return evaluate(problem, row, interval);
+}
+
+double evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<double>& interval) {
+  return evaluate(problem, row, interval);
+}
+
+double duration_of(const Problem& problem, const std::vector<double>& b) {
+  double sum_s = 0;
+  for (std::size_t k = 0; k < problem.segment_count(); ++k)
+    sum_s += plain_interval(problem.segments[k], b[k], b[k + 1]).dt;
+  return sum_s;
+}
+
+}  // namespace joulepath::nlp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace joulepath::nlp {
+
+/// What a solver says of a Problem.
+struct Solution {
+  bool converged{};
+  std::vector<double> b{};  ///< squares of the rate at all nodes, fixed ends included
+  std::vector<double> z{};  ///< energy not recovered, [segment][channel]
+  double objective{};
+  double price_W{};                           ///< multiplier of the duration row: -d objective/d duration
+  std::vector<double> row_multiplier{};       ///< per ActiveRow, positive at its upper bound
+  std::vector<double> recovery_multiplier{};  ///< of E + z >= 0, >= 0, [segment][channel]
+  int iterations{};
+  std::string message{};
+};
+
+}  // namespace joulepath::nlp

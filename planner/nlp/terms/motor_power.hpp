@@ -1,0 +1,21 @@
+#pragma once
+
+#include "planner/nlp/terms/term.hpp"
+
+namespace joulepath::nlp {
+
+/// |V i| <= P_max, per wheel.                                                [P1, Eq. (28)]
+struct MotorPower {
+  static constexpr std::string_view name = "motor_power";
+  static constexpr std::size_t rows = kSidedRows;
+  Limits limits{};
+
+  Bounds bounds(const Segment&, std::size_t) const { return within(limits.motor_power_W); }
+  template <class Real>
+  Real operator()(const Interval<Real>& interval, std::size_t row) const {
+    const WheelLoad<Real> load = load_at(interval, point_of(row), side_of(row));
+    return load.voltage_V * load.current_A;
+  }
+};
+
+}  // namespace joulepath::nlp

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/profile.hpp"
+
+namespace joulepath {
+
+/// Power (W) that the drives take from the supply at a state, standby left out.
+[[nodiscard]] double drive_power_W(const PathMotion& motion, const ProfileState& state);
+
+/// Energy (J) at the battery's terminals over segment k of a profile, standby left out, by quadrature on
+/// the exact path, split where a motor's power changes its sign.
+[[nodiscard]] double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k);
+
+}  // namespace joulepath
