@@ -6,17 +6,6 @@
 namespace joulepath {
 namespace {
 
-void add(EnergyByCause& sum, const PowerByCause& watts, double seconds) {
-  sum.copper_J += watts.copper_W * seconds;
-  sum.coulomb_friction_J += watts.coulomb_friction_W * seconds;
-  sum.viscous_friction_J += watts.viscous_friction_W * seconds;
-  sum.kinetic_J += watts.kinetic_W * seconds;
-  sum.not_recovered_J += watts.not_recovered_W * seconds;
-  sum.standby_J += watts.standby_W * seconds;
-  if (sum.effect_J.size() < watts.effect_W.size()) sum.effect_J.resize(watts.effect_W.size());
-  for (std::size_t i = 0; i < watts.effect_W.size(); ++i) sum.effect_J[i] += watts.effect_W[i] * seconds;
-}
-
 PowerByCause power_at(const PathMotion& motion, const ProfileState& state) {
   const PathMotion::Place place = motion.place(state.s, state.time_s);
   return power_by_cause(motion.plant(), PathMotion::body_motion(place.rates, state.rate, state.acceleration),
@@ -46,35 +35,15 @@ void integrate(const PathMotion& motion, const Profile& profile, double from_s, 
   constexpr std::array<double, 3> fractions{0.1127016653792583, 0.5, 0.8872983346207417};
   constexpr std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
   for (std::size_t i = 0; i < 3; ++i)
-    add(sum, power_at(motion, profile.at_time(from_s + fractions[i] * length)), weights[i] * length);
+    sum.add(motion.plant(), power_at(motion, profile.at_time(from_s + fractions[i] * length)),
+            weights[i] * length);
 }
 
 }  // namespace
 
-double EnergyByCause::motion_J() const {
-  double sum_J = copper_J + coulomb_friction_J + viscous_friction_J + kinetic_J + not_recovered_J;
-  for (double joules : effect_J) sum_J += joules;
-  return sum_J;
-}
-
-double EnergyByCause::total_J() const { return motion_J() + standby_J; }
-
-EnergyByCause& EnergyByCause::operator+=(const EnergyByCause& other) {
-  copper_J += other.copper_J;
-  coulomb_friction_J += other.coulomb_friction_J;
-  viscous_friction_J += other.viscous_friction_J;
-  kinetic_J += other.kinetic_J;
-  not_recovered_J += other.not_recovered_J;
-  standby_J += other.standby_J;
-  if (effect_J.size() < other.effect_J.size()) effect_J.resize(other.effect_J.size());
-  for (std::size_t i = 0; i < other.effect_J.size(); ++i) effect_J[i] += other.effect_J[i];
-  return *this;
-}
-
 EnergyByCause energy_by_cause(const PathMotion& motion, const Profile& profile) {
   constexpr int kHalvings = 12;
   EnergyByCause sum;
-  sum.effect_J.resize(motion.plant().effects.size());
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
     if (profile.time_s[k + 1] > profile.time_s[k])
       integrate(motion, profile, profile.time_s[k], profile.time_s[k + 1], kHalvings, sum);

@@ -42,6 +42,7 @@ class PathMotion {
     Site site{};
   };
   Place place(double s, double time_s) const;
+  Site site(double s, double time_s) const { return place(s, time_s).site; }
   /// What casters remember at s.
   EffectMemory memory(double s) const;
 

@@ -1,0 +1,74 @@
+#include "planner/baselines/finish.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "planner/limit_check.hpp"
+#include "planner/segment_energy.hpp"
+
+namespace joulepath {
+namespace {
+
+struct Worst {
+  double ratio{};
+  std::string limit{};
+  double s{};
+};
+
+Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
+  constexpr int kLooks = 4;
+  Worst worst;
+  for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) {
+    const double from_s = profile.time_s[k], length_s = profile.time_s[k + 1] - from_s;
+    for (int i = 0; i <= kLooks; ++i) {
+      const double share = std::clamp(static_cast<double>(i) / kLooks, 1e-7, 1 - 1e-7);
+      const ProfileState state = profile.at_time(from_s + share * length_s);
+      for_each_limit_use(motion, request.limits, request.speed_caps, state, profile.jerk[k],
+                         [&](std::string_view name, double ratio) {
+                           if (ratio > worst.ratio) worst = {ratio, std::string(name), state.s};
+                         });
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+BaselineResult no_baseline(std::string name, std::string reason) {
+  return {.name = std::move(name), .feasible = false, .reason = std::move(reason)};
+}
+
+BaselineResult finish_baseline(const ProfileRequest& request, std::string name, Profile profile,
+                               double duration_s, std::map<std::string, double> parameters) {
+  // A baseline is not to lose for the last digit of rounding or for a corner between two nodes.
+  constexpr double kTolerance = 1e-4, kSameTime = 1e-7;
+  const double moving_s = profile.time_s.back();
+  BaselineResult result{
+      .name = std::move(name), .duration_s = duration_s, .parameters = std::move(parameters)};
+  char text[160];
+  if (moving_s > duration_s * (1 + kSameTime)) {
+    std::snprintf(text, sizeof text, "takes %.4g s, %.3g s too long", moving_s, moving_s - duration_s);
+    result.reason = text;
+    return result;
+  }
+  profile.wait_s = std::max(0.0, duration_s - moving_s);
+  if (request.end_rate > 0 && profile.wait_s > kSameTime * duration_s) {
+    result.reason = "arrives early at speed and cannot wait";
+    return result;
+  }
+  const PathMotion motion = path_motion(request);
+  for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
+    result.motion_energy_J += segment_energy_J(motion, profile, k);
+  result.energy_J = result.motion_energy_J + duration_s * request.plant.robot.power.standby_W;
+  const Worst worst = worst_use(request, motion, profile);
+  result.feasible = worst.ratio <= 1 + kTolerance;
+  if (!result.feasible) {
+    std::snprintf(text, sizeof text, "%s at s = %.4g is %.3g times its limit", worst.limit.c_str(), worst.s,
+                  worst.ratio);
+    result.reason = text;
+  }
+  result.profile = std::move(profile);
+  return result;
+}
+
+}  // namespace joulepath

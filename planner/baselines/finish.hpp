@@ -1,0 +1,15 @@
+#pragma once
+
+#include "planner/baselines/baseline.hpp"
+
+namespace joulepath {
+
+/// Judges a baseline's profile: waits at the end until `duration_s`, checks every limit densely, takes the
+/// energy on the exact path. Infeasible (with the reason) when it is too slow or breaks a limit.
+[[nodiscard]] BaselineResult finish_baseline(const ProfileRequest& request, std::string name, Profile profile,
+                                             double duration_s, std::map<std::string, double> parameters);
+
+/// A baseline that does not exist for this request.
+[[nodiscard]] BaselineResult no_baseline(std::string name, std::string reason);
+
+}  // namespace joulepath

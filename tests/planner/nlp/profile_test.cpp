@@ -1,0 +1,99 @@
+#include "planner/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/baselines/baseline.hpp"
+#include "planner/replay.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+ProfileRequest straight_request(double length_m, const Robot& robot = testing::nomad()) {
+  return {.piece = straight_piece({}, length_m),
+          .plant = make_plant(robot),
+          .limits = robot.limits.value_or(Limits{})};
+}
+
+/// A quarter turn of a cubic Bezier, as the paper drives it.
+PathPiece bezier_piece() { return Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})}); }
+
+TEST(Profile, StraightLineMeetsTheClosedForm) {
+  Robot robot = testing::nomad();
+  robot.inertia.wheel_axle_inertia_kg_m2 = 0.148 - 23.98 * 0.01 / 2;
+  robot.power = {.standby_W = 0.0, .regeneration_efficiency = 1.0};
+  ProfileRequest request = straight_request(10.0, robot);
+  request.time = {TimeMode::fixed_time, 17.3694};
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+  EXPECT_NEAR(replay(request, *result.profile).energy_J, 79.5060763, 79.5060763 * 2e-6);
+}
+
+TEST(Profile, KeepsEveryLimitBetweenNodes) {
+  ProfileRequest request = straight_request(1.0);
+  request.piece = bezier_piece();
+  for (TimeMode mode :
+       {TimeMode::free_time, TimeMode::minimum_time, TimeMode::time_budget, TimeMode::fixed_time}) {
+    request.time = {mode, 12.0};
+    const ProfileResult result = solve_profile(request);
+    ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+    const ReplayResult again = replay(request, *result.profile);
+    EXPECT_TRUE(again.valid()) << again.limit << " " << again.worst_violation << " at " << again.s;
+    EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6);
+    EXPECT_NEAR(again.energy_J, energy_by_cause(path_motion(request), *result.profile).total_J(),
+                1e-5 * again.energy_J);
+  }
+}
+
+TEST(Profile, TakesNoMoreThanTheTrapezoids) {
+  ProfileRequest request = straight_request(1.0);
+  request.piece = bezier_piece();
+  request.time = {TimeMode::fixed_time, 14.0};
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+  const double energy_J = replay(request, *result.profile).energy_J;
+  for (const BaselineResult& baseline :
+       {trapezoid_max_acceleration(request, 14.0), trapezoid_best_tuned(request, 14.0)}) {
+    EXPECT_TRUE(baseline.feasible) << baseline.name << ": " << baseline.reason;
+    EXPECT_NEAR(baseline.profile->duration_s(), 14.0, 1e-5);
+    EXPECT_LT(energy_J, baseline.energy_J);
+  }
+}
+
+TEST(Profile, TurnsInPlaceWithHeadingAsThePath) {
+  ProfileRequest request = straight_request(1.0);
+  request.piece = TurnInPlace{{}, -1.5};
+  request.time = {TimeMode::time_budget, 4.0};
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+  EXPECT_TRUE(replay(request, *result.profile).valid());
+  EXPECT_LE(result.profile->duration_s(), 4.0 * (1 + 1e-9));
+}
+
+TEST(Profile, MissedDeadlineSaysByHowMuch) {
+  ProfileRequest request = straight_request(10.0);
+  request.time = {TimeMode::minimum_time};
+  const double minimum_s = solve_profile(request).profile->duration_s();
+  EXPECT_NEAR(minimum_s, 12.0, 1e-3);  // 1 m/s, 0.5 m/s^2: 10/1 + 1/0.5
+  request.time = {TimeMode::time_budget, 11.0};
+  const ProfileResult result = solve_profile(request);
+  EXPECT_EQ(result.summary.status, SolveStatus::infeasible);
+  ASSERT_TRUE(result.infeasibility.has_value());
+  EXPECT_EQ(result.infeasibility->constraint, "deadline");
+  EXPECT_NEAR(result.infeasibility->amount, 1.0, 1e-3);
+}
+
+TEST(Profile, StartSpeedThatCannotBeShedIsNamed) {
+  ProfileRequest request = straight_request(0.5);
+  request.start_rate = 1.0;  // sheds 0.5 m/s^2 over 0.5 m: sqrt(0.5) m/s at most
+  const ProfileResult result = solve_profile(request);
+  EXPECT_EQ(result.summary.status, SolveStatus::infeasible);
+  ASSERT_TRUE(result.infeasibility.has_value());
+  EXPECT_EQ(result.infeasibility->constraint, "start_speed");
+  EXPECT_NEAR(result.infeasibility->relaxation.at("start_speed_m_s"), std::sqrt(0.5), 1e-3);
+}
+
+}  // namespace
+}  // namespace joulepath
