@@ -69,7 +69,27 @@ std::string label_text(const Case& c, const OracleResult* oracle) {
   out << "noise: {electrical_correlation: " << c.noise.electrical_correlation
       << ", tail_freedom: " << c.noise.tail_freedom << ", friction_scatter: " << c.friction_scatter
       << ", resistance_scatter: " << c.resistance_scatter << ", form: " << c.world.form << "}\n";
-  if (oracle) out << oracle_lines(*oracle);
+  if (oracle) out << "oracle: " << oracle_json(*oracle) << "\n";
+  return out.str();
+}
+
+/// The label as JSON, for the scorer.
+std::string label_json(const Case& c, const OracleResult* oracle) {
+  std::ostringstream out;
+  out << "{\"seed\": " << c.request.seed << ", \"level\": " << c.request.level << ", \"robot\": \""
+      << c.request.robot << "\", \"runs\": " << c.request.runs << ", \"effects\": [";
+  for (std::size_t k = 0; k < c.effects.size(); ++k) {
+    const Effect& e = c.effects[k];
+    out << (k ? ", " : "") << "{\"effect\": \"" << e.name
+        << "\", \"foreign\": " << (e.foreign ? "true" : "false") << ", \"side\": \"" << e.side
+        << "\", \"parameters\": {";
+    for (std::size_t j = 0; j < e.parameters.size(); ++j)
+      out << (j ? ", " : "") << "\"" << e.parameters[j].first << "\": " << e.parameters[j].second;
+    out << "}}";
+  }
+  out << "]";
+  if (oracle) out << ", \"oracle\": " << oracle_json(*oracle);
+  out << "}\n";
   return out.str();
 }
 
@@ -116,7 +136,7 @@ std::vector<Sample> noise_free_run(const Machine& truth, const Machine& nominal,
   return log;
 }
 
-void write_case(const Case& c, const std::string& folder, const std::string& label_path, bool with_oracle) {
+void write_case(const Case& c, const std::string& folder) {
   const std::filesystem::path where(folder);
   std::filesystem::create_directories(where);
   write_file(where / "robot.yaml", robot_file(c.nominal));
@@ -134,10 +154,13 @@ void write_case(const Case& c, const std::string& folder, const std::string& lab
     write_file(where / name, run_csv(log));
   }
   write_file(where / "dataset.yaml", dataset.str());
-  if (label_path.empty()) return;
-  if (!with_oracle) return write_file(label_path, label_text(c, nullptr));
-  const OracleResult oracle = consult_oracle(c);
-  write_file(label_path, label_text(c, &oracle));
+}
+
+void write_label(const Case& c, const std::string& path, bool with_oracle) {
+  OracleResult oracle;
+  if (with_oracle) oracle = consult_oracle(c);
+  const OracleResult* known = with_oracle ? &oracle : nullptr;
+  write_file(path, path.ends_with(".json") ? label_json(c, known) : label_text(c, known));
 }
 
 }  // namespace blind

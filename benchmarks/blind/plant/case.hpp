@@ -46,8 +46,10 @@ struct Case {
                                                  const World& world, const Run& run,
                                                  const Discretization& discretization);
 
-/// Write robot.yaml, dataset.yaml and run_XX.csv into `folder` (made if needed), and the label to
-/// `label_path`.
-void write_case(const Case& c, const std::string& folder, const std::string& label_path, bool with_oracle);
+/// Write robot.yaml, dataset.yaml and run_XX.csv into `folder` (made if needed).
+void write_case(const Case& c, const std::string& folder);
+
+/// Write the label, as JSON where the path ends so, else as YAML; with what the oracle says if asked.
+void write_label(const Case& c, const std::string& path, bool with_oracle);
 
 }  // namespace blind

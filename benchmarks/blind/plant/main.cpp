@@ -15,11 +15,12 @@ namespace {
 constexpr const char* kUsage =
     "usage: blind_plant --effect NAME[,NAME] [--size X[,X]] [--robot nomad|warehouse|small] [--protocol "
     "24|12|6]\n"
-    "                   [--level 0|1] [--seed S] --out DIR [--label FILE] [--oracle]\n"
+    "                   [--level 0|1] [--seed S] [--out DIR] [--label FILE|none] [--oracle]\n"
     "       blind_plant --list\n"
     "  --effect   none, a catalog name, a foreign kind, or two of them\n"
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
-    "  --label    where the label goes (default: DIR/truth.yaml; apart from DIR for a blind run)\n"
+    "  --out      folder of the data set; absent: the label alone is written\n"
+    "  --label    where the label goes, YAML or (*.json) JSON (default: DIR/truth.yaml; `none`: nowhere)\n"
     "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
 
 std::vector<std::string> split(const std::string& text) {
@@ -76,10 +77,14 @@ int run(int argc, char** argv) {
     if (std::string(" --effect --size --robot --protocol --level --seed --out --label ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
-  if (!given.count("--out")) throw std::invalid_argument("--out is missing");
-  const blind::Case c = blind::draw_case(request_of(given));
   const std::string out = given["--out"];
-  blind::write_case(c, out, given.count("--label") ? given["--label"] : out + "/truth.yaml", oracle);
+  const std::string label =
+      given.count("--label") ? given["--label"] : (out.empty() ? "" : out + "/truth.yaml");
+  if (out.empty() && (label.empty() || label == "none"))
+    throw std::invalid_argument("neither --out nor --label");
+  const blind::Case c = blind::draw_case(request_of(given));
+  if (!out.empty()) blind::write_case(c, out);
+  if (label != "none") blind::write_label(c, label, oracle);
   return 0;
 }
 

@@ -193,30 +193,25 @@ OracleResult consult_oracle(const Case& c) {
   return result;
 }
 
-std::string oracle_lines(const OracleResult& r) {
-  std::ostringstream out;
+std::string oracle_json(const OracleResult& r) {
+  const auto object = [](const std::map<std::string, double>& values) {
+    std::ostringstream out;
+    for (const auto& [key, value] : values)
+      out << (out.tellp() > 0 ? ", " : "") << "\"" << key << "\": " << value;
+    return "{" + out.str() + "}";
+  };
   bool all = !r.each.empty();
   for (const auto& [name, ratio] : r.each) all = all && ratio >= kDetectable;
-  out << "oracle: {likelihood_ratio: " << r.likelihood_ratio << ", detectable: " << (all ? "true" : "false")
-      << ", energy_gap_percent: " << r.energy_gap_percent << ", each: {";
+  std::ostringstream out;
+  out << "{\"likelihood_ratio\": " << r.likelihood_ratio << ", \"detectable\": " << (all ? "true" : "false")
+      << ", \"energy_gap_percent\": " << r.energy_gap_percent << ", \"each\": " << object(r.each)
+      << ", \"where\": {";
   const char* comma = "";
-  for (const auto& [name, ratio] : r.each) {
-    out << comma << name << ": " << ratio;
-    comma = ", ";
-  }
-  out << "}, where: {";
-  comma = "";
   for (const auto& [axis, cells] : r.where) {
-    out << comma << axis << ": {";
-    comma = "";
-    for (const auto& [cell, share] : cells) {
-      out << comma << cell << ": " << share;
-      comma = ", ";
-    }
-    out << "}";
+    out << comma << "\"" << axis << "\": " << object(cells);
     comma = ", ";
   }
-  out << "}}\n";
+  out << "}}";
   return out.str();
 }
 

@@ -22,6 +22,7 @@ struct OracleResult {
 inline constexpr double kDetectable = 25.0;
 
 [[nodiscard]] OracleResult consult_oracle(const Case& c);
-[[nodiscard]] std::string oracle_lines(const OracleResult& result);
+/// `{likelihood_ratio: ..., detectable: ..., each: {...}, where: {...}}` as JSON (which is YAML, too).
+[[nodiscard]] std::string oracle_json(const OracleResult& result);
 
 }  // namespace blind

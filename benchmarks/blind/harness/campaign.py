@@ -1,0 +1,83 @@
+"""Diagnose the cases of a sealed campaign, in chunks that can be interrupted: each finished case is one line of
+diagnosed.jsonl. The data set is generated again from the case's seed, without a label, and removed afterwards;
+the diagnosis sees a folder named after the case's number and nothing else."""
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+import plan
+import seal
+import workspace
+
+KEEP = ("gap", "where", "verdict", "causes", "ranking", "leftover", "next_experiment", "ceiling", "control")
+
+
+def run_quietly(command, folder):
+    start = time.monotonic()
+    environment = {"PATH": "/usr/bin:/bin", "HOME": str(folder), "TMPDIR": str(folder)}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+    return done, time.monotonic() - start
+
+
+def hash_of(folder):
+    total = hashlib.sha256()
+    for path in sorted(folder.iterdir()):
+        total.update(path.name.encode() + b"\0" + path.read_bytes())
+    return total.hexdigest()
+
+
+def diagnose(case, with_controls):
+    """Generate, diagnose, remove; everything that the scorer needs, in one dictionary."""
+    scratch = pathlib.Path(tempfile.mkdtemp(prefix="blind_"))
+    try:
+        data = scratch / case["id"]
+        subprocess.run(seal.plant_command(case) + ["--out", str(data), "--label", "none"], check=True)
+        result = {"id": case["id"], "data_sha256": hash_of(data)}
+        command = [workspace.program("joulepath"), "diagnose", str(data / "dataset.yaml"), "--out", str(scratch / "out")]
+        if case["bin"] == "removed":
+            command += ["--without", case["effects"][0]]
+        done, result["seconds"] = run_quietly(command, scratch)
+        result["exit_code"] = done.returncode
+        answer = scratch / "out" / "diagnosis.json"
+        if done.returncode in (0, 1) and answer.exists():
+            full = json.loads(answer.read_text())
+            result["diagnosis"] = {key: full[key] for key in KEEP if key in full}
+        else:
+            result["error"] = done.stderr[-500:]
+        if with_controls:
+            done, _ = run_quietly([workspace.program("blind_controls"), str(data), str(scratch / "controls.json")], scratch)
+            if done.returncode == 0:
+                result["controls"] = json.loads((scratch / "controls.json").read_text())
+        return result
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+def diagnose_all(frozen, name, counts, limit_s, jobs, with_controls=True):
+    """Diagnose what is not done yet, for at most `limit_s` seconds. Returns how many cases are left."""
+    manifest = json.loads(workspace.manifest_path(frozen, name).read_text())
+    changed = workspace.dirty(frozen)
+    if changed:
+        sys.exit(f"the tree differs from the frozen commit {frozen[:12]}: {' '.join(changed[:5])}")
+    cases = plan.plan(frozen, *workspace.effect_names(), counts)[: manifest["cases"]]
+    log = workspace.sealed_folder(frozen, name) / "diagnosed.jsonl"
+    done = {json.loads(line)["id"] for line in log.read_text().splitlines()} if log.exists() else set()
+    waiting = [case for case in cases if case["id"] not in done]
+    deadline = time.monotonic() + limit_s
+    with open(log, "a") as file, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        while waiting and time.monotonic() < deadline:
+            batch, waiting = waiting[: 4 * jobs], waiting[4 * jobs:]
+            for result in pool.map(lambda case: diagnose(case, with_controls), batch):
+                file.write(json.dumps(result) + "\n")
+            file.flush()
+            print(f"\r{len(cases) - len(waiting)}/{len(cases)}", end="", file=sys.stderr, flush=True)
+    print(file=sys.stderr)
+    return len(waiting)

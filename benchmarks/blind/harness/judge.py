@@ -1,0 +1,112 @@
+"""What one answer says, and whether it is right. The rules stand here and nowhere else."""
+
+SILENT = ("no_gap", "too_little_data")
+SIDED = ("dragging_wheel", "current_sensor_offset", "wheel_radius_mismatch")
+
+
+def truth_of(label):
+    return [e["effect"] for e in label["effects"] if not e["foreign"]]
+
+
+def detectable(label):
+    return bool(label["effects"]) and label["oracle"]["detectable"]
+
+
+class Answer:
+    """A diagnosis, or a control's answer in the same form."""
+
+    def __init__(self, diagnosis):
+        self.raw = diagnosis or {}
+        self.verdict = self.raw.get("verdict", "failed")
+        self.causes = self.raw.get("causes") or []
+        self.names = [cause["effect"] for cause in self.causes]
+        self.ranking = [entry["effect"] for entry in self.raw.get("ranking") or []] or list(self.names)
+        self.silent = self.verdict in SILENT + ("failed",)
+        self.group = set(self.names)
+        for cause in self.causes:
+            self.group |= set(cause.get("indistinguishable_from") or [])
+
+    @property
+    def gives_a_name(self):
+        return bool(self.names) and not self.silent and self.verdict != "unexplained"
+
+    @property
+    def first(self):
+        """The name put first; causes before the mere ranking."""
+        if self.silent:
+            return None
+        if self.names:
+            return self.names[0]
+        return self.ranking[0] if self.ranking and self.verdict == "ambiguous" else None
+
+    def top(self, count):
+        ordered = self.names + [name for name in self.ranking if name not in self.names]
+        return [] if self.silent else ordered[:count]
+
+    @property
+    def group_of_first(self):
+        if not self.names:
+            return set()
+        return {self.names[0]} | set(self.causes[0].get("indistinguishable_from") or [])
+
+    @property
+    def probability(self):
+        if self.causes:
+            return float(self.causes[0].get("probability", 0.0))
+        ranking = self.raw.get("ranking") or []
+        return float(ranking[0].get("probability", 0.0)) if ranking else 0.0
+
+    def says_none_fits(self):
+        return self.verdict in ("unexplained", "partly_explained")
+
+    def energy(self, key):
+        return self.raw.get("gap", {}).get("energy", {}).get(key)
+
+    def top_cell(self, axis):
+        cells = [w for w in self.raw.get("where") or [] if w.get("axis") == axis]
+        return max(cells, key=lambda w: w.get("share_of_gap", 0.0))["value"] if cells else None
+
+
+def wrong_name(answer, label):
+    """A name is given, and none of what is named first is among the true effects (or in the group with one)."""
+    return answer.gives_a_name and not (answer.group_of_first & set(truth_of(label)))
+
+
+def parameter_errors(answer, label):
+    """Of each true effect that is named: (effect, relative error of its first parameter, interval covers the truth)."""
+    found = []
+    for effect in label["effects"]:
+        for cause in answer.causes:
+            if cause["effect"] != effect["effect"] or effect["foreign"]:
+                continue
+            key, true = next(iter(effect["parameters"].items()))
+            said = (cause.get("parameters") or {}).get(key)
+            if not isinstance(said, dict) or not isinstance(said.get("value"), (int, float)) or true == 0:
+                continue
+            low, high = said.get("interval_95") or (None, None)
+            covers = None if low is None or high is None else bool(low <= true <= high)
+            found.append((effect["effect"], abs(said["value"] - true) / abs(true), covers))
+    return found
+
+
+def clear_top(cells, ratio=1.25):
+    """The cell with the largest share, if it is clearly the largest."""
+    ordered = sorted(cells.items(), key=lambda item: -item[1])
+    if len(ordered) > 1 and ordered[1][1] * ratio > ordered[0][1]:
+        return None
+    return ordered[0][0]
+
+
+def patch_overlaps(value, effect):
+    """Does a floor cell of the answer touch the true patch? The cell as {x, y}, or with bounds."""
+    p = effect["parameters"]
+    if not isinstance(value, dict):
+        return None
+    x = value.get("x_m", value.get("x", value.get("x_min_m")))
+    y = value.get("y_m", value.get("y", value.get("y_min_m")))
+    if x is None or y is None:
+        return None
+    size = 1.0
+    x_high, y_high = value.get("x_max_m", x + size / 2), value.get("y_max_m", y + size / 2)
+    x_low, y_low = value.get("x_min_m", x - size / 2), value.get("y_min_m", y - size / 2)
+    return x_low < p["x_max_m"] and x_high > p["x_min_m"] and y_low < p["y_max_m"] and y_high > p["y_min_m"]

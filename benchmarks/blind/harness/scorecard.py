@@ -1,0 +1,176 @@
+"""The scorecard of a campaign: one row per measure, from labels and answers."""
+import math
+
+import judge
+from statistics_of import calibration, median, smallest_found, wilson
+
+
+class Rate:
+    """A proportion with its interval, the aim and what counts as failed."""
+
+    def __init__(self, name, outcomes, aim, fails, higher_is_better=True):
+        outcomes = list(outcomes)
+        self.name, self.aim, self.fails, self.up = name, aim, fails, higher_is_better
+        self.hits, self.total = sum(outcomes), len(outcomes)
+        self.value = self.hits / self.total if self.total else float("nan")
+        self.interval = wilson(self.hits, self.total)
+
+    def state(self):
+        if self.total == 0 or self.aim is None:
+            return ""
+        better = (lambda a, b: a >= b) if self.up else (lambda a, b: a <= b)
+        return "aim" if better(self.value, self.aim) else ("ok" if better(self.value, self.fails) else "FAILS")
+
+    def row(self):
+        if self.total == 0:
+            return f"| {self.name} | no case | | | | |"
+        low, high = self.interval
+        aim = "" if self.aim is None else f"{self.aim:g}"
+        fails = "" if self.fails is None else f"{self.fails:g}"
+        return f"| {self.name} | {self.value:.3f} | {low:.3f}–{high:.3f} | {self.hits}/{self.total} | {aim} / {fails} | {self.state()} |"
+
+
+class Value:
+    """A number (median, error) with its aim."""
+
+    def __init__(self, name, value, count, aim, fails, higher_is_better=False):
+        self.name, self.value, self.count, self.aim, self.fails, self.up = name, value, count, aim, fails, higher_is_better
+
+    def state(self):
+        if self.aim is None or math.isnan(self.value):
+            return ""
+        better = (lambda a, b: a >= b) if self.up else (lambda a, b: a <= b)
+        return "aim" if better(self.value, self.aim) else ("ok" if better(self.value, self.fails) else "FAILS")
+
+    def row(self):
+        aim = "" if self.aim is None else f"{self.aim:g} / {self.fails:g}"
+        return f"| {self.name} | {self.value:.3g} | | {self.count} | {aim} | {self.state()} |"
+
+
+def rates(cases):
+    """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions."""
+    of = lambda name: [(l, a) for l, a in cases if l["bin"] == name]
+    singles = [(l, a) for l, a in of("single") if judge.detectable(l)]
+    pairs = [(l, a) for l, a in of("pair") if judge.detectable(l)]
+    nulls = of("null")
+    foreign = [(l, a) for l, a in of("foreign") if judge.detectable(l)]
+    removed = [(l, a) for l, a in of("removed") if judge.detectable(l)]
+    known = of("single") + of("pair")
+    named = [(l, a) for l, a in known if a.gives_a_name]
+    both = lambda l, a: set(judge.truth_of(l)) <= a.group and not a.silent
+    return [
+        Rate("top-1, single detectable effect", (a.first in judge.truth_of(l) for l, a in singles), 0.95, 0.85),
+        Rate("top-3, single detectable effect", (judge.truth_of(l)[0] in a.top(3) for l, a in singles), 0.99, 0.95),
+        Rate("true effect inside the named group", (judge.truth_of(l)[0] in a.group and not a.silent for l, a in singles), 0.98, 0.95),
+        Rate("exactly the true set, single detectable", (set(a.names) == set(judge.truth_of(l)) and not a.silent for l, a in singles), None, None),
+        Rate("silent on a detectable single effect", (a.silent for l, a in singles), None, None, False),
+        Rate("wrong name, when a name is given", (judge.wrong_name(a, l) for l, a in named), 0.02, 0.05, False),
+        Rate("a name too many, when a name is given", (bool(set(a.names) - set(judge.truth_of(l))) for l, a in named), None, None, False),
+        Rate("false alarm on null sets", (not a.silent for l, a in nulls), 0.01, 0.05, False),
+        Rate("pairs: both", (both(l, a) for l, a in pairs), 0.85, 0.65),
+        Rate("pairs: at least one", (bool(set(judge.truth_of(l)) & a.group) and not a.silent for l, a in pairs), 0.98, 0.95),
+        Rate("foreign effect: says none fits (unexplained or partly)", (a.says_none_fits() for l, a in foreign), 0.9, 0.75),
+        Rate("foreign effect: says unexplained, names nothing", (a.verdict == "unexplained" for l, a in foreign), None, None),
+        Rate("true effect removed: says none fits", (a.says_none_fits() for l, a in removed), 0.85, 0.75),
+        Rate("correction makes held-out runs worse", ((a.energy("shrink_fraction") or 0) < 0 for l, a in cases if a.gives_a_name), None, None, False),
+    ]
+
+
+def place_rates(cases):
+    """Does `where` put the gap where the plant knows that it is? Only where the truth's largest cell is clear."""
+    rows, outcomes = [], {"phase": [], "wheel": [], "floor": []}
+    for label, answer in cases:
+        if label["bin"] != "single" or not judge.detectable(label) or answer.silent:
+            continue
+        effect = label["effects"][0]
+        phase = judge.clear_top(label["oracle"]["where"]["phase"])
+        if phase and answer.top_cell("phase"):
+            outcomes["phase"].append(answer.top_cell("phase") == phase)
+        wheel = judge.clear_top(label["oracle"]["where"]["wheel"])
+        if wheel and effect["effect"] in judge.SIDED and answer.top_cell("wheel"):
+            outcomes["wheel"].append(answer.top_cell("wheel") == wheel)
+        if effect["effect"] == "floor_patch":
+            hit = judge.patch_overlaps(answer.top_cell("floor"), effect)
+            if hit is not None:
+                outcomes["floor"].append(hit)
+    for axis, hits in outcomes.items():
+        rows.append(Rate(f"right {'cell' if axis == 'floor' else axis}", hits, 0.95, 0.85))
+    return rows
+
+
+def values(cases, seconds):
+    """The measures that are no proportions."""
+    with_gap = [(l, a) for l, a in cases if l["bin"] == "single" and judge.detectable(l) and not a.silent
+                and (a.energy("before_percent") or 0) > 2 and a.energy("shrink_fraction") is not None]
+    shrink = [a.energy("shrink_fraction") for l, a in with_gap]
+    of_ceiling = [a.energy("shrink_fraction") / a.raw["ceiling"]["shrink_fraction"] for l, a in with_gap
+                  if (a.raw.get("ceiling") or {}).get("shrink_fraction", 0) > 0.05]
+    detectable = [(l, a) for l, a in cases if judge.detectable(l) and l["bin"] in ("single", "pair")]
+    errors = [e for l, a in detectable for e in judge.parameter_errors(a, l)]
+    covered = [c for _, _, c in errors if c is not None]
+    groups = [len(a.group_of_first) for l, a in detectable if a.names]
+    told = [(a.probability, a.first in judge.truth_of(l)) for l, a in cases if a.gives_a_name]
+    ece, brier, _ = calibration(told)
+    mean = sum(groups) / len(groups) if groups else float("nan")
+    result = [
+        Value("held-out energy gap closed, median fraction of the gap (gap > 2 %)", median(shrink), len(shrink), 0.85, 0.6, True),
+        Value("the same, of the ceiling", median(of_ceiling), len(of_ceiling), 0.95, 0.6, True),
+        Value("median error of the effect's first parameter", median([e for _, e, _ in errors]), len(errors), 0.05, 0.15),
+        Value("95 % interval of that parameter covers the truth", sum(covered) / len(covered) if covered else float("nan"), len(covered), None, None, True),
+        Value("mean size of the named group", mean, len(groups), 1.5, 3.0),
+        Value("expected calibration error of the probabilities", ece, len(told), 0.03, 0.08),
+        Value("Brier score of the probabilities", brier, len(told), None, None),
+        Value("run time of a diagnosis, median (s)", median(seconds), len(seconds), 2.0, 10.0),
+    ]
+    if seconds:
+        result.append(Value("run time of a diagnosis, slowest (s)", max(seconds), len(seconds), None, None))
+    return result
+
+
+def power(cases):
+    """Per effect: sizes with found or not, the smallest size found in 90 %, the smallest size the oracle detects."""
+    table = {}
+    for label, answer in cases:
+        if label["bin"] != "single":
+            continue
+        effect = label["effects"][0]
+        name, size = effect["effect"], abs(next(iter(effect["parameters"].values())))
+        entry = table.setdefault(name, {"points": [], "parameter": next(iter(effect["parameters"]))})
+        found = name in answer.group and not answer.silent
+        entry["points"].append((size, found, judge.detectable(label)))
+    for name, entry in table.items():
+        inverse = name == "wheel_slip"  # a softer tyre is the larger effect
+        scaled = [(1 / s if inverse else s, f) for s, f, _ in entry["points"]]
+        best = smallest_found(scaled)
+        entry["smallest_found"] = None if best is None else (1 / best if inverse else best)
+        seen = [s for s, _, d in entry["points"] if d]
+        entry["smallest_detectable"] = (max(seen) if inverse else min(seen)) if seen else None
+        entry["found"] = sum(f for _, f, d in entry["points"] if d)
+        entry["detectable"] = sum(d for _, _, d in entry["points"])
+    return table
+
+
+def confusion(cases):
+    """Of detectable single effects: {true: {first name or verdict: count}}."""
+    table = {}
+    for label, answer in cases:
+        if label["bin"] == "single" and not judge.detectable(label):
+            continue
+        if label["bin"] not in ("single", "null", "foreign"):
+            continue
+        true = label["effects"][0]["effect"] if label["effects"] else "(null)"
+        said = answer.first if answer.gives_a_name else f"({answer.verdict})"
+        row = table.setdefault(true, {})
+        row[said] = row.get(said, 0) + 1
+    return table
+
+
+def risk_coverage(cases):
+    """Cases with a name, surest first: (share of the cases answered, share of wrong names among them)."""
+    told = sorted(((a.probability, judge.wrong_name(a, l)) for l, a in cases
+                   if l["bin"] in ("single", "pair", "null", "foreign") and a.gives_a_name), reverse=True)
+    curve, wrong = [], 0
+    for k, (_, is_wrong) in enumerate(told, 1):
+        wrong += is_wrong
+        curve.append((k / max(1, len(cases)), wrong / k))
+    return curve
