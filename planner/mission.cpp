@@ -7,6 +7,7 @@
 #include "planner/leg_path.hpp"
 #include "planner/leg_timing.hpp"
 #include "planner/plan_accounts.hpp"
+#include "planner/prescribed_leg.hpp"
 #include "planner/time_split.hpp"
 
 namespace joulepath {
@@ -50,6 +51,12 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     if (auto reason = payload_too_heavy(world.robot, leg, pose)) {
       plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
       return draft;
+    }
+    if (leg.motion) {
+      draft.timing.emplace_back(std::vector<ProfileRequest>{});
+      draft.legs.push_back(prescribed_leg(leg, plant, pose));
+      pose = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      continue;
     }
     LegPath way = leg_path(leg, k, pose, mission, world, options);
     if (way.infeasibility) {
@@ -161,6 +168,7 @@ TimeSplit share_time(Draft& draft, const MissionRequest& mission, double standby
     request.latest_arrival_s.back() = std::min(request.latest_arrival_s.back(),
                                                *mission.objective.deadline_s - mission.legs.back().dwell_s);
   request.duration_s = [&](std::size_t leg, double price_W) {
+    if (draft.legs[leg].prescribed) return draft.legs[leg].duration_s;
     const double own_s =
         draft.timing[leg].duration_s(std::isnan(own_price_W[leg]) ? price_W : own_price_W[leg], solver);
     return mission.legs[leg].duration_s ? std::max(own_s, *mission.legs[leg].duration_s) : own_s;
@@ -174,6 +182,7 @@ TimeSplit share_time(Draft& draft, const MissionRequest& mission, double standby
 /// The final solution of a leg at its price, replayed and accounted for.
 void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration_s,
                 const PlanOptions& options, const Plant& plant) {
+  if (leg.prescribed) return;
   const std::vector<ProfileResult>& results = timing.solve(price_W, options.solver);
   leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/prescribed_leg.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -12,13 +14,6 @@ struct Sample {
   Site site{};
   double arc_length_m{};
   double curvature_per_m{};
-};
-
-/// Where in a leg an instant falls.
-struct LegClock {
-  const LegPlan* leg{};
-  std::size_t index{};
-  double end_s{};  ///< departure of the next leg
 };
 
 Sample sample_stretch(const StretchPlan& stretch, double time_s, double offset_m) {
@@ -33,7 +28,17 @@ Sample sample_stretch(const StretchPlan& stretch, double time_s, double offset_m
 }
 
 /// State of a leg `elapsed_s` after its departure; at rest at its end during dwell.
-Sample sample_leg(const LegPlan& leg, double elapsed_s) {
+Sample sample_leg(const LegPlan& leg, const Plant& plant, double elapsed_s) {
+  if (leg.prescribed) {
+    const SampledState state = sampled_state(*leg.prescribed, leg.prescribed->time_s.front() + elapsed_s);
+    Sample sample{.motion = state.motion,
+                  .site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg,
+                                  state.motion.speed_m_s, state.motion.yaw_rate_rad_s, elapsed_s),
+                  .arc_length_m = state.arc_length_m,
+                  .curvature_per_m = state.curvature_per_m};
+    if (elapsed_s >= leg.duration_s) sample.motion = {};
+    return sample;
+  }
   double offset_m = 0.0;
   for (std::size_t k = 0; k < leg.stretches.size(); ++k) {
     const StretchPlan& stretch = leg.stretches[k];
@@ -99,7 +104,7 @@ Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz)
     if (k > 0 && time_s <= out.time_s.back()) break;
     while (index + 1 < plan.legs.size() && time_s >= plan.legs[index + 1].start_s) ++index;
     const LegPlan& leg = plan.legs[index];
-    const Sample sample = sample_leg(leg, time_s - leg.start_s);
+    const Sample sample = sample_leg(leg, plant, time_s - leg.start_s);
     const double payload_kg = leg.stretches.empty() ? leg.payload.from_kg : sample.site.payload_kg;
     append(out, plant, sample, time_s, payload_kg, index);
   }

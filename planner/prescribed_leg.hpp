@@ -1,0 +1,20 @@
+#pragma once
+
+#include "planner/plan.hpp"
+
+namespace joulepath {
+
+/// Body motion and place at an instant of a sampled motion whose speeds are linear between samples.
+struct SampledState {
+  BodyMotion<double> motion{};
+  Pose pose{};
+  double arc_length_m{};
+  double curvature_per_m{};
+};
+[[nodiscard]] SampledState sampled_state(const Trajectory& trajectory, double time_s);
+
+/// A leg whose motion is prescribed: nothing is optimized, its energy is accounted for by the same model.
+/// Throws ConfigError at the leg's marks where the prescription makes no sense.
+[[nodiscard]] LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& start);
+
+}  // namespace joulepath
