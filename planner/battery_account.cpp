@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/nuisance.hpp"
+#include "planner/prescribed_leg.hpp"
 
 namespace joulepath {
 namespace {
@@ -25,24 +26,35 @@ void add_sample(LegLoss& loss, const Battery& battery, double power_W, double du
   loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
 }
 
-/// Loss in the internal resistance over a leg, at the midpoints of steps of 20 ms.
+/// Adds a drive of `duration_s` at the midpoints of steps of 20 ms; power_W(t) is at the terminals.
+template <class Power>
+void add_drive(LegLoss& loss, const Battery& battery, double duration_s, Power&& power_W) {
+  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / kStep_s));
+  const double step_s = steps ? duration_s / static_cast<double>(steps) : 0.0;
+  for (std::size_t k = 0; k < steps; ++k)
+    add_sample(loss, battery, power_W((static_cast<double>(k) + 0.5) * step_s), step_s);
+}
+
 LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
   LegLoss loss;
+  const Battery& battery = plant.robot.battery;
   for (const StretchPlan& stretch : leg.stretches) {
-    const PathMotion motion = path_motion(stretch.request);
-    const double duration_s = stretch.profile.duration_s();
-    const auto steps = static_cast<std::size_t>(std::ceil(duration_s / kStep_s));
-    const double step_s = steps ? duration_s / static_cast<double>(steps) : 0.0;
-    for (std::size_t k = 0; k < steps; ++k) {
-      const ProfileState state = stretch.profile.at_time((static_cast<double>(k) + 0.5) * step_s);
-      const PathRates rates = motion.rates(state.s);
-      const PowerByCause watts =
-          power_by_cause(plant, PathMotion::body_motion(rates, state.rate, state.acceleration),
-                         motion.site(state.s, state.time_s));
-      add_sample(loss, plant.robot.battery, watts.total_W(), step_s);
-    }
+    const PathMotion path = path_motion(stretch.request);
+    add_drive(loss, battery, stretch.profile.duration_s(), [&](double time_s) {
+      const ProfileState state = stretch.profile.at_time(time_s);
+      const BodyMotion<double> motion =
+          PathMotion::body_motion(path.rates(state.s), state.rate, state.acceleration);
+      return power_by_cause(plant, motion, path.site(state.s, state.time_s)).total_W();
+    });
   }
-  add_sample(loss, plant.robot.battery, plant.robot.power.standby_W, leg.dwell_s);
+  if (leg.prescribed)
+    add_drive(loss, battery, leg.duration_s, [&](double time_s) {
+      const SampledState state = sampled_state(*leg.prescribed, leg.prescribed->time_s.front() + time_s);
+      const Site site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg, state.motion.speed_m_s,
+                                state.motion.yaw_rate_rad_s, time_s);
+      return power_by_cause(plant, state.motion, site).total_W();
+    });
+  add_sample(loss, battery, plant.robot.power.standby_W, leg.dwell_s);
   return loss;
 }
 
@@ -58,6 +70,7 @@ double energy_with(const Plan& plan, const Plant& plant, const Nuisance& nuisanc
       request.plant = other;
       energy_J += energy_by_cause(path_motion(request), stretch.profile).total_J();
     }
+    if (leg.prescribed) energy_J += prescribed_energy(leg, other).total_J();
     energy_J += other.robot.power.standby_W * leg.dwell_s;
   }
   return energy_J;

@@ -6,28 +6,6 @@
 #include "model/motions.hpp"
 
 namespace joulepath {
-namespace {
-
-/// Joules of a sampled motion, by three Gauss points in every interval.
-EnergyByCause energy_of(const Trajectory& motion, const Plant& plant, double payload_kg) {
-  constexpr double kNode = 0.7745966692414834;
-  constexpr struct { double x, weight; } kGauss[] = {{-kNode, 5.0 / 18}, {0.0, 8.0 / 18}, {kNode, 5.0 / 18}};
-  EnergyByCause energy;
-  for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
-    const double length_s = motion.time_s[k + 1] - motion.time_s[k];
-    for (const auto& gauss : kGauss) {
-      const double time_s = motion.time_s[k] + 0.5 * (1 + gauss.x) * length_s;
-      const SampledState state = sampled_state(motion, time_s);
-      const Site site = site_of(plant.robot.geometry, state.pose, payload_kg, state.motion.speed_m_s,
-                                state.motion.yaw_rate_rad_s, time_s);
-      energy.add(plant, power_by_cause(plant, state.motion, site), gauss.weight * length_s);
-    }
-  }
-  return energy;
-}
-
-}  // namespace
-
 SampledState sampled_state(const Trajectory& trajectory, double time_s) {
   const std::vector<double>& times_s = trajectory.time_s;
   const auto after = std::upper_bound(times_s.begin(), times_s.end(), time_s);
@@ -54,6 +32,24 @@ SampledState sampled_state(const Trajectory& trajectory, double time_s) {
           .curvature_per_m = between(trajectory.curvature_per_m)};
 }
 
+EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant) {
+  const Trajectory& motion = *leg.prescribed;
+  constexpr double kNode = 0.7745966692414834;
+  constexpr struct { double x, weight; } kGauss[] = {{-kNode, 5.0 / 18}, {0.0, 8.0 / 18}, {kNode, 5.0 / 18}};
+  EnergyByCause energy;
+  for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
+    const double length_s = motion.time_s[k + 1] - motion.time_s[k];
+    for (const auto& gauss : kGauss) {
+      const double time_s = motion.time_s[k] + 0.5 * (1 + gauss.x) * length_s;
+      const SampledState state = sampled_state(motion, time_s);
+      const Site site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg, state.motion.speed_m_s,
+                                state.motion.yaw_rate_rad_s, time_s);
+      energy.add(plant, power_by_cause(plant, state.motion, site), gauss.weight * length_s);
+    }
+  }
+  return energy;
+}
+
 LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& start) {
   LegPlan planned{.to = "motion",
                   .path_source = "prescribed",
@@ -74,7 +70,7 @@ LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& st
   if (motion.size() == 0) return planned;
   planned.duration_s = motion.time_s.back() - motion.time_s.front();
   if (!motion.arc_length_m.empty()) planned.distance_m = motion.arc_length_m.back();
-  planned.energy = energy_of(motion, plant, leg.payload.from_kg);
+  planned.energy = prescribed_energy(planned, plant);
   planned.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
   return planned;
 }

@@ -13,6 +13,9 @@ struct SampledState {
 };
 [[nodiscard]] SampledState sampled_state(const Trajectory& trajectory, double time_s);
 
+/// Joules by cause of a prescribed leg's motion (without dwell), three Gauss points in every interval.
+[[nodiscard]] EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant);
+
 /// A leg whose motion is prescribed: nothing is optimized, its energy is accounted for by the same model.
 /// Throws ConfigError at the leg's marks where the prescription makes no sense.
 [[nodiscard]] LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& start);
