@@ -1,0 +1,92 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/plan_summary.hpp"
+#include "planner/mission.hpp"
+#include "planner/plan_trajectory.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/plan_file.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class PlanCommand : public Command {
+ public:
+  std::string name() const override { return "plan"; }
+  std::string says() const override { return "plan a mission for the least energy"; }
+  std::string examples() const override {
+    return "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
+           "  joulepath plan mission.yaml --out out --json | jq .energy_J\n";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("mission", mission_, "mission file (YAML)")->required();
+    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, timing.json")->required();
+    app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
+        ->check(CLI::IsMember({"ipopt", "fast"}))
+        ->capture_default_str();
+    app.add_option("--nodes", options_.nodes, "nodes of the first grid on each stretch")
+        ->check(CLI::Range(10, 20000))
+        ->capture_default_str();
+    app.add_option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
+        ->check(CLI::Range(1e-7, 1e-1))
+        ->capture_default_str();
+    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    app.add_option("--robot", robot_, "robot file in place of the mission's");
+    app.add_option("--map", map_, "map in place of the mission's");
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const Clock::time_point start = Clock::now();
+    OutputDirectory out(out_, {"plan.json", "trajectory.csv", "timing.json", "report.html"}, common_.force);
+    const ReadOptions reading{.untrusted = common_.untrusted};
+    MissionRequest mission = read_mission(mission_, reading);
+    if (!robot_.empty()) mission.robot_file = robot_;
+    if (!map_.empty()) mission.map_file = map_;
+    const MissionWorld world = read_world(mission, reading);
+    const double reading_s = seconds_since(start);
+    options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
+    const Plan plan = plan_mission(mission, world, options_);
+    const double planning_s = seconds_since(start) - reading_s;
+
+    const std::string json = plan_json_text(plan);
+    out.write("plan.json", json);
+    out.write("timing.json", "{\"reading_s\": " + std::to_string(reading_s) +
+                                 ", \"planning_s\": " + std::to_string(planning_s) + "}\n");
+    const bool valid = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
+    if (valid) out.write("trajectory.csv", run_log_text(plan_trajectory(plan, make_plant(world.robot))));
+    out.commit();
+    if (common_.json)
+      std::cout << json;
+    else if (!common_.quiet)
+      print_plan_summary(std::cout, plan, out.path());
+    return valid ? kDone : kInfeasibleOrFailed;
+  }
+
+ private:
+  std::string mission_{};
+  std::string out_{};
+  std::string solver_{"ipopt"};
+  std::string robot_{};
+  std::string map_{};
+  PlanOptions options_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_plan_command() { return std::make_unique<PlanCommand>(); }
+
+}  // namespace joulepath

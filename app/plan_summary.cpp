@@ -1,0 +1,105 @@
+#include "app/plan_summary.hpp"
+
+#include <ostream>
+
+#include "app/terminal.hpp"
+#include "planner/plan_accounts.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string kg(const PayloadAlongLeg& payload) {
+  return payload.from_kg == payload.to_kg ? figure(payload.from_kg)
+                                          : figure(payload.from_kg) + " to " + figure(payload.to_kg);
+}
+
+double effects_J(const EnergyByCause& energy) {
+  double sum_J = 0.0;
+  for (const auto& [name, energy_J] : energy.effects_J) sum_J += energy_J;
+  return sum_J;
+}
+
+std::vector<std::string> energy_cells(const EnergyByCause& energy) {
+  return {figure(energy.copper_J),  figure(energy.coulomb_friction_J), figure(energy.viscous_friction_J),
+          figure(energy.kinetic_J), figure(energy.not_recovered_J),    figure(effects_J(energy)),
+          figure(energy.standby_J), figure(energy.total_J(), 5)};
+}
+
+std::string saving_cell(const BaselineTotal& baseline, const EnergyByCause& energy, bool motion_only) {
+  if (!baseline.feasible) return "infeasible";
+  const double saving = motion_only ? saving_percent(energy.motion_J(), baseline.motion_energy_J)
+                                    : saving_percent(energy.total_J(), baseline.energy_J);
+  return figure(saving, 3) + " %";
+}
+
+void print_legs(std::ostream& stream, const Plan& plan) {
+  Table table({"leg", "payload kg", "m", "s", "copper", "Coulomb", "viscous", "kinetic", "not recov.",
+               "effects", "standby", "total J", "Wh"});
+  const auto row = [&](const std::string& name, const std::string& payload, double distance_m,
+                       double duration_s, const EnergyByCause& energy) {
+    std::vector<std::string> cells{name, payload, figure(distance_m), figure(duration_s)};
+    for (std::string& cell : energy_cells(energy)) cells.push_back(std::move(cell));
+    cells.push_back(figure(energy.total_J() / 3600.0, 4));
+    table.row(std::move(cells));
+  };
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    const LegPlan& leg = plan.legs[k];
+    row(std::to_string(k) + " " + leg.to, kg(leg.payload), leg.distance_m, leg.duration_s + leg.dwell_s,
+        leg.energy);
+  }
+  table.rule();
+  row("all", "", plan.distance_m, plan.duration_s, plan.energy);
+  table.print(stream);
+}
+
+void print_baselines(std::ostream& stream, const Plan& plan) {
+  Table table({"same path, same time", "total J", "saved", "motion J", "saved of motion"});
+  for (const BaselineTotal& baseline : plan.baselines)
+    table.row({baseline.name, baseline.feasible ? figure(baseline.energy_J, 5) : "-",
+               saving_cell(baseline, plan.energy, false),
+               baseline.feasible ? figure(baseline.motion_energy_J, 5) : "-",
+               saving_cell(baseline, plan.energy, true)});
+  table.row({"this plan", figure(plan.energy.total_J(), 5), "", figure(plan.energy.motion_J(), 5), ""});
+  table.print(stream);
+}
+
+void print_battery(std::ostream& stream, const BatteryAccount& battery) {
+  stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
+         << figure(100 * battery.end_fraction, 5) << " % (95 %: " << figure(100 * battery.interval_95[0], 5)
+         << " to " << figure(100 * battery.interval_95[1], 5) << "), needs "
+         << figure(battery.required_capacity_Wh, 4) << " Wh with 95 % certainty, "
+         << figure(battery.missions_per_charge, 6) << " such missions per charge\n";
+}
+
+void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict) {
+  const Infeasibility& reason = verdict.reason;
+  stream << "infeasible: " << reason.constraint << " on leg " << verdict.leg << " at "
+         << figure(verdict.arc_length_m) << " m (x " << figure(reason.x_m) << ", y " << figure(reason.y_m)
+         << "), by " << figure(reason.amount) << " " << reason.unit << "\n";
+  if (!reason.message.empty()) stream << "  " << reason.message << "\n";
+  for (const auto& [key, value] : reason.relaxation)
+    stream << "  would do: " << key << " = " << figure(value, 6) << "\n";
+}
+
+}  // namespace
+
+void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {
+  if (plan.infeasibility) {
+    print_infeasibility(stream, *plan.infeasibility);
+  } else if (plan.status == SolveStatus::failed) {
+    stream << "failed: " << plan.message << "\n";
+  } else {
+    print_legs(stream, plan);
+    stream << "\n";
+    print_baselines(stream, plan);
+    stream << "\n"
+           << solve_status_name(plan.status) << (plan.local ? " (local)" : "")
+           << ", optimality gap <= " << figure(plan.gap_percent, 2) << " %, replay "
+           << figure(plan.replay_energy_J, 6) << " J, worst violation " << figure(plan.worst_violation, 2)
+           << "\n";
+    if (plan.battery) print_battery(stream, *plan.battery);
+  }
+  stream << "results in " << directory << "\n";
+}
+
+}  // namespace joulepath

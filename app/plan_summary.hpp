@@ -1,0 +1,14 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "planner/plan.hpp"
+
+namespace joulepath {
+
+/// What `plan` says on the terminal: legs, energy by cause, against the baselines, battery, where the files
+/// are.
+void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory);
+
+}  // namespace joulepath
