@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "model/operating_point.hpp"
+
+namespace joulepath {
+
+/// Gains of the wheels' speed loops; what is absent is designed from the robot: a closed loop that
+/// settles with `bandwidth_per_s` on the wheel's straight-line inertia.
+struct ControllerSettings {
+  double period_s{0.01};
+  double bandwidth_per_s{12.0};
+  std::optional<double> proportional_V_s_rad{};
+  std::optional<double> integral_V_rad{};
+  bool feed_forward{true};  ///< voltage of the nominal model, effects of the robot file included
+};
+
+/// One PI loop per wheel on its speed, beside the voltage that the nominal model asks for.
+///
+///   V = V_model(v, omega, v', omega') + k_p e + k_i \int e dt,   e = q'_ref - q'
+///
+/// The integral stops where the driver saturates, and drains while the robot is to stand and stands.
+class WheelController {
+ public:
+  WheelController(const ControllerSettings& settings, const Robot& robot);
+
+  /// Voltages (V) for the next period; `limit_V` is what the driver can put out.
+  [[nodiscard]] Sided<double> command_V(const BodyMotion<double>& reference, const Site& site,
+                                        const Sided<double>& wheel_speed_rad_s, const Sided<double>& limit_V);
+
+  const ControllerSettings& settings() const { return settings_; }
+
+ private:
+  ControllerSettings settings_;
+  Plant nominal_;
+  Sided<double> proportional_{};
+  Sided<double> integral_{};
+  Sided<double> integral_V_{};
+};
+
+}  // namespace joulepath

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "model/simulation/drive.hpp"
+
+namespace joulepath {
+
+struct IntegratorOptions {
+  double tolerance{1e-8};     ///< of a step, absolute and relative
+  double max_step_s{0.01};
+};
+
+/// Carries a Drive forward in time: Cash-Karp steps with error control (Boost.Odeint), and events where
+/// a sliding surface comes to rest or a holding one breaks away, located by bisection, so that no step
+/// reaches across a corner of the friction law.
+class DriveIntegrator {
+ public:
+  DriveIntegrator(Drive drive, const DriveState& start, const IntegratorOptions& options);
+
+  Drive& drive() { return drive_; }
+  const Drive& drive() const { return drive_; }
+  const DriveState& state() const { return state_; }
+  double time_s() const { return time_s_; }
+  const FrictionMode& mode() const { return mode_; }
+  /// True where both wheels hold.
+  bool at_rest() const { return mode_[kLeftWheel] == 0 && mode_[kRightWheel] == 0; }
+  [[nodiscard]] Drive::Instant instant() const { return drive_.evaluate(state_, time_s_, mode_); }
+
+  void advance_to(double end_s);
+
+  std::size_t steps() const { return steps_; }
+  std::size_t events() const { return events_; }
+  bool battery_gave_way() const { return battery_gave_way_; }
+
+ private:
+  bool turned(const DriveState& state, Surface surface) const;
+  bool corner(const DriveState& state, double time_s) const;
+  void break_away();
+  void settle();
+  double locate_corner(const DriveState& from, double step_s, DriveState& beyond) const;
+
+  Drive drive_;
+  DriveState state_;
+  FrictionMode mode_{};
+  IntegratorOptions options_;
+  double time_s_{};
+  double step_s_{};
+  std::size_t steps_{};
+  std::size_t events_{};
+  bool battery_gave_way_{};
+};
+
+}  // namespace joulepath

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/simulation/drive.hpp"
+#include "model/trajectory.hpp"
+
+namespace joulepath {
+
+/// What the instruments make of the truth. The default is ideal: exact means over the sample period
+/// (pose: the value at its end), without noise. Noise is white and Gaussian, one sigma per sample.
+struct SensorSettings {
+  double sample_rate_Hz{50.0};
+  double encoder_counts_per_revolution{};  ///< at the wheel; 0 = continuous
+  double wheel_speed_noise_rad_s{};
+  double voltage_noise_V{};
+  double current_noise_A{};
+  double current_resolution_A{};  ///< quantization, 0 = none
+  double voltage_resolution_V{};
+  double electrical_delay_s{};    ///< age of motor voltage and current readings
+  double gyro_noise_rad_s{};
+  double position_noise_m{};
+  double heading_noise_rad{};
+};
+
+/// Sensors as small robots carry them.
+[[nodiscard]] SensorSettings typical_sensors();
+
+/// The truth at the end of a sample period.
+struct Snapshot {
+  double time_s{};
+  DriveState state{};
+  Drive::Instant instant{};
+  double command_speed_m_s{};
+  double command_yaw_rate_rad_s{};
+  double payload_kg{};  ///< as stated
+};
+
+/// The log that the instruments write: a row for every snapshot but the first. Readings are means since
+/// the snapshot before; instrument effects (distort_log) come on top.
+[[nodiscard]] Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings& settings,
+                                      bool has_battery, std::uint64_t seed);
+
+}  // namespace joulepath

@@ -1,0 +1,230 @@
+#include "model/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "model/config_error.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::nomad;
+
+SimulationRequest request_for(const Robot& robot, const std::vector<PrescribedMotion>& motions,
+                              double payload_kg = 0.0) {
+  const TimedMotion motion = timed_motion(robot, motions, {.payload_kg = payload_kg});
+  return {.robot = robot,
+          .reference = motion.trajectory,
+          .coasting = motion.coasting,
+          .payload_kg = payload_kg};
+}
+
+const PrescribedMotion kStraight{.profile = MotionProfile::trapezoid, .speed_m_s = 0.6, .distance_m = 4};
+const PrescribedMotion kBack{
+    .profile = MotionProfile::trapezoid, .speed_m_s = 0.4, .distance_m = 1, .reverse = true};
+const PrescribedMotion kArc{
+    .profile = MotionProfile::arc, .speed_m_s = 0.5, .radius_m = 1.0, .angle_rad = 2.0};
+const PrescribedMotion kSpin{.profile = MotionProfile::spin, .angle_rad = -2.5};
+const PrescribedMotion kStand{.profile = MotionProfile::stand, .duration_s = 1.0};
+const std::vector<PrescribedMotion> kTour{kStraight, kStand, kArc, kSpin, kStand, kBack, kSpin};
+
+Robot crooked_robot() {
+  Robot robot = nomad();
+  robot.geometry.center_of_mass_offset_m = 0.06;
+  robot.geometry.wheel_radius_m = {0.1, 0.101};
+  return robot;
+}
+
+EffectSetting setting_of_typical(const EffectDescription& description) {
+  EffectSetting setting{.name = std::string(description.info.name)};
+  for (const ParameterDescription& p : description.parameters) setting.parameters[p.name] = p.typical;
+  if (description.has_side) setting.side = Side::right;
+  if (description.has_cells) setting.parameters["x_min_m"] = setting.parameters["y_min_m"] = -10;
+  if (description.has_cells) setting.parameters["x_max_m"] = setting.parameters["y_max_m"] = 10;
+  return setting;
+}
+
+double imbalance_J(const EnergyBalance& b) {
+  return b.motors_J - b.copper_J - b.driver_J - b.gear_J - b.wheel_friction_J - b.body_work_J - b.creep_J -
+         b.stored_J;
+}
+
+TEST(Simulate, FollowsItsReferenceAndComesToRest) {
+  const SimulationResult result = simulate(request_for(nomad(), kTour));
+  EXPECT_TRUE(result.came_to_rest);
+  EXPECT_LT(result.worst_speed_error_rad_s, 0.05);
+  EXPECT_NEAR(result.final_pose.x_m, result.planned_pose.x_m, 0.01);
+  EXPECT_NEAR(result.final_pose.y_m, result.planned_pose.y_m, 0.01);
+  EXPECT_NEAR(result.final_pose.heading_rad, result.planned_pose.heading_rad, 0.005);
+  EXPECT_EQ(result.saturated_fraction, 0.0);
+}
+
+TEST(Simulate, EnergyInIsAccountedForUnderEveryEffect) {
+  for (const EffectDescription& description : effect_catalog()) {
+    SimulationRequest request = request_for(crooked_robot(), kTour, 5.0);
+    request.effects = {setting_of_typical(description)};
+    const SimulationResult result = simulate(request);
+    EXPECT_NEAR(imbalance_J(result.balance), 0.0, 1e-5 * result.balance.motors_J) << description.info.name;
+    EXPECT_TRUE(result.came_to_rest) << description.info.name;
+  }
+}
+
+TEST(Simulate, EnergyDoesNotDependOnTheStepSize) {
+  for (double inductance_H : {0.0, 0.0025}) {
+    SimulationRequest request = request_for(crooked_robot(), kTour, 5.0);
+    for (Side side : kSides) request.robot.motor[side].inductance_H = inductance_H;
+    request.effects = {{.name = "turning_scrub", .parameters = {{"moment_Nm", 0.4}}},
+                       {.name = "stribeck_friction", .parameters = {{"torque_Nm", 0.05}, {"speed_rad_s", 1.0}}}};
+    const SimulationResult coarse = simulate(request);
+    request.integrator = {.tolerance = 1e-11, .max_step_s = 0.001};
+    const SimulationResult fine = simulate(request);
+    EXPECT_GT(fine.steps, 5 * coarse.steps);
+    EXPECT_NEAR(coarse.energy_J / fine.energy_J, 1.0, 1e-6);
+    EXPECT_NEAR(coarse.motor_energy_J.left / fine.motor_energy_J.left, 1.0, 1e-6);
+    EXPECT_NEAR(coarse.final_pose.x_m, fine.final_pose.x_m, 1e-6);
+    EXPECT_NEAR(coarse.final_pose.heading_rad, fine.final_pose.heading_rad, 1e-6);
+  }
+}
+
+TEST(Simulate, StictionHoldsOnASlopeUpToItsLimit) {
+  // Held without current while (m g grade) r/2 stays below each wheel's friction torque.
+  const double holding_grade = 2 * 0.346 / 0.1 / (23.98 * kGravity_m_s2);
+  for (double share : {0.98, 1.05}) {
+    SimulationRequest request = request_for(nomad(), {{.profile = MotionProfile::stand, .duration_s = 5}});
+    request.coasting = {{0, 5}};
+    request.effects = {{.name = "floor_slope",
+                        .parameters = {{"grade", share * holding_grade}, {"uphill_direction_rad", 0}}}};
+    const SimulationResult result = simulate(request);
+    if (share < 1) {
+      EXPECT_EQ(result.final_pose.x_m, 0.0);
+      EXPECT_EQ(result.executed.wheel_speed_rad_s.left.back(), 0.0);
+    } else {
+      EXPECT_LT(result.final_pose.x_m, -0.01);
+    }
+  }
+}
+
+TEST(Simulate, CoastingStopsWhereFrictionHasEatenTheKineticEnergy) {
+  Robot robot = nomad();
+  for (Side side : kSides) robot.motor[side].viscous_friction_Nm_s_rad = 0;
+  robot.motor.left.friction_torque_Nm = robot.motor.right.friction_torque_Nm = 0.35;
+  const SimulationResult result =
+      simulate(request_for(robot, {{.profile = MotionProfile::coast, .speed_m_s = 0.8}}));
+  const double mass_kg = 21.2 + 2 * 1.39 + 2 * 0.0281 / 0.01;
+  EXPECT_NEAR(result.final_pose.x_m, mass_kg * 0.8 * 0.8 / 2 / (2 * 0.35 / 0.1), 1e-7);
+  EXPECT_EQ(result.balance.motors_J, 0.0);
+  EXPECT_TRUE(result.came_to_rest);
+}
+
+TEST(Simulate, SteadySpeedDrawsTheCurrentOfTheModel) {
+  const Robot robot = nomad();
+  SimulationRequest request = request_for(
+      robot, {{.profile = MotionProfile::constant_speed, .speed_m_s = 0.5, .duration_s = 20}}, 8.0);
+  request.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.012}}}};
+  const SimulationResult result = simulate(request);
+  const double rolling_Nm = 0.012 * 0.5 * (23.98 + 8.0) * kGravity_m_s2 * 0.1;
+  const double expected_A = (0.3728 + 0.0017 * 5.0 + rolling_Nm) / (0.069 * 24.9);
+  EXPECT_NEAR(result.log.motor_current_A.left.back(), expected_A, 1e-6);
+  EXPECT_NEAR(result.log.motor_voltage_V.left.back(), 2.74 * expected_A + 0.069 * 24.9 * 5.0, 1e-6);
+}
+
+TEST(Simulate, CreepStatesApproachTheModelsCreepingContact) {
+  const Robot robot = nomad();
+  SimulationRequest request = request_for(
+      robot, {{.profile = MotionProfile::constant_speed, .speed_m_s = 0.5, .duration_s = 10}});
+  const EffectSetting drag{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 40.0}}};
+  for (double stiffness : {1000.0, 50000.0}) {  // states of their own, and the stiff limit
+    request.effects = {drag,
+                       {.name = "wheel_slip", .parameters = {{"creep_stiffness_N_s_m", stiffness}}}};
+    const SimulationResult result = simulate(request);
+    const std::size_t last = result.log.size() - 1;
+    const double body_m_s = (result.log.position_x_m[last] - result.log.position_x_m[last - 1]) / 0.02;
+    const double wheel_m_s = 0.1 * result.log.wheel_speed_rad_s.left[last];
+    const double force_N = 40.0 * body_m_s * body_m_s / 2;
+    EXPECT_NEAR(wheel_m_s - body_m_s, force_N / stiffness, 1e-3 * force_N / stiffness);
+  }
+}
+
+TEST(Simulate, MirroredEffectsGiveTheMirroredRun) {
+  Robot robot = nomad();
+  robot.motor.left.friction_torque_Nm = robot.motor.right.friction_torque_Nm = 0.36;
+  SimulationRequest request = request_for(robot, {kStraight, kArc});
+  request.effects = {{.name = "dragging_wheel", .parameters = {{"torque_Nm", 0.2}}, .side = Side::left}};
+  const SimulationResult a = simulate(request);
+  for (double& omega : request.reference.angular_speed_rad_s) omega = -omega;
+  request.effects[0].side = Side::right;
+  const SimulationResult b = simulate(request);
+  EXPECT_NEAR(a.motor_energy_J.left, b.motor_energy_J.right, 1e-9);
+  EXPECT_NEAR(a.final_pose.y_m, -b.final_pose.y_m, 1e-9);
+  EXPECT_NEAR(a.final_pose.heading_rad, -b.final_pose.heading_rad, 1e-9);
+}
+
+TEST(Simulate, DriversKeepTheirLimits) {
+  Robot robot = nomad();
+  for (Side side : kSides) {
+    robot.motor[side].max_current_A = 1.0;
+    robot.motor[side].max_voltage_V = 9.0;
+  }
+  const SimulationResult result = simulate(request_for(
+      robot, {{.profile = MotionProfile::trapezoid, .acceleration_m_s2 = 2, .speed_m_s = 0.9, .distance_m = 5}}));
+  for (double current_A : result.executed.motor_current_A.left) EXPECT_LE(std::abs(current_A), 1.0 + 1e-12);
+  for (double voltage_V : result.executed.motor_voltage_V.left) EXPECT_LE(std::abs(voltage_V), 9.0 + 1e-12);
+  EXPECT_GT(result.saturated_fraction, 0.1);
+}
+
+TEST(Simulate, InstrumentEffectsDistortTheLogOnly) {
+  SimulationRequest request = request_for(nomad(), kTour);
+  const SimulationResult plain = simulate(request);
+  request.effects = {
+      {.name = "current_sensor_offset", .parameters = {{"offset_A", 0.1}}, .side = Side::left},
+      {.name = "time_misalignment", .parameters = {{"delay_s", 0.04}}}};
+  const SimulationResult distorted = simulate(request);
+  EXPECT_EQ(plain.energy_J, distorted.energy_J);
+  EXPECT_EQ(plain.final_pose.x_m, distorted.final_pose.x_m);
+  EXPECT_EQ(plain.log.wheel_speed_rad_s.left, distorted.log.wheel_speed_rad_s.left);
+  EXPECT_NEAR(distorted.log.motor_current_A.left[102], plain.log.motor_current_A.left[100] + 0.1, 1e-9);
+}
+
+TEST(Simulate, NoiseHasItsSizeAndComesFromTheSeed) {
+  SimulationRequest request =
+      request_for(nomad(), {{.profile = MotionProfile::constant_speed, .speed_m_s = 0.5, .duration_s = 40}});
+  request.sensors.current_noise_A = 0.02;
+  const SimulationResult a = simulate(request);
+  const SimulationResult again = simulate(request);
+  request.seed = 2;
+  const SimulationResult b = simulate(request);
+  EXPECT_EQ(a.log.motor_current_A.left, again.log.motor_current_A.left);
+  EXPECT_NE(a.log.motor_current_A.left, b.log.motor_current_A.left);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.log.size(); ++i) {
+    const double difference = a.log.motor_current_A.left[i] - b.log.motor_current_A.left[i];
+    sum += difference * difference;
+  }
+  EXPECT_NEAR(std::sqrt(sum / (2.0 * static_cast<double>(a.log.size()))), 0.02, 0.002);
+}
+
+TEST(Simulate, LoggedMeansAddUpToTheEnergy) {
+  // At constant speed and voltage the means carry the whole energy; readings are exact means.
+  const SimulationResult result = simulate(request_for(nomad(), {kStraight}));
+  double charge_As = 0;
+  for (double current_A : result.log.motor_current_A.left) charge_As += 0.02 * current_A;
+  double turned_rad = 0;
+  for (double speed : result.log.wheel_speed_rad_s.left) turned_rad += 0.02 * speed;
+  EXPECT_NEAR(turned_rad, 4 / 0.1, 0.02);
+  EXPECT_NEAR(0.1 * turned_rad, result.final_pose.x_m, 1e-3);
+  EXPECT_GT(charge_As, 0.0);
+}
+
+TEST(Simulate, AReferenceWithoutSpeedsIsRefused) {
+  SimulationRequest request{.robot = nomad()};
+  EXPECT_THROW((void)simulate(request), ConfigError);
+  request.reference.time_s = {0, 1};
+  EXPECT_THROW((void)simulate(request), ConfigError);
+}
+
+}  // namespace
+}  // namespace joulepath
