@@ -10,10 +10,8 @@ namespace {
 
 constexpr double kSameInstant_s = 1e-9;
 
-DriveState start_state(const Plant& plant, const Reference& reference, const BodyMotion<double>& motion,
-                       const Pose& pose) {
+DriveState start_state(const Plant& plant, const BodyMotion<double>& motion, const Pose& pose) {
   DriveState state{};
-  (void)reference;
   state[kX] = pose.x_m;
   state[kY] = pose.y_m;
   state[kHeading] = pose.heading_rad;
@@ -35,7 +33,7 @@ class Run {
         controller_(request.controller, request.robot),
         plant_(make_plant(request.robot, request.effects)),
         integrator_(Drive(plant_, request.time_of_day_s),
-                    start_state(plant_, reference_, reference_.motion(reference_.start_s()), request.start),
+                    start_state(plant_, reference_.motion(reference_.start_s()), request.start),
                     request.integrator) {
     reference_.start_at(request.start);
   }
@@ -54,8 +52,8 @@ class Run {
       if (t > sample * sample_s - kSameInstant_s) {
         record(t);
         ++sample;
-        if (t > end_s - kSameInstant_s && (!reference_.ends_at_rest() || integrator_.at_rest() ||
-                                           t > length_s + request_.settle_s))
+        if (t > end_s - kSameInstant_s &&
+            (!reference_.ends_at_rest() || integrator_.at_rest() || t > length_s + request_.settle_s))
           break;
       }
       integrator_.advance_to(std::min(tick * request_.controller.period_s, sample * sample_s));
@@ -86,7 +84,8 @@ class Run {
     result.final_pose = {state[kX], state[kY], state[kHeading]};
     result.planned_pose = reference_.pose(reference_.end_s());
     result.worst_speed_error_rad_s = worst_error_rad_s_;
-    result.saturated_fraction = ticks_ > 0 ? static_cast<double>(saturated_) / static_cast<double>(ticks_) : 0;
+    result.saturated_fraction =
+        ticks_ > 0 ? static_cast<double>(saturated_) / static_cast<double>(ticks_) : 0;
     result.battery_gave_way = integrator_.battery_gave_way();
     result.came_to_rest = integrator_.at_rest();
     result.steps = integrator_.steps();
@@ -116,18 +115,21 @@ class Run {
     const BodyMotion<double> motion = reference_.motion(middle_s);
     const double payload_kg =
         request_.reference.payload_kg.empty() ? request_.payload_kg : reference_.payload_kg(now_s);
-    const Site site = site_of(request_.robot.geometry, reference_.pose(middle_s), payload_kg, motion.speed_m_s,
-                              motion.yaw_rate_rad_s, request_.time_of_day_s + t);
+    const Site site = site_of(request_.robot.geometry, reference_.pose(middle_s), payload_kg,
+                              motion.speed_m_s, motion.yaw_rate_rad_s, request_.time_of_day_s + t);
     const DriveState& state = integrator_.state();
     const Sided<double> wheel_rad_s{state[kVelocity + kLeftWheel], state[kVelocity + kRightWheel]};
     const double battery_V = truth_.empty() ? plant_.robot.battery.open_circuit_voltage_V
                                             : integrator_.instant().battery_voltage_V;
     const Sided<double> limit_V{std::min(battery_V, plant_.robot.motor.left.max_voltage_V),
                                 std::min(battery_V, plant_.robot.motor.right.max_voltage_V)};
-    DriveInput input{.voltage_V = controller_.command_V(motion, site, wheel_rad_s, limit_V),
-                     .coasting = coasts_at(now_s),
-                     .payload_kg = payload_kg};
-    if (!input.coasting) judge(now_s, wheel_rad_s, input, limit_V);
+    DriveInput input{.coasting = coasts_at(now_s), .payload_kg = payload_kg};
+    if (input.coasting) {
+      controller_.release();
+    } else {
+      input.voltage_V = controller_.command_V(motion, site, wheel_rad_s, limit_V);
+      judge(now_s, wheel_rad_s, input, limit_V);
+    }
     command_ = {motion.speed_m_s, motion.yaw_rate_rad_s};
     integrator_.drive().set_input(input);
   }

@@ -14,30 +14,30 @@ namespace joulepath {
 
 /// A trajectory to be driven by a robot that may differ from what its file says.
 struct SimulationRequest {
-  Robot robot{};                       ///< as the controller believes it to be, its own effects included
+  Robot robot{};                         ///< as the controller believes it to be, its own effects included
   std::vector<EffectSetting> effects{};  ///< that the plant has besides, unknown to the controller
-  Trajectory reference{};              ///< speeds (body or wheels) over time; payload_kg where it varies
-  std::vector<Interval> coasting{};    ///< when the bridges are open, in the reference's time
+  Trajectory reference{};                ///< speeds (body or wheels) over time; payload_kg where it varies
+  std::vector<Interval> coasting{};      ///< when the bridges are open, in the reference's time
   Pose start{};
   double time_of_day_s{};
-  double payload_kg{};                 ///< where the reference has no payload
+  double payload_kg{};  ///< where the reference has no payload
   ControllerSettings controller{};
   SensorSettings sensors{};
   IntegratorOptions integrator{};
-  double settle_s{1.0};                ///< at most, for a robot that is to end at rest
-  std::uint64_t seed{1};               ///< of the sensors' noise
+  double settle_s{1.0};   ///< at most, for a robot that is to end at rest
+  std::uint64_t seed{1};  ///< of the sensors' noise
 };
 
 /// Where the energy (J) went. motors = all losses + stored.
 struct EnergyBalance {
-  double motors_J{};          ///< V i of both drives
+  double motors_J{};  ///< V i of both drives
   double copper_J{};
-  double driver_J{};          ///< voltage drop of the bridges
+  double driver_J{};  ///< voltage drop of the bridges
   double gear_J{};
   double wheel_friction_J{};  ///< Coulomb, viscous and what the effects add at the wheels
   double body_work_J{};       ///< against the effects' forces on the body: slope, drag, scrub
   double creep_J{};
-  double stored_J{};          ///< change of kinetic (and magnetic) energy
+  double stored_J{};  ///< change of kinetic (and magnetic) energy
 };
 
 struct SimulationResult {

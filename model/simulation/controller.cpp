@@ -22,8 +22,8 @@ WheelController::WheelController(const ControllerSettings& settings, const Robot
 Sided<double> WheelController::command_V(const BodyMotion<double>& reference, const Site& site,
                                          const Sided<double>& wheel_speed_rad_s,
                                          const Sided<double>& limit_V) {
-  const Sided<double> wanted = wheel_speeds_rad_s(nominal_.robot.geometry, reference.speed_m_s,
-                                                  reference.yaw_rate_rad_s);
+  const Sided<double> wanted =
+      wheel_speeds_rad_s(nominal_.robot.geometry, reference.speed_m_s, reference.yaw_rate_rad_s);
   Sided<double> feed_forward_V{};
   if (settings_.feed_forward) {
     const auto wheels = operating_point(nominal_, reference, site);

@@ -29,6 +29,9 @@ class WheelController {
   [[nodiscard]] Sided<double> command_V(const BodyMotion<double>& reference, const Site& site,
                                         const Sided<double>& wheel_speed_rad_s, const Sided<double>& limit_V);
 
+  /// Forgets its integral, as when the bridges were open.
+  void release() { integral_V_ = {}; }
+
   const ControllerSettings& settings() const { return settings_; }
 
  private:

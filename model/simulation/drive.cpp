@@ -15,7 +15,8 @@ double course_speed_m_s(const Geometry& geometry, const DriveState& state) {
 
 /// Memories as the effects may use them: near standstill what they remember fades into the course.
 EffectMemory usable_memory(const DriveState& state, double course, double course_speed) {
-  const double share = course_speed * course_speed / (course_speed * course_speed + kCourseSpeed_m_s * kCourseSpeed_m_s);
+  const double share =
+      course_speed * course_speed / (course_speed * course_speed + kCourseSpeed_m_s * kCourseSpeed_m_s);
   EffectMemory memory{};
   for (std::size_t k = 0; k < kMaxMemories; ++k) memory[k] = course + share * (state[kMemory + k] - course);
   return memory;
@@ -27,13 +28,13 @@ double clamp_to(double value, double size) { return std::clamp(value, -size, siz
 
 /// Generalized forces on (v, omega, left wheel, right wheel), and what they are made of.
 struct Drive::Forces {
-  Velocity total{};                 ///< that accelerates, but for reactions
-  Sided<double> motor_Nm{};         ///< Kt n i
-  Sided<double> gear_loss_Nm{};     ///< signed, resists
-  Sided<double> friction_Nm{};      ///< signed, resists; with reactions
-  Sided<double> creep_m_s{};        ///< r q' - speed of the contact point, creeping only
-  BodyLoad<double> load{};          ///< of the effects; with reactions
-  Velocity low{};                   ///< bounds of the reactions, which resist like friction
+  Velocity total{};              ///< that accelerates, but for reactions
+  Sided<double> motor_Nm{};      ///< Kt n i
+  Sided<double> gear_loss_Nm{};  ///< signed, resists
+  Sided<double> friction_Nm{};   ///< signed, resists; with reactions
+  Sided<double> creep_m_s{};     ///< r q' - speed of the contact point, creeping only
+  BodyLoad<double> load{};       ///< of the effects; with reactions
+  Velocity low{};                ///< bounds of the reactions, which resist like friction
   Velocity high{};
 };
 
@@ -231,13 +232,18 @@ void Drive::hold(const FrictionMode& mode, Forces& forces, Velocity& acceleratio
     if (at_bound && std::abs(acceleration[s]) > 1e-9) instant.release[s] = acceleration[s] > 0 ? 1 : -1;
     if (!at_bound) acceleration[s] = 0.0;
   }
+  if (!creeps_) {  // the body follows the wheels to the last digit
+    const Sided<double> wheels{acceleration[kLeftWheel], acceleration[kRightWheel]};
+    const Twist<double> body = body_twist(plant_.robot.geometry, wheels);
+    acceleration[kTravel] = body.speed_m_s;
+    acceleration[kTurn] = body.yaw_rate_rad_s;
+  }
   for (Side side : kSides) forces.friction_Nm[side] += reaction[surface_of(side)];
   forces.load.force_N += reaction[kTravel];
   forces.load.moment_Nm += reaction[kTurn];
 }
 
-void Drive::contact_forces(const Forces& forces, const Velocity& acceleration,
-                           Instant& instant) const {
+void Drive::contact_forces(const Forces& forces, const Velocity& acceleration, Instant& instant) const {
   const Robot& robot = plant_.robot;
   for (Side side : kSides)
     instant.contact_force_N[side] =
@@ -289,16 +295,15 @@ void Drive::integrals(const DriveState& state, const Forces& forces, double hot,
     rate[kVoltSeconds + k] = instant.voltage_V[side];
     rate[kCharge + k] = i;
     rate[kEnergy + k] = power_W[side];
-    rate[kCopperLoss] += hot * motor.resistance_ohm * i * i + (motor.volts_per_speed_V_s_rad() -
-                                                               motor.torque_per_ampere_Nm_A()) *
-                                                                  i * speed_rad_s;
+    rate[kCopperLoss] += hot * motor.resistance_ohm * i * i +
+                         (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * i * speed_rad_s;
     rate[kDriverLoss] += plant_.driver_voltage_drop_V * std::abs(i);
     rate[kGearLoss] += forces.gear_loss_Nm[side] * speed_rad_s;
     rate[kWheelFriction] += forces.friction_Nm[side] * speed_rad_s;
     if (creeps_) rate[kCreepLoss] += forces.creep_m_s[side] * instant.contact_force_N[side];
   }
-  rate[kBodyWork] = forces.load.force_N * state[kVelocity + kTravel] +
-                    forces.load.moment_Nm * state[kVelocity + kTurn];
+  rate[kBodyWork] =
+      forces.load.force_N * state[kVelocity + kTravel] + forces.load.moment_Nm * state[kVelocity + kTurn];
   const double terminals_W = supply_power_W(robot.power, power_W) + robot.power.standby_W;
   const BatteryLoad battery = battery_load(robot.battery, terminals_W);
   instant.battery_gives_way = !battery.possible;
@@ -337,9 +342,8 @@ void Drive::stop(DriveState& state, Surface surface) const {
 
 double Drive::stored_energy_J(const DriveState& state) const {
   const Robot& robot = plant_.robot;
-  double energy_J =
-      kinetic_energy_J(robot, mass_, state[kVelocity + kTravel], state[kVelocity + kTurn],
-                       {state[kVelocity + kLeftWheel], state[kVelocity + kRightWheel]});
+  double energy_J = kinetic_energy_J(robot, mass_, state[kVelocity + kTravel], state[kVelocity + kTurn],
+                                     {state[kVelocity + kLeftWheel], state[kVelocity + kRightWheel]});
   for (Side side : kSides) {
     const double i = state[kCurrentLeft + static_cast<std::size_t>(side == Side::right)];
     energy_J += 0.5 * robot.motor[side].inductance_H * i * i;

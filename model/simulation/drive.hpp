@@ -15,10 +15,10 @@ enum DriveIndex : std::size_t {
   kHeading,
   kAngleLeft,
   kAngleRight,
-  kVelocity,  ///< four: v, omega, left wheel, right wheel; see Surface
-  kCurrentLeft = kVelocity + 4,
+  kVelocities,  ///< four: v, omega, left wheel, right wheel; see Surface
+  kCurrentLeft = kVelocities + 4,
   kCurrentRight,
-  kMemory,  ///< kMaxMemories of them
+  kMemory,                                ///< kMaxMemories of them
   kVoltSeconds = kMemory + kMaxMemories,  ///< left, right
   kCharge = kVoltSeconds + 2,
   kEnergy = kCharge + 2,
@@ -35,6 +35,7 @@ enum DriveIndex : std::size_t {
   kDriveSize
 };
 using DriveState = std::array<double, kDriveSize>;
+inline constexpr std::size_t kVelocity = kVelocities;  ///< kVelocity + Surface: a speed
 
 /// The four speeds, each a place where dry friction can act: travelling and turning of the body (where
 /// an effect resists them) and each wheel's own turning.
@@ -102,7 +103,8 @@ class Drive {
   Velocity respond(const Velocity& force) const;
   void hold(const FrictionMode& mode, Forces& forces, Velocity& acceleration, Instant& instant) const;
   void contact_forces(const Forces& forces, const Velocity& acceleration, Instant& instant) const;
-  void motion(const DriveState& state, const Site& site, const Velocity& acceleration, Instant& instant) const;
+  void motion(const DriveState& state, const Site& site, const Velocity& acceleration,
+              Instant& instant) const;
   void integrals(const DriveState& state, const Forces& forces, double hot, Instant& instant) const;
   void refresh_response();
 

@@ -5,7 +5,7 @@
 namespace joulepath {
 
 struct IntegratorOptions {
-  double tolerance{1e-8};     ///< of a step, absolute and relative
+  double tolerance{1e-8};  ///< of a step, absolute and relative
   double max_step_s{0.01};
 };
 

@@ -29,9 +29,8 @@ Reference::Reference(const Geometry& geometry, const Trajectory& trajectory)
     speed_m_s_.resize(size);
     yaw_rate_rad_s_.resize(size);
     for (std::size_t i = 0; i < size; ++i) {
-      const Twist<double> twist =
-          body_twist(geometry, Sided<double>{trajectory.wheel_speed_rad_s.left[i],
-                                             trajectory.wheel_speed_rad_s.right[i]});
+      const Twist<double> twist = body_twist(geometry, Sided<double>{trajectory.wheel_speed_rad_s.left[i],
+                                                                     trajectory.wheel_speed_rad_s.right[i]});
       speed_m_s_[i] = twist.speed_m_s;
       yaw_rate_rad_s_[i] = twist.yaw_rate_rad_s;
     }

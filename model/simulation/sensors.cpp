@@ -31,7 +31,9 @@ Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings
                         std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const auto noisy = [&](double value, double sigma) { return value + (sigma > 0 ? sigma * normal(random) : 0.0); };
+  const auto noisy = [&](double value, double sigma) {
+    return value + (sigma > 0 ? sigma * normal(random) : 0.0);
+  };
   const double count_rad = settings.encoder_counts_per_revolution > 0
                                ? 2 * std::numbers::pi / settings.encoder_counts_per_revolution
                                : 0.0;
@@ -53,8 +55,8 @@ Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings
           rounded_to(noisy(mean(kCharge + k), settings.current_noise_A), settings.current_resolution_A));
     }
     if (has_battery) {
-      log.battery_voltage_V.push_back(
-          rounded_to(noisy(mean(kBatteryVoltSeconds), settings.voltage_noise_V), settings.voltage_resolution_V));
+      log.battery_voltage_V.push_back(rounded_to(noisy(mean(kBatteryVoltSeconds), settings.voltage_noise_V),
+                                                 settings.voltage_resolution_V));
       log.battery_current_A.push_back(
           rounded_to(noisy(mean(kBatteryCharge), settings.current_noise_A), settings.current_resolution_A));
     }

@@ -18,7 +18,7 @@ struct SensorSettings {
   double current_noise_A{};
   double current_resolution_A{};  ///< quantization, 0 = none
   double voltage_resolution_V{};
-  double electrical_delay_s{};    ///< age of motor voltage and current readings
+  double electrical_delay_s{};  ///< age of motor voltage and current readings
   double gyro_noise_rad_s{};
   double position_noise_m{};
   double heading_noise_rad{};
