@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace joulepath {
+namespace {
+
+constexpr double kStandingSpeed_rad_s = 0.05;
+constexpr double kDrain_s = 0.1;
+
+}  // namespace
 
 WheelController::WheelController(const ControllerSettings& settings, const Robot& robot)
     : settings_(settings), nominal_(make_plant(robot)) {
@@ -34,7 +40,10 @@ Sided<double> WheelController::command_V(const BodyMotion<double>& reference, co
   Sided<double> command_V{};
   for (Side side : kSides) {
     const double error = wanted[side] - wheel_speed_rad_s[side];
-    if (to_stand && wheel_speed_rad_s[side] == 0.0) integral_V_[side] *= std::exp(-settings_.period_s / 0.1);
+    if (to_stand) {  // smoothly in speed, so that a run does not hang on the instant of a stop
+      const double ratio = wheel_speed_rad_s[side] / kStandingSpeed_rad_s;
+      integral_V_[side] *= std::exp(-settings_.period_s / (kDrain_s * (1 + ratio * ratio)));
+    }
     const double tried_V = integral_V_[side] + integral_[side] * error * settings_.period_s;
     const double sum_V = (to_stand ? 0.0 : feed_forward_V[side]) + proportional_[side] * error + tried_V;
     command_V[side] = std::clamp(sum_V, -limit_V[side], limit_V[side]);
