@@ -1,0 +1,153 @@
+/* The report of `joulepath diagnose`. Data: {diagnosis, runs: [{name, use, time_s, measured_power_W, predicted_power_W, corrected_power_W}], map, title}. */
+
+const kVerdicts = {
+  no_gap: ["No gap", "Nothing beyond calibration and noise.", true],
+  explained: ["Explained", "The causes named below account for the gap.", true],
+  partly_explained: ["Partly explained", "The causes named below account for a part; something more is left.", false],
+  unexplained: ["Unexplained", "There is a gap, and no effect of the catalog fits it.", false],
+  ambiguous: ["Ambiguous", "These runs cannot tell the effects of the set below apart.", false],
+  too_little_data: ["Too little data", "Where the gap lies and what might cause it, but no name.", false],
+};
+
+jp.cause_name = (cause) => jp.words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
+
+jp.diagnosis_tiles = function (d) {
+  const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
+  return jp.h("div", {class: "tiles"}, [
+    jp.tile("Energy gap before", jp.percent(energy.before_percent), jp.is_number(energy.bias_before_percent) ? `bias ${jp.percent(energy.bias_before_percent)} (negative: the model is too low)` : jp.with_unit(energy.before_J, "J")),
+    jp.is_number(energy.after_percent) ? jp.tile("after the correction", jp.percent(energy.after_percent), jp.with_unit(energy.after_J, "J")) : null,
+    jp.is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", jp.percent(energy.noise_floor_percent), "no model gets below it") : null,
+    jp.is_number(energy.shrink_fraction) ? jp.tile("Gap closed", jp.fraction(energy.shrink_fraction), interval ? `95 %: ${jp.fraction(interval[0])} to ${jp.fraction(interval[1])}` : null) : null].filter(Boolean));
+};
+
+jp.how_far_section = function (d) {
+  const gap = d.gap || {}, blocks = [];
+  const stems = {energy: ["_percent", "%"], current: ["_rms_A", "A"], voltage: ["_rms_V", "V"]};
+  for (const [channel, entry] of Object.entries(gap)) {
+    if (!entry || typeof entry !== "object") continue;
+    const before_keys = Object.keys(entry).filter((key) => key.startsWith("before_") && !(channel === "energy" && key === "before_J"));
+    for (const key of before_keys) {
+      const ending = key.slice("before".length), unit = (stems[channel] && ending === stems[channel][0]) ? stems[channel][1] : jp.split_key(key).unit;
+      if (!jp.is_number(entry[key])) continue;
+      const floor = entry["noise_floor" + ending];
+      const row = (label, value, color) => ({label, value, color, text: jp.with_unit(value, unit, 3), marks: jp.is_number(floor) ? [floor] : []});
+      blocks.push(jp.h("div", {}, jp.h("h3", {}, jp.words(channel) + (before_keys.length > 1 || channel === "motion" ? ", " + jp.split_key(key).words.replace("before ", "") : "")),
+        jp.bar_rows([row("before", entry[key], "var(--second)"), jp.is_number(entry["after" + ending]) ? row("after", entry["after" + ending], "var(--plan)") : null].filter(Boolean)),
+        jp.is_number(floor) ? jp.h("p", {class: "soft small"}, `dashed: noise floor ${jp.with_unit(floor, unit, 3)}`) : null));
+    }
+  }
+  if (!blocks.length) return null;
+  const energy = gap.energy || {}, rows = [];
+  const share = (label, value, interval, color) => jp.is_number(value) && rows.push({label, value: Math.max(0, value), text: jp.fraction(value), interval, color});
+  share("this diagnosis", energy.shrink_fraction, energy.shrink_interval_95, "var(--plan)");
+  share("ceiling: any function of the signals", (d.ceiling || {}).shrink_fraction, null, "var(--third)");
+  share(`control: ${jp.words((d.control || {}).effect) || "a wrong candidate"}`, (d.control || {}).shrink_fraction, null, "var(--fourth)");
+  const validation = d.validation || {};
+  return jp.section("How far: the gap before and after", jp.h("p", {class: "soft"}, (validation.method ? `On ${validation.method}` : "On held-out runs") + (validation.runs && validation.runs.length ? `: ${validation.runs.join(", ")}.` : ".")),
+    jp.h("div", {class: "columns"}, blocks), rows.length ? [jp.h("h3", {}, "Fraction of the energy gap closed"), jp.bar_rows(rows, {most: 1})] : null);
+};
+
+const kMostRows = 10;
+
+/** A floor cell from its entry: bounds given as keys, or as "x0..x1, y0..y1" in the value. */
+jp.floor_cell = function (entry) {
+  const value = entry.value;
+  if (value && typeof value === "object") return {...value, share: entry.share_of_gap};
+  if (jp.is_number(entry.x_min_m)) return {...entry, share: entry.share_of_gap};
+  const numbers = String(value).match(/-?\d+(\.\d+)?/g);
+  if (!numbers || numbers.length !== 4) return null;
+  const [x_min_m, x_max_m, y_min_m, y_max_m] = numbers.map(Number);
+  return {x_min_m, x_max_m, y_min_m, y_max_m, share: entry.share_of_gap};
+};
+
+jp.where_section = function (data) {
+  const where = data.diagnosis.where || [];
+  if (!where.length) return null;
+  const axes = [...new Set(where.map((entry) => entry.axis))];
+  const blocks = axes.map((axis) => {
+    const every = where.filter((entry) => entry.axis === axis), entries = every.slice().sort((a, b) => (axis === "floor" || axis === "run" ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
+    return jp.h("div", {}, jp.h("h3", {}, jp.words(axis)), jp.bar_rows(entries.map((entry) => {
+      const cell = axis === "floor" ? jp.floor_cell(entry) : null;
+      return {label: cell ? `x ${jp.short(cell.x_min_m, 3)}…${jp.short(cell.x_max_m, 3)}, y ${jp.short(cell.y_min_m, 3)}…${jp.short(cell.y_max_m, 3)} m` : jp.words(entry.value),
+        value: entry.share_of_gap, interval: entry.interval_95, text: jp.fraction(entry.share_of_gap, 3) + (jp.is_number(entry.energy_J) ? ` · ${jp.with_unit(entry.energy_J, "J", 3)}` : "")};
+    }), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
+    every.length > entries.length ? jp.h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
+  });
+  const cells = where.filter((entry) => entry.axis === "floor").map(jp.floor_cell).filter(Boolean);
+  let map = null;
+  if (cells.length) {
+    map = jp.floor_map({grid: data.map, cells, label: "Floor map of the gap"});
+    const ramp = jp.h("span", {class: "ramp", style: "background:linear-gradient(90deg, transparent, var(--second))"});
+    blocks.push(jp.h("div", {}, jp.h("h3", {}, "on the floor"), map.element, jp.h("div", {class: "scale"}, "0", ramp, jp.fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap")));
+  }
+  const section = jp.section("Where it lies", jp.h("p", {class: "soft"}, "Shares of the summed absolute power gap, noise taken off; over one axis they add up to 100 %. Whiskers: 95 % intervals over whole runs."), jp.h("div", {class: "columns"}, blocks));
+  section.classList.add("long");
+  return {section, ready() { if (map) map.draw(); }};
+};
+
+jp.which_section = function (d) {
+  const causes = d.causes || [], ranking = d.ranking || [];
+  const grouped = new Set(causes.flatMap((cause) => (cause.indistinguishable_from || []).length ? [cause.effect, ...cause.indistinguishable_from] : []));
+  const named = new Set(causes.map((cause) => cause.effect));
+  const parameters = (cause) => Object.entries(cause.parameters || {}).map(([key, entry]) => {
+    const interval = entry.interval_95 ? ` (${jp.number(entry.interval_95[0])} to ${jp.number(entry.interval_95[1])})` : "";
+    return jp.key_value(key, entry.value) + interval;
+  }).join("; ");
+  const rows = causes.map((cause) => [jp.cause_name(cause), {n: jp.fraction(cause.probability, 3)}, parameters(cause), {n: jp.fraction(cause.energy_share, 3)}, {n: jp.fraction(cause.shrink_fraction_alone, 3)}, (cause.indistinguishable_from || []).map(jp.words).join(", ") || "–"]);
+  return jp.section("Which effect", rows.length ? jp.table(["cause", {n: "probability"}, "parameters, 95 % interval", {n: "share of the gap's energy"}, {n: "closes alone"}, "cannot be told from"], rows)
+    : jp.h("p", {}, "No cause is named."),
+  d.pinned_combination ? jp.h("p", {}, "What the data do pin: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
+  ranking.length ? [jp.h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: jp.words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: jp.fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
+    grouped.size ? jp.h("p", {class: "soft small"}, "◇ one group: these runs cannot tell its members apart.") : null] : null);
+};
+
+jp.runs_section = function (data) {
+  const runs = (data.runs || []).filter((run) => run.time_s && run.time_s.length);
+  if (!runs.length) return null;
+  const holder = jp.h("div", {});
+  let plots = [];
+  const show = (index) => {
+    const run = runs[index], t = run.time_s;
+    const residual = (name) => run[name].map((value, k) => value - run.measured_power_W[k]);
+    const cursor = jp.cursor(t.length, (row) => `t ${jp.number(t[row])} s`);
+    const with_correction = run.corrected_power_W && run.corrected_power_W.length;
+    plots = [jp.plot({title: "Motor power", unit: "W", x: t, x_label: "time, s", cursor, tall: true, series: [{name: "measured", values: run.measured_power_W, color: "soft", width: 1.1}, {name: "predicted", values: run.predicted_power_W, color: "second"},
+      ...(with_correction ? [{name: "corrected", values: run.corrected_power_W, color: "plan"}] : [])]}),
+    jp.plot({title: "Residual: model less measured", unit: "W", x: t, x_label: "time, s", cursor, series: [{name: "predicted", values: residual("predicted_power_W"), color: "second"}, ...(with_correction ? [{name: "corrected", values: residual("corrected_power_W"), color: "plan"}] : [])]})];
+    holder.replaceChildren(cursor.element, ...plots.map((plot) => plot.element));
+    plots.forEach((plot) => plot.draw());
+  };
+  const choice = jp.h("select", {"aria-label": "Run", onchange: (event) => show(Number(event.target.value))}, runs.map((run, k) => jp.h("option", {value: k}, run.name + (run.use ? ` (${jp.words(run.use)})` : ""))));
+  const redraw = () => plots.forEach((plot) => plot.redraw());
+  const section = jp.section("Measured against predicted", jp.h("div", {class: "bar-tools"}, jp.h("label", {}, "Run ", choice)), holder);
+  section.classList.add("long");
+  return {section, ready() { show(0); jp.redraws.push(redraw); window.addEventListener("resize", redraw); }};
+};
+
+jp.next_section = function (d) {
+  const next = d.next_experiment || {};
+  const separates = next.separates || [];
+  const motion = Object.entries(next.motion || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
+  if (!motion && !separates.length) return null;
+  return jp.section("The next run", separates.length ? jp.h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(jp.words).join(" from ") : jp.words(one))).join(", ")) : null,
+    motion ? jp.h("p", {}, jp.h("b", {}, "Drive: "), motion + ".") : null, jp.is_number(next.expected_evidence) ? jp.h("p", {class: "soft"}, `Expected evidence ${jp.number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
+};
+
+jp.caveats_section = function (d) {
+  const items = [];
+  if (d.leftover && d.leftover.significant) items.push("Left over: " + (d.leftover.description || "a significant rest"));
+  for (const artifact of d.artifacts || []) items.push("Artifact in the logs: " + (typeof artifact === "string" ? artifact : Object.entries(artifact).map(([key, value]) => jp.key_value(key, value)).join(", ")));
+  if ((d.missing_channels || []).length) items.push("Channels that are missing, which narrows what can be told apart: " + d.missing_channels.map(jp.words).join(", "));
+  const decisions = d.decisions || {};
+  if (decisions.missions) items.push(`In decisions: planning ${decisions.missions} missions with the nominal model loses ${jp.percent(decisions.joules_lost_with_nominal_percent)} of their energy.`);
+  return items.length ? jp.section("To keep in mind", jp.h("ul", {}, items.map((item) => jp.h("li", {}, item)))) : null;
+};
+
+jp.draw_diagnosis = function (data) {
+  const d = data.diagnosis, [words, meaning, good] = kVerdicts[d.verdict] || [jp.words(d.verdict), "", false];
+  const where = jp.where_section(data), runs = jp.runs_section(data);
+  jp.page(jp.header(data.title || "Diagnosis", `The gap between the model and the measured robot. ${meaning}`, words, good), jp.diagnosis_tiles(d), where ? where.section : null, jp.which_section(d),
+    jp.how_far_section(d), runs ? runs.section : null, jp.next_section(d), jp.caveats_section(d));
+  if (where) where.ready();
+  if (runs) runs.ready();
+};

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/path/occupancy_grid.hpp"
+
+namespace joulepath::report {
+
+/// What a report draws of a map: cells as run lengths, row-major from the bottom row up.
+struct MapPicture {
+  enum Cell { free = 0, unknown = 1, occupied = 2, keep_out = 3 };
+  int width{};
+  int height{};
+  double resolution_m{};
+  Pose origin{};
+  std::vector<std::pair<Cell, int>> runs{};
+};
+
+/// A grid, with the cells that a keep-out mask forbids, coarsened (occupied wins) until it has at most
+/// `most_cells` cells.
+[[nodiscard]] MapPicture map_picture(const OccupancyGrid& grid, const OccupancyGrid* keep_out = nullptr,
+                                     std::size_t most_cells = 600'000);
+
+}  // namespace joulepath::report

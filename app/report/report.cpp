@@ -1,0 +1,180 @@
+#include "app/report/report.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace joulepath::embedded {
+extern const std::string_view page, style, notice, library, library_css, script_core, script_plots, script_map,
+    script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_main;
+}  // namespace joulepath::embedded
+
+namespace joulepath::report {
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kMostRows = 4000;
+constexpr std::size_t kMostOverlayRows = 1500;
+
+/// Seven significant digits: more than a plot shows, and half the bytes.
+double rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, 6.0 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(unit) ? std::round(value * unit) / unit : value;
+}
+
+json json_of(const std::vector<double>& values) {
+  json list = json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? json(rounded(value)) : json(nullptr));
+  return list;
+}
+
+json json_of(const Columns& columns, std::size_t most_rows) {
+  json object = json::object();
+  for (const auto& [name, values] : thinned(columns, most_rows)) object[name] = json_of(values);
+  return object;
+}
+
+json json_of(const std::vector<NamedColumns>& profiles) {
+  json list = json::array();
+  for (const auto& profile : profiles)
+    list.push_back({{"name", profile.name}, {"columns", json_of(profile.columns, kMostOverlayRows)}});
+  return list;
+}
+
+json json_of(const MapPicture& map) {
+  json runs = json::array();
+  for (const auto& [cell, count] : map.runs) {
+    runs.push_back(static_cast<int>(cell));
+    runs.push_back(count);
+  }
+  return {{"width", map.width},
+          {"height", map.height},
+          {"resolution_m", map.resolution_m},
+          {"origin", {map.origin.x_m, map.origin.y_m, map.origin.heading_rad}},
+          {"runs", runs}};
+}
+
+json json_of(const Limits& limits) {
+  json object = json::object();
+  const auto add = [&](const char* key, double value) {
+    if (std::isfinite(value)) object[key] = value;
+  };
+  add("speed_m_s", limits.speed_m_s);
+  add("acceleration_m_s2", limits.acceleration_m_s2);
+  add("deceleration_m_s2", limits.deceleration_m_s2);
+  add("yaw_rate_rad_s", limits.yaw_rate_rad_s);
+  add("battery_power_W", limits.battery_power_W);
+  return object;
+}
+
+/// JSON that may stand inside of a script element: no "<" can close it or open a comment.
+std::string script_safe(const json& data) {
+  std::string text;
+  for (const char c : data.dump(-1, ' ', true, json::error_handler_t::replace)) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// One pass over the page: a name between @ signs is replaced where it is known, and nothing that is put in
+/// is looked at again.
+std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& values) {
+  std::string out;
+  while (!page.empty()) {
+    const std::size_t at = page.find('@');
+    out += page.substr(0, at);
+    if (at == std::string_view::npos) break;
+    page.remove_prefix(at);
+    bool known = false;
+    for (const auto& [name, value] : values) {
+      if (!page.starts_with(name)) continue;
+      out += value;
+      page.remove_prefix(name.size());
+      known = true;
+      break;
+    }
+    if (known) continue;
+    out += '@';
+    page.remove_prefix(1);
+  }
+  return out;
+}
+
+std::string page_of(const std::string& kind, const std::string& title, const json& data) {
+  using namespace embedded;
+  std::string script;
+  for (const auto part : {script_core, script_plots, script_map, script_bars, script_plan, script_diagnosis,
+                          script_compare, script_batch, script_main})
+    script += part;
+  json versioned = data;
+  versioned["version"] = JOULEPATH_VERSION;
+  return filled(page, {{"@KIND@", kind},
+                       {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
+                       {"@NOTICE@", std::string(notice)},
+                       {"@LIBRARY_CSS@", std::string(library_css)},
+                       {"@STYLE@", std::string(style)},
+                       {"@DATA@", script_safe(versioned)},
+                       {"@LIBRARY@", std::string(library)},
+                       {"@SCRIPT@", script}});
+}
+
+}  // namespace
+
+std::string plan_report_html(const json& plan, const Columns& trajectory, const PlanExtras& extras) {
+  json data{{"plan", plan}, {"title", extras.title}, {"subtitle", extras.subtitle}};
+  if (!trajectory.empty()) data["trajectory"] = json_of(trajectory, kMostRows);
+  if (extras.map) data["map"] = json_of(*extras.map);
+  if (extras.limits) data["limits"] = json_of(*extras.limits);
+  data["overlays"] = json_of(extras.overlays);
+  return page_of("plan", extras.title, data);
+}
+
+std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& extras) {
+  json data{{"diagnosis", diagnosis}, {"title", extras.title}, {"runs", json::array()}};
+  if (extras.map) data["map"] = json_of(*extras.map);
+  for (const auto& run : extras.runs) {
+    Columns columns{{"time_s", run.time_s},
+                    {"measured_power_W", run.measured_power_W},
+                    {"predicted_power_W", run.predicted_power_W}};
+    if (!run.corrected_power_W.empty()) columns["corrected_power_W"] = run.corrected_power_W;
+    json entry = json_of(columns, kMostOverlayRows);
+    entry["name"] = run.name;
+    entry["use"] = run.use;
+    data["runs"].push_back(entry);
+  }
+  return page_of("diagnosis", extras.title, data);
+}
+
+std::string compare_report_html(const json& compare, const std::vector<NamedColumns>& profiles,
+                                const std::string& title) {
+  return page_of("compare", title, {{"compare", compare}, {"title", title}, {"profiles", json_of(profiles)}});
+}
+
+std::string front_report_html(const json& front, const std::vector<NamedColumns>& profiles,
+                              const std::string& title) {
+  return page_of("front", title, {{"front", front}, {"title", title}, {"profiles", json_of(profiles)}});
+}
+
+std::string batch_report_html(const json& batch, const std::string& title) {
+  return page_of("batch", title, {{"batch", batch}, {"title", title}});
+}
+
+}  // namespace joulepath::report

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tests/app/report/sample_data.hpp"
+
+namespace joulepath::report {
+namespace {
+
+nlohmann::json embedded_data(const std::string& html) {
+  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const auto from = html.find(open) + open.size();
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+}
+
+TEST(Report, HoldsItsDataUnchanged) {
+  const auto data = embedded_data(plan_report_html(sample::plan(), sample::trajectory()));
+  EXPECT_EQ(data.at("plan"), sample::plan());
+  EXPECT_EQ(data.at("trajectory").at("time_s").size(), sample::trajectory().at("time_s").size());
+}
+
+TEST(Report, NamesThatLookLikeMarkupCannotCloseTheScript) {
+  auto plan = sample::plan();
+  plan["legs"][0]["to"] = "</script><script>alert(1)</script><!--";
+  const std::string html = plan_report_html(plan, {}, {"</title><b>", "", {}, {}, {}});
+  EXPECT_EQ(html.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(html.find("</title><b>"), std::string::npos);
+  EXPECT_EQ(embedded_data(html).at("plan").at("legs")[0].at("to"), plan["legs"][0]["to"]);
+}
+
+TEST(Report, AtSignsInDataAreNotPlaceholders) {
+  auto plan = sample::plan();
+  plan["legs"][0]["to"] = "@SCRIPT@ @DATA@";
+  EXPECT_EQ(embedded_data(plan_report_html(plan, {})).at("plan"), plan);
+}
+
+TEST(Report, FetchesNothing) {
+  const std::string html = diagnosis_report_html(sample::diagnosis(), {"", map_picture(sample::hall()), sample::runs()});
+  for (const char* fetch : {"<script src", "<link rel=\"stylesheet\"", "@import", "url(http", "fetch(", "<img src=\"http"})
+    EXPECT_EQ(html.find(fetch), std::string::npos) << fetch;
+}
+
+TEST(Report, KeepsTheLibrarysLicense) {
+  const std::string html = batch_report_html(sample::batch());
+  EXPECT_NE(html.find("Permission is hereby granted, free of charge"), std::string::npos);
+  EXPECT_NE(html.find("Dan Vanderkam"), std::string::npos);
+}
+
+TEST(Report, SameInputGivesSameBytes) {
+  EXPECT_EQ(front_report_html(sample::front(), sample::profiles()), front_report_html(sample::front(), sample::profiles()));
+}
+
+TEST(Report, NumbersThatAreNotFiniteBecomeGaps) {
+  Columns columns{{"time_s", {0.0, 1.0}}, {"linear_speed_m_s", {0.0, std::nan("")}}};
+  EXPECT_TRUE(embedded_data(plan_report_html(sample::plan(), columns)).at("trajectory").at("linear_speed_m_s")[1].is_null());
+}
+
+TEST(Report, StaysUnderThreeMegabytesForAnHourAtFiftyHertz) {
+  Columns hour = sample::trajectory(0.02);
+  const auto once = hour;
+  while (hour["time_s"].size() < 180'000)
+    for (auto& [name, values] : hour) values.insert(values.end(), once.at(name).begin(), once.at(name).end());
+  for (std::size_t k = 0; k < hour["time_s"].size(); ++k) hour["time_s"][k] = 0.02 * static_cast<double>(k);
+  OccupancyGrid noise = sample::hall();
+  noise.width = 2000;
+  noise.height = 1000;
+  noise.occupancy_percent.assign(2'000'000, 0);
+  PlanExtras extras{"", "", map_picture(noise), {}, {{"trapezoid", hour}, {"s_curve", hour}}};
+  EXPECT_LT(plan_report_html(sample::plan(), hour, extras).size(), 3'000'000U);
+}
+
+TEST(Thinning, KeepsOrderEndsAndPeaks) {
+  Columns columns;
+  for (int k = 0; k < 10'000; ++k) {
+    columns["time_s"].push_back(k);
+    columns["linear_speed_m_s"].push_back(k == 4321 ? 9.0 : std::sin(0.01 * k));
+    columns["battery_power_W"].push_back(k == 8765 ? -50.0 : 1.0);
+  }
+  const auto thin = thinned(columns, 1000);
+  const auto& time = thin.at("time_s");
+  EXPECT_LE(time.size(), 1100U);
+  EXPECT_GE(time.size(), 200U);
+  EXPECT_TRUE(std::is_sorted(time.begin(), time.end()));
+  EXPECT_EQ(time.front(), 0.0);
+  EXPECT_EQ(time.back(), 9999.0);
+  EXPECT_EQ(std::ranges::max(thin.at("linear_speed_m_s")), 9.0);
+  EXPECT_EQ(std::ranges::min(thin.at("battery_power_W")), -50.0);
+}
+
+TEST(MapPicture, RunsCoverEveryCellAndCoarseningKeepsWalls) {
+  OccupancyGrid grid{301, 203, 0.05, {0, 0, 0}, std::vector<std::int8_t>(301 * 203, 0), ""};
+  for (int row = 0; row < 203; ++row) grid.occupancy_percent[static_cast<std::size_t>(row * 301 + 150)] = 100;
+  const auto picture = map_picture(grid, nullptr, 5000);
+  EXPECT_LE(picture.width * picture.height, 5000);
+  int covered = 0, occupied = 0;
+  for (const auto& [cell, count] : picture.runs) {
+    covered += count;
+    if (cell == MapPicture::occupied) occupied += count;
+  }
+  EXPECT_EQ(covered, picture.width * picture.height);
+  EXPECT_EQ(occupied, picture.height);
+}
+
+TEST(MapPicture, KeepOutShowsOnFreeFloorOnly) {
+  OccupancyGrid grid{4, 1, 1.0, {0, 0, 0}, {0, 100, 0, kUnknownCell}, ""};
+  const OccupancyGrid mask{2, 1, 1.0, {0, 0, 0}, {100, 100}, ""};
+  const std::vector<std::pair<MapPicture::Cell, int>> expected{
+      {MapPicture::keep_out, 1}, {MapPicture::occupied, 1}, {MapPicture::free, 1}, {MapPicture::unknown, 1}};
+  EXPECT_EQ(map_picture(grid, &mask).runs, expected);
+}
+
+}  // namespace
+}  // namespace joulepath::report

@@ -1,0 +1,28 @@
+// Writes one report of each kind into a folder, for the browser test and for looking at.
+#include <fstream>
+#include <iostream>
+
+#include "tests/app/report/sample_data.hpp"
+
+int main(int argc, char** argv) {
+  using namespace joulepath::report;
+  if (argc != 2) {
+    std::cerr << "usage: report_samples FOLDER\n";
+    return 2;
+  }
+  const std::string folder = argv[1];
+  const auto write = [&](const std::string& name, const std::string& html) {
+    std::ofstream(folder + "/" + name + ".html") << html;
+  };
+  const auto map = map_picture(sample::hall());
+  joulepath::Limits limits;
+  limits.speed_m_s = 1.0;
+  limits.acceleration_m_s2 = limits.deceleration_m_s2 = 0.5;
+  write("plan", plan_report_html(sample::plan(), sample::trajectory(),
+                                 {"Sample round", "made-up data", map, limits, {sample::profiles().back()}}));
+  write("infeasible", plan_report_html(sample::infeasible_plan(), {}, {"Sample round", "made-up data", map, {}, {}}));
+  write("diagnosis", diagnosis_report_html(sample::diagnosis(), {"Sample runs", map, sample::runs()}));
+  write("compare", compare_report_html(sample::compare(), sample::profiles()));
+  write("front", front_report_html(sample::front(), sample::profiles()));
+  write("batch", batch_report_html(sample::batch()));
+}
