@@ -1,0 +1,50 @@
+#include "model/local_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace joulepath {
+
+LocalFit fit_locally(const std::vector<double>& time_s, const std::vector<double>& values, double reach_s) {
+  const std::size_t size = time_s.size();
+  LocalFit fit{values, std::vector<double>(size, 0.0)};
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    while (time_s[i] - time_s[first] > reach_s) ++first;
+    last = std::max(last, i);
+    while (last + 1 < size && time_s[last + 1] - time_s[i] <= reach_s) ++last;
+    const std::size_t from = std::min(first, i > 0 ? i - 1 : 0);
+    const std::size_t to = std::max(last, std::min(i + 1, size - 1));
+    if (to <= from) continue;
+    const Eigen::Index terms = to - from >= 2 ? 3 : 2;
+    const double scale_s = std::max(time_s[to] - time_s[i], time_s[i] - time_s[from]);
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity();
+    normal.topLeftCorner(terms, terms).setZero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t k = from; k <= to; ++k) {
+      const double t = (time_s[k] - time_s[i]) / scale_s;
+      const Eigen::Vector3d basis(1.0, t, terms == 3 ? t * t : 0.0);
+      normal += basis * basis.transpose();
+      right += values[k] * basis;
+    }
+    const Eigen::Vector3d coefficients = normal.ldlt().solve(right);
+    fit.value[i] = coefficients[0];
+    fit.slope[i] = coefficients[1] / scale_s;
+  }
+  return fit;
+}
+
+double noise_of(const std::vector<double>& values) {
+  if (values.size() < 5) return 0.0;
+  std::vector<double> size;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    size.push_back(std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  return *middle / 0.6745 / std::sqrt(6.0);  // second differences of white noise have 6 times its variance
+}
+
+}  // namespace joulepath
