@@ -290,10 +290,11 @@ TEST(EffectLaw, TheSimulatorSpendsWhatThePowerModelSaysForEveryEffect) {
         << description.info.name;
     // Where scrub holds the robot on a straight line, its moment is a reaction that no motion tells, and
     // it shifts load between the wheels: only their sum can agree.
-    if (setting.name != "turning_scrub")
+    if (setting.name != "turning_scrub") {
       for (Side side : kSides)
         EXPECT_NEAR(estimate.motor_J[side] / run.motor_energy_J[side], 1.0, 2e-3)
             << description.info.name << ' ' << side_name(side);
+    }
     changed += std::abs(energy_J / plain_J - 1) > 5e-3;
   }
   EXPECT_GE(changed, 13);  // most typical effects are visible in this run's energy at all
