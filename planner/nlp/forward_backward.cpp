@@ -15,6 +15,9 @@ struct HalfPlane {
   std::string_view limit{};
 };
 
+/// Whether a half plane bounds b0 alone, but for rounding.
+bool ignores_next(const HalfPlane& p) { return std::abs(p.beta) <= 1e-6 * std::abs(p.alpha) + 1e-14; }
+
 struct Span {
   double low{}, high{};
   std::string_view low_limit{}, high_limit{};
@@ -60,12 +63,12 @@ Span project(const std::vector<HalfPlane>& planes, const Span& next, double cap,
   };
   std::vector<HalfPlane> above{{0, 1, next.high, next.high_limit}}, below{{0, -1, -next.low, next.low_limit}};
   for (const HalfPlane& p : planes) {
-    if (p.beta > 1e-14)
+    if (ignores_next(p))
+      bound(p.alpha, p.gamma - std::max(0.0, p.beta) * next.high, p.limit);
+    else if (p.beta > 0)
       above.push_back({p.alpha / p.beta, 1, p.gamma / p.beta, p.limit});
-    else if (p.beta < -1e-14)
-      below.push_back({-p.alpha / p.beta, -1, -p.gamma / p.beta, p.limit});
     else
-      bound(p.alpha, p.gamma, p.limit);
+      below.push_back({-p.alpha / p.beta, -1, -p.gamma / p.beta, p.limit});
   }
   // above: b1 <= gamma - alpha b0; below: b1 >= alpha b0 - gamma (sign folded): add the two.
   for (const HalfPlane& up : above)
@@ -78,10 +81,11 @@ Span project(const std::vector<HalfPlane>& planes, const Span& next, double cap,
 Span step(const std::vector<HalfPlane>& planes, double b0, const Span& next) {
   Span span = next;
   for (const HalfPlane& p : planes) {
+    if (ignores_next(p)) continue;
     const double gamma = p.gamma - p.alpha * b0;
-    if (p.beta > 1e-14)
+    if (p.beta > 0)
       span.lower(gamma / p.beta, p.limit);
-    else if (p.beta < -1e-14)
+    else
       span.raise(gamma / p.beta, p.limit);
   }
   return span;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/nlp/segment_jets.hpp"
+
 namespace joulepath::nlp {
 namespace {
 
@@ -178,11 +180,12 @@ class PathNlp : public Ipopt::TNLP {
     at_.row.resize(p_.rows.size());
     for (std::size_t k = 0; k < count; ++k) {
       const double b0 = k == 0 ? p_.b_start : x[k - 1], b1 = k + 1 == count ? p_.b_end : x[k];
+      const SegmentJets jets = segment_jets(p_.segments[k], b0, b1);
+      at_.energy[2 * k] = jets.energy_J[0];
+      at_.energy[2 * k + 1] = jets.energy_J[1];
+      at_.duration[k] = jets.duration_s;
+      if (p_.first_row[k] == p_.first_row[k + 1]) continue;
       const Interval<Jet> interval = jet_interval(p_.segments[k], b0, b1);
-      const std::array<Jet, 2> both = Energy::both(interval);
-      at_.energy[2 * k] = both[0];
-      at_.energy[2 * k + 1] = both[1];
-      at_.duration[k] = Time{}(interval, 0);
       for (std::size_t i = p_.first_row[k]; i < p_.first_row[k + 1]; ++i)
         at_.row[i] = evaluate_row(p_, p_.rows[i], interval);
     }

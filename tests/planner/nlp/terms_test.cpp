@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/nlp/grid.hpp"
+#include "planner/nlp/problem.hpp"
+#include "planner/nlp/segment_jets.hpp"
+#include "tests/support/random_profiles.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+/// Segments of a tight corner, once with the affine model and once with effects that bend it.
+struct Bench {
+  ProfileRequest request;
+  PathMotion motion;
+  Problem problem;
+
+  explicit Bench(ProfileRequest r)
+      : request(std::move(r)),
+        motion(path_motion(request)),
+        problem(transcribe(request, motion, make_grid(motion, request, 40), {}, nullptr)) {}
+};
+
+ProfileRequest corner(bool bent) {
+  joulepath::testing::RandomProfiles random(5);
+  ProfileRequest request = random.next(joulepath::testing::PathClass::tight_corners);
+  if (bent)
+    request.plant =
+        make_plant(request.plant.robot,
+                   {{.name = "stribeck_friction", .parameters = {{"torque_Nm", 0.1}, {"speed_rad_s", 1.5}}},
+                    {.name = "gear_efficiency", .parameters = {{"loss_fraction", 0.1}}},
+                    {.name = "driver_voltage_drop", .parameters = {{"voltage_V", 0.3}}},
+                    {.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 2.0}}}});
+  return request;
+}
+
+template <class Term>
+Term make_term(const Limits& limits) {
+  if constexpr (requires { Term{limits}; })
+    return Term{limits};
+  else
+    return Term{};
+}
+
+void expect_near(double exact, double differenced, double scale, const char* what) {
+  EXPECT_NEAR(exact, differenced, 2e-6 * (std::abs(exact) + std::abs(differenced)) + 1e-6 * scale) << what;
+}
+
+template <class Term>
+class EveryTerm : public ::testing::Test {};
+
+/// The list of the formulation itself: a term that is added there is tested here.
+template <class Tuple>
+struct AsTypes;
+template <class... Terms>
+struct AsTypes<std::tuple<Terms...>> {
+  using type = ::testing::Types<Terms..., Energy, Time>;
+};
+TYPED_TEST_SUITE(EveryTerm, AsTypes<Rows>::type);
+
+/// Value by plain numbers, derivatives by central differences of first order jets' values.
+TYPED_TEST(EveryTerm, HasExactDerivatives) {
+  for (bool bent : {false, true}) {
+    const Bench bench(corner(bent));
+    const TypeParam term = make_term<TypeParam>(bench.request.limits);
+    for (std::size_t k = 2; k + 2 < bench.problem.segment_count(); k += 3) {
+      const Segment& segment = bench.problem.segments[k];
+      const double b0 = 0.021, b1 = 0.034, h = 1e-5;
+      for (std::size_t row = 0; row < TypeParam::rows; ++row) {
+        const auto value = [&](double x, double y) { return term(plain_interval(segment, x, y), row); };
+        const auto jet_at = [&](double x, double y) { return term(jet_interval(segment, x, y), row); };
+        const Jet jet = jet_at(b0, b1);
+        expect_near(jet.value, value(b0, b1), 1e-6, "value");
+        const double scale = std::abs(jet.value) / b0;
+        expect_near(jet.d0, (value(b0 + h, b1) - value(b0 - h, b1)) / (2 * h), scale, "d0");
+        expect_near(jet.d1, (value(b0, b1 + h) - value(b0, b1 - h)) / (2 * h), scale, "d1");
+        const double curve = (std::abs(jet.d0) + std::abs(jet.d1)) / b0;
+        expect_near(jet.d00, (jet_at(b0 + h, b1).d0 - jet_at(b0 - h, b1).d0) / (2 * h), curve, "d00");
+        expect_near(jet.d01, (jet_at(b0, b1 + h).d0 - jet_at(b0, b1 - h).d0) / (2 * h), curve, "d01");
+        expect_near(jet.d11, (jet_at(b0, b1 + h).d1 - jet_at(b0, b1 - h).d1) / (2 * h), curve, "d11");
+      }
+    }
+  }
+}
+
+void expect_same(const Jet& x, const Jet& y) {
+  const auto near = [](double a, double b, double scale) { EXPECT_NEAR(a, b, 1e-9 * (std::abs(a) + scale)); };
+  near(x.value, y.value, 1e-3);
+  near(x.d0, y.d0, 1);
+  near(x.d1, y.d1, 1);
+  near(x.d00, y.d00, 100);
+  near(x.d01, y.d01, 100);
+  near(x.d11, y.d11, 100);
+}
+
+TEST(SegmentJets, WrittenOutEqualForwardMode) {
+  for (PowerSharing sharing : {PowerSharing::wheel, PowerSharing::bus}) {
+    ProfileRequest request = corner(false);
+    request.plant.robot.power.sharing = sharing;
+    const Bench bench(std::move(request));
+    for (std::size_t k = 0; k < bench.problem.segment_count(); ++k) {
+      const Segment& segment = bench.problem.segments[k];
+      const double b0 = k == 0 ? 0.0 : 0.02, b1 = k + 1 == bench.problem.segment_count() ? 0.0 : 0.03;
+      const SegmentJets jets = segment_jets(segment, b0, b1);
+      const auto energy = Energy::both(jet_interval(segment, b0, b1));
+      expect_same(jets.duration_s, Time{}(jet_interval(segment, b0, b1), 0));
+      expect_same(jets.energy_J[0], energy[0]);
+      expect_same(jets.energy_J[1], energy[1]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace joulepath::nlp
