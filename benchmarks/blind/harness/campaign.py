@@ -4,9 +4,8 @@ the diagnosis sees a folder named after the case's number and nothing else."""
 import concurrent.futures
 import hashlib
 import json
-import os
 import pathlib
-import resource
+import random
 import shutil
 import subprocess
 import sys
@@ -34,24 +33,60 @@ def hash_of(folder):
     return total.hexdigest()
 
 
+def ask(case, scratch, tag, more=()):
+    """Generate the case's data (with more runs appended) and have it diagnosed: (data folder, result)."""
+    data = scratch / tag / case["id"]
+    subprocess.run(seal.plant_command(case) + ["--out", str(data), "--label", "none", *more], check=True)
+    result = {"data_sha256": hash_of(data)}
+    out = scratch / tag / "out"
+    command = [workspace.program("joulepath"), "diagnose", str(data / "dataset.yaml"), "--out", str(out)]
+    if case["bin"] == "removed":
+        command += ["--without", case["effects"][0]]
+    done, result["seconds"] = run_quietly(command, scratch)
+    result["exit_code"] = done.returncode
+    answer = out / "diagnosis.json"
+    if done.returncode in (0, 1) and answer.exists():
+        full = json.loads(answer.read_text())
+        result["diagnosis"] = {key: full[key] for key in KEEP if key in full}
+    else:
+        result["error"] = done.stderr[-500:]
+    return data, result
+
+
+def described(motion, payload_kg=None):
+    """A proposed motion as the plant's --append wants it; None if it cannot be driven."""
+    if not isinstance(motion, dict) or "profile" not in motion:
+        return None
+    plain = {key: value for key, value in motion.items() if isinstance(value, (int, float, str))}
+    if payload_kg is not None and "payload_kg" not in plain:
+        plain["payload_kg"] = payload_kg
+    return ",".join(f"{key}:{value}" for key, value in plain.items())
+
+
+RANDOM_MOTIONS = ({"profile": "trapezoid", "speed_m_s": 0.4, "distance_m": 4}, {"profile": "spin", "angle_rad": 4.0},
+                  {"profile": "arc", "radius_m": 1.0, "angle_rad": 3.0, "speed_m_s": 0.3}, {"profile": "stand", "duration_s": 10},
+                  {"profile": "trapezoid", "speed_m_s": 0.3, "distance_m": 3, "direction": "reverse"})
+
+
+def follow_up(case, scratch, answer):
+    """Where a group is left: drive the proposed run, and a random one as control, and ask again."""
+    causes = answer.get("causes") or []
+    if not causes or not causes[0].get("indistinguishable_from"):
+        return None
+    proposal = answer.get("next_experiment") or {}
+    motions = {"proposed": described(proposal.get("motion"), proposal.get("payload_kg")),
+               "random": described(random.Random(case["seed"]).choice(RANDOM_MOTIONS))}
+    return {name: ask(case, scratch, name, ["--append", motion])[1] if motion else None for name, motion in motions.items()}
+
+
 def diagnose(case, with_controls):
     """Generate, diagnose, remove; everything that the scorer needs, in one dictionary."""
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="blind_"))
     try:
-        data = scratch / case["id"]
-        subprocess.run(seal.plant_command(case) + ["--out", str(data), "--label", "none"], check=True)
-        result = {"id": case["id"], "data_sha256": hash_of(data)}
-        command = [workspace.program("joulepath"), "diagnose", str(data / "dataset.yaml"), "--out", str(scratch / "out")]
-        if case["bin"] == "removed":
-            command += ["--without", case["effects"][0]]
-        done, result["seconds"] = run_quietly(command, scratch)
-        result["exit_code"] = done.returncode
-        answer = scratch / "out" / "diagnosis.json"
-        if done.returncode in (0, 1) and answer.exists():
-            full = json.loads(answer.read_text())
-            result["diagnosis"] = {key: full[key] for key in KEEP if key in full}
-        else:
-            result["error"] = done.stderr[-500:]
+        data, result = ask(case, scratch, "data")
+        result["id"] = case["id"]
+        if case["bin"] != "removed":
+            result["follow_up"] = follow_up(case, scratch, result.get("diagnosis") or {})
         if with_controls:
             done, _ = run_quietly([workspace.program("blind_controls"), str(data), str(scratch / "controls.json")], scratch)
             if done.returncode == 0:

@@ -28,8 +28,9 @@ def load(frozen, name):
     return labels, results
 
 
-def card_table(cases, seconds):
-    rows = scorecard.rates(cases) + scorecard.place_rates(cases) + scorecard.values(cases, seconds)
+def card_table(cases, seconds, labels, results):
+    rows = scorecard.rates(cases) + scorecard.place_rates(cases) + scorecard.next_run_rates(labels, results)
+    rows += scorecard.values(cases, seconds)
     lines = ["| measure | value | 95 % interval | cases | aim / fails | |", "|---|---|---|---|---|---|"]
     return lines + [row.row() for row in rows]
 
@@ -138,7 +139,7 @@ def score(frozen, name, folder, sealed, prefix):
              f"{len(cases)} cases scored of {len(labels)} sealed ({len(missing)} not diagnosed); {len(failed)} diagnoses failed and count as silent. "
              + "Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",
              "Every case stands in `" + f"{prefix}/cases.tsv" + "`. What counts as right: `benchmarks/blind/harness/judge.py`.", "",
-             "## Scorecard", ""] + card_table(cases, seconds) + [
+             "## Scorecard", ""] + card_table(cases, seconds, labels, results) + [
              "", "Wilson intervals. \"aim\": reaches the aim; \"ok\": between aim and failing; \"FAILS\": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25.", "",
              "## Controls on the same cases", ""] + control_table(labels, results) + [
              "", "`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing.", "",
@@ -149,5 +150,5 @@ def score(frozen, name, folder, sealed, prefix):
              "| probability said | share right | answers |", "|---|---|---|"] + [f"| {p:.2f} | {s:.2f} | {n} |" for p, s, n in reliability]
     (folder / f"{prefix}.md").write_text("\n".join(lines) + "\n")
     print(f"{folder / (prefix + '.md')}")
-    print("\n".join(card_table(cases, seconds)))
+    print("\n".join(card_table(cases, seconds, labels, results)))
     return len(missing), len(failed)

@@ -98,6 +98,21 @@ def place_rates(cases):
     return rows
 
 
+def next_run_rates(labels, results):
+    """Groups that hold a true effect: does one more run leave that effect alone? The proposed run, and a random one."""
+    outcomes = {"proposed": [], "random": []}
+    for case_id, result in results.items():
+        first = judge.Answer(result.get("diagnosis"))
+        truth = set(judge.truth_of(labels[case_id]))
+        if not result.get("follow_up") or not first.group_of_first & truth:
+            continue
+        for name, again in result["follow_up"].items():
+            answer = judge.Answer((again or {}).get("diagnosis"))
+            outcomes[name].append(not answer.silent and len(answer.group_of_first) == 1 and answer.first in truth)
+    return [Rate("the proposed next run settles the group", outcomes["proposed"], 0.8, 0.6),
+            Rate("a random next run settles the group (control)", outcomes["random"], None, None)]
+
+
 def values(cases, seconds):
     """The measures that are no proportions."""
     with_gap = [(l, a) for l, a in cases if l["bin"] == "single" and judge.detectable(l) and not a.silent

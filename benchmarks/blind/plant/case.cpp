@@ -110,6 +110,11 @@ Case draw_case(const CaseRequest& request) {
   draw_roughness(c);
   Random days = stream(c, 4);
   c.runs = test_day(c.nominal, request.runs, days);
+  for (const std::string& description : request.appended) {
+    Run run = described_run(description, c.nominal);
+    run.start_time_s = std::round(c.runs.back().start_time_s + c.runs.back().duration_s() + 5);
+    c.runs.push_back(run);
+  }
   c.truth = c.calibrated;
   c.world = c.plain_world;
   for (std::size_t k = 0; k < request.effects.size(); ++k) {

@@ -4,7 +4,9 @@
 #include <exception>
 #include <iostream>
 #include <map>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case.hpp"
@@ -21,6 +23,8 @@ constexpr const char* kUsage =
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
     "  --out      folder of the data set; absent: the label alone is written\n"
     "  --label    where the label goes, YAML or (*.json) JSON (default: DIR/truth.yaml; `none`: nowhere)\n"
+    "  --append   more runs after the test day: key:value,...;... as in a mission's `motion:` (profile, "
+    "speed_m_s, ...)\n"
     "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
 
 std::vector<std::string> split(const std::string& text) {
@@ -54,6 +58,8 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
   request.runs = std::stoi(get("--protocol", "24"));
   request.level = std::stoi(get("--level", "0"));
   request.seed = std::stoull(get("--seed", "1"));
+  std::istringstream appended(get("--append", ""));
+  for (std::string one; std::getline(appended, one, ';');) request.appended.push_back(one);
   if (request.runs < 1 || request.runs > 24 || request.level < 0 || request.level > 1 ||
       request.effects.size() > 2)
     throw std::invalid_argument("protocol is 1 to 24 runs, level 0 or 1, at most two effects");
@@ -74,7 +80,7 @@ int run(int argc, char** argv) {
       throw std::invalid_argument("unexpected argument '" + key + "'");
   }
   for (const auto& [key, value] : given)
-    if (std::string(" --effect --size --robot --protocol --level --seed --out --label ")
+    if (std::string(" --effect --size --robot --protocol --level --seed --out --label --append ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
   const std::string out = given["--out"];

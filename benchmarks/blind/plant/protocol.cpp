@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace blind {
@@ -164,19 +167,43 @@ std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random)
   return runs;
 }
 
-Run run_of(const Motion& m) {
-  const double direction = m.reverse ? -1 : 1;
-  if (m.kind == "spin")
-    return spin(m.yaw_rate_rad_s, std::max(0.2, std::abs(m.yaw_rate_rad_s)), m.cruise_s, m.payload_kg,
-                m.heading_rad);
-  if (m.kind == "stand") {
-    Run run = begin("stand", m.payload_kg, m.heading_rad);
-    rest(run, m.cruise_s);
+Run described_run(const std::string& description, const Machine& m) {
+  std::map<std::string, std::string> given;
+  std::istringstream in(description);
+  for (std::string part; std::getline(in, part, ',');) {
+    const std::size_t colon = part.find(':');
+    if (colon == std::string::npos)
+      throw std::invalid_argument("a motion is key:value,..., not '" + part + "'");
+    given[part.substr(0, colon)] = part.substr(colon + 1);
+  }
+  const auto number = [&](const char* key, double fallback) {
+    const auto at = given.find(key);
+    return at == given.end() ? fallback : std::stod(at->second);
+  };
+  const std::string profile = given.count("profile") ? given["profile"] : "trapezoid";
+  const double payload_kg = number("payload_kg", 0), heading_rad = number("heading_rad", 0);
+  const double rate = number("acceleration_m_s2", m.base_acceleration_m_s2);
+  const double direction = given["direction"] == "reverse" ? -1 : 1;
+  double speed = number("speed_m_s", rate * number("ramp_s", 0.5 * m.top_speed_m_s / rate));
+  if (profile == "stand") {
+    Run run = begin("stand", payload_kg, heading_rad);
+    rest(run, number("duration_s", 10));
     return run;
   }
-  const double curvature = m.kind == "arc" ? m.curvature_per_m : 0.0;
-  return arc(m.kind, direction * m.speed_m_s, m.acceleration_m_s2, m.cruise_s, curvature, m.payload_kg,
-             m.heading_rad);
+  if (profile == "spin") {
+    const double angle = number("angle_rad", 4.0),
+                 yaw = std::copysign(number("yaw_rate_rad_s", m.base_yaw_rate_rad_s), angle);
+    const double slope = number("yaw_acceleration_rad_s2", m.base_yaw_rate_rad_s);
+    return spin(yaw, slope,
+                std::max(1.0, number("duration_s", std::abs(angle / yaw) - std::abs(yaw) / slope)),
+                payload_kg, heading_rad);
+  }
+  const double radius = number("radius_m", 0), angle = number("angle_rad", 2.0);
+  const double distance = radius > 0 ? std::abs(angle) * radius : number("distance_m", 4.0);
+  speed = std::min(speed, std::sqrt(0.9 * rate * distance));
+  const double cruise_s = std::max(0.5, number("duration_s", distance / speed - speed / rate));
+  const double curvature = radius > 0 ? std::copysign(1.0 / radius, angle) : 0.0;
+  return arc(profile, direction * speed, rate, cruise_s, curvature, payload_kg, heading_rad);
 }
 
 }  // namespace blind

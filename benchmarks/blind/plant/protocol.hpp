@@ -26,19 +26,10 @@ struct Run {
 /// curves, reverse, slow and fast, several headings, payloads mixed, in random order.
 [[nodiscard]] std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random);
 
-/// One motion from its description, as `next_experiment` proposes it: kind is trapezoid, constant_ramp,
-/// constant_speed, spin, arc, stand or coast.
-struct Motion {
-  std::string kind{"trapezoid"};
-  double speed_m_s{0.5};
-  double acceleration_m_s2{0.2};
-  double cruise_s{6.0};
-  double yaw_rate_rad_s{0.8};
-  double curvature_per_m{0.8};
-  bool reverse{false};
-  double payload_kg{0.0};
-  double heading_rad{0.0};
-};
-[[nodiscard]] Run run_of(const Motion& motion);
+/// One more run from a description such as a diagnosis proposes: `profile:trapezoid,speed_m_s:0.5,...` with
+/// the keys of a prescribed motion (profile, speed_m_s, acceleration_m_s2, distance_m, duration_s, ramp_s,
+/// radius_m, angle_rad, yaw_rate_rad_s, direction), and payload_kg, heading_rad. Throws
+/// std::invalid_argument.
+[[nodiscard]] Run described_run(const std::string& description, const Machine& nominal);
 
 }  // namespace blind
