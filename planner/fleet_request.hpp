@@ -29,6 +29,7 @@ struct Fleet {
   std::vector<FleetRobot> robots{};
   std::vector<FleetCharger> chargers{};
   std::vector<std::string> mission_files{};
+  std::vector<ItemMarks> mission_marks{};  ///< where each is named
 };
 
 }  // namespace joulepath

@@ -79,8 +79,11 @@ FileSummary summary_of_log(const std::string& file) {
 FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options) {
   const Fleet fleet = read_fleet(file, options);
   for (const auto& robot : fleet.robots)
-    static_cast<void>(read_robot(robot.robot_file, robot.marks.at("robot")));
-  for (const auto& mission : fleet.mission_files) static_cast<void>(read_mission(mission, options));
+    static_cast<void>(read_robot(robot.robot_file, {robot.marks.at("robot"), robot.marks.key_path("robot")}));
+  for (std::size_t i = 0; i < fleet.mission_files.size(); ++i) {
+    const NamedBy named(fleet.mission_marks[i].item, fleet.mission_marks[i].path);
+    static_cast<void>(mission_from(Document::load(fleet.mission_files[i], named), options));
+  }
   return {"fleet",
           counted(fleet.robots.size(), "robot") + ", " + counted(fleet.mission_files.size(), "mission"),
           {}};
@@ -104,6 +107,7 @@ std::string kind_of(const Document& document) {
     line->fail("one of: " + names);
   }
   for (const auto& [key, kind] : {std::pair{"image", "map"},
+                                  {"resolution", "map"},
                                   {"runs", "dataset"},
                                   {"missions", "fleet"},
                                   {"legs", "mission"},

@@ -29,6 +29,7 @@ class CsvParser {
   CsvParser(std::string_view text, std::string file, const std::function<bool(const std::string&)>& wanted)
       : rest_(text) {
     table_.file = std::move(file);
+    if (text.find('\0') != std::string_view::npos) fail(0, "", "binary data", "a text file in CSV");
     if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
     read_header(wanted);
     const std::size_t guess = text.size() / std::max<std::size_t>(text.size() - rest_.size(), 16);
@@ -157,7 +158,7 @@ CsvTable parse_csv(std::string_view text, std::string file,
 }
 
 CsvTable read_csv(const std::string& file, const std::function<bool(const std::string&)>& wanted,
-                  const SourceMark& named_by) {
+                  const NamedBy& named_by) {
   return parse_csv(read_text_file(file, named_by), file, wanted);
 }
 

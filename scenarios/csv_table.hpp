@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config_error.hpp"
+#include "scenarios/document.hpp"
 
 namespace joulepath {
 
@@ -26,7 +26,7 @@ struct CsvTable {
 /// column.
 [[nodiscard]] CsvTable read_csv(const std::string& file,
                                 const std::function<bool(const std::string&)>& wanted,
-                                const SourceMark& named_by = {});
+                                const NamedBy& named_by = {});
 [[nodiscard]] CsvTable parse_csv(std::string_view text, std::string file,
                                  const std::function<bool(const std::string&)>& wanted);
 

@@ -80,7 +80,9 @@ class RunReader {
 
   void read_log(const Node& node, Run& run) {
     std::vector<LogFileName> files;
-    const auto add = [&](const Node& name) { files.push_back({resolve_file(name, options_), name.mark()}); };
+    const auto add = [&](const Node& name) {
+      files.push_back({resolve_file(name, options_), NamedBy(name)});
+    };
     if (const auto names = node.find("files"))
       for (const auto& name : names->items()) add(name);
     else
@@ -97,10 +99,10 @@ class RunReader {
   void read_predicted(const Node& node, Run& run) {
     const std::string file = resolve_file(node, options_);
     const auto header = read_csv(
-                            file, [](const std::string&) { return false; }, node.mark())
+                            file, [](const std::string&) { return false; }, NamedBy(node))
                             .header;
     const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
-    run.predicted = read_run_log({{file, node.mark()}}, own_names ? ColumnSources{} : sources_,
+    run.predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources_,
                                  dataset_.robot.geometry, node.text())
                         .trajectory;
   }
@@ -145,7 +147,7 @@ Dataset read_dataset(const std::string& file, const ReadOptions& options,
   if (!robot_file && !root.has("robot"))
     root.fail_found("no robot", "robot: and the name of a robot file", "or give it with --robot");
   dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
-  dataset.robot = read_robot(dataset.robot_file, robot_file ? SourceMark{} : root["robot"].mark());
+  dataset.robot = read_robot(dataset.robot_file, robot_file ? NamedBy{} : NamedBy(root["robot"]));
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   RunReader reader(dataset, sources, options);

@@ -23,7 +23,7 @@ class TreeBuilder {
  public:
   TreeBuilder(const std::string& file, int first_line) : file_(file), first_line_(first_line) {}
 
-  Value build(const YAML::Node& node, int depth) {
+  Value build(const YAML::Node& node, int depth, const std::string& path = "") {
     Value value;
     set_mark(node.Mark(), value.line, value.column);
     if (depth > kMaxDepth || ++count_ > kMaxValues)
@@ -38,10 +38,12 @@ class TreeBuilder {
         break;
       case YAML::NodeType::Sequence:
         value.kind = Value::Kind::list;
-        for (const auto& item : node) value.items.push_back(build(item, depth + 1));
+        for (const auto& item : node)
+          value.items.push_back(
+              build(item, depth + 1, path + "[" + std::to_string(value.items.size()) + "]"));
         break;
       case YAML::NodeType::Map:
-        build_map(node, depth, value);
+        build_map(node, depth, path, value);
         break;
       default:
         value.kind = Value::Kind::null;
@@ -50,7 +52,7 @@ class TreeBuilder {
   }
 
  private:
-  void build_map(const YAML::Node& node, int depth, Value& value) {
+  void build_map(const YAML::Node& node, int depth, const std::string& path, Value& value) {
     value.kind = Value::Kind::map;
     for (const auto& pair : node) {
       Value::Entry entry;
@@ -58,12 +60,15 @@ class TreeBuilder {
       if (!pair.first.IsScalar())
         fail(entry.line, entry.column, "", "a key that is a list or a map", "a word as key");
       entry.key = pair.first.Scalar();
+      const std::string full = path.empty() ? entry.key : path + "." + entry.key;
       const auto same = std::find_if(value.entries.begin(), value.entries.end(),
                                      [&](const Value::Entry& other) { return other.key == entry.key; });
       if (same != value.entries.end())
-        fail(entry.line, entry.column, entry.key, "the key a second time", "each key once",
+        fail(entry.line, entry.column, full, "the key a second time", "each key once",
              "it stands on line " + std::to_string(same->line) + " already");
-      entry.value = build(pair.second, depth + 1);
+      entry.value = build(pair.second, depth + 1, full);
+      if (entry.value.kind == Value::Kind::null)
+        entry.value.line = entry.line, entry.value.column = entry.column;
       value.entries.push_back(std::move(entry));
     }
   }
@@ -203,6 +208,8 @@ double Node::number() const {
   }();
   if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos)
     hint = "leave the key away where there is no value or no limit";
+  else if (text.find_first_not_of("+-0123456789.eE") == std::string::npos)
+    hint = "it is too large, or not written as a number";
   else if (comma != std::string::npos)
     hint = "the decimal sign is a point";
   else if (!text.empty() && (std::isdigit(static_cast<unsigned char>(text.front())) || text.front() == '-'))
@@ -258,6 +265,13 @@ std::string Node::described() const {
     case Value::Kind::scalar:
       return value_->quoted ? "the text \"" + shortened(value_->text) + "\"" : shortened(value_->text);
     case Value::Kind::list:
+      if (!value_->items.empty() && value_->items.size() <= 4 &&
+          std::all_of(value_->items.begin(), value_->items.end(),
+                      [](const Value& item) { return item.kind == Value::Kind::scalar; })) {
+        std::string items;
+        for (const auto& item : value_->items) items += (items.empty() ? "" : ", ") + shortened(item.text);
+        return "[" + items + "]";
+      }
       return value_->items.empty() ? "an empty list" : "a list of " + std::to_string(value_->items.size());
     case Value::Kind::map:
       break;
@@ -304,27 +318,28 @@ Document Document::parse(std::string_view text, std::string file, int first_line
   return document;
 }
 
-Document Document::load(const std::string& file, const SourceMark& named_by) {
+Document Document::load(const std::string& file, const NamedBy& named_by) {
   return parse(read_text_file(file, named_by), file);
 }
 
-std::string read_text_file(const std::string& file, const SourceMark& named_by) {
-  const SourceMark mark = named_by.file.empty() ? SourceMark{file, 0, 0} : named_by;
-  const std::string subject = named_by.file.empty() ? "" : file;
+ConfigError NamedBy::error(const std::string& file, std::string found, std::string accepted,
+                           std::string hint) const {
+  if (mark.file.empty())
+    return ConfigError({{file, 0, 0}, "", std::move(found), std::move(accepted), std::move(hint)});
+  return ConfigError({mark, key, file + ", " + found, std::move(accepted), std::move(hint)});
+}
+
+std::string read_text_file(const std::string& file, const NamedBy& named_by) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw ConfigError({mark, subject, "a directory", "a file", ""});
+  if (std::filesystem::is_directory(file, error)) throw named_by.error(file, "a directory", "a file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream && errno == EACCES) throw std::system_error(errno, std::generic_category(), file);
-  if (!stream) {
-    const std::string reason = std::strerror(errno);
-    throw ConfigError(
-        {mark, subject, "no readable file (" + reason + ")", "a file that can be read",
-         named_by.file.empty() ? "" : "relative paths are relative to the file that names them"});
-  }
+  if (!stream)
+    throw named_by.error(
+        file, std::string("no readable file (") + std::strerror(errno) + ")", "a file that can be read",
+        named_by.mark.file.empty() ? "" : "relative paths are relative to the file that names them");
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad())
-    throw ConfigError({mark, subject, "a file that cannot be read to its end", "a readable file", ""});
+  if (stream.bad()) throw named_by.error(file, "a file that cannot be read to its end", "a readable file");
   return text;
 }
 

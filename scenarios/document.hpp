@@ -72,6 +72,21 @@ class Node {
   std::string path_;
 };
 
+/// Where a file is named in another one, for the errors that its absence or its content make; empty: on the
+/// command line.
+struct NamedBy {
+  SourceMark mark{};
+  std::string key{};  ///< dotted
+
+  NamedBy() = default;
+  NamedBy(SourceMark mark_, std::string key_) : mark(std::move(mark_)), key(std::move(key_)) {}
+  explicit NamedBy(const Node& node) : mark(node.mark()), key(node.path()) {}
+
+  /// The error that `file` causes: at the place that names it, or at the file itself.
+  [[nodiscard]] ConfigError error(const std::string& file, std::string found, std::string accepted,
+                                  std::string hint = {}) const;
+};
+
 /// How files that name other files are read.
 struct ReadOptions {
   bool untrusted{};  ///< names in the input may not be absolute or leave the input's folder
@@ -83,7 +98,7 @@ class Document {
   /// Parses YAML (JSON is YAML too). Throws ConfigError: syntax, duplicate key, several documents, too large.
   static Document parse(std::string_view text, std::string file, int first_line = 1);
   /// Reads and parses a file. Throws ConfigError when it cannot be read; `named_by` is where its name stands.
-  static Document load(const std::string& file, const SourceMark& named_by = {});
+  static Document load(const std::string& file, const NamedBy& named_by = {});
 
   [[nodiscard]] Node root() const { return {*root_, *file_, ""}; }
   [[nodiscard]] const std::string& file() const { return *file_; }
@@ -94,7 +109,7 @@ class Document {
 };
 
 /// A file's whole content. Throws ConfigError when it cannot be read.
-[[nodiscard]] std::string read_text_file(const std::string& file, const SourceMark& named_by = {});
+[[nodiscard]] std::string read_text_file(const std::string& file, const NamedBy& named_by = {});
 
 /// The file that a node names, relative to the file that holds the node.
 [[nodiscard]] std::string resolve_file(const Node& node, const ReadOptions& options);

@@ -46,7 +46,8 @@ EffectSetting read_effect(const std::string& name, const Node& node) {
   } catch (const ConfigError& error) {
     ConfigError::Detail detail = error.detail();
     detail.mark = node.mark();
-    detail.key = node.path();
+    const std::string prefix = "effects." + name;
+    detail.key = node.path() + (detail.key.rfind(prefix, 0) == 0 ? detail.key.substr(prefix.size()) : "");
     throw ConfigError(detail);
   }
   return setting;

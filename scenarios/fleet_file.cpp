@@ -36,8 +36,10 @@ Fleet read_fleet(const std::string& file, const ReadOptions& options) {
                                 .count = static_cast<int>(item.number_or("count", 1.0)),
                                 .power_W = item["power_W"].number(),
                                 .marks = marks_of(item)});
-  for (const auto& mission : root["missions"].items())
+  for (const auto& mission : root["missions"].items()) {
     fleet.mission_files.push_back(resolve_file(mission, options));
+    fleet.mission_marks.push_back({.path = mission.path(), .item = mission.mark()});
+  }
   return fleet;
 }
 

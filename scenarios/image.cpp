@@ -14,20 +14,18 @@ constexpr long kMaxPixels = 100'000'000;
 
 class ImageFile {
  public:
-  ImageFile(const std::string& file, const SourceMark& named_by)
+  ImageFile(const std::string& file, const NamedBy& named_by)
       : file_(file), named_by_(named_by), bytes_(read_text_file(file, named_by)) {}
 
   Image read() {
     if (bytes_.rfind("P5", 0) == 0 || bytes_.rfind("P2", 0) == 0) return read_pgm();
     if (bytes_.rfind("\x89PNG", 0) == 0) return read_png();
-    fail(bytes_.empty() ? "an empty file" : "a file that is neither", "an image in PGM (P2, P5) or PNG");
+    fail(bytes_.empty() ? "an empty file" : "a file of another format", "an image in PGM (P2, P5) or PNG");
   }
 
  private:
   [[noreturn]] void fail(std::string found, std::string accepted) const {
-    const bool named = !named_by_.file.empty();
-    throw ConfigError({named ? named_by_ : SourceMark{file_, 0, 0}, named ? file_ : "", std::move(found),
-                       std::move(accepted), ""});
+    throw named_by_.error(file_, std::move(found), std::move(accepted));
   }
 
   void check_size(long width, long height) const {
@@ -123,14 +121,14 @@ class ImageFile {
   }
 
   std::string file_;
-  SourceMark named_by_;
+  NamedBy named_by_;
   std::string bytes_;
   std::size_t position_{};
 };
 
 }  // namespace
 
-Image read_image(const std::string& file, const SourceMark& named_by) {
+Image read_image(const std::string& file, const NamedBy& named_by) {
   return ImageFile(file, named_by).read();
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/config_error.hpp"
+#include "scenarios/document.hpp"
 
 namespace joulepath {
 
@@ -17,6 +17,6 @@ struct Image {
 
 /// Reads PGM (P2, P5; 8 or 16 bits) or PNG (colors are averaged). Throws ConfigError for a missing,
 /// truncated, oversized or foreign file; `named_by` is where the map names it.
-[[nodiscard]] Image read_image(const std::string& file, const SourceMark& named_by = {});
+[[nodiscard]] Image read_image(const std::string& file, const NamedBy& named_by = {});
 
 }  // namespace joulepath

@@ -57,12 +57,12 @@ Schema map_schema() {
        required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))});
 }
 
-OccupancyGrid read_map(const std::string& file, const SourceMark& named_by, const ReadOptions& options) {
+OccupancyGrid read_map(const std::string& file, const NamedBy& named_by, const ReadOptions& options) {
   const Document document = Document::load(file, named_by);
   check_document(document, "map", map_schema());
   const Node root = document.root();
   const Interpretation meaning = read_interpretation(root);
-  const Image image = read_image(resolve_file(root["image"], options), root["image"].mark());
+  const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
   const auto origin = root["origin"].items();
   OccupancyGrid grid{.width = image.width,
                      .height = image.height,

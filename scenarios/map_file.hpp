@@ -13,7 +13,7 @@ namespace joulepath {
 ///
 ///   occupancy = 1 - shade (shade when negated); trinary: occupied above occupied_thresh, free below
 ///   free_thresh, unknown between; scale: linear between, see-through pixels unknown; raw: the pixel's value.
-[[nodiscard]] OccupancyGrid read_map(const std::string& file, const SourceMark& named_by = {},
+[[nodiscard]] OccupancyGrid read_map(const std::string& file, const NamedBy& named_by = {},
                                      const ReadOptions& options = {});
 
 }  // namespace joulepath

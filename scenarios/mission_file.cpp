@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
@@ -205,17 +206,38 @@ MissionRequest read_mission(const std::string& file, const ReadOptions& options)
   return mission_from(Document::load(file), options);
 }
 
+namespace {
+
+/// A payload that the robot may not carry is a mistake of the mission, told at the leg.
+void check_payloads(const MissionRequest& request, const Robot& robot) {
+  const double most_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
+  const auto check = [&](double payload_kg, const ItemMarks& marks) {
+    if (payload_kg <= most_kg) return;
+    std::ostringstream found, accepted;
+    found << payload_kg;
+    accepted << "at most " << most_kg << ", the max_payload_kg of " << request.robot_file;
+    throw ConfigError(
+        {marks.at("payload_kg"), marks.key_path("payload_kg"), found.str(), accepted.str(), ""});
+  };
+  for (const auto& leg : request.legs) check(std::max(leg.payload.from_kg, leg.payload.to_kg), leg.marks);
+  for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
+}
+
+}  // namespace
+
 MissionWorld read_world(const MissionRequest& request, const ReadOptions& options) {
-  MissionWorld world{.robot = read_robot(request.robot_file, request.marks.at("robot"))};
-  if (!request.map_file.empty()) world.map = read_map(request.map_file, request.marks.at("map"), options);
+  const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
+  MissionWorld world{.robot = read_robot(request.robot_file, named("robot"))};
+  check_payloads(request, world.robot);
+  if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
   if (!request.keepout_file.empty())
-    world.keepout = read_map(request.keepout_file, request.marks.at("keepout"), options);
+    world.keepout = read_map(request.keepout_file, named("keepout"), options);
   if (request.speed_mask)
     world.speed_mask =
-        SpeedMask{read_map(request.speed_mask->file, request.marks.at("speed_mask"), options),
-                  request.speed_mask->kind, request.speed_mask->base, request.speed_mask->multiplier};
+        SpeedMask{read_map(request.speed_mask->file, named("speed_mask"), options), request.speed_mask->kind,
+                  request.speed_mask->base, request.speed_mask->multiplier};
   if (!request.route_graph_file.empty())
-    world.route_graph = read_route_graph(request.route_graph_file, request.marks.at("route_graph"));
+    world.route_graph = read_route_graph(request.route_graph_file, named("route_graph"));
   return world;
 }
 

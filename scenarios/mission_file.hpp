@@ -23,6 +23,6 @@ namespace joulepath {
 [[nodiscard]] ItemMarks marks_of(const Node& node);
 
 /// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).
-[[nodiscard]] RouteGraph read_route_graph(const std::string& file, const SourceMark& named_by = {});
+[[nodiscard]] RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by = {});
 
 }  // namespace joulepath

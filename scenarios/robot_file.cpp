@@ -129,7 +129,7 @@ Robot robot_from(const Document& document) {
   return robot;
 }
 
-Robot read_robot(const std::string& file, const SourceMark& named_by) {
+Robot read_robot(const std::string& file, const NamedBy& named_by) {
   return robot_from(Document::load(file, named_by));
 }
 

@@ -10,7 +10,7 @@ namespace joulepath {
 [[nodiscard]] Schema robot_schema();
 
 /// Reads a robot file. Throws ConfigError; `named_by` is where another file names this one.
-[[nodiscard]] Robot read_robot(const std::string& file, const SourceMark& named_by = {});
+[[nodiscard]] Robot read_robot(const std::string& file, const NamedBy& named_by = {});
 
 /// The robot that a parsed document describes.
 [[nodiscard]] Robot robot_from(const Document& document);

@@ -64,7 +64,7 @@ class GraphReader {
 
 }  // namespace
 
-RouteGraph read_route_graph(const std::string& file, const SourceMark& named_by) {
+RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
   const Document document = Document::load(file, named_by);
   const Node root = document.root();
   if (root.kind() != Value::Kind::map || root.text_or("type", "") != "FeatureCollection")

@@ -32,8 +32,11 @@ class LogFile {
     table_ = read_csv(
         name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
     if (table_.rows() < 2)
-      throw ConfigError(
-          {{name.file, 0, 0}, "", std::to_string(table_.rows()) + " rows", "at least 2 samples", ""});
+      throw ConfigError({{name.file, 0, 0},
+                         "",
+                         std::to_string(table_.rows()) + (table_.rows() == 1 ? " row" : " rows"),
+                         "at least 2 samples",
+                         ""});
     read_times();
     for (const auto& column : log_columns())
       if (column.measured && column.name != "time_s") read_channel(column.name);

@@ -20,7 +20,7 @@ struct RunLog {
 /// A log file and where it is named (for messages).
 struct LogFileName {
   std::string file{};
-  SourceMark named_by{};
+  NamedBy named_by{};
 };
 
 /// Reads one run from one or several files; with several, all channels are taken to the times of the first

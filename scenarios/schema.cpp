@@ -191,6 +191,7 @@ std::string accepted_by(const Schema& schema) {
       return "a list" + count + ", each " + item;
     }
     case Schema::Kind::map: {
+      if (schema.keys.size() > 12) return "a map (key: value)";
       std::vector<std::string> names;
       for (const auto& key : schema.keys) names.push_back(key.name);
       return "a map with keys " + joined(names);
@@ -205,7 +206,7 @@ std::string accepted_by(const Schema& schema) {
 
 void check_value(const Node& node, const Schema& schema) {
   if (node.kind() == Value::Kind::null)
-    node.fail(accepted_by(schema), "leave the key away to take the default");
+    node.fail(accepted_by(schema), "write a value, or leave the key away where it is optional");
   switch (schema.kind) {
     case Schema::Kind::number:
     case Schema::Kind::integer:

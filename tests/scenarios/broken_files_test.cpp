@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "scenarios/any_file.hpp"
+#include "tests/scenarios/scratch_directory.hpp"
+
+namespace joulepath {
+namespace {
+
+const std::string kBroken = JOULEPATH_SOURCE_DIR "/tests/data/broken/";
+
+std::map<std::string, std::string> expected_messages() {
+  std::map<std::string, std::string> messages;
+  std::ifstream stream(kBroken + "expected.tsv");
+  for (std::string line; std::getline(stream, line);) {
+    const auto tab = line.find('\t');
+    messages[line.substr(0, tab)] = line.substr(tab + 1);
+  }
+  return messages;
+}
+
+std::string without(std::string text, const std::string& part) {
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part)) text.erase(at, part.size());
+  return text;
+}
+
+TEST(BrokenFiles, EachGivesItsOwnMessage) {
+  const auto messages = expected_messages();
+  ASSERT_GE(messages.size(), 100u);
+  for (const auto& [file, expected] : messages) {
+    try {
+      const auto summary = read_any_file(kBroken + file);
+      ADD_FAILURE() << file << " was taken as " << summary.kind << " " << summary.text;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(without(error.what(), kBroken), expected) << file;
+      EXPECT_FALSE(error.detail().found.empty()) << file;
+      EXPECT_FALSE(error.detail().accepted.empty()) << file;
+    }
+  }
+}
+
+TEST(BrokenFiles, TheFilesThatTheyWereMadeFromAreRight) {
+  for (const char* file : {"robot.yaml", "mission.yaml", "visit.yaml", "map.yaml", "dataset.yaml",
+                           "fleet.yaml", "run.csv", "graph.geojson"})
+    EXPECT_NO_THROW(static_cast<void>(read_any_file(kBroken + "good/" + file))) << file;
+}
+
+TEST(BrokenFiles, EveryFileOfTheCorpusIsExpected) {
+  const auto messages = expected_messages();
+  const std::set<std::string> parts{"map/truncated.pgm", "map/truncated_text.pgm", "map/above_white.pgm",
+                                    "map/no_pixels.pgm", "map/too_large.pgm",      "map/broken.png",
+                                    "map/empty.pgm",     "dataset/later.csv",      "expected.tsv"};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kBroken)) {
+    const std::string name = entry.path().string().substr(kBroken.size());
+    if (entry.is_directory() || name.rfind("good/", 0) == 0 || parts.contains(name)) continue;
+    EXPECT_TRUE(messages.contains(name)) << name;
+  }
+}
+
+TEST(UntrustedFiles, NamesMayNotLeaveTheFolder) {
+  const ScratchDirectory scratch;
+  const auto key_refused = [&](const std::string& image) {
+    const std::string file = scratch.write(
+        "in/map.yaml",
+        "image: " + image + "\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.25\n");
+    static_cast<void>(read_any_file(file));  // trusted, every one of them is fine
+    try {
+      static_cast<void>(read_any_file(file, "", {.untrusted = true}));
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().accepted, "a path inside of the input's folder");
+      return error.detail().key;
+    }
+    return std::string();
+  };
+  const std::string outside = scratch.write("m.pgm", "P2 1 1 255 0");
+  scratch.write("in/m.pgm", "P2 1 1 255 0");
+  std::filesystem::create_symlink(outside, scratch.at("in/link.pgm"));
+  EXPECT_EQ(key_refused("m.pgm"), "");
+  EXPECT_EQ(key_refused("../in/m.pgm"), "");
+  EXPECT_EQ(key_refused("../m.pgm"), "image");
+  EXPECT_EQ(key_refused(outside), "image");
+  EXPECT_EQ(key_refused("link.pgm"), "image");
+}
+
+}  // namespace
+}  // namespace joulepath
