@@ -37,6 +37,13 @@ class FootprintChecker {
   /// Straight driving between two points, looking along.
   [[nodiscard]] bool line_free(double x0_m, double y0_m, double x1_m, double y1_m) const;
 
+  /// The same outline and obstacles with another clearance.
+  [[nodiscard]] FootprintChecker with_clearance(double clearance_m) const {
+    FootprintChecker other = *this;
+    other.clearance_m_ = clearance_m;
+    return other;
+  }
+
   bool is_disc() const { return polygon_m_.empty(); }
   double clearance_m() const { return clearance_m_; }
   double circumscribed_radius_m() const { return outer_m_; }

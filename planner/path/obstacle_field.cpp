@@ -9,9 +9,8 @@
 
 namespace joulepath {
 namespace {
-constexpr double kHalfDiagonal = 0.70710678118654752440;
+constexpr double kRounding = 1e-4;  // cells; distances are stored as float
 }
-
 ObstacleField::ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout) {
   layers_.push_back(layer(map, true));
   if (keepout != nullptr) layers_.push_back(layer(*keepout, false));
@@ -55,8 +54,8 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
   const double center_distance = distance_cells[index];
   const double off_center = std::hypot(u - column - 0.5, v - row - 0.5);
   const double rim = outside_blocked ? std::min({u, v, grid.width - u, grid.height - v}) : kInfinity;
-  const double lower = std::max(0.0, std::min(center_distance - off_center - kHalfDiagonal, rim));
-  const double upper = blocked[index] != 0 ? 0.0 : std::min(center_distance + off_center - 0.5, rim);
+  const double lower = std::max(0.0, std::min(center_distance - off_center - kRounding, rim));
+  const double upper = blocked[index] != 0 ? 0.0 : std::min(center_distance + off_center + kRounding, rim);
   return {lower * grid.resolution_m, upper * grid.resolution_m};
 }
 

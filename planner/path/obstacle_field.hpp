@@ -29,7 +29,7 @@ class ObstacleField {
   };
 
   /// Bounds of the distance at a point, from the transform alone (a few nanoseconds): no farther apart
-  /// than two cells.
+  /// than a cell's diagonal.
   struct Bounds {
     double lower_m{};
     double upper_m{};
@@ -57,7 +57,7 @@ class ObstacleField {
   struct LayerField {
     OccupancyGrid grid{};  ///< geometry; occupancy is moved to `blocked`
     std::vector<std::uint8_t> blocked{};
-    std::vector<float> distance_cells{};  ///< center to center
+    std::vector<float> distance_cells{};  ///< from a cell's center to the nearest blocked square
     double cosine{}, sine{};
     bool outside_blocked{};
 

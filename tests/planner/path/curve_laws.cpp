@@ -39,6 +39,11 @@ CurveBreach curve_breach(const PathPiece& piece, int samples_per_stretch) {
   for (std::size_t i = 0; i + 1 < breakpoints.size(); ++i) {
     const double from = breakpoints[i], to = breakpoints[i + 1];
     Increments sum;
+    if (i > 0) {
+      const double step = piece_point(piece, from).curvature_per_m -
+                          piece_point(piece, std::nextafter(from, 0)).curvature_per_m;
+      worst.curvature_step_per_m = std::max(worst.curvature_step_per_m, std::abs(step));
+    }
     const PathPoint begin = piece_point(piece, from);
     for (int k = 0; k < samples_per_stretch; ++k) {
       const double a = from + (to - from) * k / samples_per_stretch;

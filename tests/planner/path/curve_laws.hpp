@@ -11,6 +11,7 @@ struct CurveBreach {
   double position_m{};
   double heading_rad{};
   double curvature_per_m{};
+  double curvature_step_per_m{};  ///< across breakpoints
 };
 
 CurveBreach curve_breach(const PathPiece& piece, int samples_per_stretch = 200);

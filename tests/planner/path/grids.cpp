@@ -1,5 +1,7 @@
 #include "tests/planner/path/grids.hpp"
 
+#include <fstream>
+#include <limits>
 #include <random>
 
 namespace joulepath {
@@ -46,5 +48,45 @@ OccupancyGrid warehouse_grid(unsigned seed, double length_m, double depth_m, dou
   }
   return grid;
 }
+
+std::optional<OccupancyGrid> pgm_grid(const std::string& file, double resolution_m, const Pose& origin) {
+  std::ifstream in(file, std::ios::binary);
+  std::string magic;
+  if (!(in >> magic) || magic != "P5") return std::nullopt;
+  int numbers[3];
+  for (int& number : numbers) {
+    while ((in >> std::ws).peek() == '#') in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    in >> number;
+  }
+  in.get();
+  OccupancyGrid grid = free_grid(numbers[0], numbers[1], resolution_m);
+  grid.origin = origin;
+  for (int row = grid.height - 1; row >= 0; --row)
+    for (int column = 0; column < grid.width; ++column) {
+      const double occupied = 1 - static_cast<double>(in.get()) / numbers[2];
+      grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = occupied > 0.65 ? 100
+                                                                                    : occupied < 0.25
+                                                                                        ? 0
+                                                                                        : kUnknownCell;
+    }
+  return grid;
+}
+
+namespace {
+
+std::optional<OccupancyGrid> nav2_map(const std::string& name, double resolution_m, const Pose& origin) {
+  for (const char* folder : {"/scenarios/maps/", "/../shared/data/maps/"})
+    if (auto grid = pgm_grid(std::string(JOULEPATH_SOURCE_DIR) + folder + name, resolution_m, origin))
+      return grid;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<OccupancyGrid> nav2_warehouse() { return nav2_map("warehouse.pgm", 0.03, {-15.1, -25, 0}); }
+std::optional<OccupancyGrid> nav2_warehouse_keepout() {
+  return nav2_map("warehouse_keepout.pgm", 0.03, {-15.1, -25, 0});
+}
+std::optional<OccupancyGrid> nav2_depot() { return nav2_map("depot.pgm", 0.05, {0, 0, 0}); }
 
 }  // namespace joulepath

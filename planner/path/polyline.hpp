@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "planner/path/search.hpp"
+
+namespace joulepath {
+
+/// Whether the robot may drive straight between two points.
+using LineFree = std::function<bool(const Point2& from_m, const Point2& to_m)>;
+
+/// Pulls a polyline taut: skips vertices in line of sight, then moves each vertex towards its neighbors'
+/// line as far as the line of sight allows, as long as the cost falls. The ends stay.
+[[nodiscard]] std::vector<Point2> pull_taut(std::vector<Point2> polyline_m, const LineFree& free,
+                                            const TravelCost& cost);
+
+[[nodiscard]] double polyline_length_m(const std::vector<Point2>& polyline_m);
+
+}  // namespace joulepath

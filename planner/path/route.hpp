@@ -1,0 +1,89 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/path/footprint_checker.hpp"
+#include "planner/path/free_space.hpp"
+#include "planner/path/search.hpp"
+#include "planner/path/smoothing.hpp"
+
+namespace joulepath {
+
+/// A floor as one robot sees it: obstacles, outline, and which places are connected. Made once per map,
+/// keep-out mask, footprint and clearance; then read-only and safe to share between threads.
+class RouteSpace {
+ public:
+  RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, const Footprint& footprint,
+             double clearance_m);
+
+  const ObstacleField& field() const { return *field_; }
+  const FootprintChecker& checker() const { return checker_; }
+  /// For a disc about the axle midpoint that holds the whole outline: free at any heading.
+  const FreeSpace& any_heading() const { return any_heading_; }
+  /// For the largest disc inside of the outline: what no heading can avoid. The same for round robots.
+  const FreeSpace& some_heading() const { return some_heading_ ? *some_heading_ : any_heading_; }
+
+ private:
+  std::unique_ptr<ObstacleField> field_{};  ///< its own allocation: the checker keeps a pointer to it
+  FootprintChecker checker_;
+  FreeSpace any_heading_;
+  std::optional<FreeSpace> some_heading_{};
+};
+
+struct RouteRequest {
+  Pose start{};
+  double goal_x_m{};
+  double goal_y_m{};
+  std::optional<double> goal_heading_rad{};  ///< absent: any
+  bool start_heading_free{};                 ///< start.heading_rad means nothing: begin along the path
+  CornerPolicy corners{};
+  SearchPlanner planner{SearchPlanner::bit_star};
+  TravelCost cost{};
+  std::uint64_t seed{1};
+};
+
+enum class RouteStatus {
+  found,
+  start_blocked,   ///< the robot does not fit at the start
+  goal_blocked,    ///< nor at the goal
+  no_connection,   ///< start and goal lie in parts of the floor that are not connected
+  no_room_to_turn  ///< the way is wide enough to drive, but not to turn in place where that is needed
+};
+
+/// Why there is no route, and where.
+struct RouteVerdict {
+  RouteStatus status{RouteStatus::found};
+  double x_m{};  ///< place of the obstruction
+  double y_m{};
+  double short_by_m{};                          ///< of the clearance asked, where that applies
+  bool keepout{};                               ///< the keep-out mask obstructs, not the map
+  std::optional<Point2> nearest_reachable_m{};  ///< reachable place nearest to the goal, where that applies
+  std::string message{};
+};
+
+struct RouteResult {
+  RouteVerdict verdict{};
+  Path path{};  ///< empty unless found (a goal at the start is an empty path too)
+  std::vector<CornerReport> corners{};
+  std::vector<Point2> polyline_m{};  ///< taut, before its corners were rounded
+  double polyline_cost{};
+  unsigned search_iterations{};
+  std::string
+      searched_by{};  ///< planner, or "line of sight", or "cells" where the grid's own route was better
+
+  bool found() const { return verdict.status == RouteStatus::found; }
+};
+
+/// Finds a way from a pose to a place and shapes it into a path with continuous curvature that the
+/// footprint can follow with its clearance everywhere; turns in place at the ends where headings differ.
+/// The path is checked along its whole length before it is returned. Deterministic in the request.
+[[nodiscard]] RouteResult plan_route(const RouteSpace& space, const RouteRequest& request);
+
+/// As plan_route, with the polyline given (from an earlier result or a route graph) instead of searched.
+[[nodiscard]] RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
+                                      const std::vector<Point2>& polyline_m);
+
+}  // namespace joulepath
