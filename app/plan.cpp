@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_summary.hpp"
+#include "app/report/plan_report.hpp"
 #include "planner/mission.hpp"
 #include "planner/plan_trajectory.hpp"
 #include "scenarios/mission_file.hpp"
@@ -32,7 +33,7 @@ class PlanCommand : public Command {
 
   void declare(CLI::App& app) override {
     app.add_option("mission", mission_, "mission file (YAML)")->required();
-    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, timing.json")->required();
+    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")->required();
     app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
         ->check(CLI::IsMember({"ipopt", "fast"}))
         ->capture_default_str();
@@ -66,7 +67,9 @@ class PlanCommand : public Command {
     out.write("timing.json", "{\"reading_s\": " + std::to_string(reading_s) +
                                  ", \"planning_s\": " + std::to_string(planning_s) + "}\n");
     const bool valid = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-    if (valid) out.write("trajectory.csv", run_log_text(plan_trajectory(plan, make_plant(world.robot))));
+    const Trajectory trajectory = valid ? plan_trajectory(plan, make_plant(world.robot)) : Trajectory{};
+    if (valid) out.write("trajectory.csv", run_log_text(trajectory));
+    out.write("report.html", report::plan_report(plan, json, trajectory, mission, world));
     out.commit();
     if (common_.json)
       std::cout << json;

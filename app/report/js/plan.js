@@ -76,7 +76,7 @@ jp.energy_section = function (plan) {
     jp.h("details", {}, jp.h("summary", {}, "Numbers, in J"), jp.table(["", ...names.map((name) => ({n: jp.words(name)})), {n: "total"}],
       [...legs.map((leg, k) => row_of(jp.leg_name(leg, k), leg.energy_by_cause_J, leg.energy_J)), row_of("mission", plan.energy_by_cause_J, total)])));
 };
-jp.leg_name = (leg, k) => `${k + 1} ${leg.to ? "to " + leg.to : jp.words(leg.kind || "path")}`;
+jp.leg_name = (leg, k) => `${k + 1} ${leg.to && leg.to !== "path" && leg.to !== "motion" ? "to " + leg.to : leg.to || "path"}`;
 
 jp.baseline_section = function (plan) {
   const baselines = (plan.baselines || []).filter((one) => one.name);
@@ -89,7 +89,14 @@ jp.baseline_section = function (plan) {
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, "settings"], rows.map((one) => one.feasible === false
       ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
-        Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])));
+        Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])), jp.settings_details(plan));
+};
+
+/** Settings of the baselines for controllers that follow nothing else: per leg and stretch. */
+jp.settings_details = function (plan) {
+  const rows = (plan.legs || []).flatMap((leg, k) => (leg.baselines || []).flatMap((one) => (one.stretches || []).map((settings, n) =>
+    [jp.leg_name(leg, k), {n: String(n + 1)}, jp.words(((leg.stretches || [])[n] || {}).kind || ""), jp.words(one.name), Object.entries(settings).map(([key, value]) => jp.key_value(key, value)).join(", ")])));
+  return rows.length ? jp.h("details", {}, jp.h("summary", {}, "Settings of the trapezoids, stretch by stretch"), jp.table(["leg", {n: "stretch"}, "", "profile", "settings"], rows)) : null;
 };
 
 jp.legs_section = function (plan) {
@@ -135,7 +142,7 @@ jp.motion_section = function (data) {
   const limit_line = (name, column) => (c[column] ? [{name, values: c[column], color: "limit", dash: [7, 4], width: 1.2}] : []);
   const plots = [];
   const add = (title, unit, series, limit_values) => series.length && plots.push(jp.plot({title, unit, series, limits: (limit_values || []).filter(jp.is_number), x: t, cursor}));
-  add("Speed", "m/s", [...line("plan", "linear_speed_m_s", "plan"), ...overlay("linear_speed_m_s"), ...limit_line("limit here", "limit_speed_m_s")], c.limit_speed_m_s ? [] : [limits.speed_m_s]);
+  add("Speed", "m/s", [...line("plan", "linear_speed_m_s", "plan"), ...overlay("linear_speed_m_s"), ...limit_line("limit", "limit_speed_m_s")], c.limit_speed_m_s ? [] : [limits.speed_m_s]);
   add("Acceleration", "m/s²", [...line("plan", "linear_acceleration_m_s2", "plan"), ...overlay("linear_acceleration_m_s2"), ...limit_line("limit", "limit_acceleration_m_s2"), ...limit_line("limit, braking", "limit_deceleration_m_s2")],
     c.limit_acceleration_m_s2 ? [] : [limits.acceleration_m_s2, -limits.deceleration_m_s2]);
   add("Yaw rate", "rad/s", line("plan", "angular_speed_rad_s", "plan"), [limits.yaw_rate_rad_s, -limits.yaw_rate_rad_s]);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "planner/mission_request.hpp"
+#include "planner/plan.hpp"
+
+namespace joulepath::report {
+
+/// The HTML report of a plan: `plan_json` as written to plan.json, `trajectory` as written to
+/// trajectory.csv (empty where there is no plan). The baselines are driven over the same stretches and laid
+/// beside the plan.
+[[nodiscard]] std::string plan_report(const Plan& plan, const std::string& plan_json, const Trajectory& trajectory,
+                                      const MissionRequest& mission, const MissionWorld& world);
+
+}  // namespace joulepath::report
