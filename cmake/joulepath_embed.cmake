@@ -25,6 +25,6 @@ function(joulepath_embed target out)
   add_custom_command(OUTPUT ${out}
     COMMAND ${CMAKE_COMMAND} "-DENTRIES=${ARGN}" -DOUT=${out} -P ${JOULEPATH_EMBED_SCRIPT}
     DEPENDS ${files} ${JOULEPATH_EMBED_SCRIPT} VERBATIM
-    COMMENT "Embedding the report's page, style and scripts")
+    COMMENT "Embedding text files into ${target}")
   target_sources(${target} PRIVATE ${out})
 endfunction()

@@ -64,7 +64,7 @@ TEST(CsvTable, DamagedLogsAreReadOrRefusedButNeverBreakTheReader) {
   const std::string pool = "0123456789.,;\n\r\t\"'#+-eEnaif \xff\x80%_";
   const ScratchDirectory scratch;
   int read = 0, refused = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < 600; ++trial) {
     std::string text = good;
     for (std::size_t n = 1 + pick(4); n > 0 && !text.empty(); --n) {
       const std::size_t at = pick(text.size()), length = 1 + pick(20);
@@ -104,7 +104,7 @@ TEST(CsvTable, DamagedLogsAreReadOrRefusedButNeverBreakTheReader) {
       ++refused;
     }
   }
-  EXPECT_GT(read, 100);
+  EXPECT_GT(read, 50);
   EXPECT_GT(refused, 100);
 }
 

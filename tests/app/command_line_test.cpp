@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/any_file.hpp"
+#include "tests/app/program_result.hpp"
+
+namespace joulepath {
+namespace {
+
+const std::string kBroken = JOULEPATH_SOURCE_DIR "/tests/data/broken/";
+
+TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
+  const ScratchDirectory scratch;
+  for (const char* arguments : {"--help", "--version", "check --help", "plan --help"}) {
+    const auto result = run_program(scratch, arguments);
+    EXPECT_EQ(result.code, 0) << arguments;
+    EXPECT_FALSE(result.out.empty()) << arguments;
+    EXPECT_EQ(result.err, "") << arguments;
+  }
+  EXPECT_NE(run_program(scratch, "plan --help").out.find("Examples:"), std::string::npos);
+}
+
+TEST(CommandLine, UsageErrorsEndWithTwoAndOneHint) {
+  const ScratchDirectory scratch;
+  for (const char* arguments : {"", "chek", "check", "check --no-such-flag x", "schema robt",
+                                "completion tcsh", "check --kind robott x.yaml"}) {
+    const auto result = run_program(scratch, arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_FALSE(result.err.empty()) << arguments;
+  }
+  EXPECT_NE(run_program(scratch, "chek").err.find("did you mean check?"), std::string::npos);
+  EXPECT_NE(run_program(scratch, "schema robt").err.find("did you mean robot?"), std::string::npos);
+}
+
+TEST(CommandLine, BadInputIsOneLineOnStandardError) {
+  const ScratchDirectory scratch;
+  for (const char* file :
+       {"robot/not_a_number.yaml", "mission/map_file_missing.yaml", "log/time_backward.csv"}) {
+    const auto result = run_program(scratch, "check " + kBroken + file);
+    EXPECT_EQ(result.code, 2) << file;
+    EXPECT_EQ(result.out, "") << file;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.rfind("joulepath: ", 0), 0u) << "colored though it is no terminal: " << result.err;
+  }
+}
+
+TEST(CommandLine, CheckGoesOnAfterABadFileAndTellsAllAsJson) {
+  const ScratchDirectory scratch;
+  const auto result = run_program(
+      scratch, "check --json " + kBroken + "robot/negative_mass.yaml " + kBroken + "good/robot.yaml");
+  EXPECT_EQ(result.code, 2);
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_FALSE(json[0]["ok"].get<bool>());
+  EXPECT_EQ(json[0]["error"]["line"], 5);
+  EXPECT_EQ(json[0]["error"]["key"], "inertia.chassis_mass_kg");
+  EXPECT_TRUE(json[1]["ok"].get<bool>());
+  EXPECT_EQ(json[1]["kind"], "robot");
+}
+
+TEST(CommandLine, AWriteThatTheDiskRefusesIsAnEnvironmentError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const ScratchDirectory scratch;
+  const std::string command = std::string("'" JOULEPATH_PROGRAM "' schema robot > /dev/full 2>/dev/null");
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+}
+
+TEST(CommandLine, InterruptedMeansOneHundredAndThirty) {
+  const ScratchDirectory scratch;
+  const std::string pipe = scratch.at("never.csv");
+  const std::string command = "mkfifo '" + pipe + "' && { sleep 5 > '" + pipe +
+                              "' & } ; timeout --preserve-status -s INT 0.5 '" JOULEPATH_PROGRAM "' check '" +
+                              pipe + "' 2>/dev/null";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+}
+
+TEST(CommandLine, CompletionKnowsEveryCommandAndIsValidBash) {
+  const ScratchDirectory scratch;
+  const std::string help = run_program(scratch, "--help").out,
+                    bash = run_program(scratch, "completion bash").out;
+  for (const char* command : {"check", "plan", "schema", "init", "completion"})
+    EXPECT_NE(bash.find(std::string("    ") + command + ") words="), std::string::npos) << command;
+  EXPECT_EQ(std::system(("bash -n '" + scratch.write("c.sh", bash) + "'").c_str()), 0);
+  const auto completed = scratch.write(
+      "t.sh",
+      "source '" + scratch.at("c.sh") +
+          "'; COMP_WORDS=(joulepath sch); COMP_CWORD=1; _joulepath; [ \"${COMPREPLY[*]}\" = schema ]");
+  EXPECT_EQ(std::system(("bash '" + completed + "'").c_str()), 0);
+}
+
+TEST(Init, WritesAStarterThatIsRight) {
+  const ScratchDirectory scratch;
+  const std::string folder = scratch.at("starter");
+  ASSERT_EQ(run_program(scratch, "init " + folder).code, 0);
+  for (const char* file : {"robot.yaml", "map.yaml", "mission.yaml", "dataset.yaml"})
+    EXPECT_NO_THROW(static_cast<void>(read_any_file(folder + "/" + file))) << file;
+  EXPECT_EQ(run_program(scratch, "init " + folder).code, 2) << "it must not overwrite";
+  EXPECT_EQ(run_program(scratch, "init --force " + folder).code, 0);
+}
+
+}  // namespace
+}  // namespace joulepath

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "tests/scenarios/scratch_directory.hpp"
+
+namespace joulepath {
+
+/// What the program did: exit code, standard output, standard error.
+struct ProgramResult {
+  int code{};
+  std::string out{};
+  std::string err{};
+};
+
+/// Runs `joulepath ARGUMENTS` through a shell in an empty environment but for what `before` sets
+/// (`NO_COLOR=1`).
+inline ProgramResult run_program(const ScratchDirectory& scratch, const std::string& arguments,
+                                 const std::string& before = "") {
+  const std::string out = scratch.at("stdout"), err = scratch.at("stderr");
+  const std::string command = "env -u JOULEPATH_DATA_DIR " + before + " '" JOULEPATH_PROGRAM "' " +
+                              arguments + " >'" + out + "' 2>'" + err + "'";
+  const int status = std::system(command.c_str());
+  const auto content = [](const std::string& file) {
+    std::ifstream stream(file);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content(out), content(err)};
+}
+
+}  // namespace joulepath
