@@ -73,8 +73,9 @@ TEST(CommandLine, AWriteThatTheDiskRefusesIsAnEnvironmentError) {
 TEST(CommandLine, InterruptedMeansOneHundredAndThirty) {
   const ScratchDirectory scratch;
   const std::string pipe = scratch.at("never.csv");
-  const std::string command = "mkfifo '" + pipe + "' && { sleep 5 > '" + pipe +
-                              "' & } ; timeout --preserve-status -s INT 0.5 '" JOULEPATH_PROGRAM "' check '" +
+  const std::string command = "mkfifo '" + pipe + "' && { sleep 2 > '" + pipe +
+                              "' 2>/dev/null & } ; timeout --preserve-status -s INT 0.5 '" JOULEPATH_PROGRAM
+                              "' check '" +
                               pipe + "' 2>/dev/null";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 130);
