@@ -1,5 +1,8 @@
 #include "planner/leg_path.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "planner/path/bezier_chain.hpp"
 
 namespace joulepath {
@@ -26,13 +29,51 @@ LegPath along_bezier(const LegRequest& leg, const Pose& start) {
   return {.path = std::move(chain.path), .source = "bezier"};
 }
 
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f m", value);
+  return text;
+}
+
+Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal) {
+  Infeasibility reason{.constraint = "path",
+                       .x_m = verdict.x_m,
+                       .y_m = verdict.y_m,
+                       .amount = verdict.short_by_m,
+                       .unit = "m",
+                       .message = verdict.message};
+  if (verdict.nearest_reachable_m) {
+    const auto [x_m, y_m] = *verdict.nearest_reachable_m;
+    reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};
+    if (reason.amount == 0.0) reason.amount = std::hypot(goal.x_m - x_m, goal.y_m - y_m);
+  }
+  return reason;
+}
+
+LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start, const MissionRequest& mission,
+                       const RouteSpace& space, const PlanOptions& options) {
+  const Station& goal = mission.stations.at(leg.to);
+  const RouteResult route = plan_route(space, {.start = start.pose,
+                                               .goal_x_m = goal.x_m,
+                                               .goal_y_m = goal.y_m,
+                                               .goal_heading_rad = goal.heading_rad,
+                                               .start_heading_free = start.heading_free,
+                                               .seed = options.seed + 1000003ULL * leg_index});
+  if (route.verdict.status == RouteStatus::start_blocked && leg_index == 0)
+    refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
+           "a start where the robot does not fit: " + route.verdict.message, "a free place, the whole footprint and clearance_m around it",
+           "short by " + metres(route.verdict.short_by_m));
+  if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal)};
+  return {.path = route.path, .source = route.searched_by};
+}
+
 }  // namespace
 
-LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const Pose& start,
-                 const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options) {
-  if (leg.path) return along_bezier(leg, start);
-  (void)leg_index, (void)mission, (void)world, (void)options;
-  refuse(leg.marks, "to", "'" + leg.to + "'", "a leg with a path");
+LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start, const MissionRequest& mission,
+                 const RouteSpace* space, const PlanOptions& options) {
+  if (leg.path) return along_bezier(leg, start.pose);
+  if (!space) refuse(leg.marks, "to", "a leg to a station without a map", "`map:` in the mission, or a leg with `path:` or `motion:`");
+  return over_the_floor(leg, leg_index, start, mission, *space, options);
 }
 
 }  // namespace joulepath

@@ -4,6 +4,7 @@
 
 #include "planner/mission_request.hpp"
 #include "planner/path/path.hpp"
+#include "planner/path/route.hpp"
 #include "planner/plan.hpp"
 #include "planner/stretch.hpp"
 
@@ -17,9 +18,15 @@ struct LegPath {
   std::vector<PathAlternative> alternatives{};
 };
 
+/// Where a leg begins. A start without a heading (a station that names none) leaves it open.
+struct LegStart {
+  Pose pose{};
+  bool heading_free{};
+};
+
 /// Finds the way of one leg from where the robot stands. Throws ConfigError, at the leg's own marks, for
-/// what is a mistake in the file (a curve with a cusp, a station inside of an obstacle).
-[[nodiscard]] LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const Pose& start,
+/// what is a mistake in the file (a curve with a cusp, a start inside of an obstacle, no map to search).
+[[nodiscard]] LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                                const MissionRequest& mission, const MissionWorld& world,
                                const PlanOptions& options);
 

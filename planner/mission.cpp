@@ -42,23 +42,23 @@ std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequ
 }
 
 /// Paths and profile requests of all legs; fills plan.infeasibility where a leg has none.
-Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
-                 const PlanOptions& options, Plan& plan) {
+Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
+                 const Plant& plant, const PlanOptions& options, Plan& plan) {
   Draft draft;
-  Pose pose = mission.start.pose;
+  LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
   for (std::size_t k = 0; k < mission.legs.size(); ++k) {
     const LegRequest& leg = mission.legs[k];
-    if (auto reason = payload_too_heavy(world.robot, leg, pose)) {
+    if (auto reason = payload_too_heavy(world.robot, leg, start.pose)) {
       plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
       return draft;
     }
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
-      draft.legs.push_back(prescribed_leg(leg, plant, pose));
-      pose = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      draft.legs.push_back(prescribed_leg(leg, plant, start.pose));
+      start.pose = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
       continue;
     }
-    LegPath way = leg_path(leg, k, pose, mission, world, options);
+    LegPath way = leg_path(leg, k, start, mission, space, options);
     if (way.infeasibility) {
       const double s_m = way.infeasibility->s;
       plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
@@ -72,7 +72,8 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
                           .distance_m = way.path.distance_m(),
                           .turned_rad = way.path.turned_rad(),
                           .alternatives = way.alternatives});
-    if (!way.path.pieces.empty()) pose = way.path.end();
+    if (way.path.pieces.empty()) continue;
+    start = {.pose = way.path.end(), .heading_free = false};
   }
   return draft;
 }
@@ -179,6 +180,26 @@ TimeSplit share_time(Draft& draft, const MissionRequest& mission, double standby
   return split;
 }
 
+bool depends_on_time(const Plant& plant) { return plant.resistance_factor(0.0) != plant.resistance_factor(1e3); }
+
+/// Tells every stretch when it begins (windings warm up), counted from the mission's start.
+void set_times_of_day(Draft& draft, const TimeSplit& split, const MissionRequest& mission, SolverChoice solver) {
+  double departure_s = 0.0;
+  for (std::size_t k = 0; k < draft.timing.size(); ++k) {
+    LegTiming& timing = draft.timing[k];
+    std::vector<double> durations_s;
+    for (const ProfileResult& result : timing.solve(split.price_W[k], solver))
+      durations_s.push_back(result.profile ? result.profile->duration_s() : 0.0);
+    double time_s = departure_s;
+    for (std::size_t piece = 0; piece < durations_s.size(); ++piece) {
+      timing.stretches()[piece].time_of_day_s = time_s;
+      time_s += durations_s[piece];
+    }
+    timing.forget();
+    departure_s = split.arrival_s[k] + mission.legs[k].dwell_s;
+  }
+}
+
 /// The final solution of a leg at its price, replayed and accounted for.
 void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration_s,
                 const PlanOptions& options, const Plant& plant) {
@@ -211,15 +232,28 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
 
 }  // namespace
 
-Plan plan_mission(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options) {
+std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world) {
+  if (!world.map) return std::nullopt;
+  return RouteSpace(*world.map, world.keepout ? &*world.keepout : nullptr, world.robot.footprint, mission.clearance_m);
+}
+
+Plan plan_mission(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                  const RouteSpace* space) {
+  std::optional<RouteSpace> own_space;
+  if (!space && (own_space = route_space(mission, world))) space = &*own_space;
   Plan plan{.mission = mission.name, .status = SolveStatus::optimal};
   const Plant plant = make_plant(world.robot);
-  Draft draft = draft_legs(mission, world, plant, options, plan);
+  Draft draft = draft_legs(mission, world, space, plant, options, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   const double floor_W = lowest_price_W(mission.objective);
   if (!check_each_leg(draft, floor_W, SolverChoice::fast, plan)) return plan;
 
-  const TimeSplit split = share_time(draft, mission, plant.robot.power.standby_W, SolverChoice::fast);
+  TimeSplit split = share_time(draft, mission, plant.robot.power.standby_W, SolverChoice::fast);
+  if (depends_on_time(plant))
+    for (int pass = 0; pass < 3; ++pass) {
+      set_times_of_day(draft, split, mission, SolverChoice::fast);
+      split = share_time(draft, mission, plant.robot.power.standby_W, SolverChoice::fast);
+    }
   if (split.late) {
     const std::size_t leg = split.late->leg;
     const double at_deadline_s = split.duration_s[leg] - split.late->amount_s;
