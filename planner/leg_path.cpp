@@ -50,8 +50,8 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal) {
   return reason;
 }
 
-LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start, const MissionRequest& mission,
-                       const RouteSpace& space, const PlanOptions& options) {
+LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
+                       const MissionRequest& mission, const RouteSpace& space, const PlanOptions& options) {
   const Station& goal = mission.stations.at(leg.to);
   const RouteResult route = plan_route(space, {.start = start.pose,
                                                .goal_x_m = goal.x_m,
@@ -61,7 +61,8 @@ LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegSt
                                                .seed = options.seed + 1000003ULL * leg_index});
   if (route.verdict.status == RouteStatus::start_blocked && leg_index == 0)
     refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
-           "a start where the robot does not fit: " + route.verdict.message, "a free place, the whole footprint and clearance_m around it",
+           "a start where the robot does not fit: " + route.verdict.message,
+           "a free place, the whole footprint and clearance_m around it",
            "short by " + metres(route.verdict.short_by_m));
   if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal)};
   return {.path = route.path, .source = route.searched_by};
@@ -69,10 +70,12 @@ LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegSt
 
 }  // namespace
 
-LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start, const MissionRequest& mission,
-                 const RouteSpace* space, const PlanOptions& options) {
+LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
+                 const MissionRequest& mission, const RouteSpace* space, const PlanOptions& options) {
   if (leg.path) return along_bezier(leg, start.pose);
-  if (!space) refuse(leg.marks, "to", "a leg to a station without a map", "`map:` in the mission, or a leg with `path:` or `motion:`");
+  if (!space)
+    refuse(leg.marks, "to", "a leg to a station without a map",
+           "`map:` in the mission, or a leg with `path:` or `motion:`");
   return over_the_floor(leg, leg_index, start, mission, *space, options);
 }
 

@@ -55,7 +55,8 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
       draft.legs.push_back(prescribed_leg(leg, plant, start.pose));
-      start.pose = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      start.pose =
+          sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
       continue;
     }
     LegPath way = leg_path(leg, k, start, mission, space, options);
@@ -180,10 +181,13 @@ TimeSplit share_time(Draft& draft, const MissionRequest& mission, double standby
   return split;
 }
 
-bool depends_on_time(const Plant& plant) { return plant.resistance_factor(0.0) != plant.resistance_factor(1e3); }
+bool depends_on_time(const Plant& plant) {
+  return plant.resistance_factor(0.0) != plant.resistance_factor(1e3);
+}
 
 /// Tells every stretch when it begins (windings warm up), counted from the mission's start.
-void set_times_of_day(Draft& draft, const TimeSplit& split, const MissionRequest& mission, SolverChoice solver) {
+void set_times_of_day(Draft& draft, const TimeSplit& split, const MissionRequest& mission,
+                      SolverChoice solver) {
   double departure_s = 0.0;
   for (std::size_t k = 0; k < draft.timing.size(); ++k) {
     LegTiming& timing = draft.timing[k];
@@ -234,7 +238,8 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
 
 std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world) {
   if (!world.map) return std::nullopt;
-  return RouteSpace(*world.map, world.keepout ? &*world.keepout : nullptr, world.robot.footprint, mission.clearance_m);
+  return RouteSpace(*world.map, world.keepout ? &*world.keepout : nullptr, world.robot.footprint,
+                    mission.clearance_m);
 }
 
 Plan plan_mission(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,

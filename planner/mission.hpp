@@ -13,8 +13,7 @@ namespace joulepath {
 /// throw ConfigError. `space`: the floor prepared for this robot, to be shared by missions on one map; it is
 /// prepared here when none is given and the mission has a map.
 [[nodiscard]] Plan plan_mission(const MissionRequest& mission, const MissionWorld& world,
-                                const PlanOptions& options,
-                                const RouteSpace* space = nullptr);
+                                const PlanOptions& options, const RouteSpace* space = nullptr);
 
 /// The floor of a mission as its robot sees it; absent without a map.
 [[nodiscard]] std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world);

@@ -1,0 +1,186 @@
+#include "planner/mission.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/plan_trajectory.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+const std::vector<BezierPoints> kPaperCurve{{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}};
+const std::vector<BezierPoints> kStraight{{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}}};
+
+LegRequest leg_along(std::vector<BezierPoints> curves, double payload_kg) {
+  return {.path = PathRequest{.bezier_m = std::move(curves)}, .payload = {payload_kg, payload_kg}};
+}
+
+/// The paper's curve with 5.7 kg, then 6 m straight with 1 kg; 5 s of dwell between.
+MissionRequest two_legs() {
+  MissionRequest mission{.name = "two_legs",
+                         .legs = {leg_along(kPaperCurve, 5.7), leg_along(kStraight, 1.0)}};
+  mission.legs[0].dwell_s = 5.0;
+  return mission;
+}
+
+Plan plan_of(const MissionRequest& mission, const Robot& robot = testing::nomad()) {
+  return plan_mission(mission, {.robot = robot}, {.solver = SolverChoice::fast, .nodes = 60});
+}
+
+double cause_sum_J(const EnergyByCause& energy) {
+  double sum_J = energy.copper_J + energy.coulomb_friction_J + energy.viscous_friction_J + energy.kinetic_J +
+                 energy.not_recovered_J + energy.standby_J;
+  for (const auto& [name, energy_J] : energy.effects_J) sum_J += energy_J;
+  return sum_J;
+}
+
+TEST(Mission, CausesAddUpToTheReplayedEnergyOnEveryLegAndInAll) {
+  Robot robot = testing::nomad();
+  robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.01}}}};
+  const Plan plan = plan_of(two_legs(), robot);
+  ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+  double sum_J = 0.0;
+  for (const LegPlan& leg : plan.legs) {
+    double replayed_J = 10.0 * leg.dwell_s;
+    for (const StretchPlan& stretch : leg.stretches) replayed_J += stretch.replay.energy_J;
+    EXPECT_NEAR(cause_sum_J(leg.energy), replayed_J, 1e-5 * replayed_J);
+    EXPECT_GT(leg.energy.effects_J.at("rolling_resistance"), 1.0);
+    sum_J += cause_sum_J(leg.energy);
+  }
+  EXPECT_NEAR(plan.energy.total_J(), sum_J, 1e-9 * sum_J);
+  EXPECT_NEAR(plan.replay_energy_J, sum_J, 1e-5 * sum_J);
+}
+
+TEST(Mission, LegsThatShareADeadlineHaveOnePriceThatIsTheSlopeOfEnergyOverTime) {
+  MissionRequest mission = two_legs();
+  const double free_s = plan_of(mission).duration_s;
+  mission.objective.deadline_s = 0.9 * free_s;
+  const Plan plan = plan_of(mission);
+  ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+  EXPECT_NEAR(plan.duration_s, 0.9 * free_s, 1e-5 * free_s);
+  EXPECT_LE(plan.duration_s, 0.9 * free_s * (1 + 1e-9));
+  EXPECT_GT(plan.legs[0].price_of_time_W, 0.1);
+  EXPECT_NEAR(plan.legs[0].price_of_time_W, plan.legs[1].price_of_time_W,
+              1e-4 * plan.legs[0].price_of_time_W);
+  // dE/dT by planning again with the deadline moved to both sides
+  const double step_s = 0.01 * free_s;
+  mission.objective.deadline_s = 0.9 * free_s + step_s;
+  const double later_J = plan_of(mission).energy.total_J();
+  mission.objective.deadline_s = 0.9 * free_s - step_s;
+  const double earlier_J = plan_of(mission).energy.total_J();
+  EXPECT_NEAR((earlier_J - later_J) / (2 * step_s), plan.legs[0].price_of_time_W,
+              0.03 * plan.legs[0].price_of_time_W);
+}
+
+TEST(Mission, MorePayloadLessTimeAndTighterLimitsCostMore) {
+  MissionRequest mission = two_legs();
+  const Plan base = plan_of(mission);
+  MissionRequest heavier = mission;
+  heavier.legs[0].payload = {10.5, 10.5};
+  EXPECT_GT(plan_of(heavier).energy.total_J(), base.energy.total_J());
+  MissionRequest hurried = mission;
+  hurried.objective.deadline_s = 0.85 * base.duration_s;
+  EXPECT_GT(plan_of(hurried).energy.motion_J(), base.energy.motion_J());
+  EXPECT_GT(plan_of(hurried).energy.total_J(), base.energy.total_J());
+  Robot slow = testing::nomad();
+  slow.limits->speed_m_s = 0.3;
+  const Plan slower = plan_of(mission, slow);
+  EXPECT_GT(slower.duration_s, base.duration_s);
+  EXPECT_GT(slower.energy.total_J(), base.energy.total_J());
+}
+
+TEST(Mission, NeitherTrapezoidTakesLessOnAnyLegAndBothTakeMoreInAll) {
+  const Plan plan = plan_of(two_legs());
+  for (const LegPlan& leg : plan.legs)
+    for (const BaselineTotal& baseline : leg.baselines)
+      if (baseline.feasible) {
+        EXPECT_LE(leg.energy.total_J(), baseline.energy_J * (1 + 1e-4)) << baseline.name;
+      }
+  ASSERT_EQ(plan.baselines.size(), 2u);
+  for (const BaselineTotal& baseline : plan.baselines) {
+    ASSERT_TRUE(baseline.feasible) << baseline.reason;
+    EXPECT_LT(plan.energy.total_J(), baseline.energy_J);
+    EXPECT_NEAR(baseline.duration_s, plan.duration_s, 1e-6 * plan.duration_s);
+  }
+}
+
+TEST(Mission, AnImpossibleDeadlineIsRefusedAndItsRelaxationWorks) {
+  MissionRequest mission = two_legs();
+  mission.objective.deadline_s = 12.0;
+  const Plan plan = plan_of(mission);
+  ASSERT_EQ(plan.status, SolveStatus::infeasible);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "deadline");
+  EXPECT_EQ(plan.infeasibility->leg, 1u);
+  EXPECT_GT(plan.infeasibility->reason.amount, 0.0);
+  mission.objective.deadline_s = plan.infeasibility->reason.relaxation.at("deadline_s") + 1e-6;
+  EXPECT_NE(plan_of(mission).status, SolveStatus::infeasible);
+}
+
+TEST(Mission, AnEarlyDeadlineOfOneLegBindsThatLegAlone) {
+  MissionRequest mission = two_legs();
+  const Plan base = plan_of(mission);
+  mission.legs[0].deadline_s = 0.9 * base.legs[0].duration_s;
+  const Plan plan = plan_of(mission);
+  EXPECT_NEAR(plan.legs[0].duration_s, *mission.legs[0].deadline_s, 1e-5);
+  EXPECT_NEAR(plan.legs[1].duration_s, base.legs[1].duration_s, 1e-4);
+  EXPECT_EQ(plan.legs[1].price_of_time_W, 0.0);
+}
+
+TEST(Mission, DurationOfALegIsKeptShortOrLong) {
+  const double free_s = plan_of(two_legs()).legs[0].duration_s;
+  for (double factor : {0.9, 1.2, 5.0}) {
+    MissionRequest mission = two_legs();
+    mission.legs[0].duration_s = factor * free_s;
+    const Plan plan = plan_of(mission);
+    ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+    EXPECT_NEAR(plan.legs[0].duration_s, factor * free_s, 1e-4 * free_s) << factor;
+  }
+}
+
+TEST(Mission, TrajectoryIsUniformEndsAtTheEndAndIntegratesToTheSameEnergy) {
+  const Robot robot = testing::nomad();
+  const Plan plan = plan_of(two_legs(), robot);
+  const Trajectory trajectory = plan_trajectory(plan, make_plant(robot));
+  for (std::size_t k = 1; k + 1 < trajectory.size(); ++k)
+    EXPECT_NEAR(trajectory.time_s[k] - trajectory.time_s[k - 1], 0.02, 1e-9);
+  EXPECT_NEAR(trajectory.time_s.back(), plan.duration_s, 1e-9);
+  EXPECT_NEAR(trajectory.energy_J.back(), plan.energy.total_J(), 2e-3 * plan.energy.total_J());
+  EXPECT_NEAR(trajectory.position_x_m.back(), 2.7, 1e-6);
+  EXPECT_NEAR(trajectory.position_y_m.back(), 8.7, 1e-6);
+}
+
+TEST(Mission, TooHeavyAPayloadIsAVerdict) {
+  MissionRequest mission = two_legs();
+  mission.legs[1].payload = {20, 20};
+  const Plan plan = plan_of(mission);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "max_payload");
+  EXPECT_NEAR(plan.infeasibility->reason.amount, 8.0, 1e-12);
+}
+
+TEST(Mission, AnEmptyBatteryIsFoundBeforeTheDrive) {
+  MissionRequest mission = two_legs();
+  mission.start.battery_fraction = 0.1 + 1e-4;
+  const Plan plan = plan_of(mission);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "battery_reserve");
+  mission.start.battery_fraction = plan.infeasibility->reason.relaxation.at("battery_fraction") + 1e-9;
+  EXPECT_FALSE(plan_of(mission).infeasibility);
+}
+
+TEST(Mission, PrescribedMotionPassesThrough) {
+  LegRequest leg{
+      .motion = PrescribedMotion{
+          .profile = MotionProfile::trapezoid, .acceleration_m_s2 = 0.25, .speed_m_s = 0.5, .distance_m = 5}};
+  MissionRequest mission{.name = "prescribed", .legs = {leg}};
+  const Plan plan = plan_of(mission);
+  ASSERT_EQ(plan.legs.size(), 1u);
+  EXPECT_NEAR(plan.duration_s, 5 / 0.5 + 0.5 / 0.25, 1e-9);
+  EXPECT_NEAR(plan.energy.coulomb_friction_J, (0.3728 + 0.346) / 0.1 * 5, 1e-6);
+}
+
+}  // namespace
+}  // namespace joulepath
