@@ -13,6 +13,13 @@ namespace {
 const std::vector<BezierPoints> kPaperCurve{{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}};
 const std::vector<BezierPoints> kStraight{{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}}};
 
+/// Little standby power, so that the robot has reason to take its time.
+Robot patient_nomad() {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 1.0;
+  return robot;
+}
+
 LegRequest leg_along(std::vector<BezierPoints> curves, double payload_kg) {
   return {.path = PathRequest{.bezier_m = std::move(curves)}, .payload = {payload_kg, payload_kg}};
 }
@@ -25,7 +32,7 @@ MissionRequest two_legs() {
   return mission;
 }
 
-Plan plan_of(const MissionRequest& mission, const Robot& robot = testing::nomad()) {
+Plan plan_of(const MissionRequest& mission, const Robot& robot = patient_nomad()) {
   return plan_mission(mission, {.robot = robot}, {.solver = SolverChoice::fast, .nodes = 60});
 }
 
@@ -37,13 +44,13 @@ double cause_sum_J(const EnergyByCause& energy) {
 }
 
 TEST(Mission, CausesAddUpToTheReplayedEnergyOnEveryLegAndInAll) {
-  Robot robot = testing::nomad();
+  Robot robot = patient_nomad();
   robot.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.01}}}};
   const Plan plan = plan_of(two_legs(), robot);
   ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
   double sum_J = 0.0;
   for (const LegPlan& leg : plan.legs) {
-    double replayed_J = 10.0 * leg.dwell_s;
+    double replayed_J = 1.0 * leg.dwell_s;
     for (const StretchPlan& stretch : leg.stretches) replayed_J += stretch.replay.energy_J;
     EXPECT_NEAR(cause_sum_J(leg.energy), replayed_J, 1e-5 * replayed_J);
     EXPECT_GT(leg.energy.effects_J.at("rolling_resistance"), 1.0);
@@ -56,19 +63,19 @@ TEST(Mission, CausesAddUpToTheReplayedEnergyOnEveryLegAndInAll) {
 TEST(Mission, LegsThatShareADeadlineHaveOnePriceThatIsTheSlopeOfEnergyOverTime) {
   MissionRequest mission = two_legs();
   const double free_s = plan_of(mission).duration_s;
-  mission.objective.deadline_s = 0.9 * free_s;
+  mission.objective.deadline_s = 0.95 * free_s;
   const Plan plan = plan_of(mission);
   ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
-  EXPECT_NEAR(plan.duration_s, 0.9 * free_s, 1e-5 * free_s);
-  EXPECT_LE(plan.duration_s, 0.9 * free_s * (1 + 1e-9));
+  EXPECT_NEAR(plan.duration_s, 0.95 * free_s, 1e-5 * free_s);
+  EXPECT_LE(plan.duration_s, 0.95 * free_s * (1 + 1e-9));
   EXPECT_GT(plan.legs[0].price_of_time_W, 0.1);
   EXPECT_NEAR(plan.legs[0].price_of_time_W, plan.legs[1].price_of_time_W,
               1e-4 * plan.legs[0].price_of_time_W);
   // dE/dT by planning again with the deadline moved to both sides
-  const double step_s = 0.01 * free_s;
-  mission.objective.deadline_s = 0.9 * free_s + step_s;
+  const double step_s = 0.004 * free_s;
+  mission.objective.deadline_s = 0.95 * free_s + step_s;
   const double later_J = plan_of(mission).energy.total_J();
-  mission.objective.deadline_s = 0.9 * free_s - step_s;
+  mission.objective.deadline_s = 0.95 * free_s - step_s;
   const double earlier_J = plan_of(mission).energy.total_J();
   EXPECT_NEAR((earlier_J - later_J) / (2 * step_s), plan.legs[0].price_of_time_W,
               0.03 * plan.legs[0].price_of_time_W);
@@ -81,11 +88,11 @@ TEST(Mission, MorePayloadLessTimeAndTighterLimitsCostMore) {
   heavier.legs[0].payload = {10.5, 10.5};
   EXPECT_GT(plan_of(heavier).energy.total_J(), base.energy.total_J());
   MissionRequest hurried = mission;
-  hurried.objective.deadline_s = 0.85 * base.duration_s;
+  hurried.objective.deadline_s = 0.95 * base.duration_s;
   EXPECT_GT(plan_of(hurried).energy.motion_J(), base.energy.motion_J());
   EXPECT_GT(plan_of(hurried).energy.total_J(), base.energy.total_J());
-  Robot slow = testing::nomad();
-  slow.limits->speed_m_s = 0.3;
+  Robot slow = patient_nomad();
+  slow.limits->speed_m_s = 0.2;
   const Plan slower = plan_of(mission, slow);
   EXPECT_GT(slower.duration_s, base.duration_s);
   EXPECT_GT(slower.energy.total_J(), base.energy.total_J());
@@ -141,7 +148,7 @@ TEST(Mission, DurationOfALegIsKeptShortOrLong) {
 }
 
 TEST(Mission, TrajectoryIsUniformEndsAtTheEndAndIntegratesToTheSameEnergy) {
-  const Robot robot = testing::nomad();
+  const Robot robot = patient_nomad();
   const Plan plan = plan_of(two_legs(), robot);
   const Trajectory trajectory = plan_trajectory(plan, make_plant(robot));
   for (std::size_t k = 1; k + 1 < trajectory.size(); ++k)
