@@ -127,10 +127,10 @@ jp.runs_section = function (data) {
 jp.next_section = function (d) {
   const next = d.next_experiment || {};
   const separates = next.separates || [];
-  const motion = Object.entries(next.motion || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
+  const motion = Object.entries({...next.motion, ...(jp.is_number(next.payload_kg) ? {payload_kg: next.payload_kg} : {})}).map(([key, value]) => jp.key_value(key, value)).join(", ");
   if (!motion && !separates.length) return null;
   return jp.section("The next run", separates.length ? jp.h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(jp.words).join(" from ") : jp.words(one))).join(", ")) : null,
-    motion ? jp.h("p", {}, jp.h("b", {}, "Drive: "), motion + ".") : null, jp.is_number(next.expected_evidence) ? jp.h("p", {class: "soft"}, `Expected evidence ${jp.number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
+    motion ? jp.h("p", {}, jp.h("b", {}, "Drive: "), motion + ".") : null, next.why ? jp.h("p", {}, next.why) : null, jp.is_number(next.expected_evidence) ? jp.h("p", {class: "soft"}, `Expected evidence ${jp.number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
 };
 
 jp.caveats_section = function (d) {
@@ -138,6 +138,7 @@ jp.caveats_section = function (d) {
   if (d.leftover && d.leftover.significant) items.push("Left over: " + (d.leftover.description || "a significant rest"));
   for (const artifact of d.artifacts || []) items.push("Artifact in the logs: " + (typeof artifact === "string" ? artifact : Object.entries(artifact).map(([key, value]) => jp.key_value(key, value)).join(", ")));
   if ((d.missing_channels || []).length) items.push("Channels that are missing, which narrows what can be told apart: " + d.missing_channels.map(jp.words).join(", "));
+  for (const note of d.notes || []) items.push(note);
   const decisions = d.decisions || {};
   if (decisions.missions) items.push(`In decisions: planning ${decisions.missions} missions with the nominal model loses ${jp.percent(decisions.joules_lost_with_nominal_percent)} of their energy.`);
   return items.length ? jp.section("To keep in mind", jp.h("ul", {}, items.map((item) => jp.h("li", {}, item)))) : null;

@@ -139,7 +139,7 @@ jp.floor_map = function (options) {
       const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
       const left = (width - scale * (x1 - x0)) / 2, bottom = (height + scale * (y1 - y0)) / 2;
       view = {scale, width, at: (mx, my) => [left + (mx - x0) * scale, bottom - (my - y0) * scale], back: (px, py) => [x0 + (px - left) / scale, y0 + (bottom - py) / scale]};
-      canvas.width = width * ratio; canvas.height = height * ratio; canvas.style.height = height + "px";
+      canvas.width = width * ratio; canvas.height = height * ratio; canvas.style.height = "auto";
       const context = canvas.getContext("2d");
       context.scale(ratio, ratio);
       context.fillStyle = jp.color(grid ? "map-unknown" : "map-free"); context.fillRect(0, 0, width, height);
