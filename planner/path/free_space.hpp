@@ -32,13 +32,15 @@ class FreeSpace {
     clear  ///< it is free at every point of the cell, with 5 mm to spare
   };
   /// A way over cell centers, shortest by octile distance (A*); empty when there is none. Free cells within
-  /// kNearEnds_m of the ends may always be used.
-  [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
-                                               Cells cells) const;
+  /// kNearEnds_m of the ends may always be used. `price` (one factor >= 1 per cell, may be null) makes cells
+  /// dear.
+  [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m, Cells cells,
+                                               const std::vector<float>* price = nullptr) const;
   [[nodiscard]] bool clear(double x_m, double y_m) const {
     const auto cell = grid_.cell_of(x_m, y_m);
     return grid_.contains(cell) && clear_[index(cell)] != 0;
   }
+  [[nodiscard]] bool free_cell(OccupancyGrid::CellIndex cell) const { return component_[index(cell)] >= 0; }
   /// Calls visit(cell is clear, cell center) for the cells that a line crosses until it returns false.
   template <class Visit>
   bool for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;

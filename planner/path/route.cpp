@@ -55,23 +55,6 @@ RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Poin
   return verdict;
 }
 
-std::optional<RouteVerdict> ends_verdict(const RouteSpace& space, const RouteRequest& request) {
-  // Where the heading is free it is enough that some heading fits: the inscribed disc.
-  const auto check = [&](const Pose& pose, bool heading_free) -> std::optional<Collision> {
-    if (!heading_free) return space.checker().pose_collision(pose);
-    const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
-    const auto nearest = space.field().nearest(pose.x_m, pose.y_m);
-    if (nearest.distance_m >= need_m - FootprintChecker::kTolerance_m) return std::nullopt;
-    return Collision{0, pose, need_m - nearest.distance_m, nearest};
-  };
-  const Pose goal{request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)};
-  if (const auto c = check(request.start, request.start_heading_free))
-    return blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c);
-  if (const auto c = check(goal, !request.goal_heading_rad))
-    return blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c);
-  return std::nullopt;
-}
-
 /// The taut polyline of the better of OMPL's solution and the grid's own route.
 void search(const FreeSpace& space, const RouteRequest& request, RouteResult& result) {
   const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
@@ -108,6 +91,23 @@ Path with_end_turns(const Path& inner, const RouteRequest& request) {
 
 }  // namespace
 
+std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request) {
+  // Where the heading is free it is enough that some heading fits: the inscribed disc.
+  const auto check = [&](const Pose& pose, bool heading_free) -> std::optional<Collision> {
+    if (!heading_free) return space.checker().pose_collision(pose);
+    const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
+    const auto nearest = space.field().nearest(pose.x_m, pose.y_m);
+    if (nearest.distance_m >= need_m - FootprintChecker::kTolerance_m) return std::nullopt;
+    return Collision{0, pose, need_m - nearest.distance_m, nearest};
+  };
+  const Pose goal{request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)};
+  if (const auto c = check(request.start, request.start_heading_free))
+    return blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c);
+  if (const auto c = check(goal, !request.goal_heading_rad))
+    return blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c);
+  return std::nullopt;
+}
+
 RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, const Footprint& footprint,
                        double clearance_m)
     : field_(std::make_unique<ObstacleField>(map, keepout)),
@@ -115,6 +115,56 @@ RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, c
       any_heading_(*field_, checker_.circumscribed_radius_m() + clearance_m) {
   if (!checker_.is_disc()) some_heading_.emplace(*field_, checker_.inscribed_radius_m() + clearance_m);
 }
+
+namespace {
+
+/// Lead lengths tried for a blend at an end.
+constexpr double kLeads_m[] = {0.3, 0.5, 0.8, 1.2, 1.8};
+
+/// The polyline with a lead along the heading at an end, its corner blended: of the leads that are free, the
+/// one that turns least in place, then the shortest. Absent where there is no room.
+std::optional<SmoothPath> with_lead(const std::vector<Point2>& line, bool at_start, double heading_rad,
+                                    const FootprintChecker& careful, const CornerPolicy& policy) {
+  std::optional<SmoothPath> best;
+  for (const double lead_m : kLeads_m) {
+    std::vector<Point2> led = line;
+    const double dx = lead_m * std::cos(heading_rad), dy = lead_m * std::sin(heading_rad);
+    if (at_start) {
+      led.insert(led.begin() + 1, {line.front()[0] + dx, line.front()[1] + dy});
+    } else {
+      led.insert(led.end() - 1, {line.back()[0] - dx, line.back()[1] - dy});
+    }
+    SmoothPath smooth = smooth_polyline(led, careful, policy);
+    const CornerReport& corner = at_start ? smooth.corners.front() : smooth.corners.back();
+    if (corner.radius_m == 0 || careful.first_collision(smooth.path)) continue;
+    const double turned_rad = smooth.path.turned_rad();
+    const bool less_turning = !best || turned_rad < best->path.turned_rad() - 1e-9;
+    const bool as_much = best && turned_rad < best->path.turned_rad() + 1e-9;
+    if (less_turning || (as_much && smooth.path.distance_m() < best->path.distance_m()))
+      best = std::move(smooth);
+  }
+  return best;
+}
+
+SmoothPath smooth_with_leads(const std::vector<Point2>& polyline_m, const RouteRequest& request,
+                             const FootprintChecker& careful, const CornerPolicy& policy) {
+  SmoothPath smooth = smooth_polyline(polyline_m, careful, policy);
+  if (polyline_m.size() < 2 || policy.kind == CornerPolicy::Kind::stop_turn_go) return smooth;
+  const auto differ = [](double a_rad, double b_rad) {
+    return std::abs(wrapped_angle_rad(a_rad - b_rad)) > 1e-6;
+  };
+  if (request.blend_start && !request.start_heading_free &&
+      differ(smooth.path.start().heading_rad, request.start.heading_rad))
+    if (auto led = with_lead(smooth.polyline_m, true, request.start.heading_rad, careful, policy))
+      smooth = *led;
+  if (request.blend_goal && request.goal_heading_rad &&
+      differ(smooth.path.end().heading_rad, *request.goal_heading_rad))
+    if (auto led = with_lead(smooth.polyline_m, false, *request.goal_heading_rad, careful, policy))
+      smooth = *led;
+  return smooth;
+}
+
+}  // namespace
 
 RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
                         const std::vector<Point2>& polyline_m) {
@@ -124,7 +174,7 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
   const FootprintChecker& checker = space.checker();
   const FootprintChecker careful = checker.with_clearance(checker.clearance_m() + kShapeMargin_m);
   for (const CornerPolicy& policy : {request.corners, CornerPolicy{CornerPolicy::Kind::stop_turn_go, 0}}) {
-    const SmoothPath smooth = smooth_polyline(polyline_m, careful, policy);
+    const SmoothPath smooth = smooth_with_leads(polyline_m, request, careful, policy);
     result.path = with_end_turns(smooth.path, request);
     result.corners = smooth.corners;
     const auto collision = checker.first_collision(result.path);
@@ -137,7 +187,7 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
 
 RouteResult plan_route(const RouteSpace& space, const RouteRequest& request) {
   RouteResult result;
-  if (auto verdict = ends_verdict(space, request)) {
+  if (auto verdict = blocked_ends(space, request)) {
     result.verdict = *verdict;
     return result;
   }

@@ -40,6 +40,10 @@ struct RouteRequest {
   std::optional<double> goal_heading_rad{};  ///< absent: any
   bool start_heading_free{};                 ///< start.heading_rad means nothing: begin along the path
   CornerPolicy corners{};
+  /// Leave the start (reach the goal) along its heading and bend, instead of turning in place, where there is
+  /// room for a blend of this policy; not for CornerPolicy::Kind::stop_turn_go.
+  bool blend_start{};
+  bool blend_goal{};
   SearchPlanner planner{SearchPlanner::bit_star};
   TravelCost cost{};
   std::uint64_t seed{1};
@@ -76,6 +80,9 @@ struct RouteResult {
 
   bool found() const { return verdict.status == RouteStatus::found; }
 };
+
+/// Why the robot cannot stand at the request's start or goal; absent when it can.
+[[nodiscard]] std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request);
 
 /// Finds a way from a pose to a place and shapes it into a path with continuous curvature that the
 /// footprint can follow with its clearance everywhere; turns in place at the ends where headings differ.

@@ -165,6 +165,7 @@ SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m, const Footprin
   if (policy.kind == CornerPolicy::Kind::largest_blend) grow_blends(line, CornerPolicy::kLargestRadius_m);
   if (policy.kind == CornerPolicy::Kind::blend_radius) grow_blends(line, policy.radius_m);
   result.path = assemble(line);
+  result.polyline_m = polyline_m;
   for (std::size_t i = 1; i + 1 < line.size(); ++i)
     result.corners.push_back({line.point_m(i)[0], line.point_m(i)[1], line.angle_rad(i), line.radius_m(i)});
   return result;

@@ -32,6 +32,7 @@ struct CornerReport {
 struct SmoothPath {
   Path path{};
   std::vector<CornerReport> corners{};
+  std::vector<Point2> polyline_m{};  ///< whose corners they are, before any was moved
 };
 
 /// Rounds the corners of a polyline into a curve with continuous curvature, as far as clearance admits.

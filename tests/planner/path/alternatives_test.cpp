@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/path/candidates.hpp"
+#include "planner/path/graph_route.hpp"
+#include "tests/planner/path/grids.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Footprint kDisc{0.25, {}};
+
+void fill(OccupancyGrid& grid, int column0, int row0, int column1, int row1) {
+  for (int row = row0; row < row1; ++row)
+    for (int column = column0; column < column1; ++column)
+      grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = 100;
+}
+
+RouteRequest across(double x0, double y0, double x1, double y1) {
+  RouteRequest request;
+  request.start = {x0, y0, 0};
+  request.goal_x_m = x1, request.goal_y_m = y1;
+  return request;
+}
+
+TEST(Homotopy, SidesOfAnIslandAreDifferentClasses) {
+  OccupancyGrid map = free_grid(100, 100, 0.1);
+  fill(map, 40, 40, 60, 60);
+  fill(map, 0, 90, 30, 100);  // touches the rim: no island
+  const ObstacleField field(map);
+  const FreeSpace space(field, 0.3);
+  const auto islands = island_points(space);
+  ASSERT_EQ(islands.size(), 1u);
+  const std::vector<Point2> above{{1, 5}, {5, 8}, {9, 5}}, below{{1, 5}, {5, 2}, {9, 5}}, wavy{{1, 5}, {3, 8}, {6, 7}, {9, 5}};
+  EXPECT_TRUE(same_homotopy_class(above, wavy, islands));
+  EXPECT_FALSE(same_homotopy_class(above, below, islands));
+}
+
+TEST(Candidates, PassTheIslandOnBothSidesCheapestFirst) {
+  OccupancyGrid map = free_grid(200, 100, 0.1);
+  fill(map, 80, 35, 120, 60);  // its lower side is nearer
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  const auto routes = plan_candidates(space, across(3, 4.5, 17, 4.5), 3);
+  ASSERT_EQ(routes.size(), 2u);
+  EXPECT_LT(routes[0].polyline_cost, routes[1].polyline_cost);
+  const auto islands = island_points(space.any_heading());
+  EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, islands));
+  for (const RouteResult& route : routes) EXPECT_FALSE(space.checker().first_collision(route.path).has_value());
+}
+
+TEST(Candidates, AreManyAndAllDifferentInAWarehouse) {
+  const OccupancyGrid map = warehouse_grid(2);
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  const auto routes = plan_candidates(space, across(1.3, 1.3, 58, 37), 4);
+  EXPECT_GE(routes.size(), 3u);
+  const auto islands = island_points(space.any_heading());
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    ASSERT_TRUE(routes[i].found());
+    EXPECT_LE(routes[i].polyline_cost, 1.5 * routes[0].polyline_cost);
+    EXPECT_FALSE(space.checker().first_collision(routes[i].path).has_value());
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(same_homotopy_class(routes[i].polyline_m, routes[j].polyline_m, islands));
+  }
+}
+
+TEST(TravelCostSearch, GoesAroundADearPatch) {
+  const OccupancyGrid map = free_grid(200, 100, 0.1);
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  RouteRequest request = across(3, 5, 17, 5);
+  EXPECT_NEAR(plan_route(space, request).path.distance_m(), 14.0, 1e-9);
+  request.cost.rate = [](double x, double y, double) { return x > 8 && x < 12 && y > 3 && y < 8 ? 4.0 : 1.0; };
+  const RouteResult around = plan_route(space, request);
+  ASSERT_TRUE(around.found());
+  // Through the patch: 10 + 4 * 4 = 26. Around its lower corners (8, 3), (12, 3): 2 sqrt(25 + 4) + 4 = 14.77.
+  EXPECT_LT(around.polyline_cost, 15.2);
+  EXPECT_GE(around.polyline_cost, 2 * std::sqrt(29.0) + 4 - 0.02);
+}
+
+TEST(EndBlends, ReplaceTurnsInPlaceWhereThereIsRoom) {
+  const OccupancyGrid map = free_grid(200, 200, 0.05);
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  RouteRequest request = across(3, 3, 7, 7);
+  request.start.heading_rad = kPi / 2;
+  request.goal_heading_rad = kPi / 2;
+  EXPECT_GT(plan_route(space, request).path.turned_rad(), 1.0);
+  request.blend_start = request.blend_goal = true;
+  const RouteResult bent = plan_route(space, request);
+  ASSERT_TRUE(bent.found());
+  EXPECT_EQ(bent.path.pieces.size(), 1u);
+  EXPECT_NEAR(wrapped_angle_rad(bent.path.start().heading_rad - kPi / 2), 0, 1e-9);
+  EXPECT_NEAR(wrapped_angle_rad(bent.path.end().heading_rad - kPi / 2), 0, 1e-9);
+  EXPECT_NEAR(bent.path.end().x_m, 7, 1e-9);
+  request.corners.kind = CornerPolicy::Kind::stop_turn_go;
+  EXPECT_GT(plan_route(space, request).path.turned_rad(), 1.0);
+}
+
+RouteGraph ladder() {
+  RouteGraph graph;
+  graph.nodes = {{0, 1, 1}, {1, 9, 1}, {2, 9, 9}, {3, 1, 9}};
+  graph.edges = {{0, 0, 1, {}, {}}, {1, 1, 2, {}, {}}, {2, 0, 3, {}, {}}, {3, 3, 2, {}, {5, 5}}};
+  return graph;
+}
+
+TEST(GraphRoute, KeepsToDirectedEdgesAndAvoidsBlockedOnes) {
+  OccupancyGrid map = free_grid(200, 200, 0.05);
+  const RouteGraph graph = ladder();
+  {
+    const RouteSpace space(map, nullptr, kDisc, 0.05);
+    const RouteResult route = plan_graph_route(space, across(1, 1, 9, 9), graph);
+    ASSERT_TRUE(route.found());
+    EXPECT_NEAR(route.polyline_cost, 16.0, 1e-9);
+    const RouteResult back = plan_graph_route(space, across(9, 9, 1, 1), graph);
+    EXPECT_EQ(back.verdict.status, RouteStatus::no_connection);
+  }
+  fill(map, 90, 0, 110, 60);  // across edge 0
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  const RouteResult route = plan_graph_route(space, across(1, 1, 9, 9), graph);
+  ASSERT_TRUE(route.found());
+  EXPECT_NEAR(route.polyline_cost, 8 + 2 * std::sqrt(32.0), 1e-9);
+  EXPECT_FALSE(space.checker().first_collision(route.path).has_value());
+}
+
+}  // namespace
+}  // namespace joulepath
