@@ -94,8 +94,7 @@ std::optional<Point2> FreeSpace::nearest_reachable(const Point2& start_m, const 
   return best;
 }
 
-std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& goal_m, Cells cells,
-                                          const std::vector<float>* price) const {
+std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& goal_m, Cells cells) const {
   const auto start = free_cell_near(start_m), goal = free_cell_near(goal_m);
   if (!start || !goal || component_[index(*start)] != component_[index(*goal)]) return {};
   constexpr double kDiagonal = 1.4142135623730951;
@@ -134,9 +133,7 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
     for (const Cell& step : kNeighbors) {
       const Cell next{cell.column + step.column, cell.row + step.row};
       if (!grid_.contains(next) || !usable(next)) continue;
-      const double step_cells = step.column != 0 && step.row != 0 ? kDiagonal : 1.0;
-      const double dear = price != nullptr ? static_cast<double>((*price)[index(next)]) : 1.0;
-      const double next_cost = cost[entry.cell] + step_cells * dear;
+      const double next_cost = cost[entry.cell] + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
       if (next_cost >= static_cast<double>(cost[index(next)]) - 1e-4) continue;
       cost[index(next)] = static_cast<float>(next_cost);
       parent[index(next)] = static_cast<std::uint32_t>(entry.cell);

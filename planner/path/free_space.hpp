@@ -32,10 +32,9 @@ class FreeSpace {
     clear  ///< it is free at every point of the cell, with 5 mm to spare
   };
   /// A way over cell centers, shortest by octile distance (A*); empty when there is none. Free cells within
-  /// kNearEnds_m of the ends may always be used. `price` (one factor >= 1 per cell, may be null) makes cells
-  /// dear.
-  [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m, Cells cells,
-                                               const std::vector<float>* price = nullptr) const;
+  /// kNearEnds_m of the ends may always be used.
+  [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
+                                               Cells cells) const;
   [[nodiscard]] bool clear(double x_m, double y_m) const {
     const auto cell = grid_.cell_of(x_m, y_m);
     return grid_.contains(cell) && clear_[index(cell)] != 0;

@@ -34,7 +34,8 @@ TEST(Homotopy, SidesOfAnIslandAreDifferentClasses) {
   const FreeSpace space(field, 0.3);
   const auto islands = island_points(space);
   ASSERT_EQ(islands.size(), 1u);
-  const std::vector<Point2> above{{1, 5}, {5, 8}, {9, 5}}, below{{1, 5}, {5, 2}, {9, 5}}, wavy{{1, 5}, {3, 8}, {6, 7}, {9, 5}};
+  const std::vector<Point2> above{{1, 5}, {5, 8}, {9, 5}}, below{{1, 5}, {5, 2}, {9, 5}},
+      wavy{{1, 5}, {3, 8}, {6, 7}, {9, 5}};
   EXPECT_TRUE(same_homotopy_class(above, wavy, islands));
   EXPECT_FALSE(same_homotopy_class(above, below, islands));
 }
@@ -48,7 +49,8 @@ TEST(Candidates, PassTheIslandOnBothSidesCheapestFirst) {
   EXPECT_LT(routes[0].polyline_cost, routes[1].polyline_cost);
   const auto islands = island_points(space.any_heading());
   EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, islands));
-  for (const RouteResult& route : routes) EXPECT_FALSE(space.checker().first_collision(route.path).has_value());
+  for (const RouteResult& route : routes)
+    EXPECT_FALSE(space.checker().first_collision(route.path).has_value());
 }
 
 TEST(Candidates, AreManyAndAllDifferentInAWarehouse) {
@@ -71,7 +73,9 @@ TEST(TravelCostSearch, GoesAroundADearPatch) {
   const RouteSpace space(map, nullptr, kDisc, 0.05);
   RouteRequest request = across(3, 5, 17, 5);
   EXPECT_NEAR(plan_route(space, request).path.distance_m(), 14.0, 1e-9);
-  request.cost.rate = [](double x, double y, double) { return x > 8 && x < 12 && y > 3 && y < 8 ? 4.0 : 1.0; };
+  request.cost.rate = [](double x, double y, double) {
+    return x > 8 && x < 12 && y > 3 && y < 8 ? 4.0 : 1.0;
+  };
   const RouteResult around = plan_route(space, request);
   ASSERT_TRUE(around.found());
   // Through the patch: 10 + 4 * 4 = 26. Around its lower corners (8, 3), (12, 3): 2 sqrt(25 + 4) + 4 = 14.77.

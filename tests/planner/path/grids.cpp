@@ -1,5 +1,6 @@
 #include "tests/planner/path/grids.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -8,12 +9,10 @@ namespace joulepath {
 namespace {
 
 void fill(OccupancyGrid& grid, double x0_m, double y0_m, double x1_m, double y1_m) {
-  for (int row = 0; row < grid.height; ++row)
-    for (int column = 0; column < grid.width; ++column) {
-      const auto c = grid.center_of({column, row});
-      if (c[0] > x0_m && c[0] < x1_m && c[1] > y0_m && c[1] < y1_m)
-        grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = 100;
-    }
+  const auto from = grid.cell_of(x0_m, y0_m), to = grid.cell_of(x1_m, y1_m);
+  for (int row = std::max(0, from.row); row < std::min(grid.height, to.row); ++row)
+    for (int column = std::max(0, from.column); column < std::min(grid.width, to.column); ++column)
+      grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = 100;
 }
 
 }  // namespace
