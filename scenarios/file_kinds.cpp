@@ -2,6 +2,7 @@
 #include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/output_schemas.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -13,6 +14,8 @@ const std::vector<FileKind>& file_kinds() {
       {"dataset", dataset_schema, "run logs, what they were measured with, and how to read their columns"},
       {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
       {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
+      {"plan", plan_schema, "result of plan: plan.json"},
+      {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
   };
   return kinds;
 }

@@ -56,7 +56,7 @@ Json map_json(const Schema& schema) {
     if (!key.says.empty()) properties[key.name]["description"] = key.says;
     if (key.required) required_keys.push_back(key.name);
   }
-  Json json{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  Json json{{"type", "object"}, {"properties", properties}, {"additionalProperties", schema.open}};
   if (!required_keys.empty()) json["required"] = required_keys;
   if (schema.min_items > 0) json["minProperties"] = schema.min_items;
   if (schema.max_items < std::numeric_limits<std::size_t>::max()) json["maxProperties"] = schema.max_items;
@@ -65,6 +65,11 @@ Json map_json(const Schema& schema) {
 }
 
 Json schema_json(const Schema& schema) {
+  if (schema.nullable) {
+    Schema value = schema;
+    value.nullable = false;
+    return {{"anyOf", Json::array({schema_json(value), Json{{"type", "null"}}})}};
+  }
   switch (schema.kind) {
     case Schema::Kind::number:
     case Schema::Kind::integer:

@@ -107,7 +107,7 @@ void check_groups(const Node& node, const Schema& schema) {
 
 void check_map(const Node& node, const Schema& schema) {
   if (node.kind() != Value::Kind::map) node.fail(accepted_by(schema));
-  check_unknown_keys(node, schema);
+  if (!schema.open) check_unknown_keys(node, schema);
   for (const auto& key : schema.keys) {
     const bool present = std::any_of(node.value().entries.begin(), node.value().entries.end(),
                                      [&](const auto& entry) { return entry.key == key.name; });
@@ -118,13 +118,21 @@ void check_map(const Node& node, const Schema& schema) {
   check_groups(node, schema);
   if (node.value().entries.size() < schema.min_items || node.value().entries.size() > schema.max_items)
     node.fail(schema.max_items == 1 ? "a map with one key" : accepted_by(schema));
-  for (const auto& [name, child] : node.entries()) check_value(child, key_named(schema, name)->schema);
+  for (const auto& [name, child] : node.entries())
+    if (const auto* key = key_named(schema, name)) check_value(child, key->schema);
 }
 
+/// Alternatives are told apart by their shape; where two have the same, the last tells the mistake.
 void check_any_of(const Node& node, const Schema& schema) {
+  std::vector<const Schema*> fitting;
   for (const auto& alternative : schema.parts)
-    if (shape_of(alternative) == node.kind()) return check_value(node, alternative);
-  node.fail(accepted_by(schema));
+    if (shape_of(alternative) == node.kind()) fitting.push_back(&alternative);
+  if (fitting.empty()) node.fail(accepted_by(schema));
+  for (std::size_t i = 0; i + 1 < fitting.size(); ++i) try {
+      return check_value(node, *fitting[i]);
+    } catch (const ConfigError&) {
+    }
+  check_value(node, *fitting.back());
 }
 
 std::pair<std::string, std::string> kind_and_version(const std::string& line) {
@@ -160,6 +168,14 @@ Schema any_of(std::vector<Schema> alternatives) {
 }
 Schema sided(const Schema& value) {
   return any_of({value, map({required("left", value), required("right", value)})});
+}
+Schema open(Schema map) {
+  map.open = true;
+  return map;
+}
+Schema nullable(Schema value) {
+  value.nullable = true;
+  return value;
 }
 Schema::Key required(std::string name, Schema schema, std::string says) {
   return {std::move(name), std::move(schema), std::move(says), true};
@@ -205,6 +221,7 @@ std::string accepted_by(const Schema& schema) {
 }
 
 void check_value(const Node& node, const Schema& schema) {
+  if (node.kind() == Value::Kind::null && schema.nullable) return;
   if (node.kind() == Value::Kind::null)
     node.fail(accepted_by(schema), "write a value, or leave the key away where it is optional");
   switch (schema.kind) {

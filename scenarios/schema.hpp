@@ -33,7 +33,9 @@ struct Schema {
       parts{};              ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
   std::size_t min_items{};  ///< list; map: how many keys at least
   std::size_t max_items{std::numeric_limits<std::size_t>::max()};
-  std::vector<Key> keys{};                              ///< map
+  std::vector<Key> keys{};  ///< map
+  bool open{};              ///< map: keys that are not named are accepted (results, which grow)
+  bool nullable{};          ///< null is accepted (results: a number that is not finite)
   std::vector<std::vector<std::string>> exactly_one{};  ///< map: of each group one key must be there
 
   Schema with_exactly_one(std::vector<std::string> group) &&;
@@ -57,6 +59,8 @@ struct Schema::Key {
 [[nodiscard]] Schema dictionary(Schema item);  ///< any keys
 [[nodiscard]] Schema any_of(std::vector<Schema> alternatives);
 [[nodiscard]] Schema sided(const Schema& value);  ///< the value, or {left: , right: }
+[[nodiscard]] Schema open(Schema map);            ///< the map, with keys of any other name
+[[nodiscard]] Schema nullable(Schema value);      ///< the value, or null
 [[nodiscard]] Schema::Key required(std::string name, Schema schema, std::string says = {});
 [[nodiscard]] Schema::Key optional(std::string name, Schema schema, std::string says = {});
 

@@ -1,0 +1,112 @@
+#include "scenarios/output_schemas.hpp"
+
+namespace joulepath {
+namespace {
+
+Schema result() { return nullable(number()); }  ///< null where it is not finite
+Schema interval() { return list(result(), 2, 2); }
+Schema plan_status() { return choice({"optimal", "feasible", "infeasible", "failed"}); }
+
+Schema causes_schema() {
+  return open(
+      map({required("copper", number()), required("coulomb_friction", number()),
+           required("viscous_friction", number()), required("kinetic", number()),
+           required("standby", number()), required("effects", dictionary(number()), "joules by effect"),
+           required("not_recovered", number(), "braking power that the drives cannot return")}));
+}
+
+Schema baselines_schema() {
+  return list(
+      open(map({required("name", text()), optional("feasible", boolean()), optional("energy_J", result()),
+                optional("motion_energy_J", result()), optional("duration_s", result()),
+                optional("saving_percent", result()), optional("motion_saving_percent", result()),
+                optional("parameters", dictionary(result()))})));
+}
+
+Schema leg_schema() {
+  return open(
+      map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
+           required("duration_s", result(), "without dwell"), required("distance_m", result()),
+           required("payload_kg",
+                    any_of({number(), open(map({required("from", number()), required("to", number())}))})),
+           required("price_of_time_W", result(), "-dE/dT: what a second more would save"),
+           required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema())}));
+}
+
+Schema battery_schema() {
+  return open(map({required("start_fraction", result()), required("end_fraction", result()),
+                   required("interval_95", interval(), "of the end fraction"),
+                   required("required_capacity_Wh", result(), "95 % upper bound"),
+                   required("missions_per_charge", result())}));
+}
+
+Schema infeasibility_schema() {
+  return open(
+      map({required("constraint", text()), required("leg", integer()), required("arc_length_m", result()),
+           required("x_m", result()), required("y_m", result()), required("amount", result()),
+           required("unit", text()),
+           required("relaxation", dictionary(result()), "the smallest change that makes it feasible")}));
+}
+
+Schema gap_schema() {
+  const Schema energy = open(
+      map({required("before_percent", result()), required("after_percent", result()),
+           required("bias_before_percent", result(), "predicted - measured; negative: the model is too low"),
+           required("noise_floor_percent", result()), required("before_J", result()),
+           required("after_J", result()), required("shrink_fraction", result()),
+           required("shrink_interval_95", interval())}));
+  return open(map({required("energy", energy), optional("current", open(map({}))),
+                   optional("voltage", open(map({}))), optional("motion", open(map({})))}));
+}
+
+Schema where_schema() {
+  return list(open(map({required("axis", choice({"phase", "wheel", "speed", "payload", "floor", "heading",
+                                                 "direction", "time_of_day", "channel", "run"})),
+                        required("value", text()), required("share_of_gap", result()),
+                        required("energy_J", result()), required("interval_95", interval())})));
+}
+
+Schema cause_schema() {
+  const Schema parameter = any_of(
+      {open(map({required("value", any_of({result(), text()})), optional("interval_95", interval())}))});
+  return open(
+      map({required("effect", text()), required("probability", number(kFraction)),
+           required("indistinguishable_from", list(text())), required("parameters", dictionary(parameter)),
+           required("energy_share", result()), required("shrink_fraction_alone", result())}));
+}
+
+}  // namespace
+
+Schema plan_schema() {
+  return open(
+      map({required("schema", text()), required("status", plan_status()),
+           optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
+           optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
+           optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
+           optional("duration_s", result()), optional("distance_m", result()),
+           optional("optimality_gap_percent", result()),
+           optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
+           optional("solver", open(map({required("name", text()), required("iterations", number())}))),
+           optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
+                                        required("limit", text())}))),
+           optional("battery", battery_schema()), optional("legs", list(leg_schema())),
+           optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
+}
+
+Schema diagnosis_schema() {
+  return open(map(
+      {required("schema", text()), required("gap", gap_schema()), required("where", where_schema()),
+       required("verdict", choice({"no_gap", "explained", "partly_explained", "unexplained", "ambiguous",
+                                   "too_little_data"})),
+       required("causes", list(cause_schema())),
+       required("ranking",
+                list(open(map({required("effect", text()), required("probability", number(kFraction))})))),
+       required("leftover", open(map({required("significant", boolean()), required("description", text())}))),
+       optional("next_experiment", open(map({}))), optional("ceiling", open(map({}))),
+       optional("control", open(map({}))), optional("pinned_combination", text()),
+       optional("artifacts", list(any_of({text(), open(map({}))}))),
+       optional("missing_channels", list(text())), optional("decisions", open(map({}))),
+       optional("validation", open(map({required("runs", list(text())), required("method", text())})))}));
+}
+
+}  // namespace joulepath
