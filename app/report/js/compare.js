@@ -44,7 +44,7 @@ jp.draw_compare = function (data) {
     jp.section("Energy", jp.h("div", {class: "columns"}, jp.h("div", {}, jp.h("h3", {}, "Motion, standby left out"), bars("motion_energy_J")), jp.h("div", {}, jp.h("h3", {}, "At the battery, standby included"), bars("energy_J"))),
       jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least"}, "settings"], listed.map((one) => one.feasible === false
         ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
-        : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")]))),
+        : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
     over ? over.section : null);
   if (over) over.ready();
 };

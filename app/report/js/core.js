@@ -55,6 +55,15 @@ jp.key_value = function (key, value, digits = 4) {
   return words + " " + text + (unit ? "\u202f" + unit : "");
 };
 
+/** Settings of a profile: one set of keys, or one set per stretch. */
+jp.settings_text = function (settings) {
+  const text = (one) => Object.entries(one || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
+  if (!Array.isArray(settings)) return text(settings);
+  if (settings.length === 1) return text(settings[0]);
+  if (!settings.some((one) => Object.keys(one).length)) return "";
+  return jp.h("details", {}, jp.h("summary", {}, `${settings.length} stretches`), jp.h("ol", {}, settings.map((one) => jp.h("li", {}, text(one)))));
+};
+
 jp.color = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 jp.series_colors = () => ["plan", "second", "third", "fourth", "fifth", "sixth"].map(jp.color);
 jp.is_dark = () => {

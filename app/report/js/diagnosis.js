@@ -20,22 +20,32 @@ jp.diagnosis_tiles = function (d) {
     jp.is_number(energy.shrink_fraction) ? jp.tile("Gap closed", jp.fraction(energy.shrink_fraction), interval ? `95 %: ${jp.fraction(interval[0])} to ${jp.fraction(interval[1])}` : null) : null].filter(Boolean));
 };
 
+/** Pairs before_X / after_X of one channel of `gap`, with their noise floor; X carries the unit. */
+jp.before_after = function (channel, entry) {
+  return Object.keys(entry).flatMap((key) => {
+    const found = key.match(/^(.*)before_(.+)$/);
+    if (!found || found[1] === "bias_" || (channel === "energy" && found[2] === "J") || !jp.is_number(entry[key])) return [];
+    const [, prefix, rest] = found;
+    const {words, unit} = jp.split_key("x_" + rest);
+    return [{title: jp.words(prefix || (channel === "motion" ? "position" : channel)) + (words.includes("rms") ? " (root mean square)" : ""), unit,
+      before: entry[key], after: entry[prefix + "after_" + rest], floor: entry[prefix + "noise_floor_" + rest]}];
+  });
+};
+
 jp.how_far_section = function (d) {
   const gap = d.gap || {}, blocks = [];
-  const stems = {energy: ["_percent", "%"], current: ["_rms_A", "A"], voltage: ["_rms_V", "V"]};
   for (const [channel, entry] of Object.entries(gap)) {
-    if (!entry || typeof entry !== "object") continue;
-    const before_keys = Object.keys(entry).filter((key) => key.startsWith("before_") && !(channel === "energy" && key === "before_J"));
-    for (const key of before_keys) {
-      const ending = key.slice("before".length), unit = (stems[channel] && ending === stems[channel][0]) ? stems[channel][1] : jp.split_key(key).unit;
-      if (!jp.is_number(entry[key])) continue;
-      const floor = entry["noise_floor" + ending];
-      const row = (label, value, color) => ({label, value, color, text: jp.with_unit(value, unit, 3), marks: jp.is_number(floor) ? [floor] : []});
-      blocks.push(jp.h("div", {}, jp.h("h3", {}, jp.words(channel) + (before_keys.length > 1 || channel === "motion" ? ", " + jp.split_key(key).words.replace("before ", "") : "")),
-        jp.bar_rows([row("before", entry[key], "var(--second)"), jp.is_number(entry["after" + ending]) ? row("after", entry["after" + ending], "var(--plan)") : null].filter(Boolean)),
-        jp.is_number(floor) ? jp.h("p", {class: "soft small"}, `dashed: noise floor ${jp.with_unit(floor, unit, 3)}`) : null));
+    if (!entry || typeof entry !== "object" || channel === "energy_by_phase") continue;
+    for (const pair of jp.before_after(channel, entry)) {
+      const row = (label, value, color) => ({label, value, color, text: jp.with_unit(value, pair.unit, 3), marks: jp.is_number(pair.floor) ? [pair.floor] : []});
+      blocks.push(jp.h("div", {}, jp.h("h3", {}, pair.title), jp.bar_rows([row("before", pair.before, "var(--second)"), jp.is_number(pair.after) ? row("after", pair.after, "var(--plan)") : null].filter(Boolean)),
+        jp.is_number(pair.floor) ? jp.h("p", {class: "soft small"}, `dashed: noise floor ${jp.with_unit(pair.floor, pair.unit, 3)}`) : null));
     }
   }
+  const phases = Object.entries(gap.energy_by_phase || {});
+  const phase_text = (phase) => `${jp.number(phase.before_J, 3)} → ${jp.with_unit(phase.after_J, "J", 3)}`;
+  if (phases.length) blocks.push(jp.h("div", {}, jp.h("h3", {}, "energy by phase, before → after"), jp.bar_rows(phases.map(([name, phase]) => ({label: jp.words(name), value: phase.before_J, text: phase_text(phase), color: "var(--second)", marks: jp.is_number(phase.after_J) ? [phase.after_J] : []}))),
+    jp.h("p", {class: "soft small"}, "bar: before, dashed: after")));
   if (!blocks.length) return null;
   const energy = gap.energy || {}, rows = [];
   const share = (label, value, interval, color) => jp.is_number(value) && rows.push({label, value: Math.max(0, value), text: jp.fraction(value), interval, color});
@@ -127,10 +137,12 @@ jp.runs_section = function (data) {
 jp.next_section = function (d) {
   const next = d.next_experiment || {};
   const separates = next.separates || [];
-  const motion = Object.entries({...next.motion, ...(jp.is_number(next.payload_kg) ? {payload_kg: next.payload_kg} : {})}).map(([key, value]) => jp.key_value(key, value)).join(", ");
-  if (!motion && !separates.length) return null;
+  const {legs, why, ...circumstances} = next.motion || {};
+  const text = (one) => Object.entries(one).map(([key, value]) => jp.key_value(key, value)).join(", ");
+  const motion = legs ? jp.h("ol", {}, legs.map((leg) => jp.h("li", {}, text(leg)))) : text(circumstances);
+  if ((!legs && !motion) || (!separates.length && !next.motion)) return null;
   return jp.section("The next run", separates.length ? jp.h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(jp.words).join(" from ") : jp.words(one))).join(", ")) : null,
-    motion ? jp.h("p", {}, jp.h("b", {}, "Drive: "), motion + ".") : null, next.why ? jp.h("p", {}, next.why) : null, jp.is_number(next.expected_evidence) ? jp.h("p", {class: "soft"}, `Expected evidence ${jp.number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
+    why ? jp.h("p", {}, why) : null, jp.h("div", {}, jp.h("b", {}, "Drive: "), legs && jp.is_number(circumstances.payload_kg) ? `with ${jp.short(circumstances.payload_kg)} kg on board` : "", motion), jp.is_number(next.expected_evidence) ? jp.h("p", {class: "soft"}, `Expected evidence ${jp.number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
 };
 
 jp.caveats_section = function (d) {

@@ -117,7 +117,11 @@ json diagnosis() {
                                {"noise_floor_percent", 0.5}, {"before_J", 210.3}, {"after_J", 9.1},
                                {"shrink_fraction", 0.96}, {"shrink_interval_95", {0.94, 0.97}}}},
                    {"current", {{"before_rms_A", 0.13}, {"after_rms_A", 0.021}, {"noise_floor_rms_A", 0.02}}},
-                   {"voltage", json::object()}}},
+                   {"voltage", json::object()},
+                   {"motion", {{"before_rms_m", 0.08}, {"after_rms_m", 0.02}, {"noise_floor_rms_m", 0.015},
+                               {"heading_before_rms_rad", 0.02}, {"heading_after_rms_rad", 0.02}}},
+                   {"energy_by_phase", {{"cruise", {{"before_J", 120.5}, {"after_J", 4.1}}},
+                                        {"turn", {{"before_J", 80.2}, {"after_J", 5.0}}}}}}},
           {"where", {entry("phase", "turn", 0.62), entry("phase", "cruise", 0.3), entry("phase", "accelerate", 0.08),
                      entry("wheel", "left", 0.55), entry("wheel", "right", 0.45),
                      entry("floor", "1..3, 1..2", 0.1), entry("floor", "3..5, 1..2", 0.75),
@@ -157,7 +161,7 @@ std::vector<RunComparison> runs() {
 json compare() {
   return {{"profiles", {{{"name", "plan"}, {"energy_J", 402}, {"motion_energy_J", 162}, {"duration_s", 22}},
                         {{"name", "trapezoid_max_acceleration"}, {"energy_J", 410}, {"motion_energy_J", 170}, {"duration_s", 22},
-                         {"parameters", {{"speed_m_s", 0.7}}}},
+                         {"parameters", json::array({{{"speed_m_s", 0.7}}, {{"yaw_rate_rad_s", 1.2}}})}},
                         {{"name", "s_curve"}, {"feasible", false}, {"reason", "cannot make the time"}}}}};
 }
 
