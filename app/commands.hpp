@@ -11,6 +11,9 @@ namespace joulepath {
 #define JOULEPATH_COMMANDS(COMMAND) \
   COMMAND(init)                     \
   COMMAND(plan)                     \
+  COMMAND(simulate)                 \
+  COMMAND(estimate)                 \
+  COMMAND(effects)                  \
   COMMAND(check)                    \
   COMMAND(schema)                   \
   COMMAND(completion)

@@ -1,0 +1,83 @@
+#include "diagnosis/estimation/estimate_dataset.hpp"
+
+#include <cmath>
+
+#include "model/motions.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kJoulesPerWh = 3600.0;
+constexpr double k95OneSided = 1.644854;
+
+/// The motion of a run: its log, or what is prescribed.
+Trajectory motion_of(const Run& run, const Robot& robot) {
+  if (!run.motion) return run.log;
+  const double payload_kg = run.payload.empty() ? 0.0 : run.payload.front().payload_kg;
+  return timed_motion(robot, {*run.motion}, {.payload_kg = payload_kg}).trajectory;
+}
+
+RunEstimate estimate_run(const Run& run, const Robot& robot, const Plant& plant, EstimateOptions options) {
+  RunEstimate result{.name = run.name};
+  const double efficiency = robot.power.regeneration_efficiency;
+  try {
+    const Trajectory motion = motion_of(run, robot);
+    options.time_of_day_s = run.start_time_s.value_or(0.0);
+    if (run.motion) options.reach_s = 0.0;
+    result.estimate = estimate_energy(plant, motion, options);
+    result.sigma_J = energy_sigma_J(robot, motion, options);
+  } catch (const ConfigError& error) {
+    ConfigError::Detail detail = error.detail();
+    detail.mark = run.mark;
+    throw ConfigError(detail);
+  }
+  result.terminals_J = result.estimate.by_cause.total_J();
+  result.measured_motor_J = run.motion ? run.measured_energy_J : measured_motor_energy_J(run.log, efficiency);
+  if (run.battery_energy_Wh) result.measured_battery_J = kJoulesPerWh * *run.battery_energy_Wh;
+  if (!run.motion && !result.measured_battery_J)
+    result.measured_battery_J = measured_battery_energy_J(run.log);
+  const auto relative = [](double estimated_J, double measured_J) {
+    return measured_J != 0 ? std::optional(estimated_J / measured_J - 1) : std::nullopt;
+  };
+  if (result.measured_motor_J) {
+    const Sided<double>& counted_J = result.estimate.counted_J;
+    result.error = relative(counted_J.left + counted_J.right,
+                            result.measured_motor_J->left + result.measured_motor_J->right);
+  } else if (result.measured_battery_J) {
+    result.error = relative(result.terminals_J, *result.measured_battery_J);
+  }
+  return result;
+}
+
+}  // namespace
+
+DatasetEstimate estimate_dataset(const Dataset& dataset, const EstimateOptions& options) {
+  const Plant plant = make_plant(dataset.robot);
+  DatasetEstimate all{.regeneration_efficiency = dataset.robot.power.regeneration_efficiency};
+  double squares = 0;
+  std::size_t within = 0;
+  for (const Run& run : dataset.runs) {
+    all.runs.push_back(estimate_run(run, dataset.robot, plant, options));
+    if (!all.runs.back().error) continue;
+    const double error = *all.runs.back().error;
+    ++all.compared;
+    within += std::abs(error) < kFitnessError;
+    all.mean_error += error;
+    squares += error * error;
+  }
+  if (all.compared > 0) {
+    const double count = static_cast<double>(all.compared);
+    all.fitness = static_cast<double>(within) / count;
+    all.mean_error /= count;
+    if (all.compared >= kLeastRuns) all.model_error = std::sqrt(squares / count);
+  }
+  for (RunEstimate& run : all.runs) {
+    const double model_J = all.model_error.value_or(0.0) * run.terminals_J;
+    run.upper_95_J =
+        run.terminals_J + run.estimate.battery_loss_J + k95OneSided * std::hypot(run.sigma_J, model_J);
+    run.capacity_Wh = run.upper_95_J / kJoulesPerWh / (1 - dataset.robot.battery.reserve_fraction);
+  }
+  return all;
+}
+
+}  // namespace joulepath

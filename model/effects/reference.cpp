@@ -1,0 +1,68 @@
+#include "model/effects/reference.hpp"
+
+#include <sstream>
+
+#include "model/effects/catalog.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string cell(std::string_view text) {  // a pipe would end a table's cell
+  std::string out;
+  for (char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+const char* const kHead = R"(# Effects
+Everything that a robot may do beyond its file, and that planner, simulator and diagnosis know. An effect is added to a
+robot file's `effects:`, or to a simulation alone (`joulepath simulate --effect NAME:PARAMETER=VALUE,...`). This page is
+written by `joulepath effects --markdown` from the catalog in `model/effects/`; a test keeps the two alike.
+
+Resistances oppose the motion of the wheel or of the robot. N = m g / 2 is the load on a wheel, with wheels and payload.
+"Change" and "error" are relative to the robot file. `stage` says where in the chain from body to battery an effect acts:
+parameters (a constant differs), body (force and moment on the robot), wheel (torque at the wheel's shaft), gear, contact
+(between wheel and floor), winding, driver, supply, instrument (the log only: planning and motion do not feel it).
+
+## Counterparts in other simulators
+What to set there to give a simulated robot the same flaw; "none" means that a plugin of one's own would be needed.
+
+| effect | Gazebo (SDFormat) | MuJoCo (MJCF) |
+|---|---|---|
+)";
+
+std::string side_note(const EffectDescription& effect) {
+  std::string note;
+  if (effect.has_side) note += "| `side` | | left, right | | the wheel or sensor concerned |\n";
+  if (effect.has_cells)
+    note += "| `cells` | m | | | instead of the edges: a list of [x_min, x_max, y_min, y_max] |\n";
+  return note;
+}
+
+}  // namespace
+
+std::string effects_markdown() {
+  std::ostringstream text;
+  text << kHead;
+  for (const EffectDescription& effect : effect_catalog())
+    text << "| [`" << effect.info.name << "`](#" << effect.info.name << ") | " << cell(effect.info.gazebo)
+         << " | " << cell(effect.info.mujoco) << " |\n";
+  std::string_view kind;
+  for (const EffectDescription& effect : effect_catalog()) {
+    if (effect.info.kind != kind) {
+      kind = effect.info.kind;
+      text << "\n## Kind: " << kind << "\n";
+    }
+    text << "\n### " << effect.info.name << "\n"
+         << "Law: " << effect.info.law << ".  \nStage: " << stage_name(effect.info.stage)
+         << ". Valid for: " << effect.info.validity << ".";
+    if (effect.info.source != "-") text << " Source: " << effect.info.source << ".";
+    text << "\n\n| parameter | unit | accepted | typical | meaning |\n|---|---|---|---|---|\n";
+    for (const ParameterDescription& p : effect.parameters)
+      text << "| `" << p.name << "` | " << p.unit << " | " << p.min << " to " << p.max << " | " << p.typical
+           << " | " << cell(p.meaning) << " |\n";
+    text << side_note(effect);
+  }
+  return text.str();
+}
+
+}  // namespace joulepath

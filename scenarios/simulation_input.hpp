@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/motions.hpp"
+#include "model/robot.hpp"
+#include "planner/stretch.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// What a simulation drives: a plan's directory, a trajectory or log (CSV), or a mission.
+struct SimulationInput {
+  std::string name{};
+  Robot robot{};
+  Trajectory reference{};
+  std::vector<Interval> coasting{};
+  Pose start{};
+  double planned_energy_J{};  ///< at the battery's terminals, standby included
+  double planned_duration_s{};
+  std::string infeasible{};  ///< why the mission has no plan; empty: it has one
+};
+
+/// Reads what `path` names. A mission whose legs are all prescribed motions is driven as prescribed; any
+/// other is planned first. `robot_file` wins over the mission's; a plan or trajectory needs it.
+/// Throws ConfigError.
+[[nodiscard]] SimulationInput read_simulation_input(const std::string& path, const std::string& robot_file,
+                                                    const ReadOptions& options = {},
+                                                    const PlanOptions& planning = {});
+
+/// `NAME:PARAMETER=VALUE,...` as an effect of the catalog; `side=left` where it has one.
+/// Throws ConfigError.
+[[nodiscard]] EffectSetting parse_effect(const std::string& text);
+
+}  // namespace joulepath
