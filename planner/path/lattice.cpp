@@ -12,13 +12,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double distance_m(const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
-double distance_to_line_m(const Point2& p, const Point2& a, const Point2& b) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-  const double t =
-      length2 > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-}
-
 }  // namespace
 
 Lattice::Lattice(const FreeSpace& space, double spacing_m)
@@ -39,16 +32,27 @@ Lattice::Node Lattice::nearest(const Point2& p) const {
 
 void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, double except_near_ends_m,
                         double extra_price) {
-  for (std::size_t i = 0; i < price_.size(); ++i) {
-    const Point2 p = place(node(i));
+  std::vector<std::uint8_t> raised(price_.size(), 0);
+  const int reach = static_cast<int>(corridor_m / spacing_m_);
+  const auto raise_about = [&](const Point2& p) {
     if (distance_m(p, line.front()) < except_near_ends_m || distance_m(p, line.back()) < except_near_ends_m)
-      continue;
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      if (distance_to_line_m(p, line[k], line[k + 1]) > corridor_m) continue;
-      price_[i] += extra_price;
-      break;
+      return;
+    const Node center = nearest(p);
+    for (int row = std::max(0, center.row - reach); row <= std::min(rows_ - 1, center.row + reach); ++row)
+      for (int column = std::max(0, center.column - reach);
+           column <= std::min(columns_ - 1, center.column + reach); ++column)
+        if (std::hypot(row - center.row, column - center.column) <= reach) raised[index({column, row})] = 1;
+  };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const int steps = static_cast<int>(distance_m(line[i], line[i + 1]) / spacing_m_) + 1;
+    for (int k = 0; k < steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
+      raise_about(
+          {line[i][0] + t * (line[i + 1][0] - line[i][0]), line[i][1] + t * (line[i + 1][1] - line[i][1])});
     }
   }
+  for (std::size_t i = 0; i < price_.size(); ++i)
+    if (raised[i] != 0) price_[i] += extra_price;
 }
 
 std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, const DiscLineCheck& free) const {

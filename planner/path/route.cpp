@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "planner/path/lattice.hpp"
 #include "planner/path/polyline.hpp"
 
 namespace joulepath {
@@ -55,11 +56,13 @@ RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Poin
   return verdict;
 }
 
-/// The taut polyline of the better of OMPL's solution and the grid's own route.
+/// The taut polyline of the better of OMPL's solution and a lattice's (or, in narrow places, the grid's) own.
 void search(const FreeSpace& space, const RouteRequest& request, RouteResult& result) {
   const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
   FreeSpace::Cells cells = FreeSpace::Cells::clear;
-  std::vector<Point2> cell_route = space.cell_route(start, goal, cells);
+  std::vector<Point2> cell_route =
+      Lattice(space).route(start, goal, DiscLineCheck(space, start, goal, cells));
+  if (cell_route.empty()) cell_route = space.cell_route(start, goal, cells);
   if (cell_route.empty()) cell_route = space.cell_route(start, goal, cells = FreeSpace::Cells::free);
   const DiscLineCheck free(space, start, goal, cells);
   const SearchResult found =
@@ -75,7 +78,7 @@ void search(const FreeSpace& space, const RouteRequest& request, RouteResult& re
       polyline_cost(taut, request.cost) <
           (1 - kWorthSwitching) * polyline_cost(result.polyline_m, request.cost)) {
     result.polyline_m = taut;
-    result.searched_by = "cells";
+    result.searched_by = "lattice";
   }
 }
 

@@ -75,8 +75,7 @@ struct RouteResult {
   std::vector<Point2> polyline_m{};  ///< taut, before its corners were rounded
   double polyline_cost{};
   unsigned search_iterations{};
-  std::string
-      searched_by{};  ///< planner, or "line of sight", or "cells" where the grid's own route was better
+  std::string searched_by{};  ///< planner, "line of sight", or "lattice" where that was better
 
   bool found() const { return verdict.status == RouteStatus::found; }
 };
