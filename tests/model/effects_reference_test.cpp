@@ -1,11 +1,10 @@
-#include "model/effects/reference.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "model/effects/catalog.hpp"
+#include "model/effects/reference.hpp"
 
 namespace joulepath {
 namespace {
