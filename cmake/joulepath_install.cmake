@@ -41,6 +41,7 @@ install(FILES ${PROJECT_BINARY_DIR}/joulepath.pc DESTINATION ${CMAKE_INSTALL_LIB
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/joulepath
         PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE PATTERN "CMakeLists.txt" EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright) # where Debian looks
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Man page and completions come from the program's own help.
 find_package(Python3 COMPONENTS Interpreter REQUIRED)

@@ -11,7 +11,7 @@ Columns limit_columns(const Robot& robot, const Columns& columns) {
   const std::size_t rows = columns.at("time_s").size();
   const auto payload = columns.find("payload_kg");
   Columns limits;
-  const auto add = [&](const std::string& name, double Limits::* key, double sign) {
+  const auto add = [&](const std::string& name, double Limits::*key, double sign) {
     std::vector<double> values(rows);
     for (std::size_t row = 0; row < rows; ++row) {
       const double payload_kg = payload == columns.end() ? 0.0 : payload->second[row];

@@ -36,11 +36,15 @@ bool is_kept_out(const OccupancyGrid& mask, const OccupancyGrid& grid, int colum
 MapPicture map_picture(const OccupancyGrid& grid, const OccupancyGrid* keep_out, std::size_t most_cells) {
   int factor = 1;
   const auto cells = [&](int f) {
-    return static_cast<std::size_t>((grid.width + f - 1) / f) * static_cast<std::size_t>((grid.height + f - 1) / f);
+    return static_cast<std::size_t>((grid.width + f - 1) / f) *
+           static_cast<std::size_t>((grid.height + f - 1) / f);
   };
   while (cells(factor) > most_cells) ++factor;
-  MapPicture picture{(grid.width + factor - 1) / factor, (grid.height + factor - 1) / factor,
-                     grid.resolution_m * factor, grid.origin, {}};
+  MapPicture picture{(grid.width + factor - 1) / factor,
+                     (grid.height + factor - 1) / factor,
+                     grid.resolution_m * factor,
+                     grid.origin,
+                     {}};
   for (int row = 0; row < grid.height; row += factor) {
     for (int column = 0; column < grid.width; column += factor) {
       auto cell = block_class(grid, column, row, factor);

@@ -6,8 +6,8 @@
 #include <utility>
 
 namespace joulepath::embedded {
-extern const std::string_view page, style, notice, library, library_css, script_core, script_plots, script_map,
-    script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_main;
+extern const std::string_view page, style, notice, library, library_css, script_core, script_plots,
+    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_main;
 }  // namespace joulepath::embedded
 
 namespace joulepath::report {
@@ -26,7 +26,8 @@ double rounded(double value) {
 
 json json_of(const std::vector<double>& values) {
   json list = json::array();
-  for (const double value : values) list.push_back(std::isfinite(value) ? json(rounded(value)) : json(nullptr));
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? json(rounded(value)) : json(nullptr));
   return list;
 }
 
@@ -96,7 +97,8 @@ std::string escaped(std::string_view text) {
 
 /// One pass over the page: a name between @ signs is replaced where it is known, and nothing that is put in
 /// is looked at again.
-std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& values) {
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& values) {
   std::string out;
   while (!page.empty()) {
     const std::size_t at = page.find('@');

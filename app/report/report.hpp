@@ -20,7 +20,7 @@ struct PlanExtras {
   std::string title{};     ///< the mission's name
   std::string subtitle{};  ///< robot, map
   std::optional<MapPicture> map{};
-  std::optional<Limits> limits{};      ///< drawn where the trajectory has no limit_... columns
+  std::optional<Limits> limits{};        ///< drawn where the trajectory has no limit_... columns
   std::vector<NamedColumns> overlays{};  ///< baselines' motions, by their names in plan.json
 };
 
@@ -44,16 +44,19 @@ struct DiagnosisExtras {
 /// library inside. The same input gives the same bytes. An infeasible plan has no trajectory: pass {}.
 [[nodiscard]] std::string plan_report_html(const nlohmann::json& plan, const Columns& trajectory,
                                            const PlanExtras& extras = {});
-[[nodiscard]] std::string diagnosis_report_html(const nlohmann::json& diagnosis, const DiagnosisExtras& extras = {});
+[[nodiscard]] std::string diagnosis_report_html(const nlohmann::json& diagnosis,
+                                                const DiagnosisExtras& extras = {});
 
 /// `compare`: {"profiles": [{name, feasible, reason, energy_J, motion_energy_J, duration_s, parameters}]},
 /// the plan first; `profiles` the motions behind them.
-[[nodiscard]] std::string compare_report_html(const nlohmann::json& compare, const std::vector<NamedColumns>& profiles,
+[[nodiscard]] std::string compare_report_html(const nlohmann::json& compare,
+                                              const std::vector<NamedColumns>& profiles,
                                               const std::string& title = {});
 
 /// `front`: {"points": [{duration_s, energy_J, motion_energy_J, price_of_time_W, status}],
 /// "baselines": [{name, duration_s, energy_J, motion_energy_J}]}.
-[[nodiscard]] std::string front_report_html(const nlohmann::json& front, const std::vector<NamedColumns>& profiles,
+[[nodiscard]] std::string front_report_html(const nlohmann::json& front,
+                                            const std::vector<NamedColumns>& profiles,
                                             const std::string& title = {});
 
 /// `batch`: {"missions": [{name, status, energy_J, duration_s, distance_m, saving_percent,

@@ -37,8 +37,10 @@ TEST(Report, AtSignsInDataAreNotPlaceholders) {
 }
 
 TEST(Report, FetchesNothing) {
-  const std::string html = diagnosis_report_html(sample::diagnosis(), {"", map_picture(sample::hall()), sample::runs()});
-  for (const char* fetch : {"<script src", "<link rel=\"stylesheet\"", "@import", "url(http", "fetch(", "<img src=\"http"})
+  const std::string html =
+      diagnosis_report_html(sample::diagnosis(), {"", map_picture(sample::hall()), sample::runs()});
+  for (const char* fetch :
+       {"<script src", "<link rel=\"stylesheet\"", "@import", "url(http", "fetch(", "<img src=\"http"})
     EXPECT_EQ(html.find(fetch), std::string::npos) << fetch;
 }
 
@@ -49,12 +51,16 @@ TEST(Report, KeepsTheLibrarysLicense) {
 }
 
 TEST(Report, SameInputGivesSameBytes) {
-  EXPECT_EQ(front_report_html(sample::front(), sample::profiles()), front_report_html(sample::front(), sample::profiles()));
+  EXPECT_EQ(front_report_html(sample::front(), sample::profiles()),
+            front_report_html(sample::front(), sample::profiles()));
 }
 
 TEST(Report, NumbersThatAreNotFiniteBecomeGaps) {
   Columns columns{{"time_s", {0.0, 1.0}}, {"linear_speed_m_s", {0.0, std::nan("")}}};
-  EXPECT_TRUE(embedded_data(plan_report_html(sample::plan(), columns)).at("trajectory").at("linear_speed_m_s")[1].is_null());
+  EXPECT_TRUE(embedded_data(plan_report_html(sample::plan(), columns))
+                  .at("trajectory")
+                  .at("linear_speed_m_s")[1]
+                  .is_null());
 }
 
 TEST(Report, StaysUnderThreeMegabytesForAnHourAtFiftyHertz) {

@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
   limits.acceleration_m_s2 = limits.deceleration_m_s2 = 0.5;
   write("plan", plan_report_html(sample::plan(), sample::trajectory(),
                                  {"Sample round", "made-up data", map, limits, {sample::profiles().back()}}));
-  write("infeasible", plan_report_html(sample::infeasible_plan(), {}, {"Sample round", "made-up data", map, {}, {}}));
+  write("infeasible",
+        plan_report_html(sample::infeasible_plan(), {}, {"Sample round", "made-up data", map, {}, {}}));
   write("diagnosis", diagnosis_report_html(sample::diagnosis(), {"Sample runs", map, sample::runs()}));
   write("compare", compare_report_html(sample::compare(), sample::profiles()));
   write("front", front_report_html(sample::front(), sample::profiles()));
