@@ -54,13 +54,17 @@ def ask(case, scratch, tag, more=()):
 
 
 def described(motion, payload_kg=None):
-    """A proposed motion as the plant's --append wants it; None if it cannot be driven."""
-    if not isinstance(motion, dict) or "profile" not in motion:
-        return None
-    plain = {key: value for key, value in motion.items() if isinstance(value, (int, float, str))}
-    if payload_kg is not None and "payload_kg" not in plain:
-        plain["payload_kg"] = payload_kg
-    return ",".join(f"{key}:{value}" for key, value in plain.items())
+    """A proposed motion, or a list of them, as the plant's --append wants it; None if it cannot be driven."""
+    motions = motion if isinstance(motion, list) else [motion]
+    parts = []
+    for one in motions:
+        if not isinstance(one, dict) or "profile" not in one:
+            return None
+        plain = {key: value for key, value in one.items() if isinstance(value, (int, float, str))}
+        if payload_kg is not None:
+            plain.setdefault("payload_kg", payload_kg)
+        parts.append(",".join(f"{key}:{value}" for key, value in plain.items()))
+    return ";".join(parts)
 
 
 RANDOM_MOTIONS = ({"profile": "trapezoid", "speed_m_s": 0.4, "distance_m": 4}, {"profile": "spin", "angle_rad": 4.0},
@@ -74,7 +78,7 @@ def follow_up(case, scratch, answer):
     if not causes or not causes[0].get("indistinguishable_from"):
         return None
     proposal = answer.get("next_experiment") or {}
-    motions = {"proposed": described(proposal.get("motion"), proposal.get("payload_kg")),
+    motions = {"proposed": described(proposal.get("motions") or proposal.get("motion"), proposal.get("payload_kg")),
                "random": described(random.Random(case["seed"]).choice(RANDOM_MOTIONS))}
     return {name: ask(case, scratch, name, ["--append", motion])[1] if motion else None for name, motion in motions.items()}
 
