@@ -12,6 +12,12 @@ def detectable(label):
     return bool(label["effects"]) and label["oracle"]["detectable"]
 
 
+def material(label):
+    """The effects change the motors' or the battery's energy by at least 1 %, or the pose by 0.02 (m and rad, rms)."""
+    oracle = label["oracle"]
+    return detectable(label) and (oracle.get("effect_percent", 0) >= 1 or oracle.get("effect_pose_rms", 0) >= 0.02)
+
+
 class Answer:
     """A diagnosis, or a control's answer in the same form."""
 

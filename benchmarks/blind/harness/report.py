@@ -10,7 +10,7 @@ import plots
 import scorecard
 import seal
 import workspace
-from judge import Answer, detectable
+from judge import Answer, detectable, material
 from statistics_of import calibration, median
 
 CONTROLS = ("always_friction", "plain_refit", "stlsq", "black_box")
@@ -98,7 +98,7 @@ def case_lines(labels, results):
         label, answer = labels[i], Answer(results[i].get("diagnosis"))
         true = "+".join(f"{e['effect']}={next(iter(e['parameters'].values())):.4g}" for e in label["effects"]) or "null"
         lines.append(f"{i}\t{label['bin']}\t{label['robot']}\t{label['runs']}\t{label['level']}\t{true}\t"
-                     f"{'detectable' if detectable(label) else '-'}\t{answer.verdict}\t{','.join(answer.names) or '-'}\t"
+                     f"{('material' if material(label) else 'detectable') if detectable(label) else '-'}\t{answer.verdict}\t{','.join(answer.names) or '-'}\t"
                      f"{answer.probability:.3f}\t{results[i].get('seconds', 0):.2f}\t{results[i]['data_sha256'][:16]}")
     return lines
 
@@ -140,7 +140,7 @@ def score(frozen, name, folder, sealed, prefix):
              + "Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",
              "Every case stands in `" + f"{prefix}/cases.tsv" + "`. What counts as right: `benchmarks/blind/harness/judge.py`.", "",
              "## Scorecard", ""] + card_table(cases, seconds, labels, results) + [
-             "", "Wilson intervals. \"aim\": reaches the aim; \"ok\": between aim and failing; \"FAILS\": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25.", "",
+             "", "Wilson intervals. \"aim\": reaches the aim; \"ok\": between aim and failing; \"FAILS\": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25. Material: the effect changes the energy by 1 % or the pose by 0.02 (m, rad, rms); the diagnosis declares a materiality floor, and below it silence is its answer.", "",
              "## Controls on the same cases", ""] + control_table(labels, results) + [
              "", "`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing.", "",
              "## By robot, protocol and level", ""] + split_table(cases) + ["",

@@ -75,54 +75,92 @@ Matrix gram_of(const std::vector<Vector>& directions) {
   return gram;
 }
 
-/// The case with only some of its effects.
-void with_effects(const Case& c, const std::vector<std::size_t>& which, Machine& truth, World& world) {
-  truth = c.calibrated;
-  world = c.plain_world;
-  for (std::size_t k : which) apply_effect(c.effects[k], c.nominal, truth, world);
+/// Machine and world of the case with some of its effects.
+struct Scene {
+  Machine machine{};
+  World world{};
+};
+
+Scene scene_with(const Case& c, const std::vector<std::size_t>& which) {
+  Scene scene{c.calibrated, c.plain_world};
+  for (std::size_t k : which) apply_effect(c.effects[k], c.nominal, scene.machine, scene.world);
+  return scene;
 }
 
-Vector simulate(const Case& c, const Machine& truth, const World& world, std::size_t run) {
-  return whitened(noise_free_run(truth, c.nominal, world, c.runs[run], kSmooth), c.noise);
+Vector simulate(const Case& c, const Scene& scene, std::size_t run) {
+  return whitened(noise_free_run(scene.machine, c.nominal, scene.world, c.runs[run], kSmooth), c.noise);
 }
 
-/// Effects first (one direction each), then the calibration nuisances; the run's own scatter is marginalized.
-Matrix run_information(const Case& c, std::size_t run) {
-  std::vector<std::size_t> all;
-  for (std::size_t k = 0; k < c.effects.size(); ++k) all.push_back(k);
-  const Vector full = simulate(c, c.truth, c.world, run);
-  const Vector plain = simulate(c, c.calibrated, c.plain_world, run);
-  std::vector<Vector> directions{difference(full, plain, 1.0)};
-  if (c.effects.size() > 1)
-    for (std::size_t k : all) {
-      std::vector<std::size_t> others = all;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      Machine truth;
-      World world;
-      with_effects(c, others, truth, world);
-      directions.push_back(difference(full, simulate(c, truth, world, run), 1.0));
-    }
-  constexpr double kStep = 0.5;
-  const std::size_t first = directions.size();
+Scene shifted(Scene scene, const Vector& sigmas) {
   for (int k = 0; k < kNuisances; ++k)
-    directions.push_back(
-        difference(simulate(c, with_nuisance(c.calibrated, k, kStep), c.plain_world, run), plain, 1 / kStep));
-  std::size_t scatter = 0;
-  if (c.friction_scatter > 0) {
-    const Uncertainty u;
-    const double friction = c.friction_scatter / u.friction_torque;
-    const Vector zero(plain.size(), 0.0);
-    directions.push_back(difference(directions[first], zero, friction));
-    directions.push_back(difference(directions[first + 1], zero, friction));
-    Machine left = c.calibrated;
-    left.resistance_ohm[kLeft] *= 1 + c.resistance_scatter;
-    directions.push_back(difference(simulate(c, left, c.plain_world, run), plain, 1.0));
-    Machine right = c.calibrated;
-    right.resistance_ohm[kRight] *= 1 + c.resistance_scatter;
-    directions.push_back(difference(simulate(c, right, c.plain_world, run), plain, 1.0));
-    scatter = 4;
+    scene.machine = with_nuisance(scene.machine, k, sigmas[static_cast<std::size_t>(k)]);
+  return scene;
+}
+
+/// One run's directions in whitened signals: calibration nuisances, free directions, the run's own scatter.
+struct RunDirections {
+  std::vector<Vector> nuisance, scatter;
+};
+
+RunDirections directions_of(const Case& c, const Scene& scene, std::size_t run) {
+  constexpr double kStep = 0.5;
+  RunDirections d;
+  const Vector plain = simulate(c, scene, run);
+  for (int k = 0; k < kNuisances; ++k) {
+    Scene moved = scene;
+    moved.machine = with_nuisance(moved.machine, k, kStep);
+    d.nuisance.push_back(difference(simulate(c, moved, run), plain, 1 / kStep));
   }
-  return marginalized(gram_of(directions), scatter, 1.0);
+  if (c.friction_scatter <= 0) return d;
+  const Uncertainty u;
+  const Vector zero(plain.size(), 0.0);
+  for (std::size_t side = 0; side < 2; ++side) {
+    d.scatter.push_back(difference(d.nuisance[side], zero, c.friction_scatter / u.friction_torque));
+    Scene moved = scene;
+    moved.machine.resistance_ohm[side] *= 1 + c.resistance_scatter;
+    d.scatter.push_back(difference(simulate(c, moved, run), plain, 1.0));
+  }
+  return d;
+}
+
+/// min over calibration errors nu of |full - null(nu)|^2 + |nu|^2, by Gauss-Newton with the null model
+/// simulated again at each step: a calibration error that accumulates in the pose is no evidence. `free` has
+/// a direction per run that costs nothing (another effect's size), or is empty.
+double profiled_ratio(const Case& c, const Scene& null, const std::vector<Vector>& full,
+                      const std::vector<RunDirections>& directions, const std::vector<Vector>& free) {
+  Vector nu(kNuisances, 0.0);
+  double value = 0;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    Matrix sum;
+    for (std::size_t run = 0; run < c.runs.size(); ++run) {
+      std::vector<Vector> columns{difference(full[run], simulate(c, shifted(null, nu), run), 1.0)};
+      columns.insert(columns.end(), directions[run].nuisance.begin(), directions[run].nuisance.end());
+      if (!free.empty()) columns.push_back(free[run]);
+      columns.insert(columns.end(), directions[run].scatter.begin(), directions[run].scatter.end());
+      const Matrix gram = marginalized(gram_of(columns), directions[run].scatter.size(), 1.0);
+      if (sum.empty()) sum = Matrix(gram.size(), Vector(gram.size()));
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        for (std::size_t j = 0; j < sum.size(); ++j) sum[i][j] += gram[i][j];
+    }
+    if (!free.empty()) sum = marginalized(sum, 1, 0.0);
+    for (std::size_t k = 0; k < kNuisances; ++k) {  // the prior's pull, about nu
+      sum[0][0] += nu[k] * nu[k];
+      sum[0][k + 1] -= nu[k];
+      sum[k + 1][0] -= nu[k];
+    }
+    const double here = marginalized(sum, kNuisances, 1.0)[0][0];
+    if (round > 0 && here > value) break;
+    value = here;
+    for (std::size_t k = 0; k < kNuisances; ++k) {  // the step of nuisance k: eliminate all others first
+      Matrix order = sum;
+      std::swap(order[1], order[k + 1]);
+      for (Vector& row : order) std::swap(row[1], row[k + 1]);
+      const Matrix two = marginalized(order, kNuisances - 1, 1.0);
+      nu[k] += two[0][1] / (two[1][1] + 1.0);
+    }
+  }
+  return value;
 }
 
 std::string phase_of(const Run& run, std::size_t sample) {
@@ -138,12 +176,14 @@ std::string phase_of(const Run& run, std::size_t sample) {
 
 /// Where the nominal model misses the true power, run by run, and how much energy that is.
 void localize(const Case& c, OracleResult& result) {
-  double missed_J = 0, total_J = 0;
+  double missed_J = 0, total_J = 0, changed_J = 0, battery_J = 0, battery_changed_J = 0, pose = 0,
+         samples = 0;
   std::map<std::string, std::map<std::string, double>>& where = result.where;
   for (std::size_t run = 0; run < c.runs.size(); ++run) {
     const auto truth = noise_free_run(c.truth, c.nominal, c.world, c.runs[run], kSmooth);
     const auto nominal = noise_free_run(c.nominal, c.nominal, World{}, c.runs[run], kSmooth);
-    double run_gap_J = 0, run_J = 0;
+    const auto plain = noise_free_run(c.calibrated, c.nominal, c.plain_world, c.runs[run], kSmooth);
+    double run_gap_J = 0, run_J = 0, change_J = 0, drawn_J = 0, plain_drawn_J = 0;
     for (std::size_t k = 0; k < truth.size(); ++k)
       for (std::size_t side = 0; side < 2; ++side) {
         const auto power = [side](const Sample& s) {
@@ -151,10 +191,21 @@ void localize(const Case& c, OracleResult& result) {
         };
         const double gap_J = (power(nominal[k]) - power(truth[k])) * kSamplePeriod_s;
         run_gap_J += gap_J;
+        change_J += (power(truth[k]) - power(plain[k])) * kSamplePeriod_s;
         run_J += power(truth[k]) * kSamplePeriod_s;
         where["phase"][phase_of(c.runs[run], k)] += std::abs(gap_J);
         where["wheel"][side == kLeft ? "left" : "right"] += std::abs(gap_J);
       }
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      drawn_J += truth[k].battery_voltage_V * truth[k].battery_current_A * kSamplePeriod_s;
+      plain_drawn_J += plain[k].battery_voltage_V * plain[k].battery_current_A * kSamplePeriod_s;
+      pose += std::pow(truth[k].x_m - plain[k].x_m, 2) + std::pow(truth[k].y_m - plain[k].y_m, 2) +
+              std::pow(truth[k].heading_rad - plain[k].heading_rad, 2);
+      samples += 1;
+    }
+    changed_J += std::abs(change_J);
+    battery_J += drawn_J;
+    battery_changed_J += std::abs(drawn_J - plain_drawn_J);
     missed_J += std::abs(run_gap_J);
     total_J += std::abs(run_J);
   }
@@ -163,6 +214,8 @@ void localize(const Case& c, OracleResult& result) {
     for (const auto& [cell, joules] : cells) sum += joules;
     for (auto& [cell, joules] : cells) joules /= std::max(sum, 1e-12);
   }
+  result.effect_percent = 100 * std::max(changed_J / std::max(total_J, 1e-12), battery_changed_J / battery_J);
+  result.effect_pose_rms = std::sqrt(pose / samples);
   result.energy_gap_percent = 100 * missed_J / std::max(total_J, 1e-12);
 }
 
@@ -172,23 +225,24 @@ OracleResult consult_oracle(const Case& c) {
   OracleResult result;
   localize(c, result);
   if (c.effects.empty()) return result;
-  Matrix sum;
+  const Scene plain = scene_with(c, {});
+  std::vector<Vector> full;
+  std::vector<RunDirections> directions;
   for (std::size_t run = 0; run < c.runs.size(); ++run) {
-    const Matrix information = run_information(c, run);
-    if (sum.empty()) sum = Matrix(information.size(), Vector(information.size()));
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      for (std::size_t j = 0; j < sum.size(); ++j) sum[i][j] += information[i][j];
+    full.push_back(simulate(c, {c.truth, c.world}, run));
+    directions.push_back(directions_of(c, plain, run));
   }
-  const Matrix profiled = marginalized(sum, kNuisances, 1.0);
-  result.likelihood_ratio = profiled[0][0];
+  result.likelihood_ratio = profiled_ratio(c, plain, full, directions, {});
   if (c.effects.size() == 1) {
-    result.each[c.effects[0].name] = profiled[0][0];
+    result.each[c.effects[0].name] = result.likelihood_ratio;
     return result;
   }
-  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect, the other one profiled without a prior
-    const std::size_t other = 2 - k;                    // rows: joint, first, second
-    const double own = profiled[k + 1][k + 1], cross = profiled[k + 1][other], rest = profiled[other][other];
-    result.each[c.effects[k].name] = own - (rest > 1e-12 ? cross * cross / rest : 0.0);
+  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect, the other one's size left free
+    const Scene other = scene_with(c, {1 - k}), own = scene_with(c, {k});
+    std::vector<Vector> free;
+    for (std::size_t run = 0; run < c.runs.size(); ++run)
+      free.push_back(difference(full[run], simulate(c, own, run), 1.0));
+    result.each[c.effects[k].name] = profiled_ratio(c, other, full, directions, free);
   }
   return result;
 }
@@ -204,6 +258,7 @@ std::string oracle_json(const OracleResult& r) {
   for (const auto& [name, ratio] : r.each) all = all && ratio >= kDetectable;
   std::ostringstream out;
   out << "{\"likelihood_ratio\": " << r.likelihood_ratio << ", \"detectable\": " << (all ? "true" : "false")
+      << ", \"effect_percent\": " << r.effect_percent << ", \"effect_pose_rms\": " << r.effect_pose_rms
       << ", \"energy_gap_percent\": " << r.energy_gap_percent << ", \"each\": " << object(r.each)
       << ", \"where\": {";
   const char* comma = "";

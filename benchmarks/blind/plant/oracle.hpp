@@ -16,6 +16,9 @@ struct OracleResult {
   std::map<std::string, double> each{};
   /// Share of the summed absolute power gap to the nominal model, by axis and cell.
   std::map<std::string, std::map<std::string, double>> where{};
+  double
+      effect_percent{};  ///< what the effects change of the motors' or the battery's energy, the larger one
+  double effect_pose_rms{};     ///< and of the pose (m and rad together)
   double energy_gap_percent{};  ///< sum over runs |nominal - true| energy / true energy
 };
 
