@@ -4,6 +4,7 @@
 
 #include "planner/path/lattice.hpp"
 #include "planner/path/polyline.hpp"
+#include "planner/path/rate_table.hpp"
 
 namespace joulepath {
 namespace {
@@ -29,6 +30,8 @@ std::vector<RouteResult> plan_candidates(const RouteSpace& space, const RouteReq
   const FreeSpace& floor = space.any_heading();
   const DiscLineCheck free(floor, start, goal, FreeSpace::Cells::clear);
   const std::vector<Point2> islands = island_points(floor);
+  RateTable table(request.cost, space.field().extent_m());
+  const TravelCost cost = table.cost();
   Lattice lattice(floor);
   lattice.make_dear(results.front().polyline_m, kCorridor_m, kNearEnd_m, kDearer);
   for (int attempt = 0; attempt < kAttemptsPerRoute * count && static_cast<int>(results.size()) < count;
@@ -36,12 +39,12 @@ std::vector<RouteResult> plan_candidates(const RouteSpace& space, const RouteReq
     const std::vector<Point2> route = lattice.route(start, goal, free);
     if (route.empty()) break;
     lattice.make_dear(route, kCorridor_m, kNearEnd_m, kDearer);
-    const std::vector<Point2> line = pull_taut(route, free, request.cost);
+    const std::vector<Point2> line = pull_taut(route, free, cost);
     const bool known = std::any_of(results.begin(), results.end(), [&](const RouteResult& other) {
       return same_homotopy_class(line, other.polyline_m, islands);
     });
     if (known || !line_is_free(line, free)) continue;
-    if (polyline_cost(line, request.cost) > longest_ratio * results.front().polyline_cost) continue;
+    if (polyline_cost(line, cost) > longest_ratio * results.front().polyline_cost) continue;
     RouteResult shaped = shape_route(space, request, line);
     shaped.searched_by = "lattice, away from earlier routes";
     if (shaped.found()) results.push_back(std::move(shaped));

@@ -52,7 +52,7 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
   const auto index =
       static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(column);
   const double center_distance = distance_cells[index];
-  const double off_center = std::hypot(u - column - 0.5, v - row - 0.5);
+  const double du = u - column - 0.5, dv = v - row - 0.5, off_center = std::sqrt(du * du + dv * dv);
   const double rim = outside_blocked ? std::min({u, v, grid.width - u, grid.height - v}) : kInfinity;
   const double lower = std::max(0.0, std::min(center_distance - off_center - kRounding, rim));
   const double upper = blocked[index] != 0 ? 0.0 : std::min(center_distance + off_center + kRounding, rim);

@@ -20,7 +20,7 @@ constexpr double kValidityStep_m = 0.05;
 double cost_between(const Point2& a, const Point2& b, const TravelCost& cost) {
   const double length_m = std::hypot(b[0] - a[0], b[1] - a[1]);
   if (!cost.rate || length_m == 0) return cost.least_rate * length_m;
-  constexpr double kStep_m = 0.1;
+  constexpr double kStep_m = 0.2;
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kStep_m)));
   const double heading_rad = std::atan2(b[1] - a[1], b[0] - a[0]);
   double sum = 0;

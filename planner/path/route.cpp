@@ -6,6 +6,7 @@
 
 #include "planner/path/lattice.hpp"
 #include "planner/path/polyline.hpp"
+#include "planner/path/rate_table.hpp"
 
 namespace joulepath {
 namespace {
@@ -201,7 +202,10 @@ RouteResult plan_route(const RouteSpace& space, const RouteRequest& request) {
     result.verdict = unconnected(space.any_heading(), start, goal);
     return result;
   }
-  search(any_heading ? space.any_heading() : space.some_heading(), request, result);
+  RateTable table(request.cost, space.field().extent_m());
+  RouteRequest quick = request;
+  quick.cost = table.cost();
+  search(any_heading ? space.any_heading() : space.some_heading(), quick, result);
   if (result.polyline_m.empty()) {
     result.verdict = unconnected(space.any_heading(), start, goal);
     return result;
