@@ -1,5 +1,6 @@
 #include "app/report/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -70,6 +71,11 @@ json json_of(const Limits& limits) {
   return object;
 }
 
+double number_at(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
 /// JSON that may stand inside of a script element: no "<" can close it or open a comment.
 std::string script_safe(const json& data) {
   std::string text;
@@ -118,6 +124,44 @@ std::string filled(std::string_view page,
     page.remove_prefix(1);
   }
   return out;
+}
+
+/// What a report of thousands of missions needs: counts, the numbers that are spread over all of them, and
+/// the missions themselves only where a table names them (no plan, or the most joules per meter).
+json compact_batch(const json& batch) {
+  constexpr std::size_t kMostNamed = 200, kMostNumbers = 20'000;
+  json status = json::object(), columns = json::object(), unsolved = json::array();
+  std::vector<std::pair<double, std::size_t>> by_cost;
+  const json& missions = batch.at("missions");
+  for (std::size_t k = 0; k < missions.size(); ++k) {
+    const json& mission = missions[k];
+    const std::string name = mission.value("status", "failed");
+    status[name] = status.value(name, 0) + 1;
+    if (name != "optimal" && name != "feasible") {
+      if (unsolved.size() < kMostNamed) unsolved.push_back(mission);
+      continue;
+    }
+    for (const char* key :
+         {"energy_J", "duration_s", "distance_m", "saving_percent", "optimality_gap_percent"})
+      if (mission.contains(key) && mission[key].is_number()) columns[key].push_back(rounded(mission[key]));
+    const double distance_m = number_at(mission, "distance_m");
+    if (distance_m > 0) by_cost.emplace_back(-number_at(mission, "energy_J") / distance_m, k);
+  }
+  std::ranges::sort(by_cost);
+  json worst = json::array(), total = json::object(), spread = json::object();
+  for (std::size_t k = 0; k < by_cost.size() && k < kMostNamed; ++k)
+    worst.push_back(missions[by_cost[k].second]);
+  for (const auto& [key, values] : columns.items()) {
+    double sum = 0;
+    const std::size_t stride = 1 + values.size() / kMostNumbers;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      sum += values[k].get<double>();
+      if (k % stride == 0) spread[key].push_back(values[k]);
+    }
+    total[key] = sum;
+  }
+  return {{"count", missions.size()}, {"status", status},     {"total", total},
+          {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
 }
 
 std::string page_of(const std::string& kind, const std::string& title, const json& data) {
@@ -176,7 +220,7 @@ std::string front_report_html(const json& front, const std::vector<NamedColumns>
 }
 
 std::string batch_report_html(const json& batch, const std::string& title) {
-  return page_of("batch", title, {{"batch", batch}, {"title", title}});
+  return page_of("batch", title, {{"batch", compact_batch(batch)}, {"title", title}});
 }
 
 }  // namespace joulepath::report

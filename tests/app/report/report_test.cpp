@@ -77,6 +77,29 @@ TEST(Report, StaysUnderThreeMegabytesForAnHourAtFiftyHertz) {
   EXPECT_LT(plan_report_html(sample::plan(), hour, extras).size(), 3'000'000U);
 }
 
+TEST(Report, BatchOfFiftyThousandStaysSmallAndCountsAll) {
+  nlohmann::json missions = nlohmann::json::array();
+  const nlohmann::json one = sample::batch().at("missions")[3],
+                       failed = sample::batch().at("missions").back();
+  for (int k = 0; k < 50'000; ++k) missions.push_back(k % 10 == 0 ? failed : one);
+  const std::string html = batch_report_html({{"missions", missions}});
+  EXPECT_LT(html.size(), 3'000'000U);
+  const auto data = embedded_data(html).at("batch");
+  EXPECT_EQ(data.at("status"), nlohmann::json({{"optimal", 45'000}, {"infeasible", 5'000}}));
+  EXPECT_NEAR(data.at("total").at("energy_J").get<double>(), 45'000 * one.at("energy_J").get<double>(), 1e-3);
+}
+
+TEST(Report, BatchNamesTheMissionWithTheMostJoulesPerMeterFirst) {
+  const auto worst = embedded_data(batch_report_html(sample::batch())).at("batch").at("worst");
+  double before = 1e300;
+  for (const auto& mission : worst) {
+    const double per_meter = mission.at("energy_J").get<double>() / mission.at("distance_m").get<double>();
+    EXPECT_LE(per_meter, before);
+    before = per_meter;
+  }
+  EXPECT_EQ(worst.size(), 40U);
+}
+
 TEST(Thinning, KeepsOrderEndsAndPeaks) {
   Columns columns;
   for (int k = 0; k < 10'000; ++k) {
