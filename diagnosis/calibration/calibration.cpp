@@ -1,0 +1,223 @@
+#include "diagnosis/calibration/calibration.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/calibration/calibrated_robot.hpp"
+#include "diagnosis/calibration/identifiability.hpp"
+#include "diagnosis/calibration/resampling.hpp"
+#include "diagnosis/calibration/steady.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr std::size_t kFewestRuns = 6, kFewestUnits = 4;
+constexpr double kBlock_s = 10;
+constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow after the fitted values
+
+[[noreturn]] void refuse(const Dataset& dataset, std::string found, std::string accepted, std::string hint) {
+  throw ConfigError({.mark = {.file = dataset.file},
+                     .key = "runs",
+                     .found = std::move(found),
+                     .accepted = std::move(accepted),
+                     .hint = std::move(hint)});
+}
+
+/// Says which channel every run lacks.
+[[noreturn]] void refuse_channels(const Dataset& dataset) {
+  bool speeds = false, currents = false, logs = false;
+  for (const Run& run : dataset.runs) {
+    logs = logs || run.log.size() > 0;
+    speeds = speeds || !run.log.wheel_speed_rad_s.left.empty() || !run.log.linear_speed_m_s.empty();
+    currents = currents || (!run.log.motor_current_A.left.empty() && !run.log.motor_current_A.right.empty());
+  }
+  const std::string accepted = "logs with wheel_speed_left/right_rad_s and motor_current_left/right_A";
+  if (!logs) refuse(dataset, "no run with a log", accepted, "an energy-only run cannot calibrate a model");
+  if (!currents)
+    refuse(dataset, "no run with motor currents", accepted, "torques are seen through currents; map the columns if they have other names");
+  if (!speeds) refuse(dataset, "no run with wheel speeds", accepted, "linear_speed_m_s and angular_speed_rad_s will do");
+  refuse(dataset, "no run has both wheel speeds and motor currents over 20 samples", accepted, {});
+}
+
+/// J may not fall below what the masses of the robot file alone make up.
+FitValues lower_bounds(const Robot& robot) {
+  FitValues lower{};
+  const double r = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right);
+  lower[kStraightInertia] = robot.total_mass_kg(0.0) * r * r / 2;
+  lower[kPayloadFactor] = 0.5;
+  const FitValues nominal = nominal_values(robot);
+  lower[kTorquePerAmpere] = 1e-3 * nominal[kTorquePerAmpere];
+  lower[kResistance] = 1e-3 * nominal[kResistance];
+  return lower;
+}
+
+/// For each parameter the number of units that carry its information: (sum h)^2 / sum h^2, h the unit's part.
+std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& units, const FitSums& all,
+                                                   const FitWeights& weights, const FitValues& values,
+                                                   const FreeParameters& free) {
+  std::vector<int> index;
+  for (int p = 0; p < kFitParameters; ++p)
+    if (free[static_cast<std::size_t>(p)]) index.push_back(p);
+  const Eigen::MatrixXd inverse = information(all, weights, values)(index, index).inverse();
+  std::array<double, kFitParameters> sum{}, squares{}, count{};
+  for (const FitSums& unit : units) {
+    const Eigen::MatrixXd part = inverse * information(unit, weights, values)(index, index) * inverse;
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      const double h = part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+      sum[static_cast<std::size_t>(index[i])] += h, squares[static_cast<std::size_t>(index[i])] += h * h;
+    }
+  }
+  for (std::size_t p = 0; p < count.size(); ++p) count[p] = squares[p] > 0 ? sum[p] * sum[p] / squares[p] : 0;
+  return count;
+}
+
+std::vector<double> reported(const Robot& robot, const FitValues& values) {
+  std::vector<double> all(values.begin(), values.end());
+  const DerivedInertia inertia = derived_inertia(robot, values);
+  all.push_back(inertia.wheel_axle_kg_m2), all.push_back(inertia.chassis_yaw_kg_m2);
+  return all;
+}
+
+CalibratedParameter parameter_of(std::size_t p, double nominal, double value, double deviation, double effective) {
+  constexpr const char* kUnits[] = {"N m", "N m", "N m s/rad", "kg m^2", "kg m^2", "", "N m/A", "ohm"};
+  CalibratedParameter parameter{.name = p < kFitParameters ? fit_parameter_name(static_cast<int>(p))
+                                        : p == kFitParameters ? "wheel_axle_inertia_kg_m2"
+                                                              : "chassis_yaw_inertia_kg_m2",
+                                .unit = p < kFitParameters ? kUnits[p] : "kg m^2",
+                                .nominal = nominal,
+                                .value = value,
+                                .standard_deviation = deviation,
+                                .effective_runs = effective};
+  const double half = student_t_975(effective - 1) * deviation;
+  parameter.interval_95 = {value - half, value + half};
+  parameter.visibility = 2 * half > 0.5 * std::abs(value) ? Visibility::weak : Visibility::seen;
+  return parameter;
+}
+
+void write_uncertainty(const std::vector<CalibratedParameter>& parameters, Robot& robot) {
+  const auto relative = [&](const std::string& name) {
+    for (const CalibratedParameter& parameter : parameters)
+      if (parameter.name == name && parameter.visibility != Visibility::unseen && parameter.value > 0)
+        return parameter.standard_deviation / parameter.value;
+    return 0.0;
+  };
+  const auto set = [&](const std::string& key, double value) {
+    if (value > 0) robot.uncertainty[key] = value;
+  };
+  set("friction_torque_Nm", std::max(relative("friction_torque_left_Nm"), relative("friction_torque_right_Nm")));
+  set("viscous_friction_Nm_s_rad", relative("viscous_friction_Nm_s_rad"));
+  set("resistance_ohm", relative("resistance_ohm"));
+  set("torque_constant_Nm_A", relative("torque_per_ampere_Nm_A"));
+  set("wheel_axle_inertia_kg_m2", relative("wheel_axle_inertia_kg_m2"));
+  set("chassis_yaw_inertia_kg_m2", relative("chassis_yaw_inertia_kg_m2"));
+}
+
+void hold(CalibratedParameter& parameter, const std::string& why) {
+  parameter.value = parameter.nominal;
+  parameter.standard_deviation = parameter.effective_runs = 0;
+  parameter.interval_95 = {parameter.nominal, parameter.nominal};
+  parameter.visibility = Visibility::unseen;
+  parameter.note = why;
+}
+
+struct Fit {
+  FitSums all{};
+  FitWeights weights{};
+  FitResult result{};
+  Identifiability can{};
+};
+
+void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit, const FitValues& lower,
+                    CalibrationResult& result) {
+  const Robot& robot = dataset.robot;
+  const FitValues nominal = nominal_values(robot);
+  std::vector<double> deviation(kFitParameters + kDerived, std::nan(""));
+  if (units.size() >= kFewestUnits)
+    deviation = jackknife(units.size(), [&](std::size_t left_out) {
+                  FitSums rest = fit.all;
+                  rest -= units[left_out];
+                  return reported(robot, fit_full(rest, fit.weights, nominal, lower, fit.can.free).values);
+                }).standard_deviation;
+  else
+    result.notes.push_back("fewer than 4 runs or blocks of 10 s: no intervals");
+  const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
+  const DerivedInertia from_geometry = geometric_deviation(robot, fit.result.values);
+  deviation[kFitParameters] = std::hypot(deviation[kFitParameters], from_geometry.wheel_axle_kg_m2);
+  deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
+  const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
+  for (std::size_t p = 0; p < after.size(); ++p) {
+    const std::size_t source = p < kFitParameters ? p : p == kFitParameters ? kStraightInertia : kTurningInertia;
+    CalibratedParameter parameter = parameter_of(p, before[p], after[p], deviation[p], effective[source]);
+    if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
+    if (fit.can.free[source] && fit.result.at_bound[source]) {
+      parameter.visibility = Visibility::weak;
+      parameter.note = source == kStraightInertia ? "the robot file's masses alone make up more than the data see"
+                                                  : "at its lower bound";
+    }
+    if (p >= kFitParameters && parameter.visibility != Visibility::unseen) {
+      parameter.note = p == kFitParameters ? "with the robot file's masses and wheel radius"
+                                           : "with the robot file's masses, wheel radius and half track";
+      if (parameter.value < 0) hold(parameter, "negative with the robot file's masses and lengths");
+    }
+    result.parameters.push_back(parameter);
+  }
+}
+
+CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<SmoothedRun>& runs) {
+  const Robot& robot = dataset.robot;
+  const std::vector<FitSums> units = fit_sums(robot, runs, kFewestRuns, kBlock_s);
+  const FitValues nominal = nominal_values(robot), lower = lower_bounds(robot);
+  Fit fit;
+  for (const FitSums& unit : units) fit.all += unit;
+  if (fit.all.torque_count < 100)
+    refuse(dataset, "wheels that turn one way in " + std::to_string(static_cast<long>(fit.all.torque_count)) + " samples",
+           "at least 100 samples above 0.3 rad/s", "friction has a sign, and rest has none");
+  fit.can = identifiable(fit.all, nominal);
+  if (std::none_of(fit.can.free.begin(), fit.can.free.end(), [](bool free) { return free; }))
+    refuse(dataset, "runs that excite no parameter", "runs with several speeds and accelerations", {});
+  fit.weights = fit_weights(fit.all, nominal, fit.can.free);
+  fit.result = fit_full(fit.all, fit.weights, nominal, lower, fit.can.free);
+
+  CalibrationResult result{.method = CalibrationMethod::full, .robot = robot_with(robot, fit.result.values)};
+  result.runs_used = runs.size(), result.samples_used = fit.all.samples;
+  result.resampled = runs.size() < kFewestRuns ? "blocks of 10 s" : "runs";
+  result.current_rms_before_A = std::sqrt(current_mean_square_A2(fit.all, nominal));
+  result.current_rms_after_A = std::sqrt(current_mean_square_A2(fit.all, fit.result.values));
+  if (fit.all.voltage_count > 0) {
+    result.voltage_rms_before_V = std::sqrt(voltage_mean_square_V2(fit.all, nominal));
+    result.voltage_rms_after_V = std::sqrt(voltage_mean_square_V2(fit.all, fit.result.values));
+  }
+  if (!fit.result.converged) result.notes.push_back("the solver stopped before it converged");
+  add_parameters(dataset, units, fit, lower, result);
+  write_uncertainty(result.parameters, result.robot);
+  return result;
+}
+
+}  // namespace
+
+CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
+  if (!dataset.robot.effects.empty())
+    throw ConfigError({.mark = {.file = dataset.robot_file.empty() ? dataset.file : dataset.robot_file},
+                       .key = "effects",
+                       .found = std::to_string(dataset.robot.effects.size()) + " effects",
+                       .accepted = "a robot without effects",
+                       .hint = "calibration fits the nominal model; effects would be calibrated away"});
+  const std::vector<SmoothedRun> runs = smooth_runs(dataset);
+  if (runs.empty()) refuse_channels(dataset);
+  CalibrationResult result = method == CalibrationMethod::steady ? calibrate_steady(dataset, runs)
+                                                                 : calibrate_full(dataset, runs);
+  for (const Run& run : dataset.runs)
+    if (run.current_sign_from_motion) {
+      result.notes.push_back("currents are unsigned in the logs: signs were taken from the motion, braking currents are wrong");
+      break;
+    }
+  for (const Run& run : dataset.runs)
+    if (!run.payload_known) {
+      result.notes.push_back("the payload is not stated in every run: 0 kg was taken");
+      break;
+    }
+  return result;
+}
+
+}  // namespace joulepath

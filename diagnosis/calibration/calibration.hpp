@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/dataset.hpp"
+
+namespace joulepath {
+
+enum class CalibrationMethod {
+  steady,  ///< the paper's: stretches of constant speed, [P1, Eq. (30)]; friction alone
+  full     ///< whole runs, voltages and currents: friction, R, Kt n, inertias
+};
+
+/// How well the data determine a parameter, before any prior knowledge.
+enum class Visibility {
+  seen,
+  weak,   ///< the interval is wider than half of the value
+  unseen  ///< the data cannot tell it (or not apart from others): the robot file's value was kept
+};
+
+struct CalibratedParameter {
+  std::string name{};  ///< friction_torque_left_Nm, viscous_friction_Nm_s_rad, resistance_ohm, ...
+  std::string unit{};
+  double nominal{};                       ///< the robot file's
+  double value{};                         ///< calibrated; nominal where unseen
+  double standard_deviation{};            ///< from run-level resampling; 0 where unseen
+  std::array<double, 2> interval_95{};    ///< value +/- Student's t times the deviation
+  double effective_runs{};                ///< how many runs carry the information
+  Visibility visibility{Visibility::unseen};
+  std::string note{};                     ///< why unseen, or what the value rests on
+};
+
+/// A fit of [P1, Eq. (30)] to one motor: i = b1 + b2 q', V = c1 + c2 q' (all signs of a forward motion).
+struct SteadyLine {
+  double b1_A{}, b2_A_s_rad{}, c1_V{}, c2_V_s_rad{};
+  bool has_voltage{};
+};
+
+struct SteadySegment {
+  std::string run{};
+  double start_s{};
+  double duration_s{};
+  Sided<double> speed_rad_s{};
+  Sided<double> current_A{};
+  Sided<double> voltage_V{};  ///< NaN where the log has none
+};
+
+struct CalibrationResult {
+  CalibrationMethod method{};
+  std::vector<CalibratedParameter> parameters{};
+  Robot robot{};  ///< with the calibrated values and their `uncertainty:`
+  std::size_t runs_used{};
+  std::size_t samples_used{};
+  std::string resampled{};  ///< "runs", or "blocks of 10 s" where there are too few runs
+  double current_rms_before_A{}, current_rms_after_A{};
+  std::optional<double> voltage_rms_before_V{}, voltage_rms_after_V{};
+  std::vector<SteadySegment> segments{};      ///< steady method
+  std::optional<Sided<SteadyLine>> lines{};   ///< steady method
+  std::vector<std::string> notes{};
+};
+
+/// Calibrates the dataset's robot with its runs.
+///
+/// The full method is a bounded nonlinear least squares fit of
+///   Kt n i = J q''_mean +/- D q''_half_difference + nu q' + T_m sign(q') + payload and d terms,
+///   V = R i + Kv n q'                                                [P1, Eqs. (14), (15), (17)]
+/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). J = m r^2/2 + I_w + I_s and
+/// D = I r^2/(2 l^2) + I_w + I_s without payload are what wheels can see; I_w + I_s and I_c follow with the
+/// masses and lengths of the robot file. Kt and Kv keep their ratio, the gear ratio its value.
+///
+/// Throws ConfigError when the data cannot be used, saying what is missing. A robot with `effects:` is refused:
+/// they would be calibrated away.
+[[nodiscard]] CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method);
+
+}  // namespace joulepath

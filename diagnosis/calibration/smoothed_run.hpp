@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/calibration/smoothing.hpp"
+#include "diagnosis/dataset.hpp"
+
+namespace joulepath {
+
+/// One instant of a log, every channel smoothed by the same kernel.
+struct SmoothedSample {
+  double time_s{};
+  Sided<double> speed_rad_s{};
+  Sided<double> acceleration_rad_s2{};
+  Sided<double> current_A{};
+  Sided<double> voltage_V{};  ///< NaN where the log has none
+  double payload_kg{};
+  Sided<bool> turning{};  ///< the wheel turns one way throughout the kernel's reach
+};
+
+/// White noise of the raw samples of a run, for taking its share out of the normal equations.
+struct ChannelNoise {
+  double speed_rad_s{};
+  double current_A{};
+};
+
+struct SmoothedRun {
+  std::string name{};
+  bool has_voltage{};
+  SmoothingKernel kernel{};
+  ChannelNoise noise{};
+  std::vector<SmoothedSample> samples{};
+};
+
+/// Smooths the runs of a dataset that carry wheel speeds (or v and omega) and both motor currents: even time
+/// steps (linear interpolation where a log's are not), cut at gaps. Runs without them are left out.
+[[nodiscard]] std::vector<SmoothedRun> smooth_runs(const Dataset& dataset);
+
+}  // namespace joulepath

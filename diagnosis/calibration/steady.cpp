@@ -1,0 +1,195 @@
+#include "diagnosis/calibration/steady.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/calibration/resampling.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kShortest_s = 1.0, kStraight = 0.05, kLeastAcceleration_rad_s2 = 0.1, kNoiseFactor = 5;
+
+bool is_steady(const SmoothedSample& sample, double threshold_rad_s2) {
+  const Sided<double>& q = sample.speed_rad_s;
+  return sample.turning.left && sample.turning.right &&
+         std::abs(sample.acceleration_rad_s2.left) < threshold_rad_s2 &&
+         std::abs(sample.acceleration_rad_s2.right) < threshold_rad_s2 &&
+         std::abs(q.right - q.left) < kStraight * std::abs(q.right + q.left);
+}
+
+SteadySegment mean_of(const SmoothedRun& run, std::size_t first, std::size_t last) {
+  SteadySegment segment{.run = run.name,
+                        .start_s = run.samples[first].time_s,
+                        .duration_s = run.samples[last - 1].time_s - run.samples[first].time_s};
+  const double share = 1 / static_cast<double>(last - first);
+  for (std::size_t i = first; i < last; ++i)
+    for (Side side : kSides) {
+      segment.speed_rad_s[side] += share * run.samples[i].speed_rad_s[side];
+      segment.current_A[side] += share * run.samples[i].current_A[side];
+      segment.voltage_V[side] += share * run.samples[i].voltage_V[side];
+    }
+  return segment;
+}
+
+/// y = first sign(q) + second q by weighted least squares.
+std::array<double, 2> line(const std::vector<SteadySegment>& segments, Side side,
+                           const Sided<double> SteadySegment::*channel) {
+  double ss = 0, sq = 0, qq = 0, sy = 0, qy = 0;
+  for (const SteadySegment& segment : segments) {
+    const double y = (segment.*channel)[side];
+    if (!std::isfinite(y)) continue;
+    const double w = segment.duration_s, q = segment.speed_rad_s[side], s = q > 0 ? 1.0 : -1.0;
+    ss += w, sq += w * s * q, qq += w * q * q, sy += w * s * y, qy += w * q * y;
+  }
+  const double determinant = ss * qq - sq * sq;
+  return {(qq * sy - sq * qy) / determinant, (ss * qy - sq * sy) / determinant};
+}
+
+/// Fastest and slowest |speed| among segments.
+std::array<double, 2> speed_range_rad_s(const std::vector<SteadySegment>& segments) {
+  std::array<double, 2> range{1e300, 0};
+  for (const SteadySegment& segment : segments) {
+    const double speed = 0.5 * std::abs(segment.speed_rad_s.left + segment.speed_rad_s.right);
+    range = {std::min(range[0], speed), std::max(range[1], speed)};
+  }
+  return range;
+}
+
+std::vector<double> torques_Nm(const Robot& robot, const std::vector<SteadySegment>& segments) {
+  std::vector<double> values;
+  for (Side side : kSides) {
+    const SteadyLine fit = fit_steady_line(segments, side);
+    const double K = robot.motor[side].torque_per_ampere_Nm_A();
+    values.push_back(fit.b1_A * K), values.push_back(fit.b2_A_s_rad * K);
+  }
+  return values;
+}
+
+double current_rms_A(const Robot& robot, const std::vector<SteadySegment>& segments) {
+  double squares = 0, weight = 0;
+  for (const SteadySegment& segment : segments)
+    for (Side side : kSides) {
+      const Motor& motor = robot.motor[side];
+      const double q = segment.speed_rad_s[side];
+      const double torque_Nm = (q > 0 ? 1 : -1) * motor.friction_torque_Nm + motor.viscous_friction_Nm_s_rad * q;
+      squares += segment.duration_s * std::pow(segment.current_A[side] - torque_Nm / motor.torque_per_ampere_Nm_A(), 2);
+      weight += segment.duration_s;
+    }
+  return std::sqrt(squares / weight);
+}
+
+void require_usable(const Dataset& dataset, const std::vector<SteadySegment>& segments) {
+  if (segments.empty())
+    throw ConfigError({.mark = {.file = dataset.file},
+                       .key = "runs",
+                       .found = "no stretch of constant speed on a straight line of 1 s or more",
+                       .accepted = "runs at constant speeds",
+                       .hint = "the full method (--method full) uses accelerated runs too"});
+  const auto [slowest, fastest] = speed_range_rad_s(segments);
+  if (fastest < 1.2 * slowest)
+    throw ConfigError({.mark = {.file = dataset.file},
+                       .key = "runs",
+                       .found = "steady stretches at one speed alone (" + std::to_string(slowest) + " to " +
+                                std::to_string(fastest) + " rad/s at the wheel)",
+                       .accepted = "at least two speeds, the faster 1.2 times the slower",
+                       .hint = "one speed cannot tell Coulomb from viscous friction"});
+}
+
+}  // namespace
+
+std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs) {
+  std::vector<SteadySegment> segments;
+  for (const SmoothedRun& run : runs) {
+    const double threshold = std::max(
+        kLeastAcceleration_rad_s2, kNoiseFactor * run.noise.speed_rad_s * std::sqrt(run.kernel.derivative_gain));
+    std::size_t first = 0;
+    for (std::size_t i = 0; i <= run.samples.size(); ++i) {
+      const bool goes_on = i < run.samples.size() && is_steady(run.samples[i], threshold) &&
+                           (i == first || run.samples[i].time_s - run.samples[i - 1].time_s < 0.5);
+      if (goes_on) continue;
+      if (i > first + 1 && run.samples[i - 1].time_s - run.samples[first].time_s >= kShortest_s)
+        segments.push_back(mean_of(run, first, i));
+      first = i < run.samples.size() && is_steady(run.samples[i], threshold) ? i : i + 1;
+    }
+  }
+  return segments;
+}
+
+SteadyLine fit_steady_line(const std::vector<SteadySegment>& segments, Side side) {
+  const auto [b1, b2] = line(segments, side, &SteadySegment::current_A);
+  SteadyLine fit{.b1_A = b1, .b2_A_s_rad = b2};
+  fit.has_voltage = std::any_of(segments.begin(), segments.end(),
+                                [&](const SteadySegment& segment) { return std::isfinite(segment.voltage_V[side]); });
+  if (fit.has_voltage) {
+    const auto [c1, c2] = line(segments, side, &SteadySegment::voltage_V);
+    fit.c1_V = c1, fit.c2_V_s_rad = c2;
+  }
+  return fit;
+}
+
+CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<SmoothedRun>& runs) {
+  CalibrationResult result{.method = CalibrationMethod::steady, .robot = dataset.robot};
+  result.segments = find_steady_segments(runs);
+  require_usable(dataset, result.segments);
+  const std::vector<double> values = torques_Nm(dataset.robot, result.segments);
+  std::set<std::string> names;
+  for (const SteadySegment& segment : result.segments) names.insert(segment.run);
+  result.runs_used = names.size(), result.samples_used = result.segments.size();
+  result.lines = Sided<SteadyLine>{fit_steady_line(result.segments, Side::left),
+                                   fit_steady_line(result.segments, Side::right)};
+
+  const bool by_run = names.size() >= 4;
+  result.resampled = by_run ? "runs" : "steady segments";
+  const std::vector<std::string> units(names.begin(), names.end());
+  const std::size_t count = by_run ? units.size() : result.segments.size();
+  std::vector<double> deviation(values.size(), std::nan(""));
+  if (count >= 4)
+    deviation = jackknife(count, [&](std::size_t left_out) {
+                  std::vector<SteadySegment> rest;
+                  for (std::size_t i = 0; i < result.segments.size(); ++i)
+                    if (by_run ? result.segments[i].run != units[left_out] : i != left_out)
+                      rest.push_back(result.segments[i]);
+                  return torques_Nm(dataset.robot, rest);
+                }).standard_deviation;
+  else
+    result.notes.push_back("fewer than 4 steady segments: no intervals");
+
+  const char* kNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad", "friction_torque_right_Nm",
+                          "viscous_friction_right_Nm_s_rad"};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Motor& motor = dataset.robot.motor[k < 2 ? Side::left : Side::right];
+    const bool coulomb = k % 2 == 0;
+    CalibratedParameter parameter{.name = kNames[k],
+                                  .unit = coulomb ? "N m" : "N m s/rad",
+                                  .nominal = coulomb ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad,
+                                  .value = values[k],
+                                  .standard_deviation = deviation[k],
+                                  .effective_runs = static_cast<double>(count)};
+    const double half = student_t_975(static_cast<double>(count) - 1) * deviation[k];
+    parameter.interval_95 = {values[k] - half, values[k] + half};
+    parameter.visibility = 2 * half > 0.5 * std::abs(values[k]) ? Visibility::weak : Visibility::seen;
+    if (values[k] < 0) {
+      parameter.note = "the fit is negative: the robot file keeps its value";
+      parameter.visibility = Visibility::weak;
+    }
+    result.parameters.push_back(parameter);
+  }
+  result.current_rms_before_A = current_rms_A(result.robot, result.segments);
+  double friction_deviation = 0, viscous_deviation = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k] < 0) continue;
+    Motor& motor = result.robot.motor[k < 2 ? Side::left : Side::right];
+    (k % 2 == 0 ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad) = values[k];
+    double& relative = k % 2 == 0 ? friction_deviation : viscous_deviation;
+    if (values[k] > 0) relative = std::max(relative, deviation[k] / values[k]);
+  }
+  if (friction_deviation > 0) result.robot.uncertainty["friction_torque_Nm"] = friction_deviation;
+  if (viscous_deviation > 0) result.robot.uncertainty["viscous_friction_Nm_s_rad"] = viscous_deviation;
+  result.current_rms_after_A = current_rms_A(result.robot, result.segments);
+  result.notes.push_back("constant speeds cannot see inertias; R and Kt n are taken from the robot file");
+  return result;
+}
+
+}  // namespace joulepath

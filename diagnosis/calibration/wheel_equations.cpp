@@ -1,0 +1,143 @@
+#include "diagnosis/calibration/wheel_equations.hpp"
+
+#include <cmath>
+
+#include "model/dynamics.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr int kKnownColumn = 6, kCurrentColumn = 7;
+
+double mean_radius_m(const Geometry& geometry) {
+  return 0.5 * (geometry.wheel_radius_m.left + geometry.wheel_radius_m.right);
+}
+
+double ratio_to_mean(double value, double other) { return value + other > 0 ? 2 * value / (value + other) : 1.0; }
+
+/// What a payload of 1 kg adds to J and D, with the geometry of the robot file.
+struct PayloadInertia {
+  double straight_m2{}, turning_m2{};
+};
+
+PayloadInertia payload_inertia(const Robot& robot) {
+  const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;
+  const double d_p = robot.payload_offset_or_default_m();
+  return {r * r / 2, (robot.inertia.payload_yaw_inertia_m2 + d_p * d_p) * r * r / (2 * l * l)};
+}
+
+/// Torque that a center of mass ahead of the axle asks for at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v w.
+Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) {
+  const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;
+  const double v = 0.5 * r * (sample.speed_rad_s.left + sample.speed_rad_s.right);
+  const double w = 0.5 * r / l * (sample.speed_rad_s.right - sample.speed_rad_s.left);
+  const double mu = mass_properties(robot, sample.payload_kg).first_moment_kg_m;
+  const double forward = -0.5 * r * mu * w * w, turning = 0.5 * r / l * mu * v * w;
+  return {forward - turning, forward + turning};
+}
+
+void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample& sample, Side side, FitSums& sums) {
+  const SideRatios ratio = side_ratios(robot, side);
+  const PayloadInertia payload = payload_inertia(robot);
+  const double mean = 0.5 * (sample.acceleration_rad_s2.left + sample.acceleration_rad_s2.right);
+  const double apart = sample.acceleration_rad_s2[side] - mean;
+  const double q = sample.speed_rad_s[side], i = sample.current_A[side];
+  const double sign = q > 0 ? 1.0 : -1.0;
+  const double heavy = sample.payload_kg * payload.straight_m2, wide = sample.payload_kg * payload.turning_m2;
+
+  Eigen::Matrix<double, FitSums::kTorqueColumns, 1> x;
+  x << (side == Side::left ? sign : 0.0), (side == Side::right ? sign : 0.0), ratio.viscous * q, mean, apart,
+      heavy * mean + wide * apart, known_torque_Nm(robot, sample)[side], ratio.torque_per_ampere * i;
+  sums.torque += x * x.transpose();
+
+  // Noise of the wheel speeds in q', in the mean and in half the difference of q'' (independent wheels).
+  const double speed_variance = run.noise.speed_rad_s * run.noise.speed_rad_s;
+  const double slow = run.kernel.value_gain * speed_variance;
+  const double fast = 0.5 * run.kernel.derivative_gain * speed_variance;
+  sums.torque(kViscous, kViscous) -= ratio.viscous * ratio.viscous * slow;
+  sums.torque(kStraightInertia, kStraightInertia) -= fast;
+  sums.torque(kTurningInertia, kTurningInertia) -= fast;
+  sums.torque(kPayloadFactor, kPayloadFactor) -= fast * (heavy * heavy + wide * wide);
+  for (auto [column, factor] : {std::pair{kStraightInertia, heavy}, std::pair{kTurningInertia, wide}}) {
+    sums.torque(kPayloadFactor, column) -= fast * factor;
+    sums.torque(column, kPayloadFactor) -= fast * factor;
+  }
+  sums.torque_count += 1;
+
+  if (!run.has_voltage || !std::isfinite(sample.voltage_V[side])) return;
+  const double back = ratio.torque_per_ampere * ratio.voltage_over_torque_constant;
+  const Eigen::Vector3d y(ratio.resistance * i, back * q, sample.voltage_V[side]);
+  sums.voltage += y * y.transpose();
+  sums.voltage(0, 0) -= std::pow(ratio.resistance * run.noise.current_A, 2) * run.kernel.value_gain;
+  sums.voltage(1, 1) -= back * back * slow;
+  sums.voltage_count += 1;
+}
+
+}  // namespace
+
+FitSums& FitSums::operator+=(const FitSums& other) {
+  torque += other.torque, voltage += other.voltage;
+  const double count = static_cast<double>(samples + other.samples);
+  if (count > 0)
+    independent_share = (independent_share * static_cast<double>(samples) +
+                         other.independent_share * static_cast<double>(other.samples)) / count;
+  torque_count += other.torque_count, voltage_count += other.voltage_count, samples += other.samples;
+  return *this;
+}
+
+FitSums& FitSums::operator-=(const FitSums& other) {
+  torque -= other.torque, voltage -= other.voltage;
+  torque_count -= other.torque_count, voltage_count -= other.voltage_count, samples -= other.samples;
+  return *this;
+}
+
+SideRatios side_ratios(const Robot& robot, Side side) {
+  const Motor& motor = robot.motor[side];
+  const Motor& other = robot.motor[side == Side::left ? Side::right : Side::left];
+  return {.resistance = ratio_to_mean(motor.resistance_ohm, other.resistance_ohm),
+          .torque_per_ampere = ratio_to_mean(motor.torque_per_ampere_Nm_A(), other.torque_per_ampere_Nm_A()),
+          .viscous = ratio_to_mean(motor.viscous_friction_Nm_s_rad, other.viscous_friction_Nm_s_rad),
+          .voltage_over_torque_constant = motor.volts_per_speed_V_s_rad() / motor.torque_per_ampere_Nm_A()};
+}
+
+FitValues nominal_values(const Robot& robot) {
+  const Motor &left = robot.motor.left, &right = robot.motor.right;
+  const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;
+  const MassProperties mass = mass_properties(robot, 0.0);
+  const double axle = robot.inertia.wheel_axle_inertia_kg_m2;
+  return {left.friction_torque_Nm,
+          right.friction_torque_Nm,
+          0.5 * (left.viscous_friction_Nm_s_rad + right.viscous_friction_Nm_s_rad),
+          mass.mass_kg * r * r / 2 + axle,
+          mass.yaw_inertia_kg_m2 * r * r / (2 * l * l) + axle,
+          1.0,
+          0.5 * (left.torque_per_ampere_Nm_A() + right.torque_per_ampere_Nm_A()),
+          0.5 * (left.resistance_ohm + right.resistance_ohm)};
+}
+
+std::vector<FitSums> fit_sums(const Robot& robot, const std::vector<SmoothedRun>& runs, std::size_t fewest_runs,
+                              double block_s) {
+  const bool in_blocks = runs.size() < fewest_runs;
+  std::vector<FitSums> units;
+  for (const SmoothedRun& run : runs) {
+    FitSums sums{.independent_share = run.kernel.value_gain};
+    double end_s = run.samples.empty() ? 0 : run.samples.front().time_s + block_s;
+    const auto close = [&] {
+      if (sums.samples > 0) units.push_back(sums);
+      sums = FitSums{.independent_share = run.kernel.value_gain};
+    };
+    for (const SmoothedSample& sample : run.samples) {
+      if (in_blocks && sample.time_s >= end_s) {
+        close();
+        end_s = sample.time_s + block_s;
+      }
+      for (Side side : kSides)
+        if (sample.turning[side]) add_sample(robot, run, sample, side, sums);
+      sums.samples += sample.turning.left || sample.turning.right;
+    }
+    close();
+  }
+  return units;
+}
+
+}  // namespace joulepath
