@@ -15,6 +15,7 @@ namespace joulepath {
   COMMAND(estimate)                 \
   COMMAND(effects)                  \
   COMMAND(check)                    \
+  COMMAND(calibrate)                \
   COMMAND(schema)                   \
   COMMAND(completion)
 

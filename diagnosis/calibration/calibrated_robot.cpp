@@ -4,7 +4,7 @@
 
 #include "model/dynamics.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 DerivedInertia derived_inertia(const Robot& robot, const FitValues& values) {
   const double r = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right);
@@ -54,4 +54,4 @@ Robot robot_with(const Robot& robot, const FitValues& values) {
   return changed;
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -2,7 +2,7 @@
 
 #include "diagnosis/calibration/wheel_equations.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 /// Quantities of a robot file that fitted values stand for.
 struct DerivedInertia {
@@ -17,4 +17,4 @@ struct DerivedInertia {
 /// The robot with fitted values in place of its own. Inertias that would be negative are left.
 [[nodiscard]] Robot robot_with(const Robot& robot, const FitValues& values);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

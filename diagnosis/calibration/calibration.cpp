@@ -12,6 +12,8 @@
 namespace joulepath {
 namespace {
 
+using namespace calibration;
+
 constexpr std::size_t kFewestRuns = 6, kFewestUnits = 4;
 constexpr double kBlock_s = 10;
 constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow after the fitted values
@@ -35,8 +37,10 @@ constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow afte
   const std::string accepted = "logs with wheel_speed_left/right_rad_s and motor_current_left/right_A";
   if (!logs) refuse(dataset, "no run with a log", accepted, "an energy-only run cannot calibrate a model");
   if (!currents)
-    refuse(dataset, "no run with motor currents", accepted, "torques are seen through currents; map the columns if they have other names");
-  if (!speeds) refuse(dataset, "no run with wheel speeds", accepted, "linear_speed_m_s and angular_speed_rad_s will do");
+    refuse(dataset, "no run with motor currents", accepted,
+           "torques are seen through currents; map the columns if they have other names");
+  if (!speeds)
+    refuse(dataset, "no run with wheel speeds", accepted, "linear_speed_m_s and angular_speed_rad_s will do");
   refuse(dataset, "no run has both wheel speeds and motor currents over 20 samples", accepted, {});
 }
 
@@ -79,9 +83,10 @@ std::vector<double> reported(const Robot& robot, const FitValues& values) {
   return all;
 }
 
-CalibratedParameter parameter_of(std::size_t p, double nominal, double value, double deviation, double effective) {
+CalibratedParameter parameter_of(std::size_t p, double nominal, double value, double deviation,
+                                 double effective) {
   constexpr const char* kUnits[] = {"N m", "N m", "N m s/rad", "kg m^2", "kg m^2", "", "N m/A", "ohm"};
-  CalibratedParameter parameter{.name = p < kFitParameters ? fit_parameter_name(static_cast<int>(p))
+  CalibratedParameter parameter{.name = p < kFitParameters    ? fit_parameter_name(static_cast<int>(p))
                                         : p == kFitParameters ? "wheel_axle_inertia_kg_m2"
                                                               : "chassis_yaw_inertia_kg_m2",
                                 .unit = p < kFitParameters ? kUnits[p] : "kg m^2",
@@ -105,7 +110,8 @@ void write_uncertainty(const std::vector<CalibratedParameter>& parameters, Robot
   const auto set = [&](const std::string& key, double value) {
     if (value > 0) robot.uncertainty[key] = value;
   };
-  set("friction_torque_Nm", std::max(relative("friction_torque_left_Nm"), relative("friction_torque_right_Nm")));
+  set("friction_torque_Nm",
+      std::max(relative("friction_torque_left_Nm"), relative("friction_torque_right_Nm")));
   set("viscous_friction_Nm_s_rad", relative("viscous_friction_Nm_s_rad"));
   set("resistance_ohm", relative("resistance_ohm"));
   set("torque_constant_Nm_A", relative("torque_per_ampere_Nm_A"));
@@ -128,8 +134,8 @@ struct Fit {
   Identifiability can{};
 };
 
-void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit, const FitValues& lower,
-                    CalibrationResult& result) {
+void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
+                    const FitValues& lower, CalibrationResult& result) {
   const Robot& robot = dataset.robot;
   const FitValues nominal = nominal_values(robot);
   std::vector<double> deviation(kFitParameters + kDerived, std::nan(""));
@@ -147,13 +153,16 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
   deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
   const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
   for (std::size_t p = 0; p < after.size(); ++p) {
-    const std::size_t source = p < kFitParameters ? p : p == kFitParameters ? kStraightInertia : kTurningInertia;
+    const std::size_t source = p < kFitParameters    ? p
+                               : p == kFitParameters ? std::size_t{kStraightInertia}
+                                                     : std::size_t{kTurningInertia};
     CalibratedParameter parameter = parameter_of(p, before[p], after[p], deviation[p], effective[source]);
     if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
     if (fit.can.free[source] && fit.result.at_bound[source]) {
       parameter.visibility = Visibility::weak;
-      parameter.note = source == kStraightInertia ? "the robot file's masses alone make up more than the data see"
-                                                  : "at its lower bound";
+      parameter.note = source == kStraightInertia
+                           ? "the robot file's masses alone make up more than the data see"
+                           : "at its lower bound";
     }
     if (p >= kFitParameters && parameter.visibility != Visibility::unseen) {
       parameter.note = p == kFitParameters ? "with the robot file's masses and wheel radius"
@@ -171,8 +180,10 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
   Fit fit;
   for (const FitSums& unit : units) fit.all += unit;
   if (fit.all.torque_count < 100)
-    refuse(dataset, "wheels that turn one way in " + std::to_string(static_cast<long>(fit.all.torque_count)) + " samples",
-           "at least 100 samples above 0.3 rad/s", "friction has a sign, and rest has none");
+    refuse(
+        dataset,
+        "wheels that turn one way in " + std::to_string(static_cast<long>(fit.all.torque_count)) + " samples",
+        "at least 100 samples above 0.3 rad/s", "friction has a sign, and rest has none");
   fit.can = identifiable(fit.all, nominal);
   if (std::none_of(fit.can.free.begin(), fit.can.free.end(), [](bool free) { return free; }))
     refuse(dataset, "runs that excite no parameter", "runs with several speeds and accelerations", {});
@@ -205,11 +216,12 @@ CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
                        .hint = "calibration fits the nominal model; effects would be calibrated away"});
   const std::vector<SmoothedRun> runs = smooth_runs(dataset);
   if (runs.empty()) refuse_channels(dataset);
-  CalibrationResult result = method == CalibrationMethod::steady ? calibrate_steady(dataset, runs)
-                                                                 : calibrate_full(dataset, runs);
+  CalibrationResult result =
+      method == CalibrationMethod::steady ? calibrate_steady(dataset, runs) : calibrate_full(dataset, runs);
   for (const Run& run : dataset.runs)
     if (run.current_sign_from_motion) {
-      result.notes.push_back("currents are unsigned in the logs: signs were taken from the motion, braking currents are wrong");
+      result.notes.push_back(
+          "currents are unsigned in the logs: signs were taken from the motion, braking currents are wrong");
       break;
     }
   for (const Run& run : dataset.runs)

@@ -24,13 +24,13 @@ enum class Visibility {
 struct CalibratedParameter {
   std::string name{};  ///< friction_torque_left_Nm, viscous_friction_Nm_s_rad, resistance_ohm, ...
   std::string unit{};
-  double nominal{};                       ///< the robot file's
-  double value{};                         ///< calibrated; nominal where unseen
-  double standard_deviation{};            ///< from run-level resampling; 0 where unseen
-  std::array<double, 2> interval_95{};    ///< value +/- Student's t times the deviation
-  double effective_runs{};                ///< how many runs carry the information
+  double nominal{};                     ///< the robot file's
+  double value{};                       ///< calibrated; nominal where unseen
+  double standard_deviation{};          ///< from run-level resampling; 0 where unseen
+  std::array<double, 2> interval_95{};  ///< value +/- Student's t times the deviation
+  double effective_runs{};              ///< how many runs carry the information
   Visibility visibility{Visibility::unseen};
-  std::string note{};                     ///< why unseen, or what the value rests on
+  std::string note{};  ///< why unseen, or what the value rests on
 };
 
 /// A fit of [P1, Eq. (30)] to one motor: i = b1 + b2 q', V = c1 + c2 q' (all signs of a forward motion).
@@ -57,8 +57,8 @@ struct CalibrationResult {
   std::string resampled{};  ///< "runs", or "blocks of 10 s" where there are too few runs
   double current_rms_before_A{}, current_rms_after_A{};
   std::optional<double> voltage_rms_before_V{}, voltage_rms_after_V{};
-  std::vector<SteadySegment> segments{};      ///< steady method
-  std::optional<Sided<SteadyLine>> lines{};   ///< steady method
+  std::vector<SteadySegment> segments{};     ///< steady method
+  std::optional<Sided<SteadyLine>> lines{};  ///< steady method
   std::vector<std::string> notes{};
 };
 
@@ -67,12 +67,12 @@ struct CalibrationResult {
 /// The full method is a bounded nonlinear least squares fit of
 ///   Kt n i = J q''_mean +/- D q''_half_difference + nu q' + T_m sign(q') + payload and d terms,
 ///   V = R i + Kv n q'                                                [P1, Eqs. (14), (15), (17)]
-/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). J = m r^2/2 + I_w + I_s and
-/// D = I r^2/(2 l^2) + I_w + I_s without payload are what wheels can see; I_w + I_s and I_c follow with the
-/// masses and lengths of the robot file. Kt and Kv keep their ratio, the gear ratio its value.
+/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). J = m r^2/2 + I_w + I_s
+/// and D = I r^2/(2 l^2) + I_w + I_s without payload are what wheels can see; I_w + I_s and I_c follow with
+/// the masses and lengths of the robot file. Kt and Kv keep their ratio, the gear ratio its value.
 ///
-/// Throws ConfigError when the data cannot be used, saying what is missing. A robot with `effects:` is refused:
-/// they would be calibrated away.
+/// Throws ConfigError when the data cannot be used, saying what is missing. A robot with `effects:` is
+/// refused: they would be calibrated away.
 [[nodiscard]] CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method);
 
 }  // namespace joulepath

@@ -10,7 +10,7 @@
 
 #include "model/assert.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 using Columns = Eigen::Matrix<double, FitSums::kTorqueColumns, 1>;
@@ -78,7 +78,8 @@ double objective(unsigned count, const double* x, double* gradient, void* data) 
 }
 
 /// Least squares of `target` on the free columns of a matrix of sums, the other columns with given factors.
-Eigen::VectorXd solve_free(const Eigen::MatrixXd& sums, const std::vector<int>& columns, const Eigen::VectorXd& rest) {
+Eigen::VectorXd solve_free(const Eigen::MatrixXd& sums, const std::vector<int>& columns,
+                           const Eigen::VectorXd& rest) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd A(n, n);
   Eigen::VectorXd b(n);
@@ -113,7 +114,8 @@ FitValues linear_fit(const FitSums& sums, const FitValues& start, const FreePara
   if (columns.empty()) return values;
   const Eigen::VectorXd found = solve_free(sums.torque, columns, rest);
   for (std::size_t i = 0; i < columns.size(); ++i)
-    values[static_cast<std::size_t>(columns[i])] = found[static_cast<Eigen::Index>(i)] * values[kTorquePerAmpere];
+    values[static_cast<std::size_t>(columns[i])] =
+        found[static_cast<Eigen::Index>(i)] * values[kTorquePerAmpere];
   return values;
 }
 
@@ -140,8 +142,8 @@ FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreePa
   return weights;
 }
 
-FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValues& start, const FitValues& lower,
-                   const FreeParameters& free) {
+FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValues& start,
+                   const FitValues& lower, const FreeParameters& free) {
   FitResult result{.values = linear_fit(sums, start, free)};
   Problem problem{sums, weights, start};
   std::vector<double> x, bound;
@@ -175,14 +177,16 @@ FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValu
   return result;
 }
 
-Eigen::Matrix<double, kFitParameters, kFitParameters> information(const FitSums& sums, const FitWeights& weights,
-                                                                 const FitValues& values) {
+Eigen::Matrix<double, kFitParameters, kFitParameters> information(const FitSums& sums,
+                                                                  const FitWeights& weights,
+                                                                  const FitValues& values) {
   Eigen::Matrix<double, kFitParameters, kFitParameters> H;
   for (int a = 0; a < kFitParameters; ++a)
     for (int b = 0; b < kFitParameters; ++b)
-      H(a, b) = weights.torque * current_residual_slope(values, a).dot(sums.torque * current_residual_slope(values, b)) +
+      H(a, b) = weights.torque *
+                    current_residual_slope(values, a).dot(sums.torque * current_residual_slope(values, b)) +
                 weights.voltage * voltage_residual_slope(a).dot(sums.voltage * voltage_residual_slope(b));
   return sums.independent_share * H;
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -2,7 +2,7 @@
 
 #include "diagnosis/calibration/wheel_equations.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 using FreeParameters = std::array<bool, kFitParameters>;
 
@@ -26,13 +26,15 @@ struct FitResult {
 [[nodiscard]] FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreeParameters& free);
 
 /// Minimizes the weighted squares over the free parameters within `lower` and infinity (NLopt LD_SLSQP, exact
-/// gradients), starting where the two equations alone lead; parameters that are not free keep `start`'s values.
+/// gradients), starting where the two equations alone lead; parameters that are not free keep `start`'s
+/// values.
 [[nodiscard]] FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValues& start,
                                  const FitValues& lower, const FreeParameters& free);
 
-/// Gauss-Newton information of the parameters at `values`, for independent residuals of the weights' variances.
+/// Gauss-Newton information of the parameters at `values`, for independent residuals of the weights'
+/// variances.
 [[nodiscard]] Eigen::Matrix<double, kFitParameters, kFitParameters> information(const FitSums& sums,
-                                                                              const FitWeights& weights,
-                                                                              const FitValues& values);
+                                                                                const FitWeights& weights,
+                                                                                const FitValues& values);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 constexpr double kWidestDirection = 0.5, kWidestPayloadFactor = 0.05;
@@ -28,7 +28,8 @@ Eigen::MatrixXd scaled_information(const FitSums& sums, const FitWeights& weight
   };
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      H(i, j) = all(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]) * scale(i) * scale(j);
+      H(i, j) =
+          all(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]) * scale(i) * scale(j);
   return H;
 }
 
@@ -43,10 +44,10 @@ std::string others(const Eigen::VectorXd& direction, const std::vector<int>& fre
 }  // namespace
 
 const char* fit_parameter_name(int parameter) {
-  constexpr const char* kNames[] = {"friction_torque_left_Nm",     "friction_torque_right_Nm",
-                                    "viscous_friction_Nm_s_rad",   "straight_inertia_kg_m2",
-                                    "turning_inertia_kg_m2",       "payload_factor",
-                                    "torque_per_ampere_Nm_A",      "resistance_ohm"};
+  constexpr const char* kNames[] = {"friction_torque_left_Nm",   "friction_torque_right_Nm",
+                                    "viscous_friction_Nm_s_rad", "straight_inertia_kg_m2",
+                                    "turning_inertia_kg_m2",     "payload_factor",
+                                    "torque_per_ampere_Nm_A",    "resistance_ohm"};
   return kNames[parameter];
 }
 
@@ -72,7 +73,8 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
       const auto parameter = static_cast<std::size_t>(free[static_cast<std::size_t>(held)]);
       const std::string with = others(direction, free, held);
       result.free[parameter] = false;
-      result.why[parameter] = with.empty() ? "the runs do not excite it" : "cannot be told apart from " + with;
+      result.why[parameter] =
+          with.empty() ? "the runs do not excite it" : "cannot be told apart from " + with;
       continue;
     }
     if (result.free[kPayloadFactor]) {
@@ -88,4 +90,4 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
   }
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -1,10 +1,10 @@
 #include "diagnosis/calibration/resampling.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 Resampled jackknife(std::size_t units, const std::function<std::vector<double>(std::size_t)>& estimate) {
   std::vector<std::vector<double>> all;
@@ -24,4 +24,4 @@ double student_t_975(double degrees_of_freedom) {
   return boost::math::quantile(boost::math::students_t(std::max(1.0, degrees_of_freedom)), 0.975);
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

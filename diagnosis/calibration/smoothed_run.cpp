@@ -7,7 +7,7 @@
 
 #include "model/kinematics.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 constexpr double kKernelDeviation_s = 0.15;
@@ -23,11 +23,13 @@ struct Stretch {
 };
 
 Sided<std::vector<double>> wheel_speeds(const Trajectory& log, const Geometry& geometry) {
-  if (!log.wheel_speed_rad_s.left.empty() && !log.wheel_speed_rad_s.right.empty()) return log.wheel_speed_rad_s;
+  if (!log.wheel_speed_rad_s.left.empty() && !log.wheel_speed_rad_s.right.empty())
+    return log.wheel_speed_rad_s;
   if (log.linear_speed_m_s.empty() || log.angular_speed_rad_s.empty()) return {};
   Sided<std::vector<double>> speeds;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    const Sided<double> wheels = wheel_speeds_rad_s(geometry, log.linear_speed_m_s[i], log.angular_speed_rad_s[i]);
+    const Sided<double> wheels =
+        wheel_speeds_rad_s(geometry, log.linear_speed_m_s[i], log.angular_speed_rad_s[i]);
     for (Side side : kSides) speeds[side].push_back(wheels[side]);
   }
   return speeds;
@@ -58,7 +60,8 @@ std::vector<double> on_even_steps(const std::vector<double>& time_s, const std::
 Stretch stretch_of(const Trajectory& log, const Sided<std::vector<double>>& speeds, std::size_t first,
                    std::size_t last) {
   const auto span = static_cast<double>(last - first - 1);
-  Stretch stretch{.start_s = log.time_s[first], .period_s = (log.time_s[last - 1] - log.time_s[first]) / span};
+  Stretch stretch{.start_s = log.time_s[first],
+                  .period_s = (log.time_s[last - 1] - log.time_s[first]) / span};
   double worst_s = 0;
   for (std::size_t i = first; i < last; ++i)
     worst_s = std::max(worst_s, std::abs(log.time_s[i] - stretch.start_s -
@@ -102,7 +105,8 @@ void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
       sample.voltage_V[side] = run.has_voltage ? weighted(kernel.value, stretch.voltage[side], i)
                                                : std::numeric_limits<double>::quiet_NaN();
       sample.turning[side] = turns_one_way(stretch.speed[side], i, reach);
-      finite = finite && std::isfinite(sample.acceleration_rad_s2[side]) && std::isfinite(sample.current_A[side]);
+      finite =
+          finite && std::isfinite(sample.acceleration_rad_s2[side]) && std::isfinite(sample.current_A[side]);
     }
     if (finite) run.samples.push_back(sample);
   }
@@ -111,7 +115,8 @@ void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
 std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry) {
   const Trajectory& log = source.log;
   const Sided<std::vector<double>> speeds = wheel_speeds(log, geometry);
-  if (log.size() < 20 || speeds.left.empty() || log.motor_current_A.left.empty() || log.motor_current_A.right.empty())
+  if (log.size() < 20 || speeds.left.empty() || log.motor_current_A.left.empty() ||
+      log.motor_current_A.right.empty())
     return std::nullopt;
   const double period_s = median_period_s(log.time_s);
   SmoothedRun run{.name = source.name,
@@ -135,8 +140,9 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
 std::vector<SmoothedRun> smooth_runs(const Dataset& dataset) {
   std::vector<SmoothedRun> runs;
   for (const Run& run : dataset.runs)
-    if (std::optional<SmoothedRun> smooth = smoothed(run, dataset.robot.geometry)) runs.push_back(*std::move(smooth));
+    if (std::optional<SmoothedRun> smooth = smoothed(run, dataset.robot.geometry))
+      runs.push_back(*std::move(smooth));
   return runs;
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

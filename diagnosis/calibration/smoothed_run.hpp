@@ -6,7 +6,7 @@
 #include "diagnosis/calibration/smoothing.hpp"
 #include "diagnosis/dataset.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 /// One instant of a log, every channel smoothed by the same kernel.
 struct SmoothedSample {
@@ -37,4 +37,4 @@ struct SmoothedRun {
 /// steps (linear interpolation where a log's are not), cut at gaps. Runs without them are left out.
 [[nodiscard]] std::vector<SmoothedRun> smooth_runs(const Dataset& dataset);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -6,7 +6,7 @@
 
 #include "model/assert.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 /// Cubic B-spline with support (-2, 2).
@@ -32,7 +32,8 @@ SmoothingKernel make_smoothing_kernel(double sample_period_s, double deviation_s
   const int reach = static_cast<int>(std::ceil(2 * knot)) - 1;
   SmoothingKernel kernel;
   double sum = 0;
-  for (int i = -reach; i <= reach; ++i) kernel.value.push_back(cubic_b_spline(i / knot)), sum += kernel.value.back();
+  for (int i = -reach; i <= reach; ++i)
+    kernel.value.push_back(cubic_b_spline(i / knot)), sum += kernel.value.back();
   for (double& weight : kernel.value) weight /= sum;
 
   constexpr std::array<double, 4> difference{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
@@ -58,11 +59,11 @@ double white_noise_deviation(const std::vector<double>& samples) {
   if (samples.size() < 9) return 0;
   std::vector<double> differences;
   for (std::size_t i = 2; i + 2 < samples.size(); ++i)
-    differences.push_back(std::abs(samples[i - 2] - 4 * samples[i - 1] + 6 * samples[i] - 4 * samples[i + 1] +
-                                   samples[i + 2]));
+    differences.push_back(
+        std::abs(samples[i - 2] - 4 * samples[i - 1] + 6 * samples[i] - 4 * samples[i + 1] + samples[i + 2]));
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
   return 1.4826 * *middle / std::sqrt(70.0);
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-namespace joulepath {
+namespace joulepath::calibration {
 
-/// A pair of symmetric and antisymmetric weights: the first smooths samples, the second gives the derivative of
-/// what the first gives. A linear relation between channels and derivatives survives: the same kernel acts on
-/// all of them, so that smoothing brings no bias.
+/// A pair of symmetric and antisymmetric weights: the first smooths samples, the second gives the derivative
+/// of what the first gives. A linear relation between channels and derivatives survives: the same kernel acts
+/// on all of them, so that smoothing brings no bias.
 struct SmoothingKernel {
   std::vector<double> value{};       ///< odd count, adds up to 1
   std::vector<double> derivative{};  ///< odd count, longer by eight
@@ -28,4 +28,4 @@ struct SmoothingKernel {
 /// deviation, so that kinks and steps do not count).
 [[nodiscard]] double white_noise_deviation(const std::vector<double>& samples);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

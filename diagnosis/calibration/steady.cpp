@@ -6,7 +6,7 @@
 
 #include "diagnosis/calibration/resampling.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 constexpr double kShortest_s = 1.0, kStraight = 0.05, kLeastAcceleration_rad_s2 = 0.1, kNoiseFactor = 5;
@@ -73,8 +73,10 @@ double current_rms_A(const Robot& robot, const std::vector<SteadySegment>& segme
     for (Side side : kSides) {
       const Motor& motor = robot.motor[side];
       const double q = segment.speed_rad_s[side];
-      const double torque_Nm = (q > 0 ? 1 : -1) * motor.friction_torque_Nm + motor.viscous_friction_Nm_s_rad * q;
-      squares += segment.duration_s * std::pow(segment.current_A[side] - torque_Nm / motor.torque_per_ampere_Nm_A(), 2);
+      const double torque_Nm =
+          (q > 0 ? 1 : -1) * motor.friction_torque_Nm + motor.viscous_friction_Nm_s_rad * q;
+      squares += segment.duration_s *
+                 std::pow(segment.current_A[side] - torque_Nm / motor.torque_per_ampere_Nm_A(), 2);
       weight += segment.duration_s;
     }
   return std::sqrt(squares / weight);
@@ -102,8 +104,8 @@ void require_usable(const Dataset& dataset, const std::vector<SteadySegment>& se
 std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs) {
   std::vector<SteadySegment> segments;
   for (const SmoothedRun& run : runs) {
-    const double threshold = std::max(
-        kLeastAcceleration_rad_s2, kNoiseFactor * run.noise.speed_rad_s * std::sqrt(run.kernel.derivative_gain));
+    const double threshold = std::max(kLeastAcceleration_rad_s2, kNoiseFactor * run.noise.speed_rad_s *
+                                                                     std::sqrt(run.kernel.derivative_gain));
     std::size_t first = 0;
     for (std::size_t i = 0; i <= run.samples.size(); ++i) {
       const bool goes_on = i < run.samples.size() && is_steady(run.samples[i], threshold) &&
@@ -120,8 +122,9 @@ std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& 
 SteadyLine fit_steady_line(const std::vector<SteadySegment>& segments, Side side) {
   const auto [b1, b2] = line(segments, side, &SteadySegment::current_A);
   SteadyLine fit{.b1_A = b1, .b2_A_s_rad = b2};
-  fit.has_voltage = std::any_of(segments.begin(), segments.end(),
-                                [&](const SteadySegment& segment) { return std::isfinite(segment.voltage_V[side]); });
+  fit.has_voltage = std::any_of(segments.begin(), segments.end(), [&](const SteadySegment& segment) {
+    return std::isfinite(segment.voltage_V[side]);
+  });
   if (fit.has_voltage) {
     const auto [c1, c2] = line(segments, side, &SteadySegment::voltage_V);
     fit.c1_V = c1, fit.c2_V_s_rad = c2;
@@ -156,17 +159,18 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   else
     result.notes.push_back("fewer than 4 steady segments: no intervals");
 
-  const char* kNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad", "friction_torque_right_Nm",
-                          "viscous_friction_right_Nm_s_rad"};
+  const char* kNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad",
+                          "friction_torque_right_Nm", "viscous_friction_right_Nm_s_rad"};
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Motor& motor = dataset.robot.motor[k < 2 ? Side::left : Side::right];
     const bool coulomb = k % 2 == 0;
-    CalibratedParameter parameter{.name = kNames[k],
-                                  .unit = coulomb ? "N m" : "N m s/rad",
-                                  .nominal = coulomb ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad,
-                                  .value = values[k],
-                                  .standard_deviation = deviation[k],
-                                  .effective_runs = static_cast<double>(count)};
+    CalibratedParameter parameter{
+        .name = kNames[k],
+        .unit = coulomb ? "N m" : "N m s/rad",
+        .nominal = coulomb ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad,
+        .value = values[k],
+        .standard_deviation = deviation[k],
+        .effective_runs = static_cast<double>(count)};
     const double half = student_t_975(static_cast<double>(count) - 1) * deviation[k];
     parameter.interval_95 = {values[k] - half, values[k] + half};
     parameter.visibility = 2 * half > 0.5 * std::abs(values[k]) ? Visibility::weak : Visibility::seen;
@@ -192,4 +196,4 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   return result;
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

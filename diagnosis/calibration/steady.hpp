@@ -3,10 +3,10 @@
 #include "diagnosis/calibration/calibration.hpp"
 #include "diagnosis/calibration/smoothed_run.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
-/// Finds stretches of at least one second on a straight line in which no wheel accelerates beyond what the noise
-/// of the smoothed speed explains (at least 0.1 rad/s^2), and takes their means.
+/// Finds stretches of at least one second on a straight line in which no wheel accelerates beyond what the
+/// noise of the smoothed speed explains (at least 0.1 rad/s^2), and takes their means.
 [[nodiscard]] std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs);
 
 /// Least squares of [P1, Eq. (30)] over segments, each weighing with its duration: i = b1 sign + b2 q',
@@ -14,6 +14,7 @@ namespace joulepath {
 [[nodiscard]] SteadyLine fit_steady_line(const std::vector<SteadySegment>& segments, Side side);
 
 /// The paper's procedure: T_m = b1 Kt n and nu = b2 Kt n per motor.
-[[nodiscard]] CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<SmoothedRun>& runs);
+[[nodiscard]] CalibrationResult calibrate_steady(const Dataset& dataset,
+                                                 const std::vector<SmoothedRun>& runs);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

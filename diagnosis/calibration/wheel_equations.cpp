@@ -4,7 +4,7 @@
 
 #include "model/dynamics.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 namespace {
 
 constexpr int kKnownColumn = 6, kCurrentColumn = 7;
@@ -13,7 +13,9 @@ double mean_radius_m(const Geometry& geometry) {
   return 0.5 * (geometry.wheel_radius_m.left + geometry.wheel_radius_m.right);
 }
 
-double ratio_to_mean(double value, double other) { return value + other > 0 ? 2 * value / (value + other) : 1.0; }
+double ratio_to_mean(double value, double other) {
+  return value + other > 0 ? 2 * value / (value + other) : 1.0;
+}
 
 /// What a payload of 1 kg adds to J and D, with the geometry of the robot file.
 struct PayloadInertia {
@@ -26,7 +28,8 @@ PayloadInertia payload_inertia(const Robot& robot) {
   return {r * r / 2, (robot.inertia.payload_yaw_inertia_m2 + d_p * d_p) * r * r / (2 * l * l)};
 }
 
-/// Torque that a center of mass ahead of the axle asks for at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v w.
+/// Torque that a center of mass ahead of the axle asks for at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v
+/// w.
 Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) {
   const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;
   const double v = 0.5 * r * (sample.speed_rad_s.left + sample.speed_rad_s.right);
@@ -36,7 +39,8 @@ Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) 
   return {forward - turning, forward + turning};
 }
 
-void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample& sample, Side side, FitSums& sums) {
+void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample& sample, Side side,
+                FitSums& sums) {
   const SideRatios ratio = side_ratios(robot, side);
   const PayloadInertia payload = payload_inertia(robot);
   const double mean = 0.5 * (sample.acceleration_rad_s2.left + sample.acceleration_rad_s2.right);
@@ -80,7 +84,8 @@ FitSums& FitSums::operator+=(const FitSums& other) {
   const double count = static_cast<double>(samples + other.samples);
   if (count > 0)
     independent_share = (independent_share * static_cast<double>(samples) +
-                         other.independent_share * static_cast<double>(other.samples)) / count;
+                         other.independent_share * static_cast<double>(other.samples)) /
+                        count;
   torque_count += other.torque_count, voltage_count += other.voltage_count, samples += other.samples;
   return *this;
 }
@@ -115,8 +120,8 @@ FitValues nominal_values(const Robot& robot) {
           0.5 * (left.resistance_ohm + right.resistance_ohm)};
 }
 
-std::vector<FitSums> fit_sums(const Robot& robot, const std::vector<SmoothedRun>& runs, std::size_t fewest_runs,
-                              double block_s) {
+std::vector<FitSums> fit_sums(const Robot& robot, const std::vector<SmoothedRun>& runs,
+                              std::size_t fewest_runs, double block_s) {
   const bool in_blocks = runs.size() < fewest_runs;
   std::vector<FitSums> units;
   for (const SmoothedRun& run : runs) {
@@ -140,4 +145,4 @@ std::vector<FitSums> fit_sums(const Robot& robot, const std::vector<SmoothedRun>
   return units;
 }
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

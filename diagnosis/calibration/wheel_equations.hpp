@@ -7,13 +7,13 @@
 
 #include "diagnosis/calibration/smoothed_run.hpp"
 
-namespace joulepath {
+namespace joulepath::calibration {
 
 /// What the full method fits, in this order.
 enum FitParameter : int {
-  kFrictionLeft,   ///< T_m, N m
+  kFrictionLeft,  ///< T_m, N m
   kFrictionRight,
-  kViscous,        ///< nu, N m s/rad
+  kViscous,          ///< nu, N m s/rad
   kStraightInertia,  ///< J = m r^2/2 + I_w + I_s without payload, kg m^2 at the wheel
   kTurningInertia,   ///< D = I r^2/(2 l^2) + I_w + I_s without payload
   kPayloadFactor,    ///< payload on board / payload stated
@@ -55,4 +55,4 @@ struct SideRatios {
 };
 [[nodiscard]] SideRatios side_ratios(const Robot& robot, Side side);
 
-}  // namespace joulepath
+}  // namespace joulepath::calibration

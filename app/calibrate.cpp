@@ -1,0 +1,135 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/terminal.hpp"
+#include "diagnosis/calibration/calibration.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath {
+namespace {
+
+const char* visibility_name(Visibility visibility) {
+  return visibility == Visibility::seen ? "seen" : visibility == Visibility::weak ? "weak" : "unseen";
+}
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json parameters_json(const CalibrationResult& result) {
+  auto list = nlohmann::ordered_json::array();
+  for (const CalibratedParameter& p : result.parameters)
+    list.push_back({{"name", p.name},
+                    {"unit", p.unit},
+                    {"nominal", p.nominal},
+                    {"value", p.value},
+                    {"standard_deviation", number_or_null(p.standard_deviation)},
+                    {"interval_95", {number_or_null(p.interval_95[0]), number_or_null(p.interval_95[1])}},
+                    {"effective_runs", p.effective_runs},
+                    {"visibility", visibility_name(p.visibility)},
+                    {"note", p.note}});
+  return list;
+}
+
+nlohmann::ordered_json line_json(const SteadyLine& line) {
+  nlohmann::ordered_json json{{"b1_A", line.b1_A}, {"b2_A_s_rad", line.b2_A_s_rad}};
+  if (line.has_voltage) json["c1_V"] = line.c1_V, json["c2_V_s_rad"] = line.c2_V_s_rad;
+  return json;
+}
+
+nlohmann::ordered_json result_json(const CalibrationResult& result) {
+  nlohmann::ordered_json json{
+      {"method", result.method == CalibrationMethod::steady ? "steady" : "full"},
+      {"runs", result.runs_used},
+      {result.method == CalibrationMethod::steady ? "steady_segments" : "samples", result.samples_used},
+      {"resampled", result.resampled},
+      {"parameters", parameters_json(result)},
+      {"current_rms_A", {{"before", result.current_rms_before_A}, {"after", result.current_rms_after_A}}}};
+  if (result.voltage_rms_before_V)
+    json["voltage_rms_V"] = {{"before", *result.voltage_rms_before_V},
+                             {"after", *result.voltage_rms_after_V}};
+  if (result.lines)
+    json["equation_30"] = {{"left", line_json(result.lines->left)},
+                           {"right", line_json(result.lines->right)}};
+  json["notes"] = result.notes;
+  return json;
+}
+
+/// `0.3671 +/- 0.0008`, or that there is no interval.
+std::string interval_text(const CalibratedParameter& p) {
+  if (p.visibility == Visibility::unseen) return "not seen";
+  if (!std::isfinite(p.standard_deviation)) return "no interval";
+  return figure(p.interval_95[0]) + " .. " + figure(p.interval_95[1]);
+}
+
+class Calibrate : public Command {
+ public:
+  std::string name() const override { return "calibrate"; }
+  std::string says() const override {
+    return "fit a robot's friction, motor constants and inertias to measured runs";
+  }
+  std::string examples() const override {
+    return "  joulepath calibrate dataset.yaml --out robot_calibrated.yaml\n"
+           "  joulepath calibrate dataset.yaml --method steady --json";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("DATASET", dataset_, "dataset: the robot and its runs")->required();
+    app.add_option("--robot", robot_, "robot file in place of the dataset's");
+    app.add_option("--out", out_, "robot file to write, with the calibrated values and their uncertainty");
+    app.add_option(
+           "--method", method_,
+           "full: whole runs, voltages and currents; steady: stretches of constant speed, friction alone")
+        ->check(CLI::IsMember({"full", "steady"}))
+        ->capture_default_str();
+    add_common_flags(app, options_, "qjfu");
+  }
+
+  int run() override {
+    const std::optional<std::string> robot = robot_.empty() ? std::nullopt : std::optional(robot_);
+    const Dataset dataset = read_dataset(dataset_, {options_.untrusted}, robot);
+    const CalibrationResult result =
+        calibrate(dataset, method_ == "steady" ? CalibrationMethod::steady : CalibrationMethod::full);
+    if (!out_.empty()) write_output_file(out_, robot_text(result.robot), options_.force);
+    if (options_.json) {
+      std::cout << result_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+      return kDone;
+    }
+    tell(result);
+    return kDone;
+  }
+
+ private:
+  void tell(const CalibrationResult& result) const {
+    Table table({"parameter", "robot file", "calibrated", "95 % interval", "unit"});
+    for (const CalibratedParameter& p : result.parameters)
+      table.row({p.name + (p.visibility == Visibility::weak ? " (weak)" : ""), figure(p.nominal),
+                 figure(p.value), interval_text(p), p.unit});
+    table.print(std::cout);
+    std::cout << "current residual " << figure(result.current_rms_before_A) << " -> "
+              << figure(result.current_rms_after_A) << " A rms";
+    if (result.voltage_rms_before_V)
+      std::cout << ", voltage " << figure(*result.voltage_rms_before_V) << " -> "
+                << figure(*result.voltage_rms_after_V) << " V rms";
+    std::cout << " (" << result.runs_used << " runs, intervals from resampled " << result.resampled << ")\n";
+    if (!out_.empty()) std::cout << "wrote " << out_ << '\n';
+    if (options_.quiet) return;
+    for (const CalibratedParameter& p : result.parameters)
+      if (!p.note.empty()) std::cerr << "note: " << p.name << ": " << p.note << '\n';
+    for (const std::string& note : result.notes) std::cerr << "note: " << note << '\n';
+  }
+
+  std::string dataset_{}, robot_{}, out_{}, method_{"full"};
+  CommonOptions options_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_command() { return std::make_unique<Calibrate>(); }
+
+}  // namespace joulepath
