@@ -49,8 +49,12 @@ Robot robot_with(const Robot& robot, const FitValues& values) {
     motor.torque_constant_Nm_A *= scale, motor.voltage_constant_V_s_rad *= scale;
   }
   const DerivedInertia inertia = derived_inertia(robot, values);
-  if (inertia.wheel_axle_kg_m2 >= 0) changed.inertia.wheel_axle_inertia_kg_m2 = inertia.wheel_axle_kg_m2;
-  if (inertia.chassis_yaw_kg_m2 >= 0) changed.inertia.chassis_yaw_inertia_kg_m2 = inertia.chassis_yaw_kg_m2;
+  const bool straight = values[kStraightInertia] != nominal[kStraightInertia];
+  const bool turning = values[kTurningInertia] != nominal[kTurningInertia];
+  if (straight && inertia.wheel_axle_kg_m2 >= 0)
+    changed.inertia.wheel_axle_inertia_kg_m2 = inertia.wheel_axle_kg_m2;
+  if (turning && inertia.chassis_yaw_kg_m2 >= 0)
+    changed.inertia.chassis_yaw_inertia_kg_m2 = inertia.chassis_yaw_kg_m2;
   return changed;
 }
 

@@ -14,7 +14,8 @@ struct DerivedInertia {
 /// Standard deviation of both that comes from the uncertainty of masses and lengths in the robot file.
 [[nodiscard]] DerivedInertia geometric_deviation(const Robot& robot, const FitValues& values);
 
-/// The robot with fitted values in place of its own. Inertias that would be negative are left.
+/// The robot with fitted values in place of its own. Inertias that would be
+/// negative, or that rest on a value that was not fitted, are left.
 [[nodiscard]] Robot robot_with(const Robot& robot, const FitValues& values);
 
 }  // namespace joulepath::calibration

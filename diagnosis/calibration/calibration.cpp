@@ -76,11 +76,24 @@ std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& u
   return count;
 }
 
+/// The fitted parameter that a reported value rests on.
+std::size_t source_of(std::size_t p) {
+  if (p < kFitParameters) return p;
+  return p == kFitParameters ? std::size_t{kStraightInertia} : std::size_t{kTurningInertia};
+}
+
 std::vector<double> reported(const Robot& robot, const FitValues& values) {
   std::vector<double> all(values.begin(), values.end());
   const DerivedInertia inertia = derived_inertia(robot, values);
   all.push_back(inertia.wheel_axle_kg_m2), all.push_back(inertia.chassis_yaw_kg_m2);
   return all;
+}
+
+/// The jackknife weighs runs that carry much of a parameter's information too heavily, by about 1/(1 -
+/// share): with the effective number of runs this is the mean of that factor, 1 for equal runs.
+double leverage_correction(double effective, std::size_t units) {
+  const auto n = static_cast<double>(units);
+  return std::sqrt(std::max(0.0, 1 - 1 / std::max(effective, 1.5)) * n / (n - 1));
 }
 
 CalibratedParameter parameter_of(std::size_t p, double nominal, double value, double deviation,
@@ -148,14 +161,14 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
   else
     result.notes.push_back("fewer than 4 runs or blocks of 10 s: no intervals");
   const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
+  for (std::size_t p = 0; p < deviation.size(); ++p)
+    deviation[p] *= leverage_correction(effective[source_of(p)], units.size());
   const DerivedInertia from_geometry = geometric_deviation(robot, fit.result.values);
   deviation[kFitParameters] = std::hypot(deviation[kFitParameters], from_geometry.wheel_axle_kg_m2);
   deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
   const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
   for (std::size_t p = 0; p < after.size(); ++p) {
-    const std::size_t source = p < kFitParameters    ? p
-                               : p == kFitParameters ? std::size_t{kStraightInertia}
-                                                     : std::size_t{kTurningInertia};
+    const std::size_t source = source_of(p);
     CalibratedParameter parameter = parameter_of(p, before[p], after[p], deviation[p], effective[source]);
     if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
     if (fit.can.free[source] && fit.result.at_bound[source]) {

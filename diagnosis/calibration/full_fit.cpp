@@ -46,8 +46,25 @@ Eigen::Vector3d voltage_residual_slope(int parameter) {
   return {parameter == kResistance ? 1.0 : 0.0, parameter == kTorquePerAmpere ? 1.0 : 0.0, 0.0};
 }
 
+/// The voltage sums of Y = (i, q', V) seen through instruments Z: Y^T Z (Z^T Z)^-1 Z^T Y, without the part
+/// that di/dt explains. Noise in the measured current, white or not, is in Y but not in Z (signs, speeds,
+/// accelerations, di/dt, with which stationary noise does not correlate): it brings no bias to R. An
+/// inductance, which the model neglects, would bias R by what braking and accelerating currents differ.
+Eigen::Matrix3d instrumented(const FitSums& sums) {
+  const Eigen::Matrix<double, 6, 6> ZZ = sums.voltage.topLeftCorner<6, 6>();
+  const Eigen::Matrix<double, 6, 1> scale =
+      ZZ.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * ZZ * scale.asDiagonal();
+  const Eigen::Matrix<double, 6, 4> ZY = scale.asDiagonal() * sums.voltage.block<6, 4>(0, 5);
+  const Eigen::Matrix4d M = ZY.transpose() * scaled.completeOrthogonalDecomposition().solve(ZY);
+  const Eigen::Matrix3d rest = M.bottomRightCorner<3, 3>();
+  if (!(M(0, 0) > 0)) return rest;
+  return rest - M.bottomLeftCorner<3, 1>() * M.topRightCorner<1, 3>() / M(0, 0);
+}
+
 struct Problem {
   const FitSums& sums;
+  Eigen::Matrix3d voltage{};
   const FitWeights& weights;
   const FitValues& start;
   std::vector<int> free{};
@@ -66,7 +83,7 @@ double objective(unsigned count, const double* x, double* gradient, void* data) 
   const Columns c = current_residual(values);
   const Columns Gc = problem.sums.torque * c;
   const Eigen::Vector3d e = voltage_residual(values);
-  const Eigen::Vector3d Ge = problem.sums.voltage * e;
+  const Eigen::Vector3d Ge = problem.voltage * e;
   const double share = 1 / std::max(1.0, problem.sums.torque_count + problem.sums.voltage_count);
   for (unsigned i = 0; gradient && i < count; ++i) {
     const int p = problem.free[i];
@@ -102,7 +119,7 @@ FitValues linear_fit(const FitSums& sums, const FitValues& start, const FreePara
   for (auto [parameter, column] : {std::pair{kResistance, 0}, std::pair{kTorquePerAmpere, 1}})
     if (free[parameter] && sums.voltage_count > 0) columns.push_back(column), rest[column] = 0;
   if (!columns.empty()) {
-    const Eigen::VectorXd found = solve_free(sums.voltage, columns, rest);
+    const Eigen::VectorXd found = solve_free(instrumented(sums), columns, rest);
     for (std::size_t i = 0; i < columns.size(); ++i)
       values[columns[i] == 0 ? kResistance : kTorquePerAmpere] = found[static_cast<Eigen::Index>(i)];
   }
@@ -128,14 +145,16 @@ double current_mean_square_A2(const FitSums& sums, const FitValues& values) {
 
 double voltage_mean_square_V2(const FitSums& sums, const FitValues& values) {
   const Eigen::Vector3d e = voltage_residual(values);
-  return sums.voltage_count > 0 ? std::max(0.0, e.dot(sums.voltage * e)) / sums.voltage_count : 0.0;
+  return sums.voltage_count > 0
+             ? std::max(0.0, e.dot(sums.voltage.bottomRightCorner<3, 3>() * e)) / sums.voltage_count
+             : 0.0;
 }
 
 FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreeParameters& free) {
   const FitValues values = linear_fit(sums, start, free);
   // Data without noise leave nothing: a part in 1e7 of the signal keeps the weights finite.
   const double current_floor = 1e-14 * sums.torque(7, 7) / std::max(1.0, sums.torque_count);
-  const double voltage_floor = 1e-14 * sums.voltage(2, 2) / std::max(1.0, sums.voltage_count);
+  const double voltage_floor = 1e-14 * sums.voltage(8, 8) / std::max(1.0, sums.voltage_count);
   FitWeights weights{1 / std::max(current_mean_square_A2(sums, values), current_floor), 0.0};
   if (sums.voltage_count > 0)
     weights.voltage = 1 / std::max(voltage_mean_square_V2(sums, values), voltage_floor);
@@ -145,7 +164,7 @@ FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreePa
 FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValues& start,
                    const FitValues& lower, const FreeParameters& free) {
   FitResult result{.values = linear_fit(sums, start, free)};
-  Problem problem{sums, weights, start};
+  Problem problem{sums, instrumented(sums), weights, start};
   std::vector<double> x, bound;
   for (int p = 0; p < kFitParameters; ++p) {
     const auto at = static_cast<std::size_t>(p);
@@ -168,8 +187,11 @@ FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValu
   const double before = objective(count, x.data(), nullptr, &problem);
   std::vector<double> best = x;
   const nlopt_result status = nlopt_optimize(solver.get(), best.data(), &least);
-  // At a minimum to rounding the line search may give up: then the starting point stands.
-  if (std::isfinite(least) && least <= before) x = best;
+  // The sums are differences of large numbers: a gain below their rounding is none, and the start stands.
+  const double rounding = 1e-14 *
+                          (weights.torque * sums.torque(7, 7) + weights.voltage * sums.voltage(8, 8)) /
+                          std::max(1.0, sums.torque_count + sums.voltage_count);
+  if (std::isfinite(least) && least < before - rounding) x = best;
   result.converged = status > 0 || status == NLOPT_ROUNDOFF_LIMITED;
   result.values = problem.values(x.data());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -180,12 +202,13 @@ FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValu
 Eigen::Matrix<double, kFitParameters, kFitParameters> information(const FitSums& sums,
                                                                   const FitWeights& weights,
                                                                   const FitValues& values) {
+  const Eigen::Matrix3d voltage = instrumented(sums);
   Eigen::Matrix<double, kFitParameters, kFitParameters> H;
   for (int a = 0; a < kFitParameters; ++a)
     for (int b = 0; b < kFitParameters; ++b)
       H(a, b) = weights.torque *
                     current_residual_slope(values, a).dot(sums.torque * current_residual_slope(values, b)) +
-                weights.voltage * voltage_residual_slope(a).dot(sums.voltage * voltage_residual_slope(b));
+                weights.voltage * voltage_residual_slope(a).dot(voltage * voltage_residual_slope(b));
   return sums.independent_share * H;
 }
 

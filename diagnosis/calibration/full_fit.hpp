@@ -25,9 +25,9 @@ struct FitResult {
 /// Inverse residual variances of the free linear fits.
 [[nodiscard]] FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreeParameters& free);
 
-/// Minimizes the weighted squares over the free parameters within `lower` and infinity (NLopt LD_SLSQP, exact
-/// gradients), starting where the two equations alone lead; parameters that are not free keep `start`'s
-/// values.
+/// Minimizes the weighted squares (of voltages: their projection on the instruments, wheel_equations.hpp)
+/// over the free parameters within `lower` and infinity (NLopt LD_SLSQP, exact gradients), starting where the
+/// two equations alone lead; parameters that are not free keep `start`'s values.
 [[nodiscard]] FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValues& start,
                                  const FitValues& lower, const FreeParameters& free);
 

@@ -6,6 +6,7 @@
 namespace joulepath::calibration {
 namespace {
 
+constexpr double kLeastExcitation = 3;  ///< accelerations against their own noise, in squares
 constexpr double kWidestDirection = 0.5, kWidestPayloadFactor = 0.05;
 
 /// Indices of the free parameters.
@@ -58,6 +59,13 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
     result.free[kResistance] = result.free[kTorquePerAmpere] = false;
     result.why[kResistance] = result.why[kTorquePerAmpere] = "no run has motor voltages";
   }
+  for (int inertia : {kStraightInertia, kTurningInertia})
+    if (!(sums.torque(inertia, inertia) > kLeastExcitation * sums.acceleration_noise)) {
+      result.free[static_cast<std::size_t>(inertia)] = false;
+      result.why[static_cast<std::size_t>(inertia)] = inertia == kStraightInertia
+                                                          ? "the runs hardly accelerate"
+                                                          : "the runs hardly change their yaw rate";
+    }
   while (true) {
     const std::vector<int> free = indices(result.free);
     if (free.empty()) return result;
@@ -74,7 +82,7 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
       const std::string with = others(direction, free, held);
       result.free[parameter] = false;
       result.why[parameter] =
-          with.empty() ? "the runs do not excite it" : "cannot be told apart from " + with;
+          with.empty() ? "the runs hardly excite it" : "cannot be told apart from " + with;
       continue;
     }
     if (result.free[kPayloadFactor]) {

@@ -102,6 +102,7 @@ void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
       sample.speed_rad_s[side] = weighted(kernel.value, stretch.speed[side], i);
       sample.acceleration_rad_s2[side] = weighted(kernel.derivative, stretch.speed[side], i);
       sample.current_A[side] = weighted(kernel.value, stretch.current[side], i);
+      sample.current_slope_A_s[side] = weighted(kernel.derivative, stretch.current[side], i);
       sample.voltage_V[side] = run.has_voltage ? weighted(kernel.value, stretch.voltage[side], i)
                                                : std::numeric_limits<double>::quiet_NaN();
       sample.turning[side] = turns_one_way(stretch.speed[side], i, reach);
@@ -122,10 +123,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   SmoothedRun run{.name = source.name,
                   .has_voltage = !log.motor_voltage_V.left.empty() && !log.motor_voltage_V.right.empty(),
                   .kernel = make_smoothing_kernel(period_s, kKernelDeviation_s)};
-  for (Side side : kSides) {
-    run.noise.speed_rad_s += 0.5 * white_noise_deviation(speeds[side]);
-    run.noise.current_A += 0.5 * white_noise_deviation(log.motor_current_A[side]);
-  }
+  for (Side side : kSides) run.speed_noise_rad_s += 0.5 * white_noise_deviation(speeds[side]);
   std::size_t first = 0;
   for (std::size_t i = 1; i <= log.size(); ++i) {
     if (i < log.size() && log.time_s[i] - log.time_s[i - 1] < kLongestGap_periods * period_s) continue;

@@ -14,22 +14,17 @@ struct SmoothedSample {
   Sided<double> speed_rad_s{};
   Sided<double> acceleration_rad_s2{};
   Sided<double> current_A{};
+  Sided<double> current_slope_A_s{};
   Sided<double> voltage_V{};  ///< NaN where the log has none
   double payload_kg{};
   Sided<bool> turning{};  ///< the wheel turns one way throughout the kernel's reach
-};
-
-/// White noise of the raw samples of a run, for taking its share out of the normal equations.
-struct ChannelNoise {
-  double speed_rad_s{};
-  double current_A{};
 };
 
 struct SmoothedRun {
   std::string name{};
   bool has_voltage{};
   SmoothingKernel kernel{};
-  ChannelNoise noise{};
+  double speed_noise_rad_s{};  ///< of raw samples, white: for taking its share out of the normal equations
   std::vector<SmoothedSample> samples{};
 };
 

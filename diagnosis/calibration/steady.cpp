@@ -104,7 +104,7 @@ void require_usable(const Dataset& dataset, const std::vector<SteadySegment>& se
 std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs) {
   std::vector<SteadySegment> segments;
   for (const SmoothedRun& run : runs) {
-    const double threshold = std::max(kLeastAcceleration_rad_s2, kNoiseFactor * run.noise.speed_rad_s *
+    const double threshold = std::max(kLeastAcceleration_rad_s2, kNoiseFactor * run.speed_noise_rad_s *
                                                                      std::sqrt(run.kernel.derivative_gain));
     std::size_t first = 0;
     for (std::size_t i = 0; i <= run.samples.size(); ++i) {
@@ -158,6 +158,12 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
                 }).standard_deviation;
   else
     result.notes.push_back("fewer than 4 steady segments: no intervals");
+
+  // T_m and nu scale with the robot file's Kt: its uncertainty is theirs.
+  const auto of_constant = dataset.robot.uncertainty.find("torque_constant_Nm_A");
+  if (of_constant != dataset.robot.uncertainty.end())
+    for (std::size_t k = 0; k < values.size(); ++k)
+      deviation[k] = std::hypot(deviation[k], of_constant->second * values[k]);
 
   const char* kNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad",
                           "friction_torque_right_Nm", "viscous_friction_right_Nm_s_rad"};

@@ -55,7 +55,7 @@ void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample
   sums.torque += x * x.transpose();
 
   // Noise of the wheel speeds in q', in the mean and in half the difference of q'' (independent wheels).
-  const double speed_variance = run.noise.speed_rad_s * run.noise.speed_rad_s;
+  const double speed_variance = run.speed_noise_rad_s * run.speed_noise_rad_s;
   const double slow = run.kernel.value_gain * speed_variance;
   const double fast = 0.5 * run.kernel.derivative_gain * speed_variance;
   sums.torque(kViscous, kViscous) -= ratio.viscous * ratio.viscous * slow;
@@ -66,14 +66,21 @@ void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample
     sums.torque(kPayloadFactor, column) -= fast * factor;
     sums.torque(column, kPayloadFactor) -= fast * factor;
   }
+  sums.acceleration_noise += fast;
   sums.torque_count += 1;
 
   if (!run.has_voltage || !std::isfinite(sample.voltage_V[side])) return;
   const double back = ratio.torque_per_ampere * ratio.voltage_over_torque_constant;
-  const Eigen::Vector3d y(ratio.resistance * i, back * q, sample.voltage_V[side]);
+  Eigen::Matrix<double, FitSums::kVoltageColumns, 1> y;
+  y << x.head<5>(), sample.current_slope_A_s[side], ratio.resistance * i, back * q, sample.voltage_V[side];
   sums.voltage += y * y.transpose();
-  sums.voltage(0, 0) -= std::pow(ratio.resistance * run.noise.current_A, 2) * run.kernel.value_gain;
-  sums.voltage(1, 1) -= back * back * slow;
+  constexpr int kSpeed = 7;
+  sums.voltage(kViscous, kViscous) -= ratio.viscous * ratio.viscous * slow;
+  sums.voltage(kViscous, kSpeed) -= ratio.viscous * back * slow;
+  sums.voltage(kSpeed, kViscous) -= ratio.viscous * back * slow;
+  sums.voltage(kSpeed, kSpeed) -= back * back * slow;
+  sums.voltage(kStraightInertia, kStraightInertia) -= fast;
+  sums.voltage(kTurningInertia, kTurningInertia) -= fast;
   sums.voltage_count += 1;
 }
 
@@ -86,12 +93,14 @@ FitSums& FitSums::operator+=(const FitSums& other) {
     independent_share = (independent_share * static_cast<double>(samples) +
                          other.independent_share * static_cast<double>(other.samples)) /
                         count;
+  acceleration_noise += other.acceleration_noise;
   torque_count += other.torque_count, voltage_count += other.voltage_count, samples += other.samples;
   return *this;
 }
 
 FitSums& FitSums::operator-=(const FitSums& other) {
   torque -= other.torque, voltage -= other.voltage;
+  acceleration_noise -= other.acceleration_noise;
   torque_count -= other.torque_count, voltage_count -= other.voltage_count, samples -= other.samples;
   return *this;
 }

@@ -25,13 +25,17 @@ using FitValues = std::array<double, kFitParameters>;
 
 /// Sums of products of one run (or of a block of one), all that least squares needs of it. With
 ///   Kt n i = T_m sign(q') + nu q' + J q''_mean + D (q'' - q''_mean) + p x_payload + x_known,
-/// torque = sum of (x, i)(x, i)^T over both wheels' samples, and voltage = sum of (i, q', V)(i, q', V)^T.
-/// The share of white noise in smoothed speeds and currents is taken out.
+/// torque = sum of (x, i)(x, i)^T over both wheels' samples, and voltage the same of
+/// (sign left, sign right, q', q''_mean, q'' - q''_mean | di/dt, i, q', V): instruments, then the voltage
+/// equation's own columns. The share of white noise in smoothed speeds is taken out.
 struct FitSums {
+  static constexpr int kVoltageColumns = 9;
   static constexpr int kTorqueColumns = 8;  ///< six factors, the known torque, the current
   Eigen::Matrix<double, kTorqueColumns, kTorqueColumns> torque =
       Eigen::Matrix<double, kTorqueColumns, kTorqueColumns>::Zero();
-  Eigen::Matrix3d voltage = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, kVoltageColumns, kVoltageColumns> voltage =
+      Eigen::Matrix<double, kVoltageColumns, kVoltageColumns>::Zero();
+  double acceleration_noise{};  ///< what was taken out of (q''_mean)^2, and as much of the other
   double torque_count{};
   double voltage_count{};
   double independent_share{};  ///< samples that are independent after smoothing / samples
