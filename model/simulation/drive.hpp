@@ -85,13 +85,13 @@ class Drive {
   bool is_active(Surface surface) const { return active_[surface]; }
 
   /// True: body and wheels move apart, as states of their own. Contacts stiffer than kStiffest_N_s_m
-  /// creep by force/stiffness at once: their time constant is below 0.2 ms.
+  /// creep by force/stiffness at once: their time constant is below a millisecond.
   bool creeps() const { return creeps_; }
 
   /// Kinetic energy of body and wheels, and magnetic energy of the windings (J).
   double stored_energy_J(const DriveState& state) const;
 
-  static constexpr double kStiffest_N_s_m = 20000.0;
+  static constexpr double kStiffest_N_s_m = 5000.0;
 
  private:
   struct Forces;

@@ -191,6 +191,35 @@ TEST(Simulate, DriversKeepTheirLimits) {
   EXPECT_GT(result.saturated_fraction, 0.1);
 }
 
+TEST(Simulate, TheBatterySagsUnderLoadAndSaysWhereItGivesWay) {
+  Robot robot = nomad();
+  robot.battery.internal_resistance_ohm = 0.5;
+  SimulationRequest request = request_for(robot, {kStraight}, 10.0);
+  const SimulationResult result = simulate(request);
+  EXPECT_FALSE(result.battery_gave_way);
+  double loss_J = 0;
+  for (std::size_t i = 0; i < result.log.size(); ++i) {
+    const double current_A = result.log.battery_current_A[i];
+    EXPECT_NEAR(result.log.battery_voltage_V[i], 25 - 0.5 * current_A, 1e-9);
+    loss_J += 0.5 * current_A * current_A * 0.02;
+  }
+  EXPECT_NEAR(result.battery_loss_J / loss_J, 1.0, 0.01);
+  EXPECT_NEAR(result.energy_J,
+              result.motor_energy_J.left + result.motor_energy_J.right + 10 * result.duration_s,
+              0.05 * result.energy_J);  // braking is not recovered
+  request.effects = {{.name = "supply_sag", .parameters = {{"resistance_ohm", 14.0}}}};
+  EXPECT_TRUE(simulate(request).battery_gave_way);
+}
+
+TEST(Simulate, WithoutABatteryTheLogHasNoBatteryChannels) {
+  Robot robot = nomad();
+  robot.battery = {};
+  const SimulationResult result = simulate(request_for(robot, {kStraight}));
+  EXPECT_TRUE(result.log.battery_voltage_V.empty());
+  EXPECT_EQ(result.battery_loss_J, 0.0);
+  EXPECT_GT(result.energy_J, 0.0);
+}
+
 TEST(Simulate, InstrumentEffectsDistortTheLogOnly) {
   SimulationRequest request = request_for(nomad(), kTour);
   const SimulationResult plain = simulate(request);
