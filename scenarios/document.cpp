@@ -1,120 +1,16 @@
 #include "scenarios/document.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 
 namespace joulepath {
 namespace {
-
-constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxValues = 2'000'000;
-
-/// Copies yaml-cpp's tree into ours; finds duplicate keys, cycles and bombs of aliases.
-class TreeBuilder {
- public:
-  TreeBuilder(const std::string& file, int first_line) : file_(file), first_line_(first_line) {}
-
-  Value build(const YAML::Node& node, int depth, const std::string& path = "") {
-    Value value;
-    set_mark(node.Mark(), value.line, value.column);
-    if (depth > kMaxDepth || ++count_ > kMaxValues)
-      fail(value.line, value.column, "",
-           depth > kMaxDepth ? "lists and maps more than 64 deep" : "more than 2,000,000 values",
-           "a file of ordinary size");
-    switch (node.Type()) {
-      case YAML::NodeType::Scalar:
-        value.kind = Value::Kind::scalar;
-        value.text = node.Scalar();
-        value.quoted = node.Tag() == "!";
-        break;
-      case YAML::NodeType::Sequence:
-        value.kind = Value::Kind::list;
-        for (const auto& item : node)
-          value.items.push_back(
-              build(item, depth + 1, path + "[" + std::to_string(value.items.size()) + "]"));
-        break;
-      case YAML::NodeType::Map:
-        build_map(node, depth, path, value);
-        break;
-      default:
-        value.kind = Value::Kind::null;
-    }
-    return value;
-  }
-
- private:
-  void build_map(const YAML::Node& node, int depth, const std::string& path, Value& value) {
-    value.kind = Value::Kind::map;
-    for (const auto& pair : node) {
-      Value::Entry entry;
-      set_mark(pair.first.Mark(), entry.line, entry.column);
-      if (!pair.first.IsScalar())
-        fail(entry.line, entry.column, "", "a key that is a list or a map", "a word as key");
-      entry.key = pair.first.Scalar();
-      const std::string full = path.empty() ? entry.key : path + "." + entry.key;
-      const auto same = std::find_if(value.entries.begin(), value.entries.end(),
-                                     [&](const Value::Entry& other) { return other.key == entry.key; });
-      if (same != value.entries.end())
-        fail(entry.line, entry.column, full, "the key a second time", "each key once",
-             "it stands on line " + std::to_string(same->line) + " already");
-      entry.value = build(pair.second, depth + 1, full);
-      if (entry.value.kind == Value::Kind::null)
-        entry.value.line = entry.line, entry.value.column = entry.column;
-      value.entries.push_back(std::move(entry));
-    }
-  }
-
-  void set_mark(const YAML::Mark& mark, int& line, int& column) const {
-    line = mark.line < 0 ? 0 : mark.line + first_line_;
-    column = mark.column < 0 ? 0 : mark.column + 1;
-  }
-
-  [[noreturn]] void fail(int line, int column, std::string key, std::string found, std::string accepted,
-                         std::string hint = {}) const {
-    throw ConfigError(
-        {{file_, line, column}, std::move(key), std::move(found), std::move(accepted), std::move(hint)});
-  }
-
-  const std::string& file_;
-  int first_line_;
-  std::size_t count_{};
-};
-
-constexpr std::string_view kDataDirectory = "${JOULEPATH_DATA_DIR}";
-
-/// The text of a node with ${JOULEPATH_DATA_DIR} at its beginning filled in from the environment.
-std::string with_data_directory(const Node& node, const ReadOptions& options) {
-  const std::string& name = node.text();
-  if (options.untrusted || name.compare(0, kDataDirectory.size(), kDataDirectory) != 0) return name;
-  const char* folder = std::getenv("JOULEPATH_DATA_DIR");
-  if (!folder)
-    node.fail("a file; the environment variable JOULEPATH_DATA_DIR is not set",
-              "set it to the folder that holds the data");
-  return std::string(folder) + name.substr(kDataDirectory.size());
-}
 
 std::string shortened(const std::string& text) {
   std::string clean;
   for (const char c : text) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   return clean.size() > 60 ? clean.substr(0, 57) + "..." : clean;
-}
-
-std::string syntax_hint(const std::string& text, int line) {
-  std::istringstream lines(text);
-  std::string current;
-  for (int i = 0; i <= line && std::getline(lines, current); ++i) {
-  }
-  if (current.find('\t') != std::string::npos) return "YAML indents with spaces; this line holds a tab";
-  return "is a bracket, quote, comma or colon missing here or on the line above?";
 }
 
 int edit_distance(std::string_view a, std::string_view b) {
@@ -289,77 +185,6 @@ void Node::fail(std::string accepted, std::string hint) const {
 
 void Node::fail_found(std::string found, std::string accepted, std::string hint) const {
   throw ConfigError({mark(), path_, std::move(found), std::move(accepted), std::move(hint)});
-}
-
-Document Document::parse(std::string_view text, std::string file, int first_line) {
-  Document document;
-  document.file_ = std::make_unique<const std::string>(std::move(file));
-  const std::string copy(text);
-  if (copy.find('\0') != std::string::npos)
-    throw ConfigError({{document.file(), 0, 0}, "", "binary data", "a text file in YAML", ""});
-  try {
-    const std::vector<YAML::Node> roots = YAML::LoadAll(copy);
-    if (roots.size() > 1)
-      throw ConfigError({{document.file(), 0, 0},
-                         "",
-                         std::to_string(roots.size()) + " YAML documents",
-                         "one",
-                         "remove the --- lines"});
-    TreeBuilder builder(document.file(), first_line);
-    document.root_ = std::make_unique<const Value>(roots.empty() ? Value{} : builder.build(roots.front(), 0));
-  } catch (const YAML::Exception& error) {
-    const int line = error.mark.line < 0 ? 0 : error.mark.line;
-    throw ConfigError({{document.file(), line + first_line, std::max(0, error.mark.column) + 1},
-                       "",
-                       "text that is not YAML (" + error.msg + ")",
-                       "YAML",
-                       syntax_hint(copy, line)});
-  }
-  return document;
-}
-
-Document Document::load(const std::string& file, const NamedBy& named_by) {
-  return parse(read_text_file(file, named_by), file);
-}
-
-ConfigError NamedBy::error(const std::string& file, std::string found, std::string accepted,
-                           std::string hint) const {
-  if (mark.file.empty())
-    return ConfigError({{file, 0, 0}, "", std::move(found), std::move(accepted), std::move(hint)});
-  return ConfigError({mark, key, file + ", " + found, std::move(accepted), std::move(hint)});
-}
-
-std::string read_text_file(const std::string& file, const NamedBy& named_by) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw named_by.error(file, "a directory", "a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream && errno == EACCES) throw std::system_error(errno, std::generic_category(), file);
-  if (!stream)
-    throw named_by.error(
-        file, std::string("no readable file (") + std::strerror(errno) + ")", "a file that can be read",
-        named_by.mark.file.empty() ? "" : "relative paths are relative to the file that names them");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw named_by.error(file, "a file that cannot be read to its end", "a readable file");
-  return text;
-}
-
-std::string resolve_file(const Node& node, const ReadOptions& options) {
-  namespace fs = std::filesystem;
-  const fs::path name = with_data_directory(node, options);
-  if (name.empty()) node.fail_found("an empty text", "the name of a file");
-  const fs::path folder = fs::path(node.mark().file).parent_path();
-  const fs::path resolved = name.is_absolute() ? name : folder / name;
-  if (options.untrusted) {
-    const std::string accepted = "a path inside of the input's folder";
-    const std::string hint = "the input is read as untrusted";
-    if (name.is_absolute()) node.fail(accepted, hint);
-    std::error_code error;
-    const fs::path base = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
-    const fs::path target = fs::weakly_canonical(resolved, error);
-    const auto mismatch = std::mismatch(base.begin(), base.end(), target.begin(), target.end());
-    if (error || mismatch.first != base.end()) node.fail(accepted, hint);
-  }
-  return resolved.lexically_normal().string();
 }
 
 }  // namespace joulepath

@@ -21,8 +21,8 @@ struct Value {
   bool quoted{};       ///< of a scalar: it is a string whatever it looks like
   int line{};
   int column{};
-  std::vector<Value> items{};
-  std::vector<Entry> entries{};  ///< in the file's order, keys unique
+  std::vector<Value> items;
+  std::vector<Entry> entries;  ///< in the file's order, keys unique
 };
 
 struct Value::Entry {

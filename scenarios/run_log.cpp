@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "scenarios/csv_table.hpp"
+#include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
 
 namespace joulepath {
@@ -17,162 +17,6 @@ bool is_orientation(const std::string& name) {
                      [&](const char* q) { return name == q; });
 }
 
-/// The names by which a file may know one of the format's columns.
-std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources) {
-  const auto source = sources.find(column);
-  return source == sources.end() || source->second.from.empty() ? std::vector<std::string>{column}
-                                                                : source->second.from;
-}
-
-/// One file of a run: its columns in the format's names and units, on its own times.
-class LogFile {
- public:
-  LogFile(const LogFileName& name, const ColumnSources& sources, const std::string& run)
-      : sources_(sources), run_(run) {
-    table_ = read_csv(
-        name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
-    if (table_.rows() < 2)
-      throw ConfigError({{name.file, 0, 0},
-                         "",
-                         std::to_string(table_.rows()) + (table_.rows() == 1 ? " row" : " rows"),
-                         "at least 2 samples",
-                         ""});
-    read_times();
-    for (const auto& column : log_columns())
-      if (column.measured && column.name != "time_s") read_channel(column.name);
-    for (const char* name_of : kOrientationColumns) read_channel(name_of);
-    if (!used_orientation()) return;
-    heading_from_orientation();
-  }
-
-  std::vector<double> times{};
-  std::map<std::string, std::vector<double>> channels{};
-  std::vector<LogArtifact> artifacts{};
-
-  [[nodiscard]] const CsvTable& table() const { return table_; }
-
- private:
-  [[nodiscard]] bool wanted(const std::string& header) const {
-    const auto names = [&](const std::string& column) {
-      const auto in_file = names_in_file(column, sources_);
-      return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
-    };
-    for (const auto& column : log_columns())
-      if (column.measured && names(column.name)) return true;
-    return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
-  }
-
-  const std::vector<double>* raw(const std::string& column) const {
-    for (const auto& name : names_in_file(column, sources_))
-      if (const auto* values = table_.find(name)) return values;
-    return nullptr;
-  }
-
-  ColumnSource source(const std::string& column) const {
-    const auto found = sources_.find(column);
-    return found == sources_.end() ? ColumnSource{} : found->second;
-  }
-
-  [[noreturn]] void fail_time(std::size_t row, std::string found, std::string accepted,
-                              std::string hint = {}) const {
-    throw ConfigError({{table_.file, table_.line_of_row[row], 1},
-                       names_in_file("time_s", sources_).front(),
-                       std::move(found),
-                       std::move(accepted),
-                       std::move(hint)});
-  }
-
-  void read_times() {
-    const auto* values = raw("time_s");
-    if (!values) {
-      const std::string expected = names_in_file("time_s", sources_).front();
-      const std::string near = nearest_word(expected, table_.header);
-      throw ConfigError({{table_.file, 1, 1},
-                         "",
-                         "no column " + expected,
-                         "a column with the time of each sample",
-                         near.empty() ? "map the log's own name under columns: time_s: {from: ...}"
-                                      : "map it under columns: time_s: {from: " + near + "}?"});
-    }
-    times = *values;
-    const ColumnSource mapping = source("time_s");
-    for (std::size_t i = 0; i < times.size(); ++i)
-      if (!std::isfinite(times[i])) fail_time(i, "an empty cell", "the time of every sample");
-    if (mapping.wraps_at)
-      if (const auto wraps = unwrap_counter(times, *mapping.wraps_at))
-        artifacts.push_back(
-            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
-    for (double& time_s : times) time_s = mapping.scale * time_s + mapping.offset;
-    for (std::size_t i = 1; i < times.size(); ++i)
-      if (times[i] <= times[i - 1]) fail_backward(i, mapping);
-  }
-
-  [[noreturn]] void fail_backward(std::size_t i, const ColumnSource& mapping) const {
-    char found[96];
-    std::snprintf(found, sizeof found, "%.9g s after %.9g s", times[i], times[i - 1]);
-    const bool wrapped = !mapping.wraps_at && times[i - 1] - times[i] > 0.5 * (times[i - 1] - times[0]) &&
-                         times[i] >= 0.0 && i > 2;
-    fail_time(i, found, "times that increase strictly",
-              wrapped ? "does the clock start again at 0? Give columns: time_s: {wraps_at: ...}" : "");
-  }
-
-  void read_channel(const std::string& name) {
-    const auto* values = raw(name);
-    if (!values) return;
-    std::vector<double> channel = *values;
-    const ColumnSource mapping = source(name);
-    if (const auto missing = fill_missing(times, channel))
-      artifacts.push_back({"missing_values", run_, name,
-                           channel.empty() ? "the column is empty" : "empty cells, filled by interpolation",
-                           missing, 0.0});
-    if (channel.empty()) return;
-    if (mapping.wraps_at)
-      if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
-        artifacts.push_back(
-            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
-    for (double& value : channel) value = mapping.scale * value + mapping.offset;
-    if (mapping.derivative) channel = change_per_second(times, channel);
-    if (mapping.delay_s != 0.0) {
-      std::vector<double> shifted = times;
-      for (double& time_s : shifted) time_s -= mapping.delay_s;
-      channel = interpolated(shifted, channel, times);
-    }
-    channels[name] = std::move(channel);
-  }
-
-  [[nodiscard]] bool used_orientation() const {
-    return !channels.contains("heading_rad") && channels.contains("orientation_w") &&
-           channels.contains("orientation_z");
-  }
-
-  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
-  void heading_from_orientation() {
-    const auto part = [&](const char* name) {
-      return channels.contains(name) ? channels[name] : std::vector<double>(times.size(), 0.0);
-    };
-    const auto w = part("orientation_w"), x = part("orientation_x"), y = part("orientation_y"),
-               z = part("orientation_z");
-    std::vector<double> heading_rad(times.size());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double norm = w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-      if (norm < 0.25 || norm > 4.0)
-        throw ConfigError({{table_.file, table_.line_of_row[i], 1},
-                           "orientation_w",
-                           "a quaternion of length " + std::to_string(std::sqrt(norm)),
-                           "a unit quaternion",
-                           ""});
-      heading_rad[i] = std::atan2(2.0 * (w[i] * z[i] + x[i] * y[i]),
-                                  w[i] * w[i] + x[i] * x[i] - y[i] * y[i] - z[i] * z[i]);
-    }
-    unwrap_angle(heading_rad);
-    channels["heading_rad"] = std::move(heading_rad);
-  }
-
-  const ColumnSources& sources_;
-  const std::string& run_;
-  CsvTable table_{};
-};
-
 /// Takes the channels of all files to the times of the first, where all overlap.
 void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   double begin_s = files.front().times.front(), end_s = files.front().times.back();
@@ -184,9 +28,9 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   const auto first = std::lower_bound(base.begin(), base.end(), begin_s),
              last = std::upper_bound(base.begin(), base.end(), end_s);
   if (last - first < 2)
-    throw ConfigError({{files.back().table().file, 0, 0},
+    throw ConfigError({{files.back().table.file, 0, 0},
                        "time_s",
-                       "times that do not overlap with those of " + files.front().table().file,
+                       "times that do not overlap with those of " + files.front().table.file,
                        "files of one run on one clock",
                        "map time_s so that all files count alike"});
   log.trajectory.time_s.assign(first, last);
@@ -216,7 +60,7 @@ void note_ignored(const std::vector<LogFile>& files, const ColumnSources& source
   std::string ignored;
   std::size_t count = 0;
   for (const auto& file : files)
-    for (const auto& header : file.table().header) {
+    for (const auto& header : file.table.header) {
       bool known = find_log_column(header) != nullptr || is_orientation(header);
       for (const auto& [column, source] : sources)
         known = known || std::find(source.from.begin(), source.from.end(), header) != source.from.end();
@@ -232,14 +76,14 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
     if (source.from.empty()) continue;
     std::vector<std::string> headers;
     for (const auto& file : files)
-      headers.insert(headers.end(), file.table().header.begin(), file.table().header.end());
+      headers.insert(headers.end(), file.table.header.begin(), file.table.header.end());
     const bool found = std::any_of(source.from.begin(), source.from.end(), [&](const std::string& name) {
       return std::find(headers.begin(), headers.end(), name) != headers.end();
     });
     if (found) continue;
     const std::string near = nearest_word(source.from.front(), headers);
     throw ConfigError({source.mark, "columns." + column + ".from", source.from.front(),
-                       "a column of " + files.front().table().file,
+                       "a column of " + files.front().table.file,
                        near.empty() ? "" : "did you mean " + near + "?"});
   }
 }
@@ -316,7 +160,7 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
                     const Geometry& geometry, const std::string& run) {
   std::vector<LogFile> files;
   files.reserve(names.size());
-  for (const auto& name : names) files.emplace_back(name, sources, run);
+  for (const auto& name : names) files.push_back(read_log_file(name, sources, run));
   check_mapped_columns_found(files, sources);
   RunLog log;
   for (const auto& file : files)

@@ -7,6 +7,7 @@
 #include "model/robot.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/log_file.hpp"
 
 namespace joulepath {
 
@@ -15,12 +16,6 @@ struct RunLog {
   Trajectory trajectory{};
   std::vector<LogArtifact> artifacts{};
   bool current_sign_from_motion{};
-};
-
-/// A log file and where it is named (for messages).
-struct LogFileName {
-  std::string file{};
-  NamedBy named_by{};
 };
 
 /// Reads one run from one or several files; with several, all channels are taken to the times of the first

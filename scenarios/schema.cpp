@@ -135,6 +135,12 @@ void check_any_of(const Node& node, const Schema& schema) {
   check_value(node, *fitting.back());
 }
 
+Schema of_kind(Schema::Kind kind) {
+  Schema schema;
+  schema.kind = kind;
+  return schema;
+}
+
 std::pair<std::string, std::string> kind_and_version(const std::string& line) {
   const std::string prefix = "joulepath/";
   const auto slash = line.rfind('/');
@@ -150,21 +156,44 @@ Schema Schema::with_exactly_one(std::vector<std::string> group) && {
   return std::move(*this);
 }
 
-Schema number(Range range) { return {.kind = Schema::Kind::number, .range = range}; }
-Schema integer(Range range) { return {.kind = Schema::Kind::integer, .range = range}; }
-Schema boolean() { return {.kind = Schema::Kind::boolean}; }
-Schema text() { return {.kind = Schema::Kind::text}; }
+Schema number(Range range) {
+  Schema schema = of_kind(Schema::Kind::number);
+  schema.range = range;
+  return schema;
+}
+Schema integer(Range range) {
+  Schema schema = of_kind(Schema::Kind::integer);
+  schema.range = range;
+  return schema;
+}
+Schema boolean() { return of_kind(Schema::Kind::boolean); }
+Schema text() { return of_kind(Schema::Kind::text); }
 Schema choice(std::vector<std::string> words) {
-  return {.kind = Schema::Kind::choice, .choices = std::move(words)};
+  Schema schema = of_kind(Schema::Kind::choice);
+  schema.choices = std::move(words);
+  return schema;
 }
 Schema list(Schema item, std::size_t min_items, std::size_t max_items) {
-  return {
-      .kind = Schema::Kind::list, .parts = {std::move(item)}, .min_items = min_items, .max_items = max_items};
+  Schema schema = of_kind(Schema::Kind::list);
+  schema.parts.push_back(std::move(item));
+  schema.min_items = min_items;
+  schema.max_items = max_items;
+  return schema;
 }
-Schema map(std::vector<Schema::Key> keys) { return {.kind = Schema::Kind::map, .keys = std::move(keys)}; }
-Schema dictionary(Schema item) { return {.kind = Schema::Kind::dictionary, .parts = {std::move(item)}}; }
+Schema map(std::vector<Schema::Key> keys) {
+  Schema schema = of_kind(Schema::Kind::map);
+  schema.keys = std::move(keys);
+  return schema;
+}
+Schema dictionary(Schema item) {
+  Schema schema = of_kind(Schema::Kind::dictionary);
+  schema.parts.push_back(std::move(item));
+  return schema;
+}
 Schema any_of(std::vector<Schema> alternatives) {
-  return {.kind = Schema::Kind::any_of, .parts = std::move(alternatives)};
+  Schema schema = of_kind(Schema::Kind::any_of);
+  schema.parts = std::move(alternatives);
+  return schema;
 }
 Schema sided(const Schema& value) {
   return any_of({value, map({required("left", value), required("right", value)})});

@@ -33,9 +33,9 @@ struct Schema {
       parts{};              ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
   std::size_t min_items{};  ///< list; map: how many keys at least
   std::size_t max_items{std::numeric_limits<std::size_t>::max()};
-  std::vector<Key> keys{};  ///< map
-  bool open{};              ///< map: keys that are not named are accepted (results, which grow)
-  bool nullable{};          ///< null is accepted (results: a number that is not finite)
+  std::vector<Key> keys;  ///< map
+  bool open{};            ///< map: keys that are not named are accepted (results, which grow)
+  bool nullable{};        ///< null is accepted (results: a number that is not finite)
   std::vector<std::vector<std::string>> exactly_one{};  ///< map: of each group one key must be there
 
   Schema with_exactly_one(std::vector<std::string> group) &&;

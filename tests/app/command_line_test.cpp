@@ -95,12 +95,15 @@ TEST(CommandLine, CompletionKnowsEveryCommandAndIsValidBash) {
   EXPECT_EQ(std::system(("bash '" + completed + "'").c_str()), 0);
 }
 
-TEST(Init, WritesAStarterThatIsRight) {
+TEST(Init, WritesAStarterThatIsRightAndPlansAtOnce) {
   const ScratchDirectory scratch;
   const std::string folder = scratch.at("starter");
   ASSERT_EQ(run_program(scratch, "init " + folder).code, 0);
   for (const char* file : {"robot.yaml", "map.yaml", "mission.yaml", "dataset.yaml"})
     EXPECT_NO_THROW(static_cast<void>(read_any_file(folder + "/" + file))) << file;
+  const auto plan = run_program(scratch, "plan " + folder + "/mission.yaml --out " + folder + "/out");
+  EXPECT_EQ(plan.code, 0) << plan.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/out/trajectory.csv"));
   EXPECT_EQ(run_program(scratch, "init " + folder).code, 2) << "it must not overwrite";
   EXPECT_EQ(run_program(scratch, "init --force " + folder).code, 0);
 }

@@ -1,0 +1,170 @@
+#include "scenarios/log_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scenarios/log_repair.hpp"
+
+namespace joulepath {
+namespace {
+
+class LogFileReader {
+ public:
+  LogFileReader(const LogFileName& name, const ColumnSources& sources, const std::string& run)
+      : sources_(sources), run_(run) {
+    file_.table = read_csv(
+        name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
+    if (file_.table.rows() < 2)
+      throw ConfigError({{name.file, 0, 0},
+                         "",
+                         std::to_string(file_.table.rows()) + (file_.table.rows() == 1 ? " row" : " rows"),
+                         "at least 2 samples",
+                         ""});
+    read_times();
+    for (const auto& column : log_columns())
+      if (column.measured && column.name != "time_s") read_channel(column.name);
+    for (const char* name_of : kOrientationColumns) read_channel(name_of);
+    if (!used_orientation()) return;
+    heading_from_orientation();
+  }
+
+  LogFile take() { return std::move(file_); }
+
+ private:
+  [[nodiscard]] bool wanted(const std::string& header) const {
+    const auto names = [&](const std::string& column) {
+      const auto in_file = names_in_file(column, sources_);
+      return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
+    };
+    for (const auto& column : log_columns())
+      if (column.measured && names(column.name)) return true;
+    return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
+  }
+
+  const std::vector<double>* raw(const std::string& column) const {
+    for (const auto& name : names_in_file(column, sources_))
+      if (const auto* values = file_.table.find(name)) return values;
+    return nullptr;
+  }
+
+  ColumnSource source(const std::string& column) const {
+    const auto found = sources_.find(column);
+    return found == sources_.end() ? ColumnSource{} : found->second;
+  }
+
+  [[noreturn]] void fail_time(std::size_t row, std::string found, std::string accepted,
+                              std::string hint = {}) const {
+    throw ConfigError({{file_.table.file, file_.table.line_of_row[row], 1},
+                       names_in_file("time_s", sources_).front(),
+                       std::move(found),
+                       std::move(accepted),
+                       std::move(hint)});
+  }
+
+  void read_times() {
+    const auto* values = raw("time_s");
+    if (!values) {
+      const std::string expected = names_in_file("time_s", sources_).front();
+      const std::string near = nearest_word(expected, file_.table.header);
+      throw ConfigError({{file_.table.file, 1, 1},
+                         "",
+                         "no column " + expected,
+                         "a column with the time of each sample",
+                         near.empty() ? "map the log's own name under columns: time_s: {from: ...}"
+                                      : "map it under columns: time_s: {from: " + near + "}?"});
+    }
+    file_.times = *values;
+    const ColumnSource mapping = source("time_s");
+    for (std::size_t i = 0; i < file_.times.size(); ++i)
+      if (!std::isfinite(file_.times[i])) fail_time(i, "an empty cell", "the time of every sample");
+    if (mapping.wraps_at)
+      if (const auto wraps = unwrap_counter(file_.times, *mapping.wraps_at))
+        file_.artifacts.push_back(
+            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
+    for (double& time_s : file_.times) time_s = mapping.scale * time_s + mapping.offset;
+    for (std::size_t i = 1; i < file_.times.size(); ++i)
+      if (file_.times[i] <= file_.times[i - 1]) fail_backward(i, mapping);
+  }
+
+  [[noreturn]] void fail_backward(std::size_t i, const ColumnSource& mapping) const {
+    char found[96];
+    std::snprintf(found, sizeof found, "%.9g s after %.9g s", file_.times[i], file_.times[i - 1]);
+    const bool wrapped = !mapping.wraps_at &&
+                         file_.times[i - 1] - file_.times[i] > 0.5 * (file_.times[i - 1] - file_.times[0]) &&
+                         file_.times[i] >= 0.0 && i > 2;
+    fail_time(i, found, "times that increase strictly",
+              wrapped ? "does the clock start again at 0? Give columns: time_s: {wraps_at: ...}" : "");
+  }
+
+  void read_channel(const std::string& name) {
+    const auto* values = raw(name);
+    if (!values) return;
+    std::vector<double> channel = *values;
+    const ColumnSource mapping = source(name);
+    if (const auto missing = fill_missing(file_.times, channel))
+      file_.artifacts.push_back(
+          {"missing_values", run_, name,
+           channel.empty() ? "the column is empty" : "empty cells, filled by interpolation", missing, 0.0});
+    if (channel.empty()) return;
+    if (mapping.wraps_at)
+      if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
+        file_.artifacts.push_back(
+            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
+    for (double& value : channel) value = mapping.scale * value + mapping.offset;
+    if (mapping.derivative) channel = change_per_second(file_.times, channel);
+    if (mapping.delay_s != 0.0) {
+      std::vector<double> shifted = file_.times;
+      for (double& time_s : shifted) time_s -= mapping.delay_s;
+      channel = interpolated(shifted, channel, file_.times);
+    }
+    file_.channels[name] = std::move(channel);
+  }
+
+  [[nodiscard]] bool used_orientation() const {
+    return !file_.channels.contains("heading_rad") && file_.channels.contains("orientation_w") &&
+           file_.channels.contains("orientation_z");
+  }
+
+  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
+  void heading_from_orientation() {
+    const auto part = [&](const char* name) {
+      return file_.channels.contains(name) ? file_.channels[name]
+                                           : std::vector<double>(file_.times.size(), 0.0);
+    };
+    const auto w = part("orientation_w"), x = part("orientation_x"), y = part("orientation_y"),
+               z = part("orientation_z");
+    std::vector<double> heading_rad(file_.times.size());
+    for (std::size_t i = 0; i < file_.times.size(); ++i) {
+      const double norm = w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      if (norm < 0.25 || norm > 4.0)
+        throw ConfigError({{file_.table.file, file_.table.line_of_row[i], 1},
+                           "orientation_w",
+                           "a quaternion of length " + std::to_string(std::sqrt(norm)),
+                           "a unit quaternion",
+                           ""});
+      heading_rad[i] = std::atan2(2.0 * (w[i] * z[i] + x[i] * y[i]),
+                                  w[i] * w[i] + x[i] * x[i] - y[i] * y[i] - z[i] * z[i]);
+    }
+    unwrap_angle(heading_rad);
+    file_.channels["heading_rad"] = std::move(heading_rad);
+  }
+
+  const ColumnSources& sources_;
+  const std::string& run_;
+  LogFile file_{};
+};
+
+}  // namespace
+
+std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources) {
+  const auto source = sources.find(column);
+  return source == sources.end() || source->second.from.empty() ? std::vector<std::string>{column}
+                                                                : source->second.from;
+}
+
+LogFile read_log_file(const LogFileName& name, const ColumnSources& sources, const std::string& run) {
+  return LogFileReader(name, sources, run).take();
+}
+
+}  // namespace joulepath

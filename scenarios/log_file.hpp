@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/dataset.hpp"
+#include "scenarios/csv_table.hpp"
+#include "scenarios/log_columns.hpp"
+
+namespace joulepath {
+
+/// A log file and where it is named (for messages).
+struct LogFileName {
+  std::string file{};
+  NamedBy named_by{};
+};
+
+/// One file of a run: its columns in the format's names and units, on its own times.
+struct LogFile {
+  CsvTable table{};
+  std::vector<double> times{};
+  std::map<std::string, std::vector<double>> channels{};
+  std::vector<LogArtifact> artifacts{};
+};
+
+/// The names by which a file may know one of the format's columns.
+[[nodiscard]] std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources);
+
+/// Reads one file of a run. Throws ConfigError: no time, times that do not increase, malformed cells.
+[[nodiscard]] LogFile read_log_file(const LogFileName& name, const ColumnSources& sources,
+                                    const std::string& run);
+
+}  // namespace joulepath
