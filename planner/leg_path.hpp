@@ -30,4 +30,8 @@ struct LegStart {
                                const MissionRequest& mission, const RouteSpace* space,
                                const PlanOptions& options);
 
+/// The route search of a leg to a station; its seed differs from leg to leg.
+[[nodiscard]] RouteRequest route_request(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
+                                         const MissionRequest& mission, const PlanOptions& options);
+
 }  // namespace joulepath

@@ -1,0 +1,93 @@
+#include "planner/draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/prescribed_leg.hpp"
+
+namespace joulepath {
+namespace {
+
+std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequest& leg, const Pose& pose) {
+  const double most_kg = std::max(leg.payload.from_kg, leg.payload.to_kg);
+  const double limit_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
+  if (most_kg <= limit_kg) return std::nullopt;
+  return Infeasibility{.constraint = "max_payload",
+                       .x_m = pose.x_m,
+                       .y_m = pose.y_m,
+                       .amount = most_kg - limit_kg,
+                       .unit = "kg",
+                       .relaxation = {{"max_payload_kg", most_kg}},
+                       .message = "the payload exceeds what the robot may carry"};
+}
+
+}  // namespace
+
+Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
+  plan.status = SolveStatus::infeasible;
+  plan.message = reason.message;
+  plan.infeasibility = {.reason = std::move(reason), .leg = leg, .arc_length_m = arc_length_m};
+  return plan;
+}
+
+Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
+                 const Plant& plant, const PlanOptions& options, const std::vector<double>& price_W,
+                 Plan& plan) {
+  Draft draft;
+  LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
+  for (std::size_t k = 0; k < mission.legs.size(); ++k) {
+    const LegRequest& leg = mission.legs[k];
+    if (auto reason = payload_too_heavy(world.robot, leg, start.pose)) {
+      plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
+      return draft;
+    }
+    if (leg.motion) {
+      draft.timing.emplace_back(std::vector<ProfileRequest>{});
+      draft.legs.push_back(prescribed_leg(leg, plant, start.pose));
+      start.pose =
+          sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      continue;
+    }
+    LegPath way = choose_leg_path(leg, k, start, {mission, world, space, plant, options, price_W[k]});
+    if (way.infeasibility) {
+      const double s_m = way.infeasibility->s;
+      plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
+      return draft;
+    }
+    draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options));
+    draft.legs.push_back({.to = leg.path ? "path" : leg.to,
+                          .path_source = way.source,
+                          .payload = leg.payload,
+                          .dwell_s = leg.dwell_s,
+                          .distance_m = way.path.distance_m(),
+                          .turned_rad = way.path.turned_rad(),
+                          .alternatives = way.alternatives});
+    if (way.path.pieces.empty()) continue;
+    start = {.pose = way.path.end(), .heading_free = false};
+  }
+  return draft;
+}
+
+bool check_each_leg(Draft& draft, double price_W, SolverChoice solver, Plan& plan) {
+  for (std::size_t leg = 0; leg < draft.timing.size(); ++leg) {
+    double offset_m = 0.0;
+    const auto& results = draft.timing[leg].solve(price_W, solver);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const PathPiece& piece = draft.timing[leg].stretches()[k].piece;
+      if (!results[k].profile) {
+        if (results[k].infeasibility) {
+          const double s_m = offset_m + (is_turn(piece) ? 0.0 : results[k].infeasibility->s);
+          plan = infeasible(std::move(plan), leg, s_m, *results[k].infeasibility);
+        } else {
+          plan.status = SolveStatus::failed;
+          plan.message = "leg " + std::to_string(leg) + ": " + results[k].summary.message;
+        }
+        return false;
+      }
+      if (!is_turn(piece)) offset_m += piece_length(piece);
+    }
+  }
+  return true;
+}
+
+}  // namespace joulepath
