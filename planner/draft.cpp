@@ -21,6 +21,12 @@ std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequ
                        .message = "the payload exceeds what the robot may carry"};
 }
 
+bool begins_as(const LegWays& ways, const LegStart& start) {
+  const Pose &a = ways.start.pose, &b = start.pose;
+  return (!ways.ways.empty() || ways.settled) && ways.start.heading_free == start.heading_free &&
+         a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
+}
+
 }  // namespace
 
 Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
@@ -32,7 +38,7 @@ Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility r
 
 Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
                  const Plant& plant, const PlanOptions& options, const std::vector<double>& price_W,
-                 Plan& plan) {
+                 std::vector<LegWays>& ways, Plan& plan) {
   Draft draft;
   LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
   for (std::size_t k = 0; k < mission.legs.size(); ++k) {
@@ -48,7 +54,10 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
           sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
       continue;
     }
-    LegPath way = choose_leg_path(leg, k, start, {mission, world, space, plant, options, price_W[k]});
+    const ChoiceContext context{mission, world, space, plant, options, price_W[k]};
+    if (k >= ways.size()) ways.resize(k + 1);
+    if (!begins_as(ways[k], start)) ways[k] = leg_ways(leg, k, start, context);
+    LegPath way = choose_leg_path(ways[k], leg, k, context);
     if (way.infeasibility) {
       const double s_m = way.infeasibility->s;
       plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));

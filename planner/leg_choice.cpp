@@ -10,11 +10,8 @@ namespace {
 
 constexpr int kRoutes = 3;
 constexpr double kBlendRadii_m[] = {0.3, 0.6, 1.0};
-
-struct Candidate {
-  std::string name{};
-  Path path{};
-};
+constexpr std::size_t kScoringNodes = 60;  ///< ways differ by percents, grids by hundredths of them
+constexpr double kScoringAccuracy = 1e-2;
 
 std::string radius_name(double radius_m) {
   char text[32];
@@ -24,7 +21,7 @@ std::string radius_name(double radius_m) {
 
 /// The ways round the corners of one route.
 void add_corner_variants(const RouteResult& route, const RouteRequest& request, const RouteSpace& space,
-                         const std::string& prefix, std::vector<Candidate>& candidates) {
+                         const std::string& prefix, std::vector<LegWays::Way>& candidates) {
   candidates.push_back({prefix + "largest_blend", route.path});
   if (route.corners.empty()) return;
   const auto add = [&](const std::string& name, const CornerPolicy& policy) {
@@ -48,8 +45,11 @@ double steady_power_W(const Plant& plant, double payload_kg, double speed_m_s, c
 
 PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
                      const ChoiceContext& context) {
+  PlanOptions options = context.options;
+  options.nodes = std::min(options.nodes, kScoringNodes);
+  options.accuracy = std::max(options.accuracy, kScoringAccuracy);
   LegTiming timing(
-      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options));
+      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, options));
   const std::vector<ProfileResult>& results = timing.solve(context.price_W, SolverChoice::fast);
   PathScore score{.drivable = true};
   for (std::size_t k = 0; k < results.size(); ++k) {
@@ -82,38 +82,47 @@ TravelCost energy_rate(const LegRequest& leg, const ChoiceContext& context) {
   return {.rate = rate, .least_rate = std::max(1e-3, 0.999 * least)};
 }
 
-LegPath choose_leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
-                        const ChoiceContext& context) {
-  if (leg.path || !context.space)
-    return leg_path(leg, leg_index, start, context.mission, context.space, context.options);
-  const RouteRequest request = route_request(leg, leg_index, start, context.mission, context.options);
-  RouteRequest by_energy = request;
+LegWays leg_ways(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
+                 const ChoiceContext& context) {
+  LegWays found{.start = start};
+  if (leg.path || !context.space) {
+    found.settled = leg_path(leg, leg_index, start, context.mission, context.space, context.options);
+    return found;
+  }
+  RouteRequest request = route_request(leg, leg_index, start, context.mission, context.options);
   const bool floor_matters = !context.plant.effects.empty() || context.world.speed_mask;
-  if (floor_matters) by_energy.cost = energy_rate(leg, context);
-  const std::vector<RouteResult> routes = plan_candidates(*context.space, by_energy, kRoutes);
-  if (routes.empty() || !routes.front().found())
-    return leg_path(leg, leg_index, start, context.mission, context.space, context.options);
-
-  std::vector<Candidate> candidates;
+  if (floor_matters) request.cost = energy_rate(leg, context);
+  const std::vector<RouteResult> routes = plan_candidates(*context.space, request, kRoutes);
+  if (routes.empty() || !routes.front().found()) {
+    found.settled = leg_path(leg, leg_index, start, context.mission, context.space, context.options);
+    return found;
+  }
+  found.source = routes.front().searched_by;
   for (std::size_t k = 0; k < routes.size(); ++k)
-    add_corner_variants(routes[k], by_energy, *context.space, "route_" + std::to_string(k) + "_", candidates);
-  LegPath chosen{.source = routes.front().searched_by};
-  std::size_t best = candidates.size();
+    add_corner_variants(routes[k], request, *context.space, "route_" + std::to_string(k) + "_", found.ways);
+  return found;
+}
+
+LegPath choose_leg_path(const LegWays& ways, const LegRequest& leg, std::size_t leg_index,
+                        const ChoiceContext& context) {
+  if (ways.settled) return *ways.settled;
+  LegPath chosen{.source = ways.source};
+  std::size_t best = ways.ways.size();
   double least_J = kNoLimit;
-  for (const Candidate& candidate : candidates) {
-    const PathScore score = score_path(candidate.path, leg, leg_index, context);
-    const double price_W = std::isfinite(context.price_W) ? context.price_W : 1e6;
+  const double price_W = std::isfinite(context.price_W) ? context.price_W : 1e6;
+  for (const LegWays::Way& way : ways.ways) {
+    const PathScore score = score_path(way.path, leg, leg_index, context);
     const double cost_J = score.drivable ? score.cost_J(price_W) : kNoLimit;
-    chosen.alternatives.push_back({.name = candidate.name,
+    chosen.alternatives.push_back({.name = way.name,
                                    .energy_J = score.drivable ? score.energy_J : kNoLimit,
                                    .duration_s = score.drivable ? score.duration_s : kNoLimit,
-                                   .distance_m = candidate.path.distance_m()});
+                                   .distance_m = way.path.distance_m()});
     if (cost_J >= least_J) continue;
     least_J = cost_J;
     best = chosen.alternatives.size() - 1;
   }
-  if (best == candidates.size()) best = 0;  // none can be driven: the first one says why
-  chosen.path = std::move(candidates[best].path);
+  if (best == ways.ways.size()) best = 0;  // none can be driven: the first one says why
+  chosen.path = ways.ways[best].path;
   chosen.alternatives[best].chosen = true;
   return chosen;
 }

@@ -63,8 +63,9 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
   const double floor_W = lowest_price_W(mission.objective);
   std::vector<double> price_W(mission.legs.size(), floor_W);
   TimedDraft timed;
+  std::vector<LegWays> ways;
   for (int round = 0; round < kRounds; ++round) {
-    timed.draft = draft_legs(mission, world, space, plant, options, price_W, plan);
+    timed.draft = draft_legs(mission, world, space, plant, options, price_W, ways, plan);
     if (plan.status != SolveStatus::optimal ||
         !check_each_leg(timed.draft, floor_W, SolverChoice::fast, plan))
       return timed;
