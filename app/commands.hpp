@@ -11,6 +11,7 @@ namespace joulepath {
 #define JOULEPATH_COMMANDS(COMMAND) \
   COMMAND(init)                     \
   COMMAND(plan)                     \
+  COMMAND(batch)                    \
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \
   COMMAND(effects)                  \

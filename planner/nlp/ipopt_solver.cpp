@@ -5,6 +5,7 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "planner/nlp/segment_jets.hpp"
 
@@ -273,6 +274,8 @@ Solution solve_with_ipopt(const Problem& problem, const std::vector<double>& b_g
     return solution;
   }
   Ipopt::SmartPtr<Ipopt::TNLP> nlp = new PathNlp(problem, b_guess, solution);
+  static std::mutex one_at_a_time;  // MUMPS keeps state of its own between calls
+  const std::lock_guard lock(one_at_a_time);
   const Ipopt::ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
   if (Ipopt::IsValid(app->Statistics())) solution.iterations = app->Statistics()->IterationCount();
   if (!solution.converged)
