@@ -60,7 +60,8 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
 }
 
 bool ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, Nearest& best) const {
-  const auto [u, v] = local(x_m, y_m);
+  const Local here = local(x_m, y_m);
+  const double u = here.u, v = here.v;  // not a structured binding: Clang 14 cannot capture those
   const double reach = upper_m / grid.resolution_m;
   double best_squared = std::pow(best.distance_m / grid.resolution_m, 2);
   double best_u = 0, best_v = 0;

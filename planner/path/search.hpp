@@ -30,7 +30,7 @@ struct SearchRequest {
   TravelCost cost{};
   std::uint64_t seed{1};
   unsigned max_iterations{30000};  ///< of the planner's loop; the search never looks at a clock
-  unsigned patience{3000};         ///< stop when the cost has not improved by 0.2 % for so many iterations
+  unsigned patience{5000};         ///< stop when the cost has not improved by 0.2 % for so many iterations
 };
 
 struct SearchResult {
