@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "planner/limit_check.hpp"
+#include "planner/nlp/grid.hpp"
 #include "planner/segment_energy.hpp"
 
 namespace joulepath {
@@ -57,6 +58,8 @@ BaselineResult finish_baseline(const ProfileRequest& request, std::string name, 
     return result;
   }
   const PathMotion motion = path_motion(request);
+  constexpr int kParts = 400;
+  profile = profile.divided(nlp::mandatory_nodes(motion, request), motion.length() / kParts);
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
     result.motion_energy_J += segment_energy_J(motion, profile, k);
   result.energy_J = result.motion_energy_J + duration_s * request.plant.robot.power.standby_W;
