@@ -77,7 +77,7 @@ class FrontStretch {
 /// The price between two neighbours of the front.
 double price_between_W(double high_W, double low_W, double typical_W) {
   if (std::isinf(high_W)) return 4 * std::max(low_W, 0.25 * typical_W);
-  return low_W > 0.01 * typical_W ? std::sqrt(high_W * low_W) : 0.3 * high_W;
+  return low_W > 0 ? std::sqrt(high_W * low_W) : 0.3 * high_W;
 }
 
 /// Where the next point goes: behind the front's widest gap, durations and energies counted alike.
@@ -87,6 +87,8 @@ std::size_t widest_gap(const std::vector<FrontPoint>& points) {
   std::size_t widest = 0;
   double most = -1;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    // Equal prices: the front is straight there, and every point between is reached at that one price.
+    if (points[k].price_of_time_W < points[k + 1].price_of_time_W * (1 + 1e-3)) continue;
     const double gap = std::hypot((points[k + 1].duration_s - points[k].duration_s) / duration_s,
                                   (points[k].energy_J - points[k + 1].energy_J) / energy_J);
     if (gap > most) most = gap, widest = k;
