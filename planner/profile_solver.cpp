@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/infeasibility_finder.hpp"
+#include "planner/jerk_filter.hpp"
 #include "planner/nlp/certificate.hpp"
 #include "planner/nlp/dense_check.hpp"
 #include "planner/nlp/fast_solver.hpp"
@@ -237,6 +238,8 @@ ProfileResult solve_profile(const ProfileRequest& request) {
     result.infeasibility = std::move(verdict);
     return result;
   }
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece))
+    return solve_with_jerk_limit(request);
   return ProfileSolver(request).solve();
 }
 

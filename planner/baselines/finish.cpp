@@ -1,6 +1,7 @@
 #include "planner/baselines/finish.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "planner/limit_check.hpp"
@@ -19,6 +20,10 @@ struct Worst {
 Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
   constexpr int kLooks = 4;
   Worst worst;
+  double jump_s = 0;
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
+      acceleration_jumps(profile, jump_s))
+    return {kNoLimit, "jerk", jump_s};
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) {
     const double from_s = profile.time_s[k], length_s = profile.time_s[k + 1] - from_s;
     for (int i = 0; i <= kLooks; ++i) {
