@@ -15,6 +15,8 @@ namespace joulepath {
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \
   COMMAND(effects)                  \
+  COMMAND(compare)                  \
+  COMMAND(front)                    \
   COMMAND(check)                    \
   COMMAND(calibrate)                \
   COMMAND(schema)                   \

@@ -42,14 +42,21 @@ const std::vector<LimitKey>& limit_keys() {
   return keys;
 }
 
+/// The value in force: a speed cap on a zone may be lower than the robot's own limit.
+double value_of(ProfileRequest& request, const LimitKey& key) {
+  double value = key.value(request);
+  if (key.name == "speed" && !is_turn(request.piece))
+    for (const SpeedCap& cap : request.speed_caps) value = std::min(value, cap.speed_m_s);
+  return value;
+}
+
 void set_limit(ProfileRequest& request, const LimitKey& key, double value) {
-  key.value(request) = value;
+  key.value(request) = key.name == "speed" ? std::max(value, key.value(request)) : value;
   Sided<Motor>& motor = request.plant.robot.motor;
   if (key.name == "motor_current") motor.right.max_current_A = value;
   if (key.name == "motor_voltage") motor.right.max_voltage_V = value;
   if (key.name == "speed")
     for (SpeedCap& cap : request.speed_caps) cap.speed_m_s = std::max(cap.speed_m_s, value);
-  if (key.name == "deceleration" || key.name == "acceleration") return;
 }
 
 bool passes(const ProfileRequest& request, const std::vector<double>& s) {
@@ -62,18 +69,20 @@ bool passes(const ProfileRequest& request, const std::vector<double>& s) {
 std::optional<double> smallest_relaxation(const ProfileRequest& request, const LimitKey& key,
                                           const std::vector<double>& s) {
   ProfileRequest trial = request;
-  const double found = key.value(trial);
+  const double found = value_of(trial, key);
+  constexpr double kFirst = 1e-3;  // tried where the limit is zero: anything above it may do
   const bool lower = key.name == "start_speed" || key.name == "end_speed";
   const auto possible = [&](double value) {
     set_limit(trial, key, value);
     return passes(trial, s);
   };
-  double bad = found, good = lower ? 0.0 : std::max(2 * found, 1e-3);
+  double bad = found, good = lower ? 0.0 : std::max(2 * found, kFirst);
   for (int i = 0; !possible(good); ++i) {
     if (lower || i > 40) return std::nullopt;
     bad = good;
     good *= 2;
   }
+  if (found == 0.0 && good == kFirst) return good;
   for (int i = 0; i < 40 && std::abs(good - bad) > 1e-5 * std::max(std::abs(good), 1e-6); ++i) {
     const double middle = 0.5 * (good + bad);
     (possible(middle) ? good : bad) = middle;
@@ -109,6 +118,11 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   // What has to give first: a start or end speed that the path does not allow, else the limit itself.
   std::vector<std::string_view> candidates;
   if (blocked.node == 0 && request.start_rate > 0) candidates.push_back("start_speed");
+  const auto above_cap = [&](double rate, std::size_t node) {
+    return rate * rate > problem.cap[node].squared * (1 + 1e-12);
+  };
+  if (above_cap(request.start_rate, 0)) candidates.push_back("start_speed");
+  if (above_cap(request.end_rate, problem.node_count() - 1)) candidates.push_back("end_speed");
   candidates.push_back(name);
   if (request.end_rate > 0) candidates.push_back("end_speed");
   if (request.start_rate > 0) candidates.push_back("start_speed");
@@ -123,7 +137,7 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
     const std::optional<double> value = smallest_relaxation(request, *key, problem.s);
     if (!value) continue;
     ProfileRequest copy = request;
-    const double found = key->value(copy);
+    const double found = value_of(copy, *key);
     double s = problem.s[blocked.node];
     if (candidate == "end_speed") s = problem.s.back();
     Infeasibility verdict = at_place(request, std::string(candidate), s);
@@ -143,7 +157,8 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
 Infeasibility explain_duration(const ProfileRequest& request, double possible_s) {
   const bool fixed = request.time.mode == TimeMode::fixed_time;
   Infeasibility verdict = at_place(request, fixed ? "duration" : "deadline", piece_length(request.piece));
-  verdict.amount = std::abs(possible_s - request.time.duration_s);
+  const double asked_s = std::isnan(request.time.duration_s) ? 0.0 : request.time.duration_s;
+  verdict.amount = std::abs(possible_s - asked_s);
   verdict.unit = "s";
   verdict.relaxation[fixed ? "duration_s" : "deadline_s"] = possible_s;
   verdict.message = sentence(verdict);

@@ -59,4 +59,16 @@ void for_each_limit_use(const PathMotion& motion, const Limits& limits, const st
   check("battery_power", std::max(0.0, supply_W), limits.battery_power_W);
 }
 
+bool acceleration_jumps(const Profile& profile, double& s) {
+  constexpr double kJump = 1e-5;  // m/s^2: rounding of sums is far below
+  double before = 0;
+  for (std::size_t k = 0; k < profile.acceleration.size(); ++k) {
+    s = profile.s[k];
+    if (std::abs(profile.acceleration[k] - before) > kJump) return true;
+    before = profile.acceleration[k] + profile.jerk[k] * (profile.time_s[k + 1] - profile.time_s[k]);
+  }
+  s = profile.s.back();
+  return std::abs(before) > kJump;
+}
+
 }  // namespace joulepath

@@ -14,4 +14,8 @@ void for_each_limit_use(const PathMotion& motion, const Limits& limits, const st
                         const ProfileState& state, double jerk,
                         const std::function<void(std::string_view, double)>& use);
 
+/// Whether the acceleration of a profile jumps anywhere, its start and end included: no finite jerk limit
+/// allows that. `s` is set to the first place.
+[[nodiscard]] bool acceleration_jumps(const Profile& profile, double& s);
+
 }  // namespace joulepath

@@ -54,6 +54,32 @@ ProfileState Profile::at_s(double place) const {
   return state_in(*this, k, high);
 }
 
+Profile Profile::divided(const std::vector<double>& at, double longest) const {
+  Profile fine{.time_s = {time_s.front()}, .s = {s.front()}, .rate = {rate.front()}, .wait_s = wait_s};
+  for (std::size_t k = 0; k + 1 < time_s.size(); ++k) {
+    const double ds = s[k + 1] - s[k], dt = time_s[k + 1] - time_s[k];
+    std::vector<double> times;
+    const int parts = std::max(1, static_cast<int>(std::ceil(ds / longest)));
+    for (int i = 1; i < parts; ++i) times.push_back(at_s(s[k] + ds * i / parts).time_s);
+    for (double place : at)
+      if (place > s[k] + 1e-9 * ds && place < s[k + 1] - 1e-9 * ds) times.push_back(at_s(place).time_s);
+    std::sort(times.begin(), times.end());
+    times.push_back(time_s[k + 1]);
+    for (double time : times) {
+      const double last = fine.time_s.back();
+      const bool ends = time == time_s[k + 1];
+      if (!ends && (time <= last + 1e-9 * dt || time >= time_s[k + 1] - 1e-9 * dt)) continue;
+      fine.acceleration.push_back(acceleration[k] + jerk[k] * (last - time_s[k]));
+      fine.jerk.push_back(jerk[k]);
+      const ProfileState state = state_in(*this, k, time - time_s[k]);
+      fine.time_s.push_back(time);
+      fine.s.push_back(ends ? s[k + 1] : state.s);
+      fine.rate.push_back(ends ? rate[k + 1] : state.rate);
+    }
+  }
+  return fine;
+}
+
 Profile profile_from_squares(const std::vector<double>& s, const std::vector<double>& b) {
   JOULEPATH_ASSERT(s.size() == b.size() && s.size() >= 2, "one square of the rate per node");
   Profile profile{.time_s = {0.0}, .s = s};

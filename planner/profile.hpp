@@ -73,6 +73,9 @@ struct Profile {
   double duration_s() const { return (time_s.empty() ? 0.0 : time_s.back()) + wait_s; }
   [[nodiscard]] ProfileState at_time(double time_s) const;
   [[nodiscard]] ProfileState at_s(double s) const;
+  /// The same motion with more nodes: at these path coordinates, and none of its segments longer than
+  /// `longest` (in s).
+  [[nodiscard]] Profile divided(const std::vector<double>& at, double longest) const;
 };
 
 /// The profile with constant acceleration between nodes: b_k = rate_k^2.

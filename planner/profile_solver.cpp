@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "planner/infeasibility_finder.hpp"
+#include "planner/jerk_filter.hpp"
 #include "planner/nlp/certificate.hpp"
 #include "planner/nlp/dense_check.hpp"
 #include "planner/nlp/fast_solver.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using nlp::Problem;
 
-constexpr int kRounds = 8;          ///< of tightening and refinement
+constexpr int kRounds = 12;         ///< of tightening and refinement
 constexpr double kSettled = 1e-6;   ///< relative violation that a plan may have
 constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
 
@@ -45,7 +46,14 @@ std::optional<Infeasibility> senseless(const ProfileRequest& request) {
   if (!(request.start_rate >= 0) || !(request.end_rate >= 0) ||
       !std::isfinite(request.start_rate + request.end_rate))
     return explain_request(request, "start_speed", "start and end speed must be 0 or more");
-  if (!(request.time.duration_s > 0)) return explain_duration(request, 0.0);
+  const Limits& limits = request.limits;
+  for (double limit : {limits.speed_m_s, limits.acceleration_m_s2, limits.deceleration_m_s2,
+                       limits.lateral_acceleration_m_s2, limits.yaw_rate_rad_s,
+                       limits.yaw_acceleration_rad_s2, limits.wheel_acceleration_rad_s2, limits.jerk_m_s3,
+                       limits.traction_coefficient, limits.motor_power_W, limits.battery_power_W})
+    if (!(limit >= 0)) return explain_request(request, "limits", "a limit must be a number of 0 or more");
+  if (!(request.payload.from_kg >= 0) || !(request.payload.to_kg >= 0))
+    return explain_request(request, "payload", "a payload must be a number of 0 or more");
   return std::nullopt;
 }
 
@@ -64,7 +72,8 @@ class ProfileSolver {
       const nlp::DenseCheck check = nlp::check_densely(problem, motion_, *best_, request_.accuracy);
       const bool accurate =
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
-      if (check.worst_ratio <= 1 + kSettled && accurate) return finish(problem);
+      const bool last = round + 1 == kRounds;
+      if (check.worst_ratio <= 1 + kSettled && (accurate || last)) return finish(problem);
       last_ratio_ = check.worst_ratio;
       tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
       s = nlp::cut_segments(s, check.cut);
@@ -82,7 +91,7 @@ class ProfileSolver {
     if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
     const double minimum_s = duration_of(problem, envelope.fastest);
     const bool limited = problem.duration_row != nlp::DurationRow::none;
-    if (limited && problem.duration_s < minimum_s * (1 - 1e-9))
+    if (std::isnan(problem.duration_s) || (limited && problem.duration_s < minimum_s * (1 - 1e-9)))
       return give_up(explain_duration(request_, minimum_s));
     const bool no_choice = limited && problem.duration_s <= minimum_s * (1 + kSameTime);
     if (request_.time.mode == TimeMode::minimum_time || no_choice || problem.unknown_count() == 0)
@@ -229,6 +238,8 @@ ProfileResult solve_profile(const ProfileRequest& request) {
     result.infeasibility = std::move(verdict);
     return result;
   }
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece))
+    return solve_with_jerk_limit(request);
   return ProfileSolver(request).solve();
 }
 

@@ -77,6 +77,13 @@ ReplayResult replay(const ProfileRequest& request, const Profile& profile) {
   result.energy_J = state[2] + standby_W * profile.wait_s;
   result.motion_energy_J = result.energy_J - standby_W * result.duration_s;
   result.end_s = state[0];
+  double jump_s = 0;
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
+      acceleration_jumps(profile, jump_s)) {
+    result.worst_violation = kNoLimit;
+    result.limit = "jerk";
+    result.s = jump_s;
+  }
   const Pose pose = piece_point(request.piece, result.s).pose;
   result.x_m = pose.x_m;
   result.y_m = pose.y_m;

@@ -1,9 +1,11 @@
 #include "planner/baselines/finish.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "planner/limit_check.hpp"
+#include "planner/nlp/grid.hpp"
 #include "planner/segment_energy.hpp"
 
 namespace joulepath {
@@ -18,6 +20,10 @@ struct Worst {
 Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
   constexpr int kLooks = 4;
   Worst worst;
+  double jump_s = 0;
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
+      acceleration_jumps(profile, jump_s))
+    return {kNoLimit, "jerk", jump_s};
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) {
     const double from_s = profile.time_s[k], length_s = profile.time_s[k + 1] - from_s;
     for (int i = 0; i <= kLooks; ++i) {
@@ -57,6 +63,8 @@ BaselineResult finish_baseline(const ProfileRequest& request, std::string name, 
     return result;
   }
   const PathMotion motion = path_motion(request);
+  constexpr int kParts = 400;
+  profile = profile.divided(nlp::mandatory_nodes(motion, request), motion.length() / kParts);
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
     result.motion_energy_J += segment_energy_J(motion, profile, k);
   result.energy_J = result.motion_energy_J + duration_s * request.plant.robot.power.standby_W;

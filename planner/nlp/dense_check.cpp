@@ -59,7 +59,7 @@ DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const
   const double total_J = std::max(std::abs(result.energy_J), 1e-9);
   if (result.energy_error_J > accuracy * total_J)
     for (std::size_t k = 0; k < count; ++k)
-      if (std::abs(error_J[k]) > 0.5 * size_J / static_cast<double>(count)) result.cut[k] = true;
+      if (std::abs(error_J[k]) > 0.2 * size_J / static_cast<double>(count)) result.cut[k] = true;
   return result;
 }
 

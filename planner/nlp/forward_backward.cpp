@@ -7,6 +7,7 @@ namespace joulepath::nlp {
 namespace {
 
 constexpr double kLargest = 1e6;  ///< square of a rate that nothing reaches
+constexpr double kStandstill = 1e-15;  ///< a square of the rate that is rounding
 constexpr int kSweeps = 12;
 
 /// alpha b0 + beta b1 <= gamma.
@@ -102,11 +103,16 @@ RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
   std::vector<std::vector<HalfPlane>> planes(last);
   span[last] = {problem.b_end, problem.b_end, "end_speed", "end_speed"};
   RateEnvelope envelope;
+  const RateCap& end_cap = problem.cap[last];
+  if (problem.b_end > end_cap.squared * (1 + 1e-9)) {
+    envelope.blocked = {last, end_cap.limit, problem.b_end, end_cap.squared};
+    return envelope;
+  }
   for (std::size_t k = last; k-- > 0;) {
     planes[k] = half_planes(problem, k, at);
     const double cap = k == 0 ? std::min(problem.cap[0].squared, kLargest) : capped(problem, k);
     span[k] = project(planes[k], span[k + 1], cap, problem.cap[k].limit);
-    if (span[k].high < span[k].low * (1 - 1e-9) - 1e-12 || span[k].high < 0 || (k > 0 && span[k].high <= 0)) {
+    if (span[k].high < span[k].low * (1 - 1e-9) - 1e-12 || span[k].high < 0 || (k > 0 && span[k].high <= kStandstill)) {
       envelope.blocked = blocked_at(k, span[k]);
       return envelope;
     }
@@ -124,7 +130,7 @@ RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
     const Span up = step(planes[k], envelope.fastest[k], span[k + 1]);
     const Span down = step(planes[k], envelope.slowest[k], span[k + 1]);
     const double fast = std::clamp(up.high, span[k + 1].low, span[k + 1].high);
-    if (k + 1 < last && !(fast > 0)) {
+    if (k + 1 < last && !(fast > kStandstill)) {
       envelope.blocked = blocked_at(k + 1, up);
       return envelope;
     }

@@ -101,7 +101,8 @@ double reference_rate(const ProfileRequest& request, double length, double s, do
       finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.deceleration_m_s2, up);
   const double from_start = request.start_rate * request.start_rate + 2 * up * s;
   const double from_end = request.end_rate * request.end_rate + 2 * down * (length - s);
-  return std::sqrt(std::min({from_start, from_end, cap}));
+  // A smooth minimum: times between nodes change gently, as those of an optimal profile do.
+  return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
 }
 
 std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request, std::size_t count) {

@@ -176,7 +176,7 @@ void set_objective(Problem& problem) {
   problem.energy_weight = minimum_time ? 0.0 : 1.0;
   problem.time_weight_W =
       minimum_time ? 1.0 : supply.standby_W + (time.mode == TimeMode::time_price ? time.price_W : 0.0);
-  if (minimum_time || time.mode == TimeMode::free_time || !std::isfinite(time.duration_s)) return;
+  if (minimum_time || time.mode == TimeMode::free_time || std::isinf(time.duration_s)) return;
   problem.duration_s = time.duration_s;
   problem.duration_row = time.mode == TimeMode::fixed_time ? DurationRow::equal : DurationRow::at_most;
 }

@@ -62,6 +62,34 @@ TEST(Profile, TakesNoMoreThanTheTrapezoids) {
   }
 }
 
+TEST(Profile, JerkLimitHoldsAndTheBoundIsThatWithoutIt) {
+  for (bool curved : {false, true}) {
+    ProfileRequest request = straight_request(8.0);
+    if (curved) request.piece = bezier_piece();
+    request.time = {TimeMode::time_budget, curved ? 14.0 : 13.0};
+    const double free_J = replay(request, *solve_profile(request).profile).energy_J;
+    request.limits.jerk_m_s3 = 0.8;
+    const ProfileResult result = solve_profile(request);
+    ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+    const ReplayResult again = replay(request, *result.profile);
+    EXPECT_TRUE(again.valid()) << again.limit << " " << again.worst_violation << " at " << again.s;
+    EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6);
+    EXPECT_LE(result.profile->duration_s(), request.time.duration_s * (1 + 1e-9));
+    EXPECT_EQ(result.summary.status, SolveStatus::feasible);
+    EXPECT_LE(result.summary.lower_bound_J, free_J);
+    EXPECT_GE(again.energy_J, free_J * (1 - 1e-6));
+    EXPECT_LE(again.energy_J, free_J * 1.1);
+  }
+}
+
+TEST(Profile, AJumpOfAccelerationBreaksAJerkLimit) {
+  ProfileRequest request = straight_request(8.0);
+  const Profile profile = *solve_profile(request).profile;
+  EXPECT_TRUE(replay(request, profile).valid());
+  request.limits.jerk_m_s3 = 100;
+  EXPECT_EQ(replay(request, profile).limit, "jerk");
+}
+
 TEST(Profile, TurnsInPlaceWithHeadingAsThePath) {
   ProfileRequest request = straight_request(1.0);
   request.piece = TurnInPlace{{}, -1.5};

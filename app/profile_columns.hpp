@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "app/report/columns.hpp"
+#include "planner/profile.hpp"
+
+namespace joulepath {
+
+/// Time, place, speed and acceleration of profiles that are driven one after the other, for plots. A turn in
+/// place has speed 0; its rate is the yaw rate.
+[[nodiscard]] report::Columns profile_columns(const std::vector<const ProfileRequest*>& requests,
+                                              const std::vector<Profile>& profiles);
+
+}  // namespace joulepath
