@@ -14,6 +14,8 @@ namespace joulepath {
   COMMAND(batch)                    \
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \
+  COMMAND(diagnose)                 \
+  COMMAND(experiment)               \
   COMMAND(effects)                  \
   COMMAND(compare)                  \
   COMMAND(front)                    \
