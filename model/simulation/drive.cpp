@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simulation/drive_forces.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -25,18 +27,6 @@ EffectMemory usable_memory(const DriveState& state, double course, double course
 double clamp_to(double value, double size) { return std::clamp(value, -size, size); }
 
 }  // namespace
-
-/// Generalized forces on (v, omega, left wheel, right wheel), and what they are made of.
-struct Drive::Forces {
-  Velocity total{};              ///< that accelerates, but for reactions
-  Sided<double> motor_Nm{};      ///< Kt n i
-  Sided<double> gear_loss_Nm{};  ///< signed, resists
-  Sided<double> friction_Nm{};   ///< signed, resists; with reactions
-  Sided<double> creep_m_s{};     ///< r q' - speed of the contact point, creeping only
-  BodyLoad<double> load{};       ///< of the effects; with reactions
-  Velocity low{};                ///< bounds of the reactions, which resist like friction
-  Velocity high{};
-};
 
 Drive::Drive(Plant plant, double time_of_day_s) : plant_(std::move(plant)), time_of_day_s_(time_of_day_s) {
   creeps_ = plant_.creep_m_s_N > 0 && 1.0 / plant_.creep_m_s_N <= kStiffest_N_s_m;
@@ -172,77 +162,6 @@ void Drive::wheel_forces(const DriveState& state, const Site& site, Forces& forc
   }
 }
 
-/// What friction can give on the surfaces that hold: its values for sliding either way, at no speed.
-void Drive::bounds(const DriveState& state, Site site, const FrictionMode& mode, Forces& forces) const {
-  const Site held = site;
-  const auto set = [&](Surface surface, double backward, double forward) {
-    forces.low[surface] = std::min(backward, 0.0);
-    forces.high[surface] = std::max(forward, 0.0);
-  };
-  for (Side side : kSides) {
-    if (mode[surface_of(side)] != 0) continue;
-    const auto sliding_Nm = [&](double direction) {
-      site.wheel_direction[side] = direction;
-      return shaft_friction_Nm(plant_, mass_, side, 0.0, site) +
-             plant_.torque_loss_fraction * std::abs(forces.motor_Nm[side]) * direction;
-    };
-    set(surface_of(side), sliding_Nm(-1), sliding_Nm(1));
-    site = held;
-  }
-  const double v = state[kVelocity + kTravel];
-  const double omega = state[kVelocity + kTurn];
-  if (active_[kTurn] && mode[kTurn] == 0) {
-    const auto sliding_Nm = [&](double direction) {
-      site.turn_direction = direction;
-      return effect_load(plant_, mass_, v, omega, site).moment_Nm - forces.load.moment_Nm;
-    };
-    set(kTurn, sliding_Nm(-1), sliding_Nm(1));
-    site = held;
-  }
-  if (active_[kTravel] && mode[kTravel] == 0) {
-    const auto sliding_N = [&](double direction) {
-      site.travel_direction = direction;
-      return effect_load(plant_, mass_, v, omega, site).force_N - forces.load.force_N;
-    };
-    set(kTravel, sliding_N(-1), sliding_N(1));
-  }
-}
-
-/// Finds reactions within their bounds that keep the holding surfaces at rest; one that would need more
-/// is at its bound and breaks away.
-void Drive::hold(const FrictionMode& mode, Forces& forces, Velocity& acceleration, Instant& instant) const {
-  Velocity reaction{};
-  acceleration = respond(forces.total);
-  constexpr int kSweeps = 200;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double moved = 0;
-    for (Surface s : kAllSurfaces) {
-      if (mode[s] != 0 || !active_[s]) continue;
-      const double wanted = reaction[s] + acceleration[s] / response_[s][s];
-      const double change = std::clamp(wanted, forces.low[s], forces.high[s]) - reaction[s];
-      reaction[s] += change;
-      for (std::size_t a = 0; a < kSurfaces; ++a) acceleration[a] -= response_[a][s] * change;
-      moved = std::max(moved, std::abs(change));
-    }
-    if (moved < 1e-13) break;
-  }
-  for (Surface s : kAllSurfaces) {
-    if (mode[s] != 0 || !active_[s]) continue;
-    const bool at_bound = reaction[s] <= forces.low[s] || reaction[s] >= forces.high[s];
-    if (at_bound && std::abs(acceleration[s]) > 1e-9) instant.release[s] = acceleration[s] > 0 ? 1 : -1;
-    if (!at_bound) acceleration[s] = 0.0;
-  }
-  if (!creeps_) {  // the body follows the wheels to the last digit
-    const Sided<double> wheels{acceleration[kLeftWheel], acceleration[kRightWheel]};
-    const Twist<double> body = body_twist(plant_.robot.geometry, wheels);
-    acceleration[kTravel] = body.speed_m_s;
-    acceleration[kTurn] = body.yaw_rate_rad_s;
-  }
-  for (Side side : kSides) forces.friction_Nm[side] += reaction[surface_of(side)];
-  forces.load.force_N += reaction[kTravel];
-  forces.load.moment_Nm += reaction[kTurn];
-}
-
 void Drive::contact_forces(const Forces& forces, const Velocity& acceleration, Instant& instant) const {
   const Robot& robot = plant_.robot;
   for (Side side : kSides)
@@ -282,41 +201,6 @@ void Drive::motion(const DriveState& state, const Site& site, const Velocity& ac
         effect);
 }
 
-void Drive::integrals(const DriveState& state, const Forces& forces, double hot, Instant& instant) const {
-  const Robot& robot = plant_.robot;
-  DriveState& rate = instant.derivative;
-  Sided<double> power_W{};
-  for (Side side : kSides) {
-    const std::size_t k = static_cast<std::size_t>(side == Side::right);
-    const Motor& motor = robot.motor[side];
-    const double i = instant.current_A[side];
-    const double speed_rad_s = state[kVelocity + surface_of(side)];
-    power_W[side] = instant.voltage_V[side] * i;
-    rate[kVoltSeconds + k] = instant.voltage_V[side];
-    rate[kCharge + k] = i;
-    rate[kEnergy + k] = power_W[side];
-    rate[kCopperLoss] += hot * motor.resistance_ohm * i * i +
-                         (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * i * speed_rad_s;
-    rate[kDriverLoss] += plant_.driver_voltage_drop_V * std::abs(i);
-    rate[kGearLoss] += forces.gear_loss_Nm[side] * speed_rad_s;
-    rate[kWheelFriction] += forces.friction_Nm[side] * speed_rad_s;
-    if (creeps_) rate[kCreepLoss] += forces.creep_m_s[side] * instant.contact_force_N[side];
-  }
-  rate[kBodyWork] =
-      forces.load.force_N * state[kVelocity + kTravel] + forces.load.moment_Nm * state[kVelocity + kTurn];
-  const double terminals_W = supply_power_W(robot.power, power_W) + robot.power.standby_W;
-  const BatteryLoad battery = battery_load(robot.battery, terminals_W);
-  instant.battery_gives_way = !battery.possible;
-  instant.battery_voltage_V =
-      battery.possible ? battery.terminal_voltage_V : robot.battery.open_circuit_voltage_V / 2;
-  rate[kBatteryVoltSeconds] = std::isfinite(instant.battery_voltage_V) ? instant.battery_voltage_V : 0.0;
-  rate[kBatteryCharge] =
-      battery.possible ? battery.current_A
-                       : robot.battery.open_circuit_voltage_V / (2 * robot.battery.internal_resistance_ohm);
-  rate[kBatteryEnergy] = terminals_W;
-  rate[kBatteryLoss] = battery.loss_W;
-}
-
 Drive::Instant Drive::evaluate(const DriveState& state, double time_s, const FrictionMode& mode) const {
   Instant instant;
   Forces forces;
@@ -338,17 +222,6 @@ void Drive::stop(DriveState& state, Surface surface) const {
   const double impulse = -state[kVelocity + surface] / response_[surface][surface];
   for (std::size_t a = 0; a < kSurfaces; ++a) state[kVelocity + a] += response_[a][surface] * impulse;
   state[kVelocity + surface] = 0.0;
-}
-
-double Drive::stored_energy_J(const DriveState& state) const {
-  const Robot& robot = plant_.robot;
-  double energy_J = kinetic_energy_J(robot, mass_, state[kVelocity + kTravel], state[kVelocity + kTurn],
-                                     {state[kVelocity + kLeftWheel], state[kVelocity + kRightWheel]});
-  for (Side side : kSides) {
-    const double i = state[kCurrentLeft + static_cast<std::size_t>(side == Side::right)];
-    energy_J += 0.5 * robot.motor[side].inductance_H * i * i;
-  }
-  return energy_J;
 }
 
 }  // namespace joulepath

@@ -107,6 +107,16 @@ TEST(Estimate, StandingDrawsStandbyOnlyInSpiteOfNoise) {
   EXPECT_NEAR(estimate.by_cause.total_J(), 10.0 * log.time_s.back(), 0.05);
 }
 
+TEST(Estimate, ARobotThatStandsOnASlopeIsHeldByFrictionNotByItsMotors) {
+  const Plant plant = make_plant(
+      nomad(), {{.name = "floor_slope", .parameters = {{"grade", 0.02}, {"uphill_direction_rad", 0}}}});
+  const Trajectory log =
+      timed_motion(nomad(), {{.profile = MotionProfile::stand, .duration_s = 5}}).trajectory;
+  const EnergyEstimate estimate = estimate_energy(plant, log);
+  EXPECT_EQ(estimate.motor_J.left, 0.0);
+  EXPECT_NEAR(estimate.by_cause.total_J(), 50.0, 1e-9);
+}
+
 TEST(Estimate, BrakingCountsAsTheRobotRegenerates) {
   Robot robot = nomad();
   SimulationRequest request{.robot = robot};

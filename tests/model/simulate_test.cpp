@@ -60,6 +60,18 @@ TEST(Simulate, FollowsItsReferenceAndComesToRest) {
   EXPECT_EQ(result.saturated_fraction, 0.0);
 }
 
+TEST(Simulate, FeedbackHoldsTheSpeedAgainstWhatTheControllerDoesNotKnow) {
+  SimulationRequest request = request_for(nomad(), {kStraight});
+  request.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.05}}}};
+  const double with_feedback = simulate(request).worst_speed_error_rad_s;
+  request.controller.proportional_V_s_rad = 0.0;
+  const double integral_alone = simulate(request).worst_speed_error_rad_s;
+  request.controller.integral_V_rad = 0.0;
+  const double feed_forward_alone = simulate(request).worst_speed_error_rad_s;
+  EXPECT_LT(with_feedback, 0.5 * integral_alone);
+  EXPECT_LT(with_feedback, 0.4 * feed_forward_alone);
+}
+
 TEST(Simulate, EnergyInIsAccountedForUnderEveryEffect) {
   for (const EffectDescription& description : effect_catalog()) {
     SimulationRequest request = request_for(crooked_robot(), kTour, 5.0);

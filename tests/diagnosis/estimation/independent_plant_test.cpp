@@ -1,0 +1,57 @@
+// The laws of the effects against runs of a plant that shares nothing with this project.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "diagnosis/estimation/estimate_dataset.hpp"
+#include "scenarios/dataset_file.hpp"
+
+namespace joulepath {
+namespace {
+
+const std::string kPractice = JOULEPATH_SOURCE_DIR "/../shared/data/practice/";
+
+/// The effects that a set's label names.
+std::vector<EffectSetting> labelled_effects(const std::string& folder) {
+  const Document truth = Document::load(folder + "/truth.yaml");
+  std::vector<EffectSetting> effects;
+  for (const Node& item : truth.root()["effects"].items()) {
+    EffectSetting setting;
+    for (const auto& [key, value] : item.entries()) {
+      if (key == "effect")
+        setting.name = value.text();
+      else if (key == "side")
+        setting.side = value.text() == "left" ? Side::left : Side::right;
+      else
+        setting.parameters[key] = value.number();
+    }
+    effects.push_back(setting);
+  }
+  return effects;
+}
+
+TEST(IndependentPlant, LabelledEffectsCloseTheEnergyGap) {
+  if (!std::filesystem::exists(kPractice)) GTEST_SKIP() << "no practice sets at " << kPractice;
+  for (const char* set : {"p03_rolling_resistance", "p04_dragging_wheel_rough", "p05_floor_slope",
+                          "p06_turning_scrub_rough", "p11_gear_efficiency_rough", "p14_floor_patch_rough"}) {
+    Dataset dataset = read_dataset(kPractice + set + "/dataset.yaml");
+    dataset.robot.uncertainty.clear();  // no interval is asked for
+    const double before = estimate_dataset(dataset).model_error.value();
+    dataset.robot.effects = labelled_effects(kPractice + set);
+    const double after = estimate_dataset(dataset).model_error.value();
+    EXPECT_GT(before, 0.1) << set;
+    EXPECT_LT(after, 0.03) << set;  // calibration errors of the plant, and its scatter where it is rough
+    EXPECT_LT(after, before / 5) << set;
+  }
+}
+
+TEST(IndependentPlant, NominalModelExplainsTheNullSet) {
+  if (!std::filesystem::exists(kPractice)) GTEST_SKIP() << "no practice sets at " << kPractice;
+  const DatasetEstimate all = estimate_dataset(read_dataset(kPractice + "p01_null/dataset.yaml"));
+  EXPECT_EQ(all.compared, 24u);
+  EXPECT_EQ(all.fitness, 1.0);
+  EXPECT_LT(all.model_error.value(), 0.01);
+}
+
+}  // namespace
+}  // namespace joulepath
