@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/write_diagnosis.hpp"
+
+namespace joulepath {
+namespace {
+
+struct Practice {
+  std::string folder{};
+  std::vector<std::string> effects{};  ///< empty: nothing may be named
+  bool foreign{};
+};
+
+void PrintTo(const Practice& practice, std::ostream* out) { *out << practice.folder; }
+
+std::string path_of(const std::string& folder) {
+  return std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/" + folder + "/dataset.yaml";
+}
+
+class PracticeSet : public testing::TestWithParam<Practice> {};
+
+TEST_P(PracticeSet, GetsTheRightVerdict) {
+  const Practice& practice = GetParam();
+  if (!std::filesystem::exists(path_of(practice.folder)))
+    GTEST_SKIP() << "no practice sets beside the sources";
+  const Diagnosis d = diagnose(read_dataset(path_of(practice.folder)), {.bootstrap = 50});
+  if (practice.foreign) {
+    EXPECT_TRUE(d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained)
+        << verdict_name(d.verdict);
+    EXPECT_LE(d.gap.energy.after_percent, 1.05 * d.gap.energy.before_percent);
+    return;
+  }
+  if (practice.effects.empty()) {
+    EXPECT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
+    return;
+  }
+  for (const std::string& effect : practice.effects)
+    EXPECT_TRUE(std::any_of(d.causes.begin(), d.causes.end(),
+                            [&](const Cause& cause) {
+                              return cause.effect.name == effect ||
+                                     std::count(cause.indistinguishable_from.begin(),
+                                                cause.indistinguishable_from.end(), effect) > 0;
+                            }))
+        << effect << " is not named; verdict " << verdict_name(d.verdict);
+  EXPECT_EQ(d.causes.size(), practice.effects.size());
+  const EnergyGap& energy = d.gap.energy;
+  if (energy.before_percent > 2 + energy.noise_floor_percent)
+    EXPECT_LT(energy.after_percent - energy.noise_floor_percent,
+              0.15 * (energy.before_percent - energy.noise_floor_percent));
+}
+
+INSTANTIATE_TEST_SUITE_P(Labeled, PracticeSet,
+                         testing::Values(Practice{"p01_null", {}}, Practice{"p02_null_rough", {}},
+                                         Practice{"p03_rolling_resistance", {"rolling_resistance"}},
+                                         Practice{"p04_dragging_wheel_rough", {"dragging_wheel"}},
+                                         Practice{"p05_floor_slope", {"floor_slope"}},
+                                         Practice{"p06_turning_scrub_rough", {"turning_scrub"}},
+                                         Practice{"p07_winding_heating_rough", {"winding_heating"}},
+                                         Practice{"p08_center_of_mass_offset", {"center_of_mass_offset"}},
+                                         Practice{"p09_track_width_error_rough", {"track_width_error"}},
+                                         Practice{"p10_time_misalignment", {"time_misalignment"}},
+                                         Practice{"p11_gear_efficiency_rough", {"gear_efficiency"}},
+                                         Practice{"p12_two_effects_rough",
+                                                  {"rolling_resistance", "current_sensor_offset"}},
+                                         Practice{"p13_foreign_rough", {}, true},
+                                         Practice{"p14_floor_patch_rough", {"floor_patch"}}),
+                         [](const testing::TestParamInfo<Practice>& info) { return info.param.folder; });
+
+TEST(DiagnosisJson, HasTheKeysThatAreDocumented) {
+  const nlohmann::json json = nlohmann::json::parse(diagnosis_json(Diagnosis{}));
+  for (const char* key :
+       {"schema", "gap", "where", "verdict", "causes", "ranking", "leftover", "next_experiment", "ceiling",
+        "control", "pinned_combination", "artifacts", "missing_channels", "decisions", "validation"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"before_percent", "after_percent", "bias_before_percent", "noise_floor_percent",
+                          "before_J", "after_J", "shrink_fraction", "shrink_interval_95"})
+    EXPECT_TRUE(json["gap"]["energy"].contains(key)) << key;
+  EXPECT_EQ(json["schema"], "joulepath/diagnosis/1");
+}
+
+TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
+  if (!std::filesystem::exists(path_of("p04_dragging_wheel_rough")))
+    GTEST_SKIP() << "no practice sets beside the sources";
+  Dataset dataset = read_dataset(path_of("p04_dragging_wheel_rough"));
+  const Diagnosis first = diagnose(dataset, {.bootstrap = 20});
+  EXPECT_EQ(diagnosis_json(first), diagnosis_json(diagnose(dataset, {.bootstrap = 20})));
+  std::reverse(dataset.runs.begin(), dataset.runs.end());
+  const Diagnosis reversed = diagnose(dataset, {.bootstrap = 20});
+  ASSERT_EQ(first.causes.size(), reversed.causes.size());
+  ASSERT_FALSE(first.causes.empty());
+  EXPECT_EQ(first.causes[0].effect.name, reversed.causes[0].effect.name);
+  EXPECT_NEAR(first.causes[0].parameters[0].value, reversed.causes[0].parameters[0].value, 1e-6);
+}
+
+TEST(Diagnosis, OfTooFewRunsNamesNothing) {
+  if (!std::filesystem::exists(path_of("p03_rolling_resistance")))
+    GTEST_SKIP() << "no practice sets beside the sources";
+  Dataset dataset = read_dataset(path_of("p03_rolling_resistance"));
+  dataset.runs.resize(2);
+  const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::too_little_data);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_FALSE(d.where.empty());
+  EXPECT_FALSE(d.ranking.empty());
+}
+
+}  // namespace
+}  // namespace joulepath

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "diagnosis/normal_equations.hpp"
+#include "diagnosis/resample.hpp"
+#include "diagnosis/smoothing.hpp"
+#include "diagnosis/whitening.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Rows of pure AR(1) noise in every channel.
+ResidualRows noise_rows(Eigen::Index samples, double memory, std::mt19937& engine) {
+  std::normal_distribution<double> normal;
+  ResidualRows rows{.value = Eigen::MatrixXd::Zero(samples, kChannelCount)};
+  rows.present.setConstant(samples, kChannelCount, true);
+  for (Eigen::Index c = 0; c < kChannelCount; ++c)
+    for (Eigen::Index t = 0; t < samples; ++t)
+      rows.value(t, c) = (t > 0 ? memory * rows.value(t - 1, c) : 0.0) + normal(engine);
+  return rows;
+}
+
+TEST(Smoothing, PassesConstantsAndGivesTheSlopeOfALine) {
+  const SmoothingKernel kernel = gaussian_kernel(0.06, 0.02);
+  std::vector<double> line;
+  for (int i = 0; i < 60; ++i) line.push_back(3.0 + 0.5 * 0.02 * i);
+  EXPECT_NEAR(convolve_at(line, kernel.weight, 30), line[30], 1e-12);
+  EXPECT_NEAR(convolve_at(line, kernel.slope_weight, 30), 0.5, 1e-12);
+}
+
+TEST(Whitening, LeavesUnitUncorrelatedEntriesOfColoredNoise) {
+  std::mt19937 engine(7);
+  std::vector<ResidualRows> runs;
+  for (int r = 0; r < 10; ++r) runs.push_back(noise_rows(400, 0.7, engine));
+  const NoiseModel noise = estimate_noise(runs);
+  EXPECT_NEAR(noise.memory[kGyro][0], 0.7, 0.06);
+  const Whitener whiten(noise, runs[0].present);
+  const Eigen::VectorXd white = whiten(runs[0].value);
+  EXPECT_NEAR(white.squaredNorm() / static_cast<double>(white.size()), 1.0, 0.08);
+  double neighbors = 0;
+  for (Eigen::Index i = kChannelCount; i < white.size(); ++i)
+    neighbors += white[i] * white[i - kChannelCount];
+  EXPECT_NEAR(neighbors / static_cast<double>(white.size()), 0.0, 0.05);
+}
+
+TEST(Whitening, AbsentRowsDoNotCount) {
+  std::mt19937 engine(8);
+  ResidualRows rows = noise_rows(100, 0.3, engine);
+  rows.present.col(kCurrentLeft).setConstant(false);
+  for (int t = 40; t < 50; ++t) rows.present.row(t).setConstant(false);
+  const Whitener whiten(estimate_noise({rows}), rows.present);
+  EXPECT_EQ(whiten.entries(), 90 * (kChannelCount - 1));
+}
+
+/// Runs whose level differs by `spread` around `common`, measured with unit noise.
+std::vector<RawRunEquations> scattered_runs(int runs, int samples, double common, double spread,
+                                            std::mt19937& engine) {
+  std::normal_distribution<double> normal;
+  std::vector<RawRunEquations> raw;
+  for (int r = 0; r < runs; ++r) {
+    const double level = common + spread * normal(engine);
+    Eigen::MatrixXd rows(samples, 3);
+    for (int t = 0; t < samples; ++t) rows.row(t) << 1.0, 1.0, level + normal(engine);
+    raw.push_back({.gram = rows.transpose() * rows, .columns = 1, .own_columns = 1});
+  }
+  return raw;
+}
+
+TEST(RunEffects, TheirVarianceIsRecovered) {
+  std::mt19937 engine(9);
+  const auto raw = scattered_runs(200, 100, 0.0, 0.5, engine);
+  const Eigen::VectorXd variance =
+      run_variances(raw, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 0.1));
+  EXPECT_NEAR(std::sqrt(variance[0]), 0.5, 0.06);
+}
+
+TEST(RunEffects, IntervalsCoverTheTruthAtTheirRate) {
+  std::mt19937 engine(10);
+  int covered = 0;
+  constexpr int kDraws = 300;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const auto raw = scattered_runs(16, 60, 1.0, 0.4, engine);
+    std::vector<RunEquations> runs;
+    std::vector<std::size_t> all;
+    for (const RawRunEquations& run : raw) {
+      all.push_back(runs.size());
+      runs.push_back(marginalize(run, Eigen::VectorXd::Constant(1, 0.16)));
+    }
+    const Posterior posterior = solve(sum_runs(runs, all, Eigen::VectorXd::Constant(1, 100.0)), {0});
+    covered += std::abs(posterior.mean[0] - 1.0) < 1.96 * std::sqrt(posterior.covariance(0, 0));
+  }
+  EXPECT_GT(covered, 0.91 * kDraws);
+  EXPECT_LT(covered, 0.985 * kDraws);
+}
+
+TEST(Evidence, StaysBelowItsCostOnNoiseAlone) {
+  std::mt19937 engine(11);
+  std::normal_distribution<double> normal;
+  int alarms = 0;
+  constexpr int kDraws = 400;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    RunEquations run{.gram = Eigen::MatrixXd::Zero(6, 6)};
+    Eigen::MatrixXd rows(200, 6);
+    for (Eigen::Index i = 0; i < rows.size(); ++i) rows.data()[i] = normal(engine);
+    run.gram = rows.transpose() * rows;
+    const LinearProblem problem = sum_runs({run}, {0}, Eigen::VectorXd::Constant(5, 1.0));
+    const double nothing = solve(problem, {}).log_evidence;
+    double best = -1e300;
+    for (int column = 0; column < 5; ++column) best = std::max(best, solve(problem, {column}).log_evidence);
+    alarms += best - nothing > 6.0;
+  }
+  EXPECT_LE(alarms, kDraws / 100);
+}
+
+TEST(Evidence, ProjectingOutEqualsFittingTogether) {
+  std::mt19937 engine(12);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd rows(80, 4);
+  for (Eigen::Index i = 0; i < rows.size(); ++i) rows.data()[i] = normal(engine);
+  const RunEquations run{.gram = rows.transpose() * rows};
+  const LinearProblem problem = sum_runs({run}, {0}, Eigen::VectorXd::Constant(3, 0.7));
+  const Posterior together = solve(problem, {0, 1, 2});
+  const Posterior after = solve(project_out(problem, {0}, {1, 2}), {0, 1});
+  EXPECT_NEAR(together.mean[1], after.mean[0], 1e-12);
+  EXPECT_NEAR(together.mean[2], after.mean[1], 1e-12);
+  EXPECT_NEAR(together.loss, after.loss, 1e-9);
+}
+
+TEST(Bootstrap, IsTheSameEveryTimeAndHoldsTheMean) {
+  const std::vector<double> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const auto mean = [&](const std::vector<std::size_t>& chosen) {
+    double sum = 0;
+    for (std::size_t i : chosen) sum += values[i];
+    return sum / static_cast<double>(chosen.size());
+  };
+  const auto first = bootstrap_interval(values.size(), 500, mean),
+             second = bootstrap_interval(values.size(), 500, mean);
+  EXPECT_EQ(first, second);
+  EXPECT_LT(first.first, 5.5);
+  EXPECT_GT(first.second, 5.5);
+}
+
+}  // namespace
+}  // namespace joulepath
