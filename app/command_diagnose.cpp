@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/report/diagnosis_report.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
@@ -103,20 +104,21 @@ class Diagnose : public Command {
 
   void declare(CLI::App& app) override {
     app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
-    app.add_option("--out", out_, "directory for diagnosis.json and the corrected files")->required();
+    app.add_option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")->required();
     app.add_option("--robot", robot_, "robot file in place of the dataset's");
     app.add_flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
     add_common_flags(app, common_, "qjfu");
   }
 
   int run() override {
-    OutputDirectory out(out_, {"diagnosis.json", "robot_corrected.yaml", "dataset_corrected.yaml"},
+    OutputDirectory out(out_, {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
     const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
                                          robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
     const Diagnosis diagnosis = diagnose(dataset);
     const std::string json = diagnosis_json(diagnosis);
     out.write("diagnosis.json", json);
+    out.write("report.html", report::diagnosis_report(diagnosis, json, dataset));
     if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml", corrected_dataset_text(dataset, diagnosis));

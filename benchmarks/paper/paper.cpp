@@ -52,6 +52,7 @@ int run(const std::string& scenarios, const std::string& results, const std::str
   figures_without_numbers(report);
   turning_inertia_section(report);
   offset_section(report);
+  planning_cost_section(report);
 
   std::ofstream out(results + "/paper.md");
   out << "# The source paper, reproduced\n\n"

@@ -31,6 +31,7 @@ void straight_section(PaperReport& report);
 void bezier_section(PaperReport& report);
 void turning_inertia_section(PaperReport& report);
 void offset_section(PaperReport& report);
+void planning_cost_section(PaperReport& report);
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] [[nodiscard]] std::string text(const char* pattern, ...);

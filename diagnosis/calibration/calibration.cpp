@@ -173,11 +173,12 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
     if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
     if (fit.can.free[source] && fit.result.at_bound[source]) {
       parameter.visibility = Visibility::weak;
+      parameter.standard_deviation = parameter.interval_95[0] = parameter.interval_95[1] = std::nan("");
       parameter.note = source == kStraightInertia
                            ? "the robot file's masses alone make up more than the data see"
                            : "at its lower bound";
     }
-    if (p >= kFitParameters && parameter.visibility != Visibility::unseen) {
+    if (p >= kFitParameters && fit.can.free[source] && !fit.result.at_bound[source]) {
       parameter.note = p == kFitParameters ? "with the robot file's masses and wheel radius"
                                            : "with the robot file's masses, wheel radius and half track";
       if (parameter.value < 0) hold(parameter, "negative with the robot file's masses and lengths");
@@ -234,7 +235,7 @@ CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
   for (const Run& run : dataset.runs)
     if (run.current_sign_from_motion) {
       result.notes.push_back(
-          "currents are unsigned in the logs: signs were taken from the motion, braking currents are wrong");
+          "currents are unsigned in the logs: signs were taken from the motion and braking was left out");
       break;
     }
   for (const Run& run : dataset.runs)

@@ -195,7 +195,7 @@ FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValu
   result.converged = status > 0 || status == NLOPT_ROUNDOFF_LIMITED;
   result.values = problem.values(x.data());
   for (std::size_t i = 0; i < x.size(); ++i)
-    result.at_bound[static_cast<std::size_t>(problem.free[i])] = x[i] <= bound[i] * (1 + 1e-9);
+    result.at_bound[static_cast<std::size_t>(problem.free[i])] = x[i] <= bound[i] + 1e-9;
   return result;
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kKernelDeviation_s = 0.15;
 constexpr double kTurningSpeed_rad_s = 0.3;  ///< slower, and the sign of friction is in doubt
+constexpr double kBraking_rad_s2 = 0.3;
 constexpr double kLongestGap_periods = 2.5;
 
 /// The channels that calibration needs, on even time steps without gaps.
@@ -90,9 +91,30 @@ bool turns_one_way(const std::vector<double>& speed, std::size_t center, std::si
   return true;
 }
 
+/// Where a wheel brakes: there an unsigned current may have had the other sign.
+struct Braking {
+  std::vector<bool> at{};
+
+  bool near(std::size_t center, std::size_t reach) const {
+    for (std::size_t i = center - reach; i <= center + reach; ++i)
+      if (at[i]) return true;
+    return false;
+  }
+};
+
+Braking braking(const std::vector<double>& speed, const SmoothingKernel& kernel) {
+  Braking found{.at = std::vector<bool>(speed.size(), false)};
+  for (std::size_t i = kernel.reach(); i + kernel.reach() < speed.size(); ++i) {
+    const double acceleration = weighted(kernel.derivative, speed, i);
+    found.at[i] = (speed[i] > 0 ? acceleration : -acceleration) < -kBraking_rad_s2;
+  }
+  return found;
+}
+
 void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
   const SmoothingKernel& kernel = run.kernel;
   const std::size_t reach = kernel.reach(), count = stretch.payload.size();
+  const Sided<Braking> braked{braking(stretch.speed.left, kernel), braking(stretch.speed.right, kernel)};
   for (std::size_t i = reach; i + reach < count; ++i) {
     if (stretch.payload[i - reach] != stretch.payload[i + reach]) continue;
     SmoothedSample sample{.time_s = stretch.start_s + static_cast<double>(i) * stretch.period_s,
@@ -105,7 +127,8 @@ void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
       sample.current_slope_A_s[side] = weighted(kernel.derivative, stretch.current[side], i);
       sample.voltage_V[side] = run.has_voltage ? weighted(kernel.value, stretch.voltage[side], i)
                                                : std::numeric_limits<double>::quiet_NaN();
-      sample.turning[side] = turns_one_way(stretch.speed[side], i, reach);
+      sample.turning[side] = turns_one_way(stretch.speed[side], i, reach) &&
+                             !(run.unsigned_currents && braked[side].near(i, reach));
       finite =
           finite && std::isfinite(sample.acceleration_rad_s2[side]) && std::isfinite(sample.current_A[side]);
     }
@@ -122,6 +145,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   const double period_s = median_period_s(log.time_s);
   SmoothedRun run{.name = source.name,
                   .has_voltage = !log.motor_voltage_V.left.empty() && !log.motor_voltage_V.right.empty(),
+                  .unsigned_currents = source.current_sign_from_motion,
                   .kernel = make_smoothing_kernel(period_s, kKernelDeviation_s)};
   for (Side side : kSides) run.speed_noise_rad_s += 0.5 * white_noise_deviation(speeds[side]);
   std::size_t first = 0;

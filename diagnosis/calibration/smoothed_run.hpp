@@ -23,6 +23,7 @@ struct SmoothedSample {
 struct SmoothedRun {
   std::string name{};
   bool has_voltage{};
+  bool unsigned_currents{};  ///< their signs were taken from the motion: braking samples are left out
   SmoothingKernel kernel{};
   double speed_noise_rad_s{};  ///< of raw samples, white: for taking its share out of the normal equations
   std::vector<SmoothedSample> samples{};

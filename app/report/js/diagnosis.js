@@ -15,9 +15,9 @@ jp.diagnosis_tiles = function (d) {
   const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
   return jp.h("div", {class: "tiles"}, [
     jp.tile("Energy gap before", jp.percent(energy.before_percent), jp.is_number(energy.bias_before_percent) ? `bias ${jp.percent(energy.bias_before_percent)} (negative: the model is too low)` : jp.with_unit(energy.before_J, "J")),
-    jp.is_number(energy.after_percent) ? jp.tile("after the correction", jp.percent(energy.after_percent), jp.with_unit(energy.after_J, "J")) : null,
+    !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : jp.is_number(energy.after_percent) ? jp.tile("After the correction", jp.percent(energy.after_percent), jp.with_unit(energy.after_J, "J")) : null,
     jp.is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", jp.percent(energy.noise_floor_percent), "no model gets below it") : null,
-    jp.is_number(energy.shrink_fraction) ? jp.tile("Gap closed", jp.fraction(energy.shrink_fraction), interval ? `95 %: ${jp.fraction(interval[0])} to ${jp.fraction(interval[1])}` : null) : null].filter(Boolean));
+    (d.causes || []).length && jp.is_number(energy.shrink_fraction) ? jp.tile("Gap closed", jp.fraction(energy.shrink_fraction), interval ? `95 %: ${jp.fraction(interval[0])} to ${jp.fraction(interval[1])}` : null) : null].filter(Boolean));
 };
 
 /** Pairs before_X / after_X of one channel of `gap`, with their noise floor; X carries the unit. */
@@ -78,8 +78,8 @@ jp.where_section = function (data) {
     const every = where.filter((entry) => entry.axis === axis), entries = every.slice().sort((a, b) => (axis === "floor" || axis === "run" ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
     return jp.h("div", {}, jp.h("h3", {}, jp.words(axis)), jp.bar_rows(entries.map((entry) => {
       const cell = axis === "floor" ? jp.floor_cell(entry) : null;
-      return {label: cell ? `x ${jp.short(cell.x_min_m, 3)}…${jp.short(cell.x_max_m, 3)}, y ${jp.short(cell.y_min_m, 3)}…${jp.short(cell.y_max_m, 3)} m` : jp.words(entry.value),
-        value: entry.share_of_gap, interval: entry.interval_95, text: jp.fraction(entry.share_of_gap, 3) + (jp.is_number(entry.energy_J) ? ` · ${jp.with_unit(entry.energy_J, "J", 3)}` : "")};
+      return {label: cell ? `x ${jp.short(cell.x_min_m, 3)}…${jp.short(cell.x_max_m, 3)}, y ${jp.short(cell.y_min_m, 3)}…${jp.short(cell.y_max_m, 3)} m` : axis === "run" ? String(entry.value) : jp.words(entry.value),
+        value: entry.share_of_gap, interval: entry.interval_95, text: (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u202f%" : jp.fraction(entry.share_of_gap, 3)) + (Math.abs(entry.share_of_gap) >= 1e-4 && jp.is_number(entry.energy_J) ? ` · ${jp.with_unit(entry.energy_J, "J", 3)}` : "")};
     }), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
     every.length > entries.length ? jp.h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
   });
@@ -148,7 +148,8 @@ jp.next_section = function (d) {
 jp.caveats_section = function (d) {
   const items = [];
   if (d.leftover && d.leftover.significant) items.push("Left over: " + (d.leftover.description || "a significant rest"));
-  for (const artifact of d.artifacts || []) items.push("Artifact in the logs: " + (typeof artifact === "string" ? artifact : Object.entries(artifact).map(([key, value]) => jp.key_value(key, value)).join(", ")));
+  const artifacts = (d.artifacts || []).map((artifact) => (typeof artifact === "string" ? artifact : Object.entries(artifact).map(([key, value]) => jp.key_value(key, value)).join(", ")));
+  if (artifacts.length) items.push(jp.h("details", {open: artifacts.length < 6}, jp.h("summary", {}, `${artifacts.length} artifact${artifacts.length > 1 ? "s" : ""} in the logs, never fitted as physics`), jp.h("ul", {}, artifacts.map((artifact) => jp.h("li", {}, artifact)))));
   if ((d.missing_channels || []).length) items.push("Channels that are missing, which narrows what can be told apart: " + d.missing_channels.map(jp.words).join(", "));
   for (const note of d.notes || []) items.push(note);
   const decisions = d.decisions || {};

@@ -77,7 +77,7 @@ jp.floor_map = function (options) {
       context.strokeRect(left, top, right - left, bottom - top);
       if (right - left > 44) {
         context.fillStyle = jp.color("ink"); context.font = "12px sans-serif"; context.textAlign = "center";
-        context.fillText(jp.fraction(cell.share, 2), (left + right) / 2, (top + bottom) / 2 + 4);
+        context.fillText(Math.abs(cell.share) < 1e-3 ? "" : jp.fraction(cell.share, 2), (left + right) / 2, (top + bottom) / 2 + 4);
       }
     }
   };

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace joulepath::report {
+
+/// The HTML report of a diagnosis: `diagnosis_json` as written to diagnosis.json, and every usable run of the
+/// dataset with what the nominal and the corrected model predict for it.
+[[nodiscard]] std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diagnosis_json,
+                                           const Dataset& dataset);
+
+}  // namespace joulepath::report
