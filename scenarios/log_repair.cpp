@@ -52,67 +52,97 @@ bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
   return 10 * distinct(values) > 9 * changes;
 }
 
-struct HoldStatistics {
-  std::size_t changes{};        ///< how often the value changes
-  std::size_t longest{};        ///< most equal values in a row, zeros aside
-  std::size_t longest_start{};  ///< where that begins
-  std::size_t held_samples{};   ///< in all holds of at least kHeldSamples
+/// Equal values in a row, zeros aside (a robot at rest).
+struct Hold {
+  std::size_t start{};
+  std::size_t length{};
 };
 
-HoldStatistics holds(const std::vector<double>& values) {
-  HoldStatistics statistics;
+std::vector<Hold> holds_of(const std::vector<double>& values) {
+  std::vector<Hold> holds;
   std::size_t start = 0;
   for (std::size_t i = 1; i <= values.size(); ++i) {
     if (i < values.size() && values[i] == values[start]) continue;
-    const std::size_t length = i - start;
-    if (values[start] != 0.0) {
-      if (length > statistics.longest) statistics.longest = length, statistics.longest_start = start;
-      if (length >= kHeldSamples) statistics.held_samples += length;
-    }
-    ++statistics.changes;
+    if (values[start] != 0.0) holds.push_back({start, i - start});
     start = i;
   }
-  return statistics;
+  return holds;
 }
 
-/// A value that stays exactly the same far longer than this channel usually does.
-void find_held(const Trajectory& log, const std::string& run, const LogColumn& column,
-               const std::vector<double>& values, std::vector<LogArtifact>& artifacts) {
-  const HoldStatistics statistics = holds(values);
-  const double usual = static_cast<double>(values.size()) / static_cast<double>(statistics.changes);
-  if (statistics.longest < kHeldSamples || static_cast<double>(statistics.longest) < 10.0 * usual ||
-      usual > 3.0 || !has_fine_steps(values, statistics.changes))
-    return;
-  artifacts.push_back({.kind = "held_value",
-                       .run = run,
-                       .channel = column.name,
-                       .description = "the same value " + std::to_string(statistics.longest) +
-                                      " samples in a row: was the sensor or the logger stuck?",
-                       .count = statistics.held_samples,
-                       .first_time_s = log.time_s[statistics.longest_start]});
+/// Whether another channel changed all the while: then the world did not stand still, the sensor did.
+bool changes_during(const std::vector<double>& witness, const Hold& hold) {
+  std::size_t changes = 0;
+  for (std::size_t i = hold.start + 1; i < hold.start + hold.length; ++i)
+    if (witness[i] != witness[i - 1]) ++changes;
+  return 10 * changes >= 9 * (hold.length - 1);
 }
 
-/// A channel with new values only at every k-th row: sampled slower than it is logged.
-void find_slow(const std::string& run, const LogColumn& column, const std::vector<double>& values,
-               std::vector<LogArtifact>& artifacts) {
-  std::size_t moving = 0, changed = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i] == 0.0) continue;
-    ++moving;
-    if (values[i] != values[i - 1]) ++changed;
+/// A value that stays exactly the same while a wheel's speed changes.
+void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<Hold>& holds,
+               const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
+  LogArtifact held = of;
+  std::size_t longest = 0;
+  for (const Hold& hold : holds) {
+    if (hold.length < kHeldSamples || !changes_during(witness, hold)) continue;
+    if (held.count == 0) held.first_time_s = log.time_s[hold.start];
+    held.count += hold.length;
+    longest = std::max(longest, hold.length);
   }
-  if (moving < 50 || !has_fine_steps(values, changed) ||
-      static_cast<double>(changed) > 0.6 * static_cast<double>(moving))
-    return;
-  const double every = static_cast<double>(moving) / static_cast<double>(std::max<std::size_t>(changed, 1));
-  char text[96];
-  std::snprintf(text, sizeof text,
-                "a new value only at every %.1f-th row: the channel is slower than the log", every);
-  artifacts.push_back({.kind = "slow_channel",
-                       .run = run,
-                       .channel = column.name,
-                       .description = text,
-                       .count = moving - changed});
+  if (held.count == 0) return;
+  held.kind = "held_value";
+  held.description = "the same value " + std::to_string(longest) +
+                     " samples in a row while the robot's speed changed: was the sensor or the logger stuck?";
+  artifacts.push_back(held);
+}
+
+/// A channel whose every value stands for several rows: sampled slower than it is logged.
+void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogArtifact>& artifacts) {
+  if (holds.size() < 30) return;
+  const auto middle = holds.begin() + static_cast<long>(holds.size() / 2);
+  std::nth_element(holds.begin(), middle, holds.end(),
+                   [](const Hold& a, const Hold& b) { return a.length < b.length; });
+  if (middle->length < 2) return;
+  LogArtifact slow = of;
+  slow.kind = "slow_channel";
+  slow.count = holds.size();
+  slow.description = "a new value only at every " + std::to_string(middle->length) +
+                     ". row: the channel is slower than the log";
+  artifacts.push_back(slow);
+}
+
+/// The position as one channel: 0 where the robot stands, else a number that is new with every new place.
+std::vector<double> places(const Trajectory& log) {
+  std::vector<double> place(log.position_x_m.size());
+  double fastest_rad_s = 0.0, number = 1.0;
+  const auto speed_rad_s = [&](std::size_t i) {
+    return 0.5 * (log.wheel_speed_rad_s.left[i] + log.wheel_speed_rad_s.right[i]);
+  };
+  for (std::size_t i = 0; i < place.size(); ++i)
+    fastest_rad_s = std::max(fastest_rad_s, std::abs(speed_rad_s(i)));
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const bool same = i > 0 && log.position_x_m[i] == log.position_x_m[i - 1] &&
+                      log.position_y_m[i] == log.position_y_m[i - 1];
+    if (!same) ++number;
+    place[i] = std::abs(speed_rad_s(i)) > 0.05 * fastest_rad_s ? number : 0.0;
+  }
+  return place;
+}
+
+void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<double>& values,
+                const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
+  const std::vector<Hold> holds = holds_of(values);
+  if (!has_fine_steps(values, holds.size())) return;
+  find_held(log, of, holds, witness, artifacts);
+  find_slow(of, holds, artifacts);
+}
+
+/// Heading, temperature, payload and commands may stay the same for long; everything else that is measured
+/// may not.
+bool may_stay(const LogColumn& column) {
+  for (const char* name :
+       {"time_s", "payload_kg", "temperature_C", "heading_rad", "position_x_m", "position_y_m"})
+    if (column.name == name) return true;
+  return !column.measured || column.name.rfind("command_", 0) == 0;
 }
 
 }  // namespace
@@ -184,15 +214,17 @@ std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::strin
   std::vector<LogArtifact> artifacts;
   if (trajectory.size() < 3) return artifacts;
   find_gaps(trajectory, run, artifacts);
+  const Sided<std::vector<double>>& wheels = trajectory.wheel_speed_rad_s;
+  if (wheels.left.empty() || wheels.right.empty()) return artifacts;
   for (const auto& column : log_columns()) {
     const std::vector<double>& values = column.channel(trajectory);
-    const bool steady_by_nature = column.name == "time_s" || column.name == "payload_kg" ||
-                                  column.name == "temperature_C" || column.name.rfind("command_", 0) == 0 ||
-                                  !column.measured;
-    if (values.empty() || steady_by_nature) continue;
-    find_held(trajectory, run, column, values, artifacts);
-    find_slow(run, column, values, artifacts);
+    if (values.empty() || may_stay(column)) continue;
+    const auto& witness = &values == &wheels.left ? wheels.right : wheels.left;
+    find_stuck(trajectory, {.run = run, .channel = column.name}, values, witness, artifacts);
   }
+  if (!trajectory.position_x_m.empty() && !trajectory.position_y_m.empty())
+    find_stuck(trajectory, {.run = run, .channel = "position_x_m"}, places(trajectory), wheels.left,
+               artifacts);
   return artifacts;
 }
 

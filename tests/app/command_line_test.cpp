@@ -104,6 +104,9 @@ TEST(Init, WritesAStarterThatIsRightAndPlansAtOnce) {
   const auto plan = run_program(scratch, "plan " + folder + "/mission.yaml --out " + folder + "/out");
   EXPECT_EQ(plan.code, 0) << plan.err;
   EXPECT_TRUE(std::filesystem::exists(folder + "/out/trajectory.csv"));
+  EXPECT_EQ(run_program(scratch, "check " + folder + "/out/trajectory.csv " + folder + "/out/plan.json").err,
+            "")
+      << "nothing is odd about a plan";
   EXPECT_EQ(run_program(scratch, "init " + folder).code, 2) << "it must not overwrite";
   EXPECT_EQ(run_program(scratch, "init --force " + folder).code, 0);
 }

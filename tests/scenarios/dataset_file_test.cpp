@@ -168,6 +168,28 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsTold) {
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
 }
 
+TEST(DatasetFile, ASlowLocalizationIsToldAndASmoothDriveIsNot) {
+  const ScratchDirectory scratch;
+  const auto artifacts_with_pose_every = [&](int rows) {
+    std::string csv =
+        "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,position_x_m,position_y_m,heading_rad\n";
+    for (int i = 0; i < 400; ++i) {  // noise-free: stand, accelerate, cruise along x
+      const double t = 0.02 * i, speed = i < 50 ? 0.0 : std::min(0.05 * (i - 50), 5.0);
+      const double x = i / rows * rows < 50 ? 0.0 : 0.001 * (i / rows * rows - 50);
+      csv += std::to_string(t) + "," + std::to_string(speed) + "," + std::to_string(1.001 * speed) + "," +
+             std::to_string(x) + ",0.5,0.25\n";
+    }
+    scratch.write("a.csv", csv);
+    return read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv, payload_kg: 0}]")))
+        .artifacts;
+  };
+  EXPECT_TRUE(artifacts_with_pose_every(1).empty());
+  const auto slow = artifacts_with_pose_every(5);
+  ASSERT_EQ(slow.size(), 1u);
+  EXPECT_EQ(slow[0].kind, "slow_channel");
+  EXPECT_EQ(slow[0].channel, "position_x_m");
+}
+
 TEST(DatasetFile, WrittenLogReadsBackToTheLastBit) {
   Trajectory log;
   for (int i = 0; i < 50; ++i) {
