@@ -78,45 +78,53 @@ void print_table(const std::string& title, const std::vector<std::pair<std::stri
               100.0 * all.held / std::max(1, all.intervals));
 }
 
-void campaign(const std::string& plant, const std::string& scratch, int sets, int first_seed, int level,
-              CalibrationMethod method) {
-  std::vector<std::pair<std::string, Tally>> tallies;
+/// Tallies of one method, in the order of its parameters.
+struct Tallies {
+  CalibrationMethod method{};
+  std::vector<std::pair<std::string, Tally>> rows{};
+
+  void add(const CalibrationResult& result, const std::map<std::string, double>& truth) {
+    if (rows.empty())
+      for (const CalibratedParameter& parameter : result.parameters)
+        rows.emplace_back(parameter.name, Tally{});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].second.add(result.parameters[i], truth.at(rows[i].first));
+  }
+};
+
+void campaign(const std::string& plant, const std::string& scratch, int sets, int first_seed, int level) {
+  Tallies all[] = {{CalibrationMethod::full}, {CalibrationMethod::steady}};
   for (int seed = first_seed; seed < first_seed + sets; ++seed) {
     const std::string folder = scratch + "/set";
     const std::string command = plant + " --effect none --level " + std::to_string(level) + " --seed " +
                                 std::to_string(seed) + " --out " + folder + " > /dev/null";
     if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
     const Dataset dataset = read_dataset(folder + "/dataset.yaml");
-    const CalibrationResult result = calibrate(dataset, method);
     const auto truth = truth_of(folder + "/truth.yaml", dataset.robot);
-    if (tallies.empty())
-      for (const CalibratedParameter& parameter : result.parameters)
-        tallies.emplace_back(parameter.name, Tally{});
-    for (std::size_t i = 0; i < tallies.size(); ++i)
-      tallies[i].second.add(result.parameters[i], truth.at(tallies[i].first));
+    for (Tallies& tallies : all) tallies.add(calibrate(dataset, tallies.method), truth);
     std::filesystem::remove_all(folder);
     std::fprintf(stderr, "\r%d of %d", seed - first_seed + 1, sets);
   }
   std::fprintf(stderr, "\n");
-  print_table(std::string(method == CalibrationMethod::full ? "Full method" : "Steady method") + ", " +
-                  (level == 0 ? "white noise (level 0)" : "rough (level 1)") + ", " + std::to_string(sets) +
-                  " sets",
-              tallies);
+  for (const Tallies& tallies : all)
+    print_table(std::string(tallies.method == CalibrationMethod::full ? "Full method" : "Steady method") +
+                    ", " + (level == 0 ? "white noise (level 0)" : "rough (level 1)") + ", " +
+                    std::to_string(sets) + " sets",
+                tallies.rows);
+  std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace joulepath
 
 int main(int argc, char** argv) {
-  using joulepath::CalibrationMethod;
   if (argc != 5) {
     std::fprintf(stderr, "usage: bench_calibration PLANT_PROGRAM SCRATCH_FOLDER SETS_PER_LEVEL FIRST_SEED\n");
     return 2;
   }
   try {
-    for (const CalibrationMethod method : {CalibrationMethod::full, CalibrationMethod::steady})
-      for (int level : {0, 1})
-        joulepath::campaign(argv[1], argv[2], std::atoi(argv[3]), std::atoi(argv[4]), level, method);
+    for (int level : {0, 1})
+      joulepath::campaign(argv[1], argv[2], std::atoi(argv[3]), std::atoi(argv[4]), level);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_calibration: %s\n", error.what());
