@@ -10,6 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kShortestStep_m = 0.002;
+constexpr double kReportStep_m = 0.01;
 constexpr double kShortestSearchStep_m = 0.005;
 constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
 constexpr double kHalfDiagonalPerHalfSide = 1.4142135623730951;
@@ -122,6 +123,22 @@ std::optional<Collision> FootprintChecker::first_collision(const Path& path) con
   for (const PathPiece& piece : path.pieces)
     if (auto collision = first_collision(piece)) return collision;
   return std::nullopt;
+}
+
+std::optional<Collision> FootprintChecker::worst_collision(const Path& path) const {
+  std::optional<Collision> worst;
+  for (const PathPiece& piece : path.pieces) {
+    const double length = piece_length(piece), reach = is_turn(piece) ? outer_m_ : 1.0;
+    const int steps = static_cast<int>(length * reach / kReportStep_m) + 1;
+    for (int k = 0; k <= steps; ++k) {
+      const double s = length * k / steps;
+      const Pose pose = piece_point(piece, s).pose;
+      const double slack = slack_m(pose);
+      if (slack < -kTolerance_m && (!worst || -slack > worst->short_by_m))
+        worst = collision_at(s, pose, slack);
+    }
+  }
+  return worst;
 }
 
 bool FootprintChecker::segment_free(const CurveSegment& segment) const {

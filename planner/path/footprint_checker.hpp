@@ -14,7 +14,8 @@ namespace joulepath {
 struct Collision {
   double s{};           ///< path coordinate in the piece (0 for a pose)
   Pose pose{};          ///< of the robot
-  double short_by_m{};  ///< of the clearance asked; more than the clearance means contact
+  double short_by_m{};  ///< of the clearance asked; more than the clearance means contact (for
+                        ///< polygons the depth is then that of cell centers)
   ObstacleField::Nearest obstacle{};
 };
 
@@ -33,6 +34,8 @@ class FootprintChecker {
   /// slack lets no point of the outline reach an obstacle, and at least 2 mm (2 mm at the outline).
   [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;
   [[nodiscard]] std::optional<Collision> first_collision(const Path& path) const;
+  /// The place of a path where the clearance is missed by most, sampled every centimetre (of the outline).
+  [[nodiscard]] std::optional<Collision> worst_collision(const Path& path) const;
   [[nodiscard]] bool segment_free(const CurveSegment& segment) const;
   /// Straight driving between two points, looking along.
   [[nodiscard]] bool line_free(double x0_m, double y0_m, double x1_m, double y1_m) const;

@@ -177,13 +177,23 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
   result.polyline_cost = polyline_cost(polyline_m, request.cost);
   const FootprintChecker& checker = space.checker();
   const FootprintChecker careful = checker.with_clearance(checker.clearance_m() + kShapeMargin_m);
-  for (const CornerPolicy& policy : {request.corners, CornerPolicy{CornerPolicy::Kind::stop_turn_go, 0}}) {
-    const SmoothPath smooth = smooth_with_leads(polyline_m, request, careful, policy);
+  // As asked; bending at the ends where there is no room to turn on the spot; stopping at every corner.
+  RouteRequest bending = request, stopping = request;
+  bending.blend_start = bending.blend_goal = true;
+  stopping.corners = {CornerPolicy::Kind::stop_turn_go, 0};
+  for (const RouteRequest* way :
+       {&request, static_cast<const RouteRequest*>(&bending), static_cast<const RouteRequest*>(&stopping)}) {
+    const SmoothPath smooth = smooth_with_leads(polyline_m, *way, careful, way->corners);
     result.path = with_end_turns(smooth.path, request);
     result.corners = smooth.corners;
     const auto collision = checker.first_collision(result.path);
-    if (!collision) return result;
-    result.verdict = blocked(RouteStatus::no_room_to_turn, "no room on the way at", *collision);
+    if (!collision) {
+      result.verdict = {};
+      return result;
+    }
+    if (way != &request) continue;
+    result.verdict = blocked(RouteStatus::no_room_to_turn, "no room on the way at",
+                             checker.worst_collision(result.path).value_or(*collision));
   }
   result.path = {};
   return result;

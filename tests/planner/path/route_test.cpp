@@ -252,6 +252,16 @@ TEST(Route, KeepoutIsNeverCrossedAndIsNamed) {
   EXPECT_TRUE(into.verdict.keepout);
 }
 
+TEST(Route, LongRobotBendsAwayFromAWallThatItCannotTurnAt) {
+  const OccupancyGrid map = free_grid(200, 200, 0.05);
+  const RouteSpace space(map, nullptr, {0, {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}}}, 0.05);
+  RouteRequest request = across(2, 0.55, 8, 8);  // along a wall that its tail hits when it turns
+  const RouteResult result = plan_route(space, request);
+  ASSERT_TRUE(result.found()) << result.verdict.message;
+  EXPECT_FALSE(is_turn(result.path.pieces.front()));
+  EXPECT_FALSE(space.checker().first_collision(result.path).has_value());
+}
+
 TEST(Route, LongRobotIsToldWhereItCannotTurn) {
   OccupancyGrid map = free_grid(200, 20, 0.05);  // a corridor of 1 m
   const RouteSpace space(map, nullptr, {0, {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}}}, 0.05);
@@ -261,6 +271,10 @@ TEST(Route, LongRobotIsToldWhereItCannotTurn) {
   const RouteResult result = plan_route(space, request);
   EXPECT_EQ(result.verdict.status, RouteStatus::no_room_to_turn);
   EXPECT_NEAR(result.verdict.x_m, 9.0, 1e-6);
+  // Its corners are hypot(0.6, 0.3) from the axis, the walls 0.5 m: contact, by at most what is missing
+  // there.
+  EXPECT_GT(result.verdict.short_by_m, 0.05);
+  EXPECT_LT(result.verdict.short_by_m, std::hypot(0.6, 0.3) + 0.05 - 0.5 + 1e-3);
 }
 
 }  // namespace
