@@ -107,6 +107,9 @@ def diagnose_all(frozen, name, counts, limit_s, jobs, with_controls=True):
     if changed:
         sys.exit(f"the tree differs from the frozen commit {frozen[:12]}: {' '.join(changed[:5])}")
     cases = plan.plan(frozen, *workspace.effect_names(), counts)[: manifest["cases"]]
+    probe = subprocess.run([workspace.program("joulepath"), "diagnose", "--help"], capture_output=True)
+    if probe.returncode != 0:
+        sys.exit("this joulepath has no command `diagnose`: build the frozen commit first")
     log = workspace.sealed_folder(frozen, name) / "diagnosed.jsonl"
     done = {json.loads(line)["id"] for line in log.read_text().splitlines()} if log.exists() else set()
     waiting = [case for case in cases if case["id"] not in done]

@@ -70,7 +70,7 @@ def confusion_lines(table):
 
 def split_table(cases):
     """The first measures by level, robot and protocol: where it is weak."""
-    lines = ["| part | top-1 | wrong name | false alarm | pairs: both | foreign says none fits |", "|---|---|---|---|---|---|"]
+    lines = ["| part | top-1 | top-1, material | wrong name | false alarm | pairs: both | pairs: both, material | foreign says none fits |", "|---|---|---|---|---|---|---|---|"]
     parts = [(f"level {v}", lambda l, v=v: l["level"] == v) for v in (0, 1)]
     parts += [(v, lambda l, v=v: l["robot"] == v) for v in ("nomad", "warehouse", "small")]
     parts += [(f"{v} runs", lambda l, v=v: l["runs"] == v) for v in (24, 12, 6)]

@@ -224,9 +224,6 @@ def main():
         else:
             lines += [f"No logs in {data}: set JOULEPATH_DATA_DIR.", ""]
         lines += ["## Tables 4 and 6 of the source paper", ""] + paper(scratch) + [""]
-    notes = pathlib.Path(__file__).with_name("reading.md")
-    if notes.exists():
-        lines += [notes.read_text()]
     out = workspace.RESULTS / "blind_real.md"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text("\n".join(lines))
