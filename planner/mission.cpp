@@ -39,6 +39,7 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
     leg.duration_s += wait_s;
     leg.energy.standby_J += plant.robot.power.standby_W * wait_s;
     leg.stretches.back().energy.standby_J += plant.robot.power.standby_W * wait_s;
+    leg.stretches.back().replay.energy_J += plant.robot.power.standby_W * wait_s;
   }
   leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
 }

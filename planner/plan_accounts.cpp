@@ -40,6 +40,7 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
       plan.worst_limit = stretch.replay.limit;
     }
   }
+  if (leg.prescribed) plan.replay_energy_J += leg.energy.total_J() - standby_W * leg.dwell_s;  // nothing to replay
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
@@ -69,6 +70,12 @@ std::vector<BaselineTotal> leg_baselines(const LegPlan& leg) {
     add_stretch(maximum, trapezoid_max_acceleration(stretch.request, stretch.profile.duration_s()));
     add_stretch(tuned, trapezoid_best_tuned(stretch.request, stretch.profile.duration_s()));
   }
+  if (leg.prescribed)  // every way of planning drives it the same
+    for (BaselineTotal* baseline : {&maximum, &tuned}) {
+      baseline->energy_J = leg.energy.total_J();
+      baseline->motion_energy_J = leg.energy.motion_J();
+      baseline->duration_s = leg.duration_s;
+    }
   return {maximum, tuned};
 }
 
@@ -87,7 +94,7 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
     }
     for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
       BaselineTotal& of_leg = leg.baselines[b];
-      of_leg.energy_J += standby_W * leg.dwell_s;
+      if (!leg.prescribed) of_leg.energy_J += standby_W * leg.dwell_s;
       if (plan.baselines.size() <= b) plan.baselines.emplace_back();
       add_leg(plan.baselines[b], of_leg);
       plan.baselines[b].duration_s += leg.dwell_s;
