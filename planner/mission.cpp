@@ -6,6 +6,7 @@
 #include "planner/battery_account.hpp"
 #include "planner/mission_time.hpp"
 #include "planner/plan_accounts.hpp"
+#include "planner/visit_order.hpp"
 
 namespace joulepath {
 namespace {
@@ -95,6 +96,25 @@ std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionReques
   return std::nullopt;
 }
 
+const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* space) {
+  if (space) return space;
+  throw ConfigError({.mark = mission.marks.at("visit"),
+                     .key = "visit",
+                     .found = "stops to visit without a map",
+                     .accepted = "`map:` beside it",
+                     .hint = {}});
+}
+
+[[noreturn]] void refuse_empty(const MissionRequest& mission) {
+  const std::string key = mission.order_file.empty() ? "legs" : "order";
+  throw ConfigError(
+      {.mark = mission.marks.at(key),
+       .key = key,
+       .found = mission.order_file.empty() ? "no leg" : "a VDA 5050 order, which this version does not read",
+       .accepted = "`legs:` or `visit:` with at least one stop",
+       .hint = {}});
+}
+
 }  // namespace
 
 std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world) {
@@ -103,12 +123,20 @@ std::optional<RouteSpace> route_space(const MissionRequest& mission, const Missi
                     mission.clearance_m);
 }
 
-Plan plan_mission(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
                   const RouteSpace* space) {
   std::optional<RouteSpace> own_space;
-  if (!space && (own_space = route_space(mission, world))) space = &*own_space;
-  Plan plan{.mission = mission.name, .status = SolveStatus::optimal};
+  if (!space && (own_space = route_space(asked, world))) space = &*own_space;
+  Plan plan{.mission = asked.name, .status = SolveStatus::optimal};
   const Plant plant = make_plant(world.robot);
+  MissionRequest mission = asked;
+  if (!asked.visit.empty() && asked.legs.empty()) {
+    plan.visit = order_visits(
+        {asked, world, need_space(asked, space), plant, options, lowest_price_W(asked.objective)});
+    if (plan.visit->infeasibility) return infeasible(std::move(plan), 0, 0.0, *plan.visit->infeasibility);
+    mission.legs = plan.visit->legs;
+  }
+  if (mission.legs.empty()) refuse_empty(mission);
   TimedDraft timed = time_legs(mission, world, space, plant, options, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   if (auto verdict = too_late(timed, mission))

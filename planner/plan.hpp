@@ -68,6 +68,16 @@ struct PlanInfeasibility {
   double arc_length_m{};  ///< along the leg
 };
 
+/// The order of stops that a mission with `visit:` was given.
+struct VisitOrder {
+  std::vector<std::size_t> order{};  ///< indices into MissionRequest::visit
+  std::vector<LegRequest> legs{};
+  bool exact{};            ///< false: a beam search, with the bound below
+  double energy_J{};       ///< of the order, from the table of leg energies
+  double lower_bound_J{};  ///< no order takes less: cheapest way into each stop, unloaded
+  std::optional<Infeasibility> infeasibility{};
+};
+
 struct BatteryAccount {
   double start_fraction{};
   double end_fraction{};
@@ -98,6 +108,7 @@ struct Plan {
   double worst_violation{};
   std::string worst_limit{};
   std::optional<BatteryAccount> battery{};
+  std::optional<VisitOrder> visit{};
   std::vector<BaselineTotal> baselines{};
   std::optional<PlanInfeasibility> infeasibility{};
 };

@@ -40,7 +40,8 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
       plan.worst_limit = stretch.replay.limit;
     }
   }
-  if (leg.prescribed) plan.replay_energy_J += leg.energy.total_J() - standby_W * leg.dwell_s;  // nothing to replay
+  if (leg.prescribed)
+    plan.replay_energy_J += leg.energy.total_J() - standby_W * leg.dwell_s;  // nothing to replay
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 

@@ -154,6 +154,11 @@ void add_results(const Plan& plan, Json& json) {
                     {"worst_violation", plan.worst_violation},
                     {"limit", plan.worst_limit}};
   if (plan.battery) json["battery"] = battery_json(*plan.battery);
+  if (plan.visit)
+    json["visit"] = {{"order", plan.visit->order},
+                     {"exact", plan.visit->exact},
+                     {"estimated_energy_J", plan.visit->energy_J},
+                     {"lower_bound_J", plan.visit->lower_bound_J}};
   json["legs"] = Json::array();
   for (const LegPlan& leg : plan.legs) json["legs"].push_back(leg_json(leg));
   json["baselines"] = Json::array();
