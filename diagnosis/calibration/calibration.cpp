@@ -56,6 +56,13 @@ FitValues lower_bounds(const Robot& robot) {
   return lower;
 }
 
+/// Bounds for resampling: an estimate held by its bound would not scatter, though the data do.
+FitValues without_bounds(FitValues lower) {
+  for (int p : {kFrictionLeft, kFrictionRight, kViscous, kStraightInertia, kTurningInertia})
+    lower[static_cast<std::size_t>(p)] = -1e6;
+  return lower;
+}
+
 /// For each parameter the number of units that carry its information: (sum h)^2 / sum h^2, h the unit's part.
 std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& units, const FitSums& all,
                                                    const FitWeights& weights, const FitValues& values,
@@ -151,13 +158,15 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
                     const FitValues& lower, CalibrationResult& result) {
   const Robot& robot = dataset.robot;
   const FitValues nominal = nominal_values(robot);
+  const FitValues unbounded = without_bounds(lower);
   std::vector<double> deviation(kFitParameters + kDerived, std::nan(""));
   if (units.size() >= kFewestUnits)
-    deviation = jackknife(units.size(), [&](std::size_t left_out) {
-                  FitSums rest = fit.all;
-                  rest -= units[left_out];
-                  return reported(robot, fit_full(rest, fit.weights, nominal, lower, fit.can.free).values);
-                }).standard_deviation;
+    deviation =
+        jackknife(units.size(), [&](std::size_t left_out) {
+          FitSums rest = fit.all;
+          rest -= units[left_out];
+          return reported(robot, fit_full(rest, fit.weights, nominal, unbounded, fit.can.free).values);
+        }).standard_deviation;
   else
     result.notes.push_back("fewer than 4 runs or blocks of 10 s: no intervals");
   const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
@@ -166,6 +175,8 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
   const DerivedInertia from_geometry = geometric_deviation(robot, fit.result.values);
   deviation[kFitParameters] = std::hypot(deviation[kFitParameters], from_geometry.wheel_axle_kg_m2);
   deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
+  const std::vector<double> center =
+      reported(robot, fit_full(fit.all, fit.weights, nominal, unbounded, fit.can.free).values);
   const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
   for (std::size_t p = 0; p < after.size(); ++p) {
     const std::size_t source = source_of(p);
@@ -173,7 +184,8 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
     if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
     if (fit.can.free[source] && fit.result.at_bound[source]) {
       parameter.visibility = Visibility::weak;
-      parameter.standard_deviation = parameter.interval_95[0] = parameter.interval_95[1] = std::nan("");
+      const double moved = center[p] - parameter.value, least = p < kFitParameters ? lower[p] : 0.0;
+      for (double& end : parameter.interval_95) end = std::max(least, end + moved);
       parameter.note = source == kStraightInertia
                            ? "the robot file's masses alone make up more than the data see"
                            : "at its lower bound";
