@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/path/candidates.hpp"
+#include "planner/path/graph_route.hpp"
 
 namespace joulepath {
 namespace {
@@ -100,6 +101,10 @@ LegWays leg_ways(const LegRequest& leg, std::size_t leg_index, const LegStart& s
   found.source = routes.front().searched_by;
   for (std::size_t k = 0; k < routes.size(); ++k)
     add_corner_variants(routes[k], request, *context.space, "route_" + std::to_string(k) + "_", found.ways);
+  if (context.world.route_graph) {
+    const RouteResult on_graph = plan_graph_route(*context.space, request, *context.world.route_graph);
+    if (on_graph.found()) add_corner_variants(on_graph, request, *context.space, "graph_", found.ways);
+  }
   return found;
 }
 
