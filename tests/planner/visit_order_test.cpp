@@ -1,0 +1,114 @@
+#include "planner/visit_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/mission.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// An empty floor of 24 m x 24 m with walls around.
+OccupancyGrid empty_floor() {
+  OccupancyGrid grid{.width = 120, .height = 120, .resolution_m = 0.2};
+  grid.occupancy_percent.assign(120 * 120, 0);
+  for (std::size_t k = 0; k < 120; ++k)
+    for (std::size_t edge : {k, 119 * 120 + k, k * 120, k * 120 + 119}) grid.occupancy_percent[edge] = 100;
+  return grid;
+}
+
+VisitRequest pick(const std::string& station, double payload_kg) {
+  return {
+      .kind = VisitRequest::Kind::pick, .station = station, .payload_kg = payload_kg, .payload_given = true};
+}
+
+/// A light load nearby, a heavy one far off, another light one on the way; all goes back to the dock.
+MissionRequest round_trip() {
+  MissionRequest mission{.name = "round"};
+  mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0}},
+                      {"near", {.x_m = 6, .y_m = 3}},
+                      {"far", {.x_m = 20, .y_m = 4}},
+                      {"side", {.x_m = 12, .y_m = 12}}};
+  mission.start = {.station = "dock", .pose = {2, 2, 0}};
+  mission.visit = {pick("near", 6.0),
+                   pick("far", 1.0),
+                   pick("side", 2.0),
+                   {.kind = VisitRequest::Kind::drop, .station = "dock"}};
+  return mission;
+}
+
+Plan plan_of(const MissionRequest& mission) {
+  return plan_mission(mission, {.robot = testing::nomad(), .map = empty_floor()},
+                      {.solver = SolverChoice::fast, .nodes = 40});
+}
+
+TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
+  const MissionRequest mission = round_trip();
+  const Plan chosen = plan_of(mission);
+  ASSERT_TRUE(chosen.visit);
+  EXPECT_TRUE(chosen.visit->exact);
+  EXPECT_EQ(chosen.visit->order.back(), 3u);  // the drop waits for the picks before it
+  EXPECT_LE(chosen.visit->lower_bound_J, chosen.energy.total_J());
+  std::vector<std::size_t> order{0, 1, 2};
+  do {
+    MissionRequest fixed = mission;
+    fixed.visit.clear();
+    double payload_kg = 0.0;
+    for (const std::size_t k : order) {
+      fixed.legs.push_back({.to = mission.visit[k].station, .payload = {payload_kg, payload_kg}});
+      payload_kg += mission.visit[k].payload_kg;
+    }
+    fixed.legs.push_back({.to = "dock", .payload = {payload_kg, payload_kg}});
+    EXPECT_GE(plan_of(fixed).energy.total_J(),
+              0.97 * chosen.energy.total_J());  // the table leaves turns open
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(VisitOrder, AWindowTurnsTheOrderRound) {
+  MissionRequest mission = round_trip();
+  const std::size_t free_first = plan_of(mission).visit->order.front();
+  const std::size_t other = free_first == 1 ? 0 : 1;
+  mission.visit[other].window_s = {0.0, 25.0};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (k != other) mission.visit[k].window_s = {26.0, 1000.0};
+  const Plan plan = plan_of(mission);
+  ASSERT_FALSE(plan.infeasibility) << plan.message;
+  EXPECT_EQ(plan.visit->order.front(), other);
+  EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
+}
+
+TEST(VisitOrder, MoreThanTheRobotCarriesHasNoOrder) {
+  MissionRequest mission = round_trip();
+  mission.visit[1].payload_kg = 8.0;  // 16 kg before the only drop, 12 allowed
+  const Plan plan = plan_of(mission);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "visit_order");
+}
+
+TEST(VisitOrder, AStopInAWallIsNamed) {
+  MissionRequest mission = round_trip();
+  mission.stations["far"].x_m = 23.95;
+  const Plan plan = plan_of(mission);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
+  EXPECT_NE(plan.message.find("far"), std::string::npos);
+}
+
+TEST(LegChoice, TheChosenWayIsTheCheapestOfAllThatWereScored) {
+  MissionRequest mission = round_trip();
+  mission.visit.clear();
+  mission.legs = {{.to = "side"}, {.to = "far"}, {.to = "dock"}};
+  const Plan plan = plan_of(mission);
+  for (const LegPlan& leg : plan.legs) {
+    ASSERT_FALSE(leg.alternatives.empty());
+    const auto chosen = std::find_if(leg.alternatives.begin(), leg.alternatives.end(),
+                                     [](const PathAlternative& a) { return a.chosen; });
+    ASSERT_NE(chosen, leg.alternatives.end());
+    for (const PathAlternative& other : leg.alternatives) EXPECT_LE(chosen->energy_J, other.energy_J);
+  }
+}
+
+}  // namespace
+}  // namespace joulepath
