@@ -9,6 +9,7 @@
 #include "app/terminal.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/decision_cost.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
@@ -82,6 +83,9 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (d.leftover_significant)
     out << "left over: " << percent(d.leftover_share) << " of what could be explained, "
         << d.leftover_description << '\n';
+  if (d.decision_missions > 0)
+    out << "planning with the uncorrected model takes " << figure(d.joules_lost_percent, 2) << " % more on "
+        << d.decision_missions << " standard missions\n";
   if (!d.control_effect.empty())
     out << "control: " << d.control_effect << " instead shrinks the gap by "
         << percent(d.control_shrink_fraction) << '\n';
@@ -115,7 +119,12 @@ class Diagnose : public Command {
                         common_.force);
     const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
                                          robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
-    const Diagnosis diagnosis = diagnose(dataset);
+    Diagnosis diagnosis = diagnose(dataset);
+    if (diagnosis.corrected_robot) {
+      const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);
+      diagnosis.decision_missions = cost.missions;
+      diagnosis.joules_lost_percent = cost.joules_lost_percent;
+    }
     const std::string json = diagnosis_json(diagnosis);
     out.write("diagnosis.json", json);
     out.write("report.html", report::diagnosis_report(diagnosis, json, dataset));

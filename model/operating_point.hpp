@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "model/kinematics.hpp"
 #include "model/motor.hpp"
 #include "model/plant.hpp"
@@ -17,13 +20,36 @@ struct WheelState {
   Real power_W{};  ///< V i at the driver's output, negative where the drive returns power
 };
 
+/// |x|, exact for numbers; for automatic differentiation rounded over `width` about 0, so that an optimizer
+/// meets no kink: sqrt(x^2 + width^2).
+template <class Real>
+Real magnitude(const Real& x, double width) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return std::abs(x);
+  } else {
+    using std::sqrt;
+    return sqrt(x * x + width * width);
+  }
+}
+
+/// The sign of x, for automatic differentiation rounded like magnitude().
+template <class Real>
+Real direction_of(const Real& x, double width) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return sign_of(x);
+  } else {
+    return x / magnitude(x, width);
+  }
+}
+
 /// Motor torque that leaves `load` after a gear that loses a fraction of what it transmits:
-///   x = load + loss |x| direction.
+///   x = load + loss |x| direction  =  (load + loss |load| direction)/(1 - loss^2)
 template <class Real>
 Real torque_before_gear_Nm(const Real& load_Nm, double loss_fraction, double direction) {
-  if (loss_fraction == 0.0 || direction == 0.0) return load_Nm;
-  const bool driving = load_Nm * direction > 0.0;
-  return load_Nm / (driving ? 1.0 - loss_fraction : 1.0 + loss_fraction);
+  constexpr double kRounding_Nm = 0.01;
+  const double loss = loss_fraction * direction;
+  if (loss == 0.0) return load_Nm;
+  return (load_Nm + loss * magnitude(load_Nm, kRounding_Nm)) / (1.0 - loss * loss);
 }
 
 /// Sum of the body loads of all effects.
@@ -104,9 +130,7 @@ Sided<WheelState<Real>> operating_point(const Plant& plant, const BodyMotion<Rea
     wheel.voltage_V = resistance_factor * motor.resistance_ohm * wheel.current_A +
                       motor.volts_per_speed_V_s_rad() * wheel.speed_rad_s;
     if (plant.driver_voltage_drop_V != 0.0)
-      wheel.voltage_V += wheel.current_A > 0.0   ? plant.driver_voltage_drop_V
-                         : wheel.current_A < 0.0 ? -plant.driver_voltage_drop_V
-                                                 : 0.0;
+      wheel.voltage_V += plant.driver_voltage_drop_V * direction_of(wheel.current_A, 0.01);
     wheel.power_W = wheel.voltage_V * wheel.current_A;
   }
   return wheels;
