@@ -28,7 +28,7 @@ TEST(Profile, StraightLineMeetsTheClosedForm) {
   request.time = {TimeMode::fixed_time, 17.3694};
   const ProfileResult result = solve_profile(request);
   ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
-  EXPECT_NEAR(replay(request, *result.profile).energy_J, 79.5060763, 79.5060763 * 2e-6);
+  EXPECT_NEAR(replay(request, *result.profile).energy_J, 79.5060763, 79.5060763 * 1e-6);
 }
 
 TEST(Profile, KeepsEveryLimitBetweenNodes) {
