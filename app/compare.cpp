@@ -36,14 +36,15 @@ BaselineTotal total_of(const Plan& plan) {
 }
 
 void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared) {
-  Table table({"same path, same time", "total J", "plan saves", "motion J", "plan saves"});
+  Table table({"same path, same time", "total J", "plan saves", "motion J", "plan saves", ""});
   const auto row = [&](const BaselineTotal& total) {
     const bool counted = total.feasible;
     table.row(
         {total.name, counted ? figure(total.energy_J, 5) : "-",
-         counted ? figure(saving_percent(plan.energy.total_J(), total.energy_J), 3) + " %" : total.reason,
+         counted ? figure(saving_percent(plan.energy.total_J(), total.energy_J), 3) + " %" : "-",
          counted ? figure(total.motion_energy_J, 5) : "-",
-         counted ? figure(saving_percent(plan.energy.motion_J(), total.motion_energy_J), 3) + " %" : ""});
+         counted ? figure(saving_percent(plan.energy.motion_J(), total.motion_energy_J), 3) + " %" : "-",
+         total.reason});
   };
   row(total_of(plan));
   table.rule();

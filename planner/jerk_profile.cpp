@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <sstream>
 
+#include "planner/infeasibility_finder.hpp"
 #include "planner/jerk_filter.hpp"
 #include "planner/limit_check.hpp"
 #include "planner/nlp/grid.hpp"
@@ -87,11 +90,8 @@ ProfileResult failed(std::string message) {
   return result;
 }
 
-}  // namespace
-
-ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
-  if (request.limits.jerk_m_s3 <= 0)
-    return failed("a jerk limit of 0 allows no change of acceleration: nothing can start");
+/// The optimum without the jerk limit, its acceleration averaged over time.
+ProfileResult average_to_jerk_limit(const ProfileRequest& request) {
   if (request.start_rate > 0 || request.end_rate > 0)
     return failed("a jerk limit is supported from rest to rest only");
   const ProfileResult bound = solve_profile(without_jerk(request));
@@ -124,6 +124,61 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
     if (jerk != uses.end() && jerk->second > 1 + kTolerated) window_s *= jerk->second * (1 + 1e-6);
   }
   return failed("limits do not settle under the jerk limit");
+}
+
+/// Smallest jerk limit found, to 1 %, with which the averaged profile makes the time; nothing up to 1e4.
+std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
+  constexpr double kFirst = 1e-3, kLargest = 1e4;
+  ProfileRequest trial = request;
+  const auto possible = [&](double jerk_m_s3) {
+    trial.limits.jerk_m_s3 = jerk_m_s3;
+    return average_to_jerk_limit(trial).profile.has_value();
+  };
+  double bad = std::max(0.0, request.limits.jerk_m_s3), good = std::max(4 * bad, kFirst);
+  for (; !possible(good); good *= 4) {
+    bad = good;
+    if (good > kLargest) return std::nullopt;
+  }
+  while (bad > 0 && good > 1.01 * bad) {
+    const double middle = std::sqrt(bad * good);
+    (possible(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+/// The verdict for a jerk limit with which no profile was found.
+void blame_jerk(const ProfileRequest& request, ProfileResult& result) {
+  Infeasibility verdict = explain_request(request, "jerk", result.summary.message);
+  verdict.amount = std::abs(request.limits.jerk_m_s3);
+  verdict.unit = "m/s^3";
+  if (const std::optional<double> enough = jerk_that_would_do(request)) {
+    verdict.amount = *enough - request.limits.jerk_m_s3;
+    verdict.relaxation["jerk_m_s3"] = *enough;
+    std::ostringstream text;
+    text << result.summary.message << "; jerk_m_s3 " << *enough << " would do";
+    verdict.message = text.str();
+  }
+  result.summary.message = verdict.message;
+  result.infeasibility = std::move(verdict);
+}
+
+}  // namespace
+
+ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
+  if (!(request.limits.jerk_m_s3 > 0)) {
+    ProfileRequest free = without_jerk(request);
+    ProfileResult unlimited = solve_profile(free);
+    if (!unlimited.profile) return unlimited;
+    ProfileResult result =
+        failed("a jerk limit of 0 or less allows no change of acceleration: nothing can start");
+    result.summary.status = SolveStatus::infeasible;
+    blame_jerk(request, result);
+    return result;
+  }
+  ProfileResult result = average_to_jerk_limit(request);
+  const bool from_rest = request.start_rate == 0 && request.end_rate == 0;
+  if (!result.profile && !result.infeasibility && from_rest) blame_jerk(request, result);
+  return result;
 }
 
 }  // namespace joulepath

@@ -17,7 +17,7 @@ namespace {
 using nlp::Problem;
 
 constexpr int kRounds = 12;         ///< of tightening and refinement
-constexpr double kSettled = 1e-6;   ///< relative violation that a plan may have
+constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
 constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
 
 std::vector<double> blend(const nlp::RateEnvelope& envelope, double share) {
@@ -49,9 +49,11 @@ std::optional<Infeasibility> senseless(const ProfileRequest& request) {
   const Limits& limits = request.limits;
   for (double limit : {limits.speed_m_s, limits.acceleration_m_s2, limits.deceleration_m_s2,
                        limits.lateral_acceleration_m_s2, limits.yaw_rate_rad_s,
-                       limits.yaw_acceleration_rad_s2, limits.wheel_acceleration_rad_s2, limits.jerk_m_s3,
+                       limits.yaw_acceleration_rad_s2, limits.wheel_acceleration_rad_s2,
                        limits.traction_coefficient, limits.motor_power_W, limits.battery_power_W})
     if (!(limit >= 0)) return explain_request(request, "limits", "a limit must be a number of 0 or more");
+  if (std::isnan(limits.jerk_m_s3))
+    return explain_request(request, "limits", "a jerk limit must be a number");
   if (!(request.payload.from_kg >= 0) || !(request.payload.to_kg >= 0))
     return explain_request(request, "payload", "a payload must be a number of 0 or more");
   return std::nullopt;

@@ -3,20 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/nlp/forward_backward.hpp"
 #include "planner/nlp/grid.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr std::size_t kNodes = 300;
-
-/// What yaw acceleration leaves at constant speed: |slope of turn| b <= limit.
-double steady_cap(const ProfileRequest& request, const PathRates& rates) {
-  const double slope = std::abs(rates.turn_slope);
-  return slope > 0 ? request.limits.yaw_acceleration_rad_s2 / slope : kNoLimit;
-}
 
 double finite_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
 
@@ -25,14 +21,6 @@ double finite_or(double value, double otherwise) { return std::isfinite(value) ?
 TrapezoidFamily::TrapezoidFamily(const ProfileRequest& request) : request_(&request) {
   const PathMotion motion = path_motion(request);
   problem_ = nlp::transcribe(request, motion, nlp::make_grid(motion, request, kNodes), {}, nullptr);
-  cap_.assign(problem_.node_count(), 0.0);
-  for (std::size_t k = 0; k < cap_.size(); ++k) cap_[k] = std::min(problem_.cap[k].squared, 1e6);
-  for (std::size_t k = 0; k < problem_.segment_count(); ++k)
-    for (const nlp::SegmentPoint& point : problem_.segments[k].limit_points) {
-      const double cap = steady_cap(request, point.rates);
-      cap_[k] = std::min(cap_[k], cap);
-      cap_[k + 1] = std::min(cap_[k + 1], cap);
-    }
   const Limits& limits = request.limits;
   const bool turn = is_turn(request.piece);
   most_acceleration_ =
@@ -41,26 +29,69 @@ TrapezoidFamily::TrapezoidFamily(const ProfileRequest& request) : request_(&requ
       finite_or(turn ? limits.yaw_acceleration_rad_s2 : limits.deceleration_m_s2, kUnlimited);
 }
 
-std::vector<double> TrapezoidFamily::squares_on(const std::vector<double>& s, const std::vector<double>& cap,
-                                                const TrapezoidSettings& settings) const {
-  const double up = 2 * settings.acceleration, down = 2 * settings.deceleration;
+bool TrapezoidFamily::curves() const {
+  if (is_turn(request_->piece) || !std::isfinite(request_->limits.yaw_acceleration_rad_s2)) return false;
+  const auto changes = [](const nlp::SegmentPoint& point) { return point.rates.turn_slope != 0; };
+  return std::any_of(problem_.segments.begin(), problem_.segments.end(), [&](const nlp::Segment& segment) {
+    return std::any_of(segment.limit_points.begin(), segment.limit_points.end(), changes);
+  });
+}
+
+TrapezoidFamily::Clip TrapezoidFamily::clip(double curve_share) const {
+  const double limit = request_->limits.yaw_acceleration_rad_s2;
+  Clip clip{problem_.s, {}, std::vector<std::size_t>(problem_.segment_count())};
+  std::iota(clip.segment.begin(), clip.segment.end(), std::size_t{0});
+  for (const nlp::RateCap& cap : problem_.cap) clip.cap.push_back(std::min(cap.squared, 1e6));
+  for (std::size_t k = 0; k < problem_.segment_count(); ++k)
+    for (const nlp::SegmentPoint& point : problem_.segments[k].limit_points) {
+      const double slope = std::abs(point.rates.turn_slope);
+      if (!(slope > 0)) continue;
+      for (double* cap : {&clip.cap[k], &clip.cap[k + 1]}) *cap = std::min(*cap, curve_share * limit / slope);
+    }
+  return clip;
+}
+
+double TrapezoidFamily::steepest(std::size_t segment, double ds, double b, bool accelerates) const {
+  const double limit = request_->limits.yaw_acceleration_rad_s2;
+  double least = kNoLimit;
+  for (const nlp::SegmentPoint& point : problem_.segments[segment].limit_points) {
+    const double turn = std::abs(point.rates.turn), slope = std::abs(point.rates.turn_slope);
+    if (!(turn > 0)) continue;
+    // b is the smaller square of the two ends: the larger one counts where both add up.
+    const bool winds = point.rates.turn * point.rates.turn_slope >= 0;
+    const double most = winds == accelerates ? std::max(0.0, limit - slope * b) / (turn + 2 * ds * slope)
+                                             : (limit + slope * b) / turn;
+    least = std::min(least, most);
+  }
+  return least;
+}
+
+std::vector<double> TrapezoidFamily::squares_on(const Clip& clip, const TrapezoidSettings& settings) const {
+  const std::vector<double>& s = clip.s;
   const double start = problem_.b_start, end = problem_.b_end, length = s.back();
+  const double up = 2 * settings.acceleration, down = 2 * settings.deceleration;
   std::vector<double> b(s.size());
   for (std::size_t k = 0; k < s.size(); ++k) {
     // A start faster than the cruise is braked off, an end faster than it is run up to.
     const double cruise =
         std::max({settings.rate * settings.rate, start - down * s[k], end - up * (length - s[k])});
-    b[k] = std::min(cap[k], cruise);
+    b[k] = std::min(clip.cap[k], cruise);
   }
   b.front() = std::min(b.front(), start);
   b.back() = std::min(b.back(), end);
-  for (std::size_t k = 1; k < s.size(); ++k) b[k] = std::min(b[k], b[k - 1] + up * (s[k] - s[k - 1]));
-  for (std::size_t k = s.size() - 1; k-- > 0;) b[k] = std::min(b[k], b[k + 1] + down * (s[k + 1] - s[k]));
+  const auto gain = [&](std::size_t k, double square, double slope, bool accelerates) {
+    const double ds = s[k + 1] - s[k];
+    return std::min(slope, 2 * steepest(clip.segment[k], ds, square, accelerates)) * ds;
+  };
+  for (std::size_t k = 0; k + 1 < s.size(); ++k)
+    b[k + 1] = std::min(b[k + 1], b[k] + gain(k, b[k], up, true));
+  for (std::size_t k = s.size() - 1; k-- > 0;)
+    b[k] = std::min(b[k], b[k + 1] + gain(k, b[k + 1], down, false));
   return b;
 }
 
 std::optional<std::vector<double>> TrapezoidFamily::squares(const TrapezoidSettings& settings) const {
-  std::vector<double> b = squares_on(problem_.s, cap_, settings);
+  std::vector<double> b = squares_on(clip(settings.curve_share), settings);
   constexpr double kRounding = 1e-9;
   if (b.front() < problem_.b_start - kRounding || b.back() < problem_.b_end - kRounding) return std::nullopt;
   for (std::size_t k = 1; k + 1 < b.size(); ++k)
@@ -90,17 +121,23 @@ double TrapezoidFamily::energy_J(const std::vector<double>& b) const {
   return sum_J;
 }
 
-std::optional<double> TrapezoidFamily::rate_for(double acceleration, double deceleration,
+double TrapezoidFamily::least_duration_s() const {
+  const nlp::RateEnvelope envelope = nlp::rate_envelope(problem_);
+  return envelope.blocked ? kNoLimit : duration_s(envelope.fastest);
+}
+
+std::optional<double> TrapezoidFamily::rate_for(double acceleration, double deceleration, double curve_share,
                                                 double duration_s) const {
+  const Clip clipped = clip(curve_share);
   const auto slow = [&](double rate) {
-    const auto b = squares({rate, acceleration, deceleration});
-    return !b || this->duration_s(*b) > duration_s;
+    return this->duration_s(squares_on(clipped, {rate, acceleration, deceleration, curve_share})) >
+           duration_s;
   };
-  double high = std::sqrt(std::min(*std::max_element(cap_.begin(), cap_.end()),
+  double high = std::sqrt(std::min(*std::max_element(clipped.cap.begin(), clipped.cap.end()),
                                    std::max(problem_.b_start, problem_.b_end) +
                                        2 * std::max(acceleration, deceleration) * problem_.s.back()));
   // Twice over: an exact deadline, met to rounding, is met.
-  const auto fastest = squares({high, acceleration, deceleration});
+  const auto fastest = squares({high, acceleration, deceleration, curve_share});
   if (!fastest) return std::nullopt;
   const double least_s = this->duration_s(*fastest);
   if (least_s > duration_s * (1 + 1e-9)) return std::nullopt;
@@ -118,7 +155,8 @@ Profile TrapezoidFamily::profile(const TrapezoidSettings& settings) const {
   const std::array<double, 3> corners{(cruise - problem_.b_start) / up,
                                       length - (cruise - problem_.b_end) / down,
                                       (problem_.b_end - problem_.b_start + down * length) / (up + down)};
-  std::vector<double> s = problem_.s, cap = cap_;
+  Clip fine = clip(settings.curve_share);
+  std::vector<double>&s = fine.s, &cap = fine.cap;
   for (double corner : corners) {
     const auto after = std::upper_bound(s.begin(), s.end(), corner);
     if (after == s.begin() || after == s.end()) continue;
@@ -130,8 +168,9 @@ Profile TrapezoidFamily::profile(const TrapezoidSettings& settings) const {
         (1 - share) * cap[static_cast<std::size_t>(k - 1)] + share * cap[static_cast<std::size_t>(k)];
     s.insert(s.begin() + k, corner);
     cap.insert(cap.begin() + k, cap_here);
+    fine.segment.insert(fine.segment.begin() + k, fine.segment[static_cast<std::size_t>(k - 1)]);
   }
-  return profile_from_squares(s, squares_on(s, cap, settings));
+  return profile_from_squares(s, squares_on(fine, settings));
 }
 
 std::map<std::string, double> TrapezoidFamily::parameters(const TrapezoidSettings& settings) const {
@@ -139,18 +178,27 @@ std::map<std::string, double> TrapezoidFamily::parameters(const TrapezoidSetting
     return {{"yaw_rate_rad_s", settings.rate},
             {"yaw_acceleration_rad_s2", settings.acceleration},
             {"yaw_deceleration_rad_s2", settings.deceleration}};
-  return {{"speed_m_s", settings.rate},
-          {"acceleration_m_s2", settings.acceleration},
-          {"deceleration_m_s2", settings.deceleration}};
+  std::map<std::string, double> found{{"speed_m_s", settings.rate},
+                                      {"acceleration_m_s2", settings.acceleration},
+                                      {"deceleration_m_s2", settings.deceleration}};
+  if (settings.curve_share < 1) found["yaw_acceleration_share"] = settings.curve_share;
+  return found;
 }
 
 namespace {
+
+/// Shares of the yaw acceleration that a change of curvature may use.
+constexpr std::array<double, 5> kShares{1.0, 0.9, 0.75, 0.5, 0.25};
+
+std::size_t share_count(const TrapezoidFamily& family) { return family.curves() ? kShares.size() : 1; }
 
 /// Makes the executable profile take its time exactly: the corners' nodes changed it a little.
 BaselineResult finish_trapezoid(const ProfileRequest& request, const TrapezoidFamily& family,
                                 const char* name, TrapezoidSettings settings, double duration_s) {
   const auto excess_s = [&](double rate) {
-    return family.profile({rate, settings.acceleration, settings.deceleration}).time_s.back() - duration_s;
+    TrapezoidSettings trial = settings;
+    trial.rate = rate;
+    return family.profile(trial).time_s.back() - duration_s;
   };
   double low = settings.rate * (1 - 1e-2), high = settings.rate * (1 + 1e-2);
   if (excess_s(low) > 0 && excess_s(high) < 0) {
@@ -163,52 +211,104 @@ BaselineResult finish_trapezoid(const ProfileRequest& request, const TrapezoidFa
   return finish_baseline(request, name, family.profile(settings), duration_s, family.parameters(settings));
 }
 
+BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, double duration_s,
+                            const char* otherwise) {
+  constexpr double kNearly = 1e-3;
+  const double least_s = family.least_duration_s();
+  if (!(duration_s <= least_s * (1 + kNearly))) return no_baseline(name, otherwise);
+  return no_baseline(name, "the plan's time is the least possible: no other profile makes it");
+}
+
+/// Of one share, the settings that cost least, by a coarse scan and a pattern search about its best.
+class Tuner {
+ public:
+  Tuner(const TrapezoidFamily& family, double share, double duration_s)
+      : family_(family), share_(share), duration_s_(duration_s) {}
+
+  double energy_J() const { return energy_J_; }
+  TrapezoidSettings settings() const { return *settings_at(up_, down_); }
+
+  void scan() {
+    for (double up = 0; up > -4.0; up -= 0.5)
+      for (double down = 0; down > -4.0; down -= 0.5) look(up, down);
+  }
+
+  void refine() {
+    if (!std::isfinite(energy_J_)) return;
+    for (double step = 0.25; step > 1e-3;) {
+      const double up = up_, down = down_;
+      bool better = false;
+      for (const auto& [du, dd] :
+           {std::pair{1., 0.}, {-1., 0.}, {0., 1.}, {0., -1.}, {1., 1.}, {-1., -1.}, {1., -1.}, {-1., 1.}})
+        better |= look(up + step * du, down + step * dd);
+      if (!better) step /= 2;
+    }
+  }
+
+ private:
+  std::optional<TrapezoidSettings> settings_at(double up, double down) const {
+    const double acceleration = family_.most_acceleration() * std::exp(std::min(0.0, up));
+    const double deceleration = family_.most_deceleration() * std::exp(std::min(0.0, down));
+    const auto rate = family_.rate_for(acceleration, deceleration, share_, duration_s_);
+    if (!rate) return std::nullopt;
+    return TrapezoidSettings{*rate, acceleration, deceleration, share_};
+  }
+
+  bool look(double up, double down) {
+    const auto settings = settings_at(up, down);
+    if (!settings) return false;
+    const double energy_J = family_.energy_J(*family_.squares(*settings));
+    if (!(energy_J < energy_J_)) return false;
+    energy_J_ = energy_J;
+    up_ = std::min(0.0, up);
+    down_ = std::min(0.0, down);
+    return true;
+  }
+
+  const TrapezoidFamily& family_;
+  double share_{}, duration_s_{};
+  double energy_J_{kNoLimit};
+  double up_{}, down_{};  // natural logarithms of the shares of the largest accelerations
+};
+
 }  // namespace
 
 BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "trapezoid_max_acceleration";
   const TrapezoidFamily family(request);
   const double up = family.most_acceleration(), down = family.most_deceleration();
-  const std::optional<double> rate = family.rate_for(up, down, duration_s);
-  if (!rate) return no_baseline(kName, "cannot make the time with the local speed limits");
-  return finish_trapezoid(request, family, kName, {*rate, up, down}, duration_s);
+  std::optional<BaselineResult> best;
+  for (std::size_t i = 0; i < share_count(family); ++i) {
+    const std::optional<double> rate = family.rate_for(up, down, kShares[i], duration_s);
+    if (!rate) continue;
+    BaselineResult result =
+        finish_trapezoid(request, family, kName, {*rate, up, down, kShares[i]}, duration_s);
+    const bool better = best && result.feasible && (!best->feasible || result.energy_J < best->energy_J);
+    if (!best || better) best = std::move(result);
+  }
+  if (best) return std::move(*best);
+  return no_trapezoid(kName, family, duration_s, "cannot make the time with the local speed limits");
 }
 
 BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "trapezoid_best_tuned";
   const TrapezoidFamily family(request);
-  struct Best {
-    double energy_J{kNoLimit};
-    double up{}, down{};  // natural logarithms of the shares of the largest accelerations
-  } best;
-  const auto settings_at = [&](double up, double down) -> std::optional<TrapezoidSettings> {
-    const double acceleration = family.most_acceleration() * std::exp(std::min(0.0, up));
-    const double deceleration = family.most_deceleration() * std::exp(std::min(0.0, down));
-    const auto rate = family.rate_for(acceleration, deceleration, duration_s);
-    if (!rate) return std::nullopt;
-    return TrapezoidSettings{*rate, acceleration, deceleration};
-  };
-  const auto look = [&](double up, double down) {
-    const auto settings = settings_at(up, down);
-    if (!settings) return false;
-    const double energy_J = family.energy_J(*family.squares(*settings));
-    if (!(energy_J < best.energy_J)) return false;
-    best = {energy_J, std::min(0.0, up), std::min(0.0, down)};
-    return true;
-  };
-  for (double up = 0; up > -4.0; up -= 0.5)
-    for (double down = 0; down > -4.0; down -= 0.5) look(up, down);
-  if (!std::isfinite(best.energy_J))
-    return no_baseline(kName, "no trapezoid makes the time within the limits");
-  for (double step = 0.25; step > 1e-3;) {
-    const Best at = best;
-    bool better = false;
-    for (const auto& [du, dd] :
-         {std::pair{1., 0.}, {-1., 0.}, {0., 1.}, {0., -1.}, {1., 1.}, {-1., -1.}, {1., -1.}, {-1., 1.}})
-      better |= look(at.up + step * du, at.down + step * dd);
-    if (!better) step /= 2;
+  // The largest accelerations are among what is tuned, judged on the exact path as all are at the end.
+  std::optional<BaselineResult> best;
+  BaselineResult largest = trapezoid_max_acceleration(request, duration_s);
+  largest.name = kName;
+  if (largest.feasible) best = std::move(largest);
+  for (std::size_t i = 0; i < share_count(family); ++i) {
+    Tuner tuner(family, kShares[i], duration_s);
+    tuner.scan();
+    tuner.refine();
+    if (!std::isfinite(tuner.energy_J())) continue;
+    BaselineResult result = finish_trapezoid(request, family, kName, tuner.settings(), duration_s);
+    const bool better = best && result.feasible && (!best->feasible || result.energy_J < best->energy_J);
+    if (!best || better) best = std::move(result);
   }
-  return finish_trapezoid(request, family, kName, *settings_at(best.up, best.down), duration_s);
+  if (best) return std::move(*best);
+  return no_trapezoid(kName, family, duration_s, "no trapezoid makes the time within the limits");
 }
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #include "planner/nlp/dense_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -10,9 +11,10 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr int kLooks = 8;            ///< per segment
-constexpr double kTolerated = 3e-7;  ///< relative
-constexpr double kCoarse = 5e-3;     ///< a violation beyond this asks for a node, not for tightening alone
+constexpr std::size_t kLooks = 8;         ///< per segment
+constexpr double kWorthALook = 1 - 1e-3;  ///< a limit used less does not peak above 1 between two looks
+constexpr double kTolerated = 3e-7;       ///< relative
+constexpr double kCoarse = 5e-3;  ///< a violation beyond this asks for a node, not for tightening alone
 
 /// Energy of segment k as the problem counts it.
 double transcribed_energy_J(const Problem& problem, const Profile& profile, std::size_t k) {
@@ -21,6 +23,55 @@ double transcribed_energy_J(const Problem& problem, const Profile& profile, std:
   const double weight = 1 - problem.request->plant.robot.power.regeneration_efficiency;
   return energy[0] + energy[1] + weight * (std::max(0.0, -energy[0]) + std::max(0.0, -energy[1]));
 }
+
+/// Looks at the limits of one segment, and between the looks at where a parabola through three of them peaks.
+class SegmentLook {
+ public:
+  SegmentLook(const ProfileRequest& request, const PathMotion& motion, const Profile& profile, std::size_t k)
+      : request_(request),
+        motion_(motion),
+        profile_(profile),
+        from_(profile.s[k]),
+        ds_(profile.s[k + 1] - profile.s[k]) {}
+
+  std::map<std::string_view, double> worst_uses() const {
+    std::map<std::string_view, std::array<double, kLooks + 1>> uses;
+    for (std::size_t i = 0; i <= kLooks; ++i)
+      look(static_cast<double>(i) / kLooks, [&](std::string_view name, double ratio) {
+        double& most = uses[name][i];
+        most = std::max(most, ratio);
+      });
+    std::map<std::string_view, double> worst;
+    for (const auto& [name, ratios] : uses) worst[name] = std::max(peak(name, ratios), 0.0);
+    return worst;
+  }
+
+ private:
+  template <class Use>
+  void look(double share, Use&& use) const {
+    const ProfileState state = profile_.at_s(from_ + ds_ * std::clamp(share, 1e-7, 1 - 1e-7));
+    for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, 0.0, use);
+  }
+
+  double peak(std::string_view name, const std::array<double, kLooks + 1>& ratios) const {
+    double most = *std::max_element(ratios.begin(), ratios.end());
+    if (most < kWorthALook || !std::isfinite(most)) return most;
+    for (std::size_t i = 1; i < kLooks; ++i) {
+      const double before = ratios[i] - ratios[i - 1], after = ratios[i + 1] - ratios[i];
+      if (ratios[i] < kWorthALook || before < 0 || after > 0 || before - after <= 0) continue;
+      const double top = (static_cast<double>(i) + 0.5 * (before + after) / (before - after)) / kLooks;
+      look(top, [&](std::string_view limit, double ratio) {
+        if (limit == name) most = std::max(most, ratio);
+      });
+    }
+    return most;
+  }
+
+  const ProfileRequest& request_;
+  const PathMotion& motion_;
+  const Profile& profile_;
+  double from_{}, ds_{};
+};
 
 }  // namespace
 
@@ -31,17 +82,8 @@ DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const
   DenseCheck result{.cut = std::vector<bool>(count, false)};
   std::vector<double> error_J(count);
   for (std::size_t k = 0; k < count; ++k) {
-    std::map<std::string_view, double> worst;
     const double from = profile.s[k], ds = profile.s[k + 1] - from;
-    for (int i = 0; i <= kLooks; ++i) {
-      ProfileState state =
-          profile.at_s(from + ds * std::clamp(static_cast<double>(i) / kLooks, 1e-7, 1 - 1e-7));
-      for_each_limit_use(motion, request.limits, request.speed_caps, state, 0.0,
-                         [&](std::string_view name, double ratio) {
-                           double& most = worst[name];
-                           most = std::max(most, ratio);
-                         });
-    }
+    const auto worst = SegmentLook(request, motion, profile, k).worst_uses();
     for (const auto& [name, ratio] : worst) {
       result.worst_ratio = std::max(result.worst_ratio, ratio);
       if (ratio <= 1 + kTolerated || !std::isfinite(ratio)) continue;

@@ -77,6 +77,23 @@ std::vector<double> without_doubles(std::vector<double> nodes, double length) {
   return kept;
 }
 
+/// Square of the rate of the parabola over time that is optimal without friction from rest to rest:
+///   u = 6 L/T tau (1 - tau) where s = L tau^2 (3 - 2 tau).
+double parabola_squared(double length, double duration_s, double s) {
+  const double share = std::clamp(1 - 2 * s / length, -1.0, 1.0);
+  const double tau = 0.5 - std::sin(std::asin(share) / 3);
+  const double rate = 6 * length / duration_s * tau * (1 - tau);
+  return rate * rate;
+}
+
+/// Whether that parabola is within the limits of a request that names its time.
+bool drives_parabola(const ProfileRequest& request, double length, double least_acceleration, double cap) {
+  const double T = request.time.duration_s;
+  return request.time.mode == TimeMode::fixed_time && std::isfinite(T) && T > 0 && request.start_rate == 0 &&
+         request.end_rate == 0 && request.speed_caps.empty() && 6 * length <= least_acceleration * T * T &&
+         2.25 * length * length <= cap * T * T && torque_is_the_same_everywhere(request);
+}
+
 }  // namespace
 
 std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request) {
@@ -99,6 +116,8 @@ double reference_rate(const ProfileRequest& request, double length, double s, do
       finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.acceleration_m_s2, 1.0);
   const double down =
       finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.deceleration_m_s2, up);
+  if (drives_parabola(request, length, std::min(up, down), cap))
+    return std::sqrt(parabola_squared(length, request.time.duration_s, s));
   const double from_start = request.start_rate * request.start_rate + 2 * up * s;
   const double from_end = request.end_rate * request.end_rate + 2 * down * (length - s);
   // A smooth minimum: times between nodes change gently, as those of an optimal profile do.

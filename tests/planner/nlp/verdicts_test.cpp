@@ -138,6 +138,10 @@ std::vector<Case> hopeless() {
       "motor_current");
   add("voltage 0", changed(straight(), [](R r) { both_motors(r, &Motor::max_voltage_V, 0); }),
       "motor_voltage");
+  add("jerk 0", changed(straight(), [](R r) { r.limits.jerk_m_s3 = 0; }), "jerk");
+  add("negative jerk", changed(bezier(), [](R r) { r.limits.jerk_m_s3 = -1; }), "jerk");
+  add("jerk 0 and a deadline",
+      changed(within(straight(), TimeMode::time_budget, 20), [](R r) { r.limits.jerk_m_s3 = 0; }), "jerk");
   add("zone of 0", changed(straight(), [](R r) { r.speed_caps = {{4, 5, 0}}; }), "speed");
   // Too weak
   add("battery below standby", changed(straight(), [](R r) { r.limits.battery_power_W = 9; }),
@@ -225,6 +229,8 @@ bool relax(ProfileRequest& r, const std::string& key, double value) {
     r.limits.traction_coefficient = value;
   else if (key == "motor_power_W")
     r.limits.motor_power_W = value;
+  else if (key == "jerk_m_s3")
+    r.limits.jerk_m_s3 = value;
   else if (key == "battery_power_W")
     r.limits.battery_power_W = value;
   else
@@ -252,6 +258,22 @@ TEST(Verdicts, TheRelaxationWouldDo) {
     ++tried;
   }
   EXPECT_GE(tried, 38);
+}
+
+TEST(Verdicts, AJerkLimitTooLowForTheDeadlineNamesOneThatWouldDo) {
+  ProfileRequest request = within(straight(), TimeMode::time_budget, 1.02 * minimum_s(straight()));
+  request.limits.jerk_m_s3 = 0.01;
+  const ProfileResult result = solve_profile(request);
+  EXPECT_FALSE(result.profile.has_value());
+  ASSERT_TRUE(result.infeasibility.has_value());
+  EXPECT_EQ(result.infeasibility->constraint, "jerk");
+  ASSERT_EQ(result.infeasibility->relaxation.count("jerk_m_s3"), 1u) << result.infeasibility->message;
+  request.limits.jerk_m_s3 = result.infeasibility->relaxation.at("jerk_m_s3");
+  const ProfileResult relaxed = solve_profile(request);
+  ASSERT_TRUE(relaxed.profile.has_value()) << relaxed.summary.message;
+  EXPECT_TRUE(replay(request, *relaxed.profile).valid());
+  request.limits.jerk_m_s3 *= 0.9;
+  EXPECT_FALSE(solve_profile(request).profile.has_value());
 }
 
 TEST(Verdicts, DegenerateButPossibleInputsJustPlan) {
