@@ -1,5 +1,6 @@
 #include "app/plan_summary.hpp"
 
+#include <cmath>
 #include <ostream>
 
 #include "app/terminal.hpp"
@@ -13,6 +14,9 @@ std::string kg(const PayloadAlongLeg& payload) {
                                           : figure(payload.from_kg) + " to " + figure(payload.to_kg);
 }
 
+/// Rounding noise of a sum that is zero by physics (kinetic energy from rest to rest) is shown as zero.
+double without_noise(double energy_J) { return std::abs(energy_J) < 1e-6 ? 0.0 : energy_J; }
+
 double effects_J(const EnergyByCause& energy) {
   double sum_J = 0.0;
   for (const auto& [name, energy_J] : energy.effects_J) sum_J += energy_J;
@@ -20,9 +24,10 @@ double effects_J(const EnergyByCause& energy) {
 }
 
 std::vector<std::string> energy_cells(const EnergyByCause& energy) {
-  return {figure(energy.copper_J),  figure(energy.coulomb_friction_J), figure(energy.viscous_friction_J),
-          figure(energy.kinetic_J), figure(energy.not_recovered_J),    figure(effects_J(energy)),
-          figure(energy.standby_J), figure(energy.total_J(), 5)};
+  return {figure(energy.copper_J),           figure(energy.coulomb_friction_J),
+          figure(energy.viscous_friction_J), figure(without_noise(energy.kinetic_J)),
+          figure(energy.not_recovered_J),    figure(effects_J(energy)),
+          figure(energy.standby_J),          figure(energy.total_J(), 5)};
 }
 
 std::string saving_cell(const BaselineTotal& baseline, const EnergyByCause& energy, bool motion_only) {
@@ -68,7 +73,7 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery) {
          << figure(100 * battery.end_fraction, 5) << " % (95 %: " << figure(100 * battery.interval_95[0], 5)
          << " to " << figure(100 * battery.interval_95[1], 5) << "), needs "
          << figure(battery.required_capacity_Wh, 4) << " Wh with 95 % certainty, "
-         << figure(battery.missions_per_charge, 6) << " such missions per charge\n";
+         << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
 }
 
 void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict) {
@@ -78,7 +83,7 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
          << "), by " << figure(reason.amount) << " " << reason.unit << "\n";
   if (!reason.message.empty()) stream << "  " << reason.message << "\n";
   for (const auto& [key, value] : reason.relaxation)
-    stream << "  would do: " << key << " = " << figure(value, 6) << "\n";
+    stream << "  would do: " << key << " = " << figure(value + 1e-9 * std::abs(value), 10) << "\n";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/config_error.hpp"
 #include "planner/prescribed_leg.hpp"
 
 namespace joulepath {
@@ -27,6 +28,26 @@ bool begins_as(const LegWays& ways, const LegStart& start) {
          a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
 }
 
+/// A leg that ends at speed goes on at that speed, without a dwell.
+void check_joint(const MissionRequest& mission, std::size_t k) {
+  const LegRequest& leg = mission.legs[k];
+  const auto refuse = [&](const std::string& key, const ItemMarks& marks, double found_m_s,
+                          const std::string& accepted) {
+    throw ConfigError({.mark = marks.at(key),
+                       .key = marks.key_path(key),
+                       .found = std::to_string(found_m_s) + " m/s",
+                       .accepted = accepted,
+                       .hint = {}});
+  };
+  if (leg.dwell_s > 0 && leg.end_speed_m_s > 0)
+    refuse("end_speed_m_s", leg.marks, leg.end_speed_m_s, "0 m/s before a dwell");
+  if (k + 1 == mission.legs.size()) return;
+  const LegRequest& next = mission.legs[k + 1];
+  if (leg.end_speed_m_s != next.start_speed_m_s)
+    refuse("start_speed_m_s", next.marks, next.start_speed_m_s,
+           "the speed at which the leg before ends, " + std::to_string(leg.end_speed_m_s) + " m/s");
+}
+
 }  // namespace
 
 Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
@@ -43,6 +64,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
   LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
   for (std::size_t k = 0; k < mission.legs.size(); ++k) {
     const LegRequest& leg = mission.legs[k];
+    check_joint(mission, k);
     if (auto reason = payload_too_heavy(world.robot, leg, start.pose)) {
       plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
       return draft;
@@ -50,6 +72,10 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
       draft.legs.push_back(prescribed_leg(leg, plant, start.pose));
+      if (auto reason = broken_limit(draft.legs.back(), plant, limits_along(world.robot, leg.payload))) {
+        plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
+        return draft;
+      }
       start.pose =
           sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
       continue;

@@ -189,5 +189,28 @@ TEST(Mission, PrescribedMotionPassesThrough) {
   EXPECT_NEAR(plan.energy.coulomb_friction_J, (0.3728 + 0.346) / 0.1 * 5, 1e-6);
 }
 
+TEST(Mission, PrescribedMotionThatTheRobotCannotDriveIsAVerdict) {
+  LegRequest leg{.motion = PrescribedMotion{.profile = MotionProfile::trapezoid,
+                                            .acceleration_m_s2 = 0.25,
+                                            .speed_m_s = 3.0,
+                                            .distance_m = 60}};
+  const Plan plan = plan_of({.name = "too_fast", .legs = {leg}});
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "speed");
+  EXPECT_NEAR(plan.infeasibility->reason.amount, 2.0, 1e-3);
+}
+
+TEST(Mission, SpeedMayNotJumpBetweenLegs) {
+  MissionRequest mission = two_legs();
+  mission.legs[0].dwell_s = 0.0;
+  mission.legs[0].end_speed_m_s = 0.3;
+  EXPECT_THROW(plan_of(mission), ConfigError);
+  mission.legs[1].start_speed_m_s = 0.3;
+  const Plan plan = plan_of(mission);
+  EXPECT_EQ(plan.status, SolveStatus::optimal) << plan.message;
+  mission.legs[0].dwell_s = 1.0;
+  EXPECT_THROW(plan_of(mission), ConfigError);
+}
+
 }  // namespace
 }  // namespace joulepath

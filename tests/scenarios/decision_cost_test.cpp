@@ -18,7 +18,7 @@ TEST(DecisionCost, AWrongModelIsNeverTheBetterPlanner) {
   patient.power.standby_W = 2.0;
   patient.motor.left.resistance_ohm = patient.motor.right.resistance_ohm = 2.0;
   Robot real = patient;
-  real.effects = {{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 30.0}}}};
+  real.effects = {{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 10.0}}}};
   const DecisionCost cost = decision_cost(patient, real);
   EXPECT_EQ(cost.missions, 4u);
   EXPECT_GT(cost.joules_lost_percent, 0.5);  // a robot in strong drag should have gone slower
