@@ -38,8 +38,7 @@ double loss_within_calibration(const Identification& id) {
     if (worst < 0) return fit.loss;
     const int column = open[static_cast<std::size_t>(worst)];
     const double held = std::copysign(kCalibrationBox * problem.prior_sd[column], fit.mean[worst]);
-    problem.residual_square +=
-        held * held * problem.gram(column, column) - 2 * held * problem.right[column];
+    problem.residual_square += held * held * problem.gram(column, column) - 2 * held * problem.right[column];
     problem.right -= held * problem.gram.col(column);
     open.erase(open.begin() + worst);
   }
