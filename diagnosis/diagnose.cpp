@@ -26,7 +26,7 @@ constexpr double kSureEnough = 0.6;
 constexpr double kToleratedWorsening = 1.05;
 /// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
 constexpr double kFloorsLeft = 2.0;
-constexpr double kLeastGapLeft_percent = 1.0;
+constexpr double kLeastGapLeft_percent = 2.0;
 /// A further effect below both shares (of the energy, of the gain) is not named beside a greater one;
 /// how likely it is there all the same is anyone's guess.
 constexpr double kFormErrorEnergy = 0.02;
@@ -176,7 +176,7 @@ class Examination {
 
   double probability_of(const ActiveEffect& effect) const {
     const auto found = probabilities_.find(effect.candidate.label());
-    return found == probabilities_.end() ? 0.0 : std::min(0.995, found->second);
+    return found == probabilities_.end() ? 0.0 : (1 - energy_left_share_) * std::min(0.995, found->second);
   }
 
   /// Fits on the diagnosis runs, judges on the held-out ones, and takes back what does not hold there.
@@ -205,7 +205,12 @@ class Examination {
         report_.verdict = Verdict::unexplained;
       } else if (share > 0) {
         report_.verdict = Verdict::partly_explained;
+        energy_left_share_ = share;
       }
+    }
+    if (report_.verdict == Verdict::no_gap && calibration_leaves_a_gap(fitted, corrected)) {
+      report_.verdict = Verdict::unexplained;
+      report_.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
     }
     const bool correct_it = !named_.empty();
     const std::vector<RunSignals> after =
@@ -220,7 +225,13 @@ class Examination {
     fill_floors();
     name_causes(fitted, corrected, before);
     find_control(before);
-    if (correct_it) write_correction(corrected);
+    if (!correct_it) return;
+    const EnergyGap& energy = report_.gap.energy;
+    if (energy.after_J > kToleratedWorsening * energy.before_J &&
+        energy.after_percent > kFloorsLeft * energy.noise_floor_percent)
+      report_.notes.push_back("the correction does not shrink the held-out energy gap: none is written");
+    else
+      write_correction(corrected);
   }
 
   /// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
@@ -230,6 +241,13 @@ class Examination {
     return std::min(
         left, kScatterFactor * run_scatter_percent(fitted.signals, corrected, id_.equations.run_variance,
                                                    id_.equations.noise));
+  }
+
+  /// Without any effect, what the calibrated model leaves of the held-out energy.
+  bool calibration_leaves_a_gap(const Refit& fitted, const ModelState& calibrated) const {
+    const ModelPoint point = model_point(dataset_.robot, id_.nuisances, calibrated);
+    const double left = energy_gap_percent(run_energies(read_signals(validation_, 0.0), point));
+    return left > std::max(kFloorsLeft * noise_floor_percent(fitted, point), kLeastGapLeft_percent);
   }
 
   /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
@@ -420,6 +438,7 @@ class Examination {
   ModelPoint nominal_{};
   std::map<std::string, double> probabilities_{};
   std::vector<ActiveEffect> named_{};
+  double energy_left_share_{};  ///< of the held-out gap, where the names explain a part only
 };
 
 }  // namespace

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Injection{"regeneration_error", 0.6}, Injection{"supply_sag", 0.4},
                     Injection{"current_sensor_offset", 0.06}, Injection{"current_sensor_gain", 0.1},
                     Injection{"time_misalignment", 0.08}),
-    [](const testing::TestParamInfo<Injection>& info) { return info.param.effect; });
+    [](const testing::TestParamInfo<Injection>& injected) { return injected.param.effect; });
 
 TEST(NullDatasets, AreSilent) {
   if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
