@@ -22,11 +22,15 @@ namespace {
 /// A leftover above this share of what could be explained takes the names away.
 constexpr double kUnexplainedShare = 0.45;
 constexpr double kSureEnough = 0.6;
+constexpr double kCalibrationBox = 3.0;  ///< sigmas that a calibration may be off
 /// Runs may come out a little worse on energy while the correction is right.
 constexpr double kToleratedWorsening = 1.05;
 /// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
 constexpr double kFloorsLeft = 2.0;
 constexpr double kLeastGapLeft_percent = 2.0;
+/// Where nothing is named the bar is higher: the scatter of few rough runs is not well known.
+constexpr double kFloorsUnnamed = 4.0;
+constexpr double kLeastGapUnnamed_percent = 4.0;
 /// A further effect below both shares (of the energy, of the gain) is not named beside a greater one;
 /// how likely it is there all the same is anyone's guess.
 constexpr double kFormErrorEnergy = 0.02;
@@ -184,7 +188,7 @@ class Examination {
     for (std::size_t r : validation_.runs) report_.validation_runs.push_back(dataset_.runs[r].name);
     report_.validation_method =
         few_ ? "the same runs: too few to hold any out" : "held-out runs, never used to choose or fit";
-    const ModelState calibrated = refit_on_diagnosis(diagnosis_, id_, {});
+    const ModelState calibrated = within_calibration(refit_on_diagnosis(diagnosis_, id_, {}));
     Refit fitted;
     ModelState corrected = refit_on_diagnosis(diagnosis_, id_, named_, &fitted, 2);
     const std::vector<double> base_loss = held_out_losses(validation_, id_, calibrated);
@@ -243,11 +247,20 @@ class Examination {
                                                    id_.equations.noise));
   }
 
+  /// A constant that is far out is an effect: as the rival of a named one it stays within its box.
+  ModelState within_calibration(ModelState state) const {
+    for (std::size_t k = 0; k < id_.nuisances.size(); ++k) {
+      const double most = kCalibrationBox * id_.nuisances[k].sigma;
+      state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
+    }
+    return state;
+  }
+
   /// Without any effect, what the calibrated model leaves of the held-out energy.
   bool calibration_leaves_a_gap(const Refit& fitted, const ModelState& calibrated) const {
     const ModelPoint point = model_point(dataset_.robot, id_.nuisances, calibrated);
     const double left = energy_gap_percent(run_energies(read_signals(validation_, 0.0), point));
-    return left > std::max(kFloorsLeft * noise_floor_percent(fitted, point), kLeastGapLeft_percent);
+    return left > std::max(kFloorsUnnamed * noise_floor_percent(fitted, point), kLeastGapUnnamed_percent);
   }
 
   /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
