@@ -28,6 +28,9 @@ constexpr double kToleratedWorsening = 1.05;
 /// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
 constexpr double kFloorsLeft = 2.0;
 constexpr double kLeastGapLeft_percent = 2.0;
+/// Effects that together come near a foreign cause leave both: a tenth of the gap and many noise floors.
+constexpr double kShareOfWrongForm = 0.1;
+constexpr double kFloorsOfWrongForm = 10.0;
 /// Where nothing is named the bar is higher: the scatter of few rough runs is not well known.
 constexpr double kFloorsUnnamed = 4.0;
 constexpr double kLeastGapUnnamed_percent = 4.0;
@@ -274,7 +277,8 @@ class Examination {
     const double after = energy_gap_percent(run_energies(after_signals, point));
     if (after <= std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
     if (after > kToleratedWorsening * before) return 1.0;
-    return before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
+    const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
+    return share > kShareOfWrongForm && after > kFloorsOfWrongForm * floor ? 1.0 : share;
   }
 
   /// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
