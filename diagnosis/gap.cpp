@@ -1,6 +1,8 @@
 #include "diagnosis/gap.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/resample.hpp"
@@ -99,6 +101,34 @@ double energy_gap_percent(const std::vector<RunEnergy>& runs) {
   double gap = 0, measured = 0;
   for (const RunEnergy& run : runs) gap += std::abs(run.gap_J()), measured += std::abs(run.measured_J);
   return measured > 0 ? 100 * gap / measured : 0.0;
+}
+
+double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
+                           const Eigen::VectorXd& run_variance, const NoiseModel& noise) {
+  double expected_J = 0, measured_J = 0;
+  for (const RunSignals& run : signals) {
+    const Prediction p = predict(run, point);
+    double variance = 0;
+    for (Side side : kSides) {
+      const Eigen::VectorXd measured = measured_power_W(run, side);
+      if (measured.size() == 0) continue;
+      measured_J += measured.sum() * run.period_s;
+      const Motor& motor = point.robot.motor[side];
+      const int s = side == Side::left ? 0 : 1;
+      double per_torque_J = 0, per_ohm_J = 0, reading_J2 = 0;
+      for (Eigen::Index j = 0; j < run.size(); ++j) {
+        const double direction = std::clamp(run.wheel_speed_rad_s[side][j] / 0.2, -1.0, 1.0);
+        const double watts_per_ampere = p.voltage_V[side][j] + motor.resistance_ohm * p.current_A[side][j];
+        per_torque_J += run.period_s * watts_per_ampere * direction / motor.torque_per_ampere_Nm_A();
+        per_ohm_J += run.period_s * p.current_A[side][j] * p.current_A[side][j];
+        reading_J2 += std::pow(run.period_s * watts_per_ampere * noise.channel_sd[kCurrentLeft + s], 2);
+      }
+      variance += run_variance[s] * per_torque_J * per_torque_J +
+                  run_variance[2 + s] * per_ohm_J * per_ohm_J + reading_J2;
+    }
+    expected_J += std::sqrt(variance * 2 / std::numbers::pi);
+  }
+  return measured_J > 0 ? 100 * expected_J / measured_J : 0.0;
 }
 
 GapReport measure_gap(const GapInput& input) {

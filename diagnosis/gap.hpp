@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis//diagnosis.hpp"
 #include "diagnosis/model_state.hpp"
+#include "diagnosis/whitening.hpp"
 
 namespace joulepath {
 
@@ -33,6 +34,12 @@ struct GapInput {
 };
 
 /// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
+/// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run
+/// to run, together with the readings' noise: what no model of the robot can take away. The variances
+/// come from the fit of everything, so that a wrong explanation does not pass for scatter.
+[[nodiscard]] double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
+                                         const Eigen::VectorXd& run_variance, const NoiseModel& noise);
+
 [[nodiscard]] GapReport measure_gap(const GapInput& input);
 
 /// Phase of a sample: standstill, accelerate, cruise, brake, turn, spin.

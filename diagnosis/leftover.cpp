@@ -1,6 +1,7 @@
 #include "diagnosis/leftover.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -12,6 +13,7 @@ namespace {
 constexpr double kChancePerColumn = 3.0;
 constexpr double kLeastEvidence = 120.0;
 constexpr double kLeastShare = 0.06;
+constexpr double kCalibrationBox = 3.0;  ///< of a nuisance's sigma: beyond it is no calibration error
 
 std::vector<std::size_t> every_run(const Equations& equations) {
   std::vector<std::size_t> runs(equations.runs.size());
@@ -19,12 +21,35 @@ std::vector<std::size_t> every_run(const Equations& equations) {
   return runs;
 }
 
+/// Loss without any effect, calibration errors kept inside their box: one that may go on for ever makes
+/// any gap that looks like it seem small.
+double loss_within_calibration(const Identification& id) {
+  const Equations& equations = id.equations;
+  LinearProblem problem = sum_runs(equations.runs, every_run(equations), equations.prior_sd);
+  std::vector<int> open = equations.columns_of(Column::Kind::nuisance);
+  while (true) {
+    const Posterior fit = solve(problem, open, id.dispersion);
+    Eigen::Index worst = -1;
+    double most = kCalibrationBox;
+    for (Eigen::Index k = 0; k < fit.mean.size(); ++k) {
+      const double sigmas = std::abs(fit.mean[k]) / problem.prior_sd[open[static_cast<std::size_t>(k)]];
+      if (sigmas > most) most = sigmas, worst = k;
+    }
+    if (worst < 0) return fit.loss;
+    const int column = open[static_cast<std::size_t>(worst)];
+    const double held = std::copysign(kCalibrationBox * problem.prior_sd[column], fit.mean[worst]);
+    problem.residual_square += held * held * problem.gram(column, column) - 2 * held * problem.right[column];
+    problem.right -= held * problem.gram.col(column);
+    open.erase(open.begin() + worst);
+  }
+}
+
 }  // namespace
 
 Leftover find_leftover(const Identification& id, const std::vector<int>& columns) {
   const Equations& equations = id.equations;
   const LinearProblem problem = without_calibration(equations, every_run(equations), id.dispersion);
-  const double nothing = solve(problem, {}, id.dispersion).loss;
+  const double nothing = loss_within_calibration(id);
   const double explained = solve(problem, columns, id.dispersion).loss;
   std::map<std::string, std::vector<int>> families;
   std::vector<int> all = columns;

@@ -13,6 +13,7 @@ namespace {
 constexpr double kStillSpeed_m_s = 0.02;
 constexpr double kStillYawRate_rad_s = 0.12;
 constexpr double kStillWheelSpeed_rad_s = 0.2;
+constexpr double kBlurredCurrent_A = 0.03;
 
 double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
 
@@ -53,6 +54,18 @@ Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry
                               soft_sign(signals.wheel_speed_rad_s.right[j], kStillWheelSpeed_rad_s)},
           .course = across_m_s / size_m_s,
           .memory = memory};
+}
+
+/// A driver's drop turns over with the current's sign. At standstill and near zero a predicted sign is a
+/// guess: there the measured current's counts, where there is one.
+void blur_driver_drop(double drop_V, const Eigen::VectorXd& measured_A, Eigen::Index j,
+                      WheelState<double>& wheel) {
+  if (drop_V == 0) return;
+  const double hard = wheel.current_A > 0 ? 1.0 : wheel.current_A < 0 ? -1.0 : 0.0;
+  const double sign_of_A = j < measured_A.size() ? measured_A[j] : wheel.current_A;
+  const double change_V = drop_V * (soft_sign(sign_of_A, kBlurredCurrent_A) - hard);
+  wheel.voltage_V += change_V;
+  wheel.power_W += change_V * wheel.current_A;
 }
 
 struct Resizer {
@@ -128,6 +141,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
           site);
     }
     for (Side side : kSides) {
+      blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
       out.current_A[side][j] = state[side].current_A;
       out.voltage_V[side][j] = state[side].voltage_V;
       out.power_W[side][j] = state[side].power_W;

@@ -1,6 +1,7 @@
 #include "diagnosis/signatures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/kinematics.hpp"
@@ -10,7 +11,6 @@ namespace {
 
 /// Prior width of an amplitude in steps (sizes worth noticing).
 constexpr double kAmplitudePriorSteps = 4.0;
-constexpr double kDelayStep_s = 0.1;
 
 bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
   for (index = 0; index < state.effects.size(); ++index)
@@ -131,13 +131,24 @@ class Differencer {
   }
 
   /// The signals are read at the state's delay already; what is left shifts the predicted readings.
+  /// Sixth-order difference over whole samples: half a sample would blur the readings, and a lower order
+  /// flattens the steep parts, whose rest then looks like an acceleration.
   Eigen::MatrixXd delay() const {
-    ModelPoint late = point_, early = point_;
-    late.effects.push_back({.name = "time_misalignment", .parameters = {{"delay_s", kDelayStep_s}}});
-    early.effects.push_back({.name = "time_misalignment", .parameters = {{"delay_s", -kDelayStep_s}}});
-    return (signature_rows(signals_, point_, base_, predict(signals_, late)) -
-            signature_rows(signals_, point_, base_, predict(signals_, early))) /
-           (2 * kDelayStep_s);
+    constexpr std::array<double, 3> kWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
+    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(signals_.size(), kChannelCount);
+    for (std::size_t k = 0; k < kWeight.size(); ++k) {
+      const double shift_s = static_cast<double>(k + 1) * signals_.period_s;
+      slope += kWeight[k] / signals_.period_s *
+               (signature_rows(signals_, point_, base_, shifted(shift_s)) -
+                signature_rows(signals_, point_, base_, shifted(-shift_s)));
+    }
+    return slope;
+  }
+
+  Prediction shifted(double delay_s) const {
+    ModelPoint point = point_;
+    point.effects.push_back({.name = "time_misalignment", .parameters = {{"delay_s", delay_s}}});
+    return predict(signals_, point);
   }
 
   const RunSignals& signals_;

@@ -53,27 +53,28 @@ TEST_P(PracticeSet, GetsTheRightVerdict) {
         << effect << " is not named; verdict " << verdict_name(d.verdict);
   EXPECT_EQ(d.causes.size(), practice.effects.size());
   const EnergyGap& energy = d.gap.energy;
-  if (energy.before_percent > 2 + energy.noise_floor_percent)
+  if (energy.before_percent > 2 + energy.noise_floor_percent) {
     EXPECT_LT(energy.after_percent - energy.noise_floor_percent,
               0.15 * (energy.before_percent - energy.noise_floor_percent));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Labeled, PracticeSet,
-                         testing::Values(Practice{"p01_null", {}}, Practice{"p02_null_rough", {}},
-                                         Practice{"p03_rolling_resistance", {"rolling_resistance"}},
-                                         Practice{"p04_dragging_wheel_rough", {"dragging_wheel"}},
-                                         Practice{"p05_floor_slope", {"floor_slope"}},
-                                         Practice{"p06_turning_scrub_rough", {"turning_scrub"}},
-                                         Practice{"p07_winding_heating_rough", {"winding_heating"}},
-                                         Practice{"p08_center_of_mass_offset", {"center_of_mass_offset"}},
-                                         Practice{"p09_track_width_error_rough", {"track_width_error"}},
-                                         Practice{"p10_time_misalignment", {"time_misalignment"}},
-                                         Practice{"p11_gear_efficiency_rough", {"gear_efficiency"}},
-                                         Practice{"p12_two_effects_rough",
-                                                  {"rolling_resistance", "current_sensor_offset"}},
-                                         Practice{"p13_foreign_rough", {}, true},
-                                         Practice{"p14_floor_patch_rough", {"floor_patch"}}),
-                         [](const testing::TestParamInfo<Practice>& info) { return info.param.folder; });
+INSTANTIATE_TEST_SUITE_P(
+    Labeled, PracticeSet,
+    testing::Values(Practice{"p01_null", {}}, Practice{"p02_null_rough", {}},
+                    Practice{"p03_rolling_resistance", {"rolling_resistance"}},
+                    Practice{"p04_dragging_wheel_rough", {"dragging_wheel"}},
+                    Practice{"p05_floor_slope", {"floor_slope"}},
+                    Practice{"p06_turning_scrub_rough", {"turning_scrub"}},
+                    Practice{"p07_winding_heating_rough", {"winding_heating"}},
+                    Practice{"p08_center_of_mass_offset", {"center_of_mass_offset"}},
+                    Practice{"p09_track_width_error_rough", {"track_width_error"}},
+                    Practice{"p10_time_misalignment", {"time_misalignment"}},
+                    Practice{"p11_gear_efficiency_rough", {"gear_efficiency"}},
+                    Practice{"p12_two_effects_rough", {"rolling_resistance", "current_sensor_offset"}},
+                    Practice{"p13_foreign_rough", {}, true},
+                    Practice{"p14_floor_patch_rough", {"floor_patch"}}),
+    [](const testing::TestParamInfo<Practice>& practice) { return practice.param.folder; });
 
 TEST(DiagnosisJson, HasTheKeysThatAreDocumented) {
   const nlohmann::json json = nlohmann::json::parse(diagnosis_json(Diagnosis{}));
