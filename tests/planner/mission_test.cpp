@@ -207,7 +207,8 @@ TEST(Mission, SpeedMayNotJumpBetweenLegs) {
   EXPECT_THROW(plan_of(mission), ConfigError);
   mission.legs[1].start_speed_m_s = 0.3;
   const Plan plan = plan_of(mission);
-  EXPECT_EQ(plan.status, SolveStatus::optimal) << plan.message;
+  ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+  EXPECT_LE(plan.worst_violation, 1e-6);
   mission.legs[0].dwell_s = 1.0;
   EXPECT_THROW(plan_of(mission), ConfigError);
 }

@@ -68,10 +68,14 @@ TYPED_TEST(EveryTerm, HasExactDerivatives) {
       const Segment& segment = bench.problem.segments[k];
       const double b0 = 0.021, b1 = 0.034, h = 1e-5;
       for (std::size_t row = 0; row < TypeParam::rows; ++row) {
-        const auto value = [&](double x, double y) { return term(plain_interval(segment, x, y), row); };
         const auto jet_at = [&](double x, double y) { return term(jet_interval(segment, x, y), row); };
+        const auto value = [&](double x, double y) { return jet_at(x, y).value; };
         const Jet jet = jet_at(b0, b1);
-        expect_near(jet.value, value(b0, b1), 1e-6, "value");
+        // Kinks of gear and driver are rounded for derivatives (model/operating_point.hpp): values differ a
+        // little.
+        const double plain = term(plain_interval(segment, b0, b1), row);
+        EXPECT_NEAR(jet.value, plain, bent ? 1e-3 * (1 + std::abs(plain)) : 2e-6 * std::abs(plain) + 1e-6)
+            << "value";
         const double scale = std::abs(jet.value) / b0;
         expect_near(jet.d0, (value(b0 + h, b1) - value(b0 - h, b1)) / (2 * h), scale, "d0");
         expect_near(jet.d1, (value(b0, b1 + h) - value(b0, b1 - h)) / (2 * h), scale, "d1");
