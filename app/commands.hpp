@@ -13,6 +13,8 @@ namespace joulepath {
   COMMAND(plan)                     \
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \
+  COMMAND(diagnose)                 \
+  COMMAND(experiment)               \
   COMMAND(effects)                  \
   COMMAND(check)                    \
   COMMAND(calibrate)                \

@@ -1,0 +1,136 @@
+#include "diagnosis/attribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+/// Physics' signs, and sizes worth a name.
+bool sizes_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& column = equations.columns[static_cast<std::size_t>(columns[k])];
+    if (column.kind == Column::Kind::amplitude &&
+        equations.candidates[static_cast<std::size_t>(column.owner)].nonnegative &&
+        mean[static_cast<Eigen::Index>(k)] < 0)
+      return false;
+  }
+  return true;
+}
+
+bool is_material(const Equations& equations, const Explanation& explanation, const Eigen::VectorXd& mean,
+                 const std::vector<double>& least_amplitude) {
+  if (least_amplitude.empty()) return true;
+  for (int c : explanation.candidates) {
+    double square = 0;
+    for (std::size_t k = 0; k < explanation.columns.size(); ++k) {
+      const Column& column = equations.columns[static_cast<std::size_t>(explanation.columns[k])];
+      if (column.owner == c && column.kind == Column::Kind::amplitude)
+        square += mean[static_cast<Eigen::Index>(k)] * mean[static_cast<Eigen::Index>(k)];
+    }
+    if (std::sqrt(square) < least_amplitude[static_cast<std::size_t>(c)]) return false;
+  }
+  return true;
+}
+
+Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
+                     const SearchOptions& options, double empty_evidence) {
+  Explanation explanation{.candidates = std::move(candidates)};
+  for (int c : explanation.candidates)
+    for (int k : equations.columns_of_candidate(c, true)) explanation.columns.push_back(k);
+  Posterior posterior = solve(problem, explanation.columns, options.dispersion);
+  const auto effects = static_cast<double>(explanation.candidates.size());
+  const double cost = effects > 0 ? options.effect_cost + (effects - 1) * options.further_effect_cost : 0.0;
+  explanation.score = posterior.log_evidence - empty_evidence - cost;
+  explanation.loss = posterior.loss;
+  explanation.material = is_material(equations, explanation, posterior.mean, options.least_amplitude);
+  if (!sizes_hold(equations, explanation.columns, posterior.mean)) explanation.score = -1e300;
+  explanation.mean = std::move(posterior.mean);
+  explanation.covariance = std::move(posterior.covariance);
+  return explanation;
+}
+
+bool has_name(const Equations& equations, const std::vector<int>& set, int candidate) {
+  for (int member : set)
+    if (equations.candidates[static_cast<std::size_t>(member)].label() ==
+        equations.candidates[static_cast<std::size_t>(candidate)].label())
+      return true;
+  return false;
+}
+
+}  // namespace
+
+LinearProblem without_calibration(const Equations& equations, const std::vector<std::size_t>& runs,
+                                  double dispersion) {
+  const LinearProblem all = sum_runs(equations.runs, runs, equations.prior_sd);
+  const std::vector<int> nuisances = equations.columns_of(Column::Kind::nuisance);
+  std::vector<int> every(equations.columns.size());
+  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<int>(k);
+  return project_out(all, nuisances, every, dispersion);
+}
+
+std::vector<Explanation> search_explanations(const LinearProblem& problem, const Equations& equations,
+                                             const SearchOptions& options) {
+  std::vector<int> allowed = options.allowed;
+  if (allowed.empty())
+    for (std::size_t c = 0; c < equations.candidates.size(); ++c) allowed.push_back(static_cast<int>(c));
+  const double empty_evidence = solve(problem, {}, options.dispersion).log_evidence;
+  std::vector<Explanation> met{evaluate(problem, equations, {}, options, empty_evidence)};
+  std::vector<Explanation> beam = met;
+  std::set<std::vector<int>> seen;
+  for (int depth = 0; depth < options.most_effects; ++depth) {
+    std::vector<Explanation> next;
+    for (const Explanation& from : beam)
+      for (int c : allowed) {
+        if (has_name(equations, from.candidates, c)) continue;
+        std::vector<int> set = from.candidates;
+        set.insert(std::upper_bound(set.begin(), set.end(), c), c);
+        if (!seen.insert(set).second) continue;
+        Explanation grown = evaluate(problem, equations, set, options, empty_evidence);
+        if (grown.score > -1e200) next.push_back(std::move(grown));
+      }
+    std::stable_sort(next.begin(), next.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
+    beam.assign(next.begin(), next.begin() + std::min<std::ptrdiff_t>(options.beam_width, std::ssize(next)));
+    met.insert(met.end(), next.begin(), next.end());
+  }
+  std::stable_sort(met.begin(), met.end(),
+                   [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
+  return met;
+}
+
+double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters) {
+  double ratio_sum = 0, count = 0;
+  const Eigen::Index p = parameters.size();
+  for (std::size_t k = 0; k < equations.columns.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (equations.columns[k].kind == Column::Kind::dictionary) continue;
+    double square = 0, expected = 0, sum = 0;
+    for (const RunEquations& run : equations.runs) {
+      const double score = run.gram(i, p) - run.gram.row(i).head(p).dot(parameters);
+      square += score * score;
+      sum += score;
+      expected += run.gram(i, i);
+    }
+    if (expected <= 0) continue;
+    ratio_sum += (square - sum * sum / static_cast<double>(equations.runs.size())) / expected;
+    count += 1;
+  }
+  return count > 0 ? std::max(1.0, ratio_sum / count) : 1.0;
+}
+
+Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
+                               const std::vector<int>& columns, double dispersion,
+                               Eigen::MatrixXd* covariance) {
+  std::vector<int> all = equations.columns_of(Column::Kind::nuisance);
+  all.insert(all.end(), columns.begin(), columns.end());
+  const Posterior posterior = solve(sum_runs(equations.runs, runs, equations.prior_sd), all, dispersion);
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equations.columns.size()));
+  for (std::size_t k = 0; k < all.size(); ++k)
+    parameters[all[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
+  if (covariance) *covariance = posterior.covariance;
+  return parameters;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,135 @@
+#include "diagnosis/candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+/// Effects that physics allows in one direction only: they take energy, never give it.
+const std::set<std::string> kOneSigned{
+    "rolling_resistance", "floor_patch",     "stribeck_friction",
+    "dragging_wheel",     "turning_scrub",   "direction_dependent_friction",
+    "caster_swivel",      "gear_efficiency", "quadratic_drag",
+    "wheel_slip",         "winding_heating", "driver_voltage_drop",
+    "regeneration_error"};
+
+/// Grids over shape parameters; any other gets multiples of its typical size.
+const std::map<std::string, std::vector<double>> kShapeGrids{{"speed_rad_s", {0.6, 1.0, 1.6, 2.5, 4.0}},
+                                                             {"trail_m", {0.03, 0.08, 0.2, 0.5}},
+                                                             {"time_constant_s", {25, 60, 140, 330, 1200}},
+                                                             {"delay_s", {}}};
+
+std::vector<double> shape_grid(const ParameterDescription& parameter) {
+  const auto found = kShapeGrids.find(parameter.name);
+  if (found != kShapeGrids.end()) return found->second;
+  std::vector<double> grid;
+  for (double factor : {0.3, 1.0, 3.0})
+    grid.push_back(std::clamp(factor * parameter.typical, parameter.min, parameter.max));
+  return grid;
+}
+
+double value_or(const EffectSetting& setting, const std::string& key, double fallback) {
+  const auto found = setting.parameters.find(key);
+  return found == setting.parameters.end() ? fallback : found->second;
+}
+
+/// What a parameter replaces in the robot file, if it does.
+double replaced_value(const std::string& effect, const Robot& robot) {
+  if (effect == "regeneration_error") return robot.power.regeneration_efficiency;
+  if (effect == "supply_sag") return robot.battery.internal_resistance_ohm;
+  return 0.0;
+}
+
+constexpr double kHardestContact_N_s_m = 1e8;
+
+void add_with_grid(const EffectDescription& description, Candidate candidate, std::vector<Candidate>& out) {
+  std::vector<Candidate> grown{std::move(candidate)};
+  for (const std::string& name : shape_parameters(std::string(description.info.name))) {
+    std::vector<Candidate> next;
+    for (const ParameterDescription& parameter : description.parameters)
+      if (parameter.name == name)
+        for (double value : shape_grid(parameter))
+          for (Candidate c : grown) {
+            c.shape.parameters[name] = value;
+            next.push_back(std::move(c));
+          }
+    grown = std::move(next);
+  }
+  out.insert(out.end(), grown.begin(), grown.end());
+}
+
+}  // namespace
+
+std::string Candidate::label() const {
+  return shape.side ? shape.name + " (" + side_name(*shape.side) + ")" : shape.name;
+}
+
+std::vector<std::string> shape_parameters(const std::string& effect) {
+  const EffectDescription* description = find_effect(effect);
+  std::vector<std::string> names;
+  if (!description || effect == "floor_slope") return names;
+  for (std::size_t k = 1; k < description->parameters.size(); ++k)
+    names.push_back(description->parameters[k].name);
+  return names;
+}
+
+EffectSetting setting_of(const Candidate& candidate, const std::vector<double>& amplitudes,
+                         const Robot& robot) {
+  EffectSetting setting = candidate.shape;
+  const EffectDescription& description = *find_effect(setting.name);
+  if (setting.name == "floor_slope") {
+    setting.parameters["grade"] = std::min(0.3, std::hypot(amplitudes[0], amplitudes[1]));
+    setting.parameters["uphill_direction_rad"] = std::atan2(amplitudes[1], amplitudes[0]);
+    return setting;
+  }
+  const ParameterDescription& first = description.parameters.front();
+  double value = amplitudes[0] + replaced_value(setting.name, robot);
+  if (setting.name == "wheel_slip")
+    value = amplitudes[0] > 1 / kHardestContact_N_s_m ? 1 / amplitudes[0] : kHardestContact_N_s_m;
+  setting.parameters[first.name] = std::clamp(value, first.min, first.max);
+  return setting;
+}
+
+std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& robot) {
+  if (setting.name == "floor_slope") {
+    const double grade = value_or(setting, "grade", 0),
+                 direction = value_or(setting, "uphill_direction_rad", 0);
+    return {grade * std::cos(direction), grade * std::sin(direction)};
+  }
+  const std::string& first = find_effect(setting.name)->parameters.front().name;
+  if (setting.name == "wheel_slip") return {1 / value_or(setting, first, kHardestContact_N_s_m)};
+  return {value_or(setting, first, 0) - replaced_value(setting.name, robot)};
+}
+
+std::vector<Candidate> catalog_candidates(const Robot& robot) {
+  std::vector<Candidate> candidates;
+  for (const EffectDescription& description : effect_catalog()) {
+    const std::string name(description.info.name);
+    if (name == "floor_patch") continue;
+    const ParameterDescription& first = description.parameters.front();
+    Candidate candidate{.shape = {.name = name},
+                        .amplitude = {first.name},
+                        .step = {first.typical},
+                        .nonnegative = kOneSigned.contains(name)};
+    if (name == "floor_slope")
+      candidate.amplitude = {"x", "y"}, candidate.step = {first.typical, first.typical};
+    if (name == "wheel_slip") candidate.step = {1 / first.typical};
+    if (name == "regeneration_error" && robot.power.regeneration_efficiency > 0)
+      candidate.nonnegative = false;
+    if (!description.has_side) {
+      add_with_grid(description, candidate, candidates);
+      continue;
+    }
+    for (Side side : kSides) {
+      candidate.shape.side = side;
+      add_with_grid(description, candidate, candidates);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace joulepath

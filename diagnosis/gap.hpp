@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/model_state.hpp"
+
+namespace joulepath {
+
+/// A run's energy of both motors (J), measured and predicted for the motion that it measured.
+struct RunEnergy {
+  double measured_J{};
+  double predicted_J{};
+  double gap_J() const { return predicted_J - measured_J; }
+};
+
+/// Measured power of one wheel (W) per sample: voltage times current, or empty.
+[[nodiscard]] Eigen::VectorXd measured_power_W(const RunSignals& run, Side side);
+
+[[nodiscard]] std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals,
+                                                  const ModelPoint& point);
+
+/// sum |gap| / sum |measured|, percent.
+[[nodiscard]] double energy_gap_percent(const std::vector<RunEnergy>& runs);
+
+struct GapInput {
+  const std::vector<RunSignals>& before_signals;
+  const std::vector<RunSignals>& after_signals;  ///< read at the corrected model's delay
+  ModelPoint before{};
+  ModelPoint after{};
+  double noise_floor_percent{};
+  std::size_t bootstrap{};
+};
+
+/// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
+[[nodiscard]] GapReport measure_gap(const GapInput& input);
+
+/// Phase of a sample: standstill, accelerate, cruise, brake, turn, spin.
+[[nodiscard]] const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index sample);
+
+}  // namespace joulepath

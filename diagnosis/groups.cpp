@@ -1,0 +1,95 @@
+#include "diagnosis/groups.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+std::multiset<std::string> labels_of(const Equations& equations, const std::vector<int>& candidates) {
+  std::multiset<std::string> labels;
+  for (int c : candidates) labels.insert(equations.candidates[static_cast<std::size_t>(c)].label());
+  return labels;
+}
+
+}  // namespace
+
+std::map<std::string, double> effect_probabilities(const Equations& equations,
+                                                   const std::vector<Explanation>& explanations) {
+  std::map<std::multiset<std::string>, double> best_of_set;  // shapes of one effect count once
+  for (const Explanation& e : explanations) {
+    const auto [at, fresh] = best_of_set.try_emplace(labels_of(equations, e.candidates), e.score);
+    if (!fresh) at->second = std::max(at->second, e.score);
+  }
+  const double top = explanations.empty() ? 0.0 : explanations.front().score;
+  double total = 0;
+  std::map<std::string, double> weight;
+  for (const auto& [labels, score] : best_of_set) {
+    const double w = std::exp(kScoreFlattening * (score - top));
+    total += w;
+    for (const std::string& label : std::set<std::string>(labels.begin(), labels.end())) weight[label] += w;
+  }
+  for (auto& [label, value] : weight) value /= total;
+  return weight;
+}
+
+std::vector<std::string> stand_ins(const Equations& equations, const std::vector<Explanation>& explanations,
+                                   int candidate) {
+  if (explanations.empty()) return {};
+  const Explanation& best = explanations.front();
+  const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
+  std::multiset<std::string> rest = labels_of(equations, best.candidates);
+  rest.erase(rest.find(label));
+  std::vector<std::string> found;
+  for (const Explanation& e : explanations) {
+    if (e.score < best.score - kStandInLogOdds) break;
+    if (e.candidates.size() != best.candidates.size()) continue;
+    std::multiset<std::string> other = labels_of(equations, e.candidates);
+    if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
+      continue;
+    for (const std::string& kept : rest) other.erase(other.find(kept));
+    if (other.size() == 1 && std::find(found.begin(), found.end(), *other.begin()) == found.end())
+      found.push_back(*other.begin());
+  }
+  return found;
+}
+
+std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
+                               const Explanation& best, const std::string& label, const std::string& other,
+                               double dispersion) {
+  int other_candidate = -1, own = -1;
+  for (std::size_t c = 0; c < equations.candidates.size() && other_candidate < 0; ++c)
+    if (equations.candidates[c].label() == other) other_candidate = static_cast<int>(c);
+  for (int c : best.candidates)
+    if (equations.candidates[static_cast<std::size_t>(c)].label() == label) own = c;
+  if (other_candidate < 0 || own < 0) return {};
+  std::vector<int> columns = best.columns;
+  const int a = equations.columns_of_candidate(own, false).front();
+  const int b = equations.columns_of_candidate(other_candidate, false).front();
+  columns.push_back(b);
+  const Posterior posterior = solve(problem, columns, dispersion);
+  const auto at = [&](int column) {
+    return std::find(columns.begin(), columns.end(), column) - columns.begin();
+  };
+  const Eigen::Index i = at(a), j = at(b);
+  const double sa = equations.candidates[static_cast<std::size_t>(own)].step[0];
+  const double sb = equations.candidates[static_cast<std::size_t>(other_candidate)].step[0];
+  Eigen::Matrix2d covariance;
+  covariance << posterior.covariance(i, i) / (sa * sa), posterior.covariance(i, j) / (sa * sb),
+      posterior.covariance(i, j) / (sa * sb), posterior.covariance(j, j) / (sb * sb);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+  Eigen::Vector2d direction = solver.eigenvectors().col(0);
+  if (std::abs(direction[0]) < 1e-6) return {};
+  const double k = direction[1] / direction[0] * sa / sb;
+  char text[256];
+  std::snprintf(text, sizeof text, "%s %s %+.4g * %s %s = %.4g", label.c_str(),
+                equations.candidates[static_cast<std::size_t>(own)].amplitude[0].c_str(), k, other.c_str(),
+                equations.candidates[static_cast<std::size_t>(other_candidate)].amplitude[0].c_str(),
+                posterior.mean[i] + k * posterior.mean[j]);
+  return text;
+}
+
+}  // namespace joulepath

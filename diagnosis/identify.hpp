@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/refit.hpp"
+
+namespace joulepath {
+
+/// What the diagnosis runs say about the cause: the converged state, and every explanation that was
+/// weighed about it.
+struct Identification {
+  std::vector<Nuisance> nuisances{};
+  ModelState state{};                       ///< of the best explanation
+  std::vector<RunSignals> signals{};        ///< read at the state's delay
+  Equations equations{};                    ///< whole catalog and dictionary, about the state
+  std::vector<Explanation> explanations{};  ///< best first
+  double dispersion{1.0};
+};
+
+struct IdentifyOptions {
+  double effect_cost{6.0};
+  double further_effect_cost{14.0};
+  int most_effects{4};
+  int rounds{4};
+};
+
+/// Searches for the effects behind a gap: linearize, weigh sets of effects, take the best over, refit by
+/// Gauss-Newton, and linearize again about it until the set stays the same.
+[[nodiscard]] Identification identify(const LogSet& logs, const IdentifyOptions& options = {});
+
+/// Energy (J) that an effect of a state is responsible for, summed without sign over the runs, and the
+/// sum of what the model predicts.
+struct EnergyShare {
+  double effect_J{};
+  double total_J{};
+};
+[[nodiscard]] EnergyShare energy_of_effect(const std::vector<RunSignals>& signals, const Robot& robot,
+                                           const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                           std::size_t effect);
+
+}  // namespace joulepath

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace joulepath {
+
+/// Calls function(i) for i in [0, count) on the machine's cores. Each call writes only what belongs to
+/// its own i, so that the result does not depend on who runs first. The first exception is rethrown.
+template <class Function>
+void parallel_for(std::size_t count, Function&& function) {
+  const std::size_t workers =
+      std::min<std::size_t>({count, std::max(1u, std::thread::hardware_concurrency()), 8});
+  if (workers <= 1) {
+    for (std::size_t i = 0; i < count; ++i) function(i);
+    return;
+  }
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr error;
+  std::mutex error_mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        function(i);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(error_mutex);
+        if (!error) error = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t w = 1; w < workers; ++w) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/equations.hpp"
+
+namespace joulepath {
+
+/// Columns of the linear problem about a state, without rows: nuisances, candidates, shapes of the
+/// state's own effects, dictionary.
+[[nodiscard]] std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
+                                               const ModelState& state,
+                                               const std::vector<Candidate>& candidates,
+                                               std::size_t dictionary_entries, bool forms);
+
+/// d(structured rows)/d(parameter) of nuisances, amplitudes and shapes, each samples x kChannelCount:
+/// central differences of predictions, which are free of noise.
+[[nodiscard]] std::vector<Eigen::MatrixXd> signatures(const RunSignals& signals, const Robot& robot,
+                                                      const std::vector<Nuisance>& nuisances,
+                                                      const ModelState& state,
+                                                      const std::vector<Candidate>& candidates,
+                                                      const std::vector<Column>& columns,
+                                                      const Prediction& base);
+
+/// Columns of what may differ from run to run: friction left, right, resistance left, right, gyro's
+/// bias, standby power.
+[[nodiscard]] std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Robot& robot,
+                                                          const Prediction& base);
+[[nodiscard]] Eigen::VectorXd run_start_variance(const Robot& robot);
+
+}  // namespace joulepath

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+namespace joulepath {
+
+/// A Gaussian kernel on a uniform grid and its derivative, both discrete and normalized: constants
+/// pass the one and straight lines give their slope in the other, exactly.
+struct SmoothingKernel {
+  std::vector<double> weight{};
+  std::vector<double> slope_weight{};  ///< 1/s
+  std::size_t half_width() const { return weight.size() / 2; }
+};
+
+SmoothingKernel gaussian_kernel(double sigma_s, double period_s);
+
+/// sum_k weights[k] values[center - half + k]; values beyond the ends are those at the ends.
+double convolve_at(const std::vector<double>& values, const std::vector<double>& weights, std::size_t center);
+
+/// Values at `at_s`, linear between the samples, held at the ends.
+std::vector<double> interpolate(const std::vector<double>& time_s, const std::vector<double>& values,
+                                const std::vector<double>& at_s);
+
+/// Adds multiples of 2 pi so that neighbors differ by less than pi.
+std::vector<double> unwrap_angle(std::vector<double> angle_rad);
+
+}  // namespace joulepath
