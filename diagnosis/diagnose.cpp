@@ -223,12 +223,13 @@ class Examination {
     const std::vector<RunSignals> after =
         read_signals(validation_, correct_it ? channel_delay_s(corrected) : 0.0);
     const ModelPoint corrected_point = model_point(dataset_.robot, id_.nuisances, corrected);
-    report_.gap = measure_gap({.before_signals = before,
-                               .after_signals = after,
-                               .before = nominal_,
-                               .after = correct_it ? corrected_point : nominal_,
-                               .noise_floor_percent = noise_floor_percent(fitted, corrected_point),
-                               .bootstrap = options_.bootstrap});
+    report_.gap =
+        measure_gap({.before_signals = before,
+                     .after_signals = after,
+                     .before = nominal_,
+                     .after = correct_it ? corrected_point : nominal_,
+                     .noise_floor_percent = finite_or_zero(noise_floor_percent(fitted, corrected_point)),
+                     .bootstrap = options_.bootstrap});
     fill_floors();
     name_causes(fitted, corrected, before);
     find_control(before);
@@ -243,6 +244,9 @@ class Examination {
 
   /// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
   /// the scatter between runs allows: a wrong model must not pass its own error for noise.
+  /// Logs without any noise (a simulator's) have no floor to measure.
+  static double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
+
   double noise_floor_percent(const Refit& fitted, const ModelPoint& corrected) const {
     const double left = energy_gap_percent(run_energies(fitted.signals, corrected));
     return std::min(
@@ -259,11 +263,13 @@ class Examination {
     return state;
   }
 
-  /// Without any effect, what the calibrated model leaves of the held-out energy.
+  /// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
+  /// can tell.
   bool calibration_leaves_a_gap(const Refit& fitted, const ModelState& calibrated) const {
     const ModelPoint point = model_point(dataset_.robot, id_.nuisances, calibrated);
     const double left = energy_gap_percent(run_energies(read_signals(validation_, 0.0), point));
-    return left > std::max(kFloorsUnnamed * noise_floor_percent(fitted, point), kLeastGapUnnamed_percent);
+    return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(fitted, point)),
+                              kLeastGapUnnamed_percent));
   }
 
   /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it

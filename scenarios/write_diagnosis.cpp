@@ -181,7 +181,8 @@ std::string corrected_dataset_text(const Dataset& dataset, const Diagnosis& diag
 
 std::string motion_text(const PrescribedMotion& motion) {
   std::string text = "{";
-  for (const auto& [key, value] : motion_json(motion).items())
+  const auto json = motion_json(motion);  // items() of a temporary would dangle
+  for (const auto& [key, value] : json.items())
     text += (text.size() > 1 ? ", " : "") + key + ": " +
             (value.is_string() ? value.get<std::string>() : value.dump());
   return text + "}";
