@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "diagnosis/indices.hpp"
 #include "diagnosis/parallel.hpp"
 #include "diagnosis/signatures.hpp"
 
@@ -66,15 +67,9 @@ std::vector<RunEquations> marginalize_all(const std::vector<RawRunEquations>& ra
   return runs;
 }
 
-std::vector<std::size_t> all_of(std::size_t count) {
-  std::vector<std::size_t> indices(count);
-  for (std::size_t i = 0; i < count; ++i) indices[i] = i;
-  return indices;
-}
-
 /// The fit of everything at once: what it leaves is taken for noise.
 Eigen::VectorXd rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
-  const LinearProblem problem = sum_runs(runs, all_of(runs.size()), prior_sd);
+  const LinearProblem problem = sum_runs(runs, every(runs.size()), prior_sd);
   std::vector<int> columns(static_cast<std::size_t>(prior_sd.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = static_cast<int>(k);
   return solve(problem, columns).mean;

@@ -97,6 +97,12 @@ std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, cons
   return energies;
 }
 
+double absolute_gap_J(const std::vector<RunEnergy>& runs) {
+  double sum = 0;
+  for (const RunEnergy& run : runs) sum += std::abs(run.gap_J());
+  return sum;
+}
+
 double energy_gap_percent(const std::vector<RunEnergy>& runs) {
   double gap = 0, measured = 0;
   for (const RunEnergy& run : runs) gap += std::abs(run.gap_J()), measured += std::abs(run.measured_J);
@@ -141,8 +147,8 @@ GapReport measure_gap(const GapInput& input) {
   energy.bias_before_percent = bias_percent(before);
   energy.bias_after_percent = bias_percent(after);
   energy.noise_floor_percent = input.noise_floor_percent;
-  for (const RunEnergy& run : before) energy.before_J += std::abs(run.gap_J());
-  for (const RunEnergy& run : after) energy.after_J += std::abs(run.gap_J());
+  energy.before_J = absolute_gap_J(before);
+  energy.after_J = absolute_gap_J(after);
   energy.shrink_fraction = energy.before_J > 0 ? 1 - energy.after_J / energy.before_J : 0.0;
   energy.shrink_interval_95 =
       bootstrap_interval(before.size(), input.bootstrap,

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "diagnosis//diagnosis.hpp"
+#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/model_state.hpp"
 #include "diagnosis/whitening.hpp"
 
@@ -21,6 +21,9 @@ struct RunEnergy {
 [[nodiscard]] std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals,
                                                   const ModelPoint& point);
 
+/// sum |gap| over runs, J.
+[[nodiscard]] double absolute_gap_J(const std::vector<RunEnergy>& runs);
+
 /// sum |gap| / sum |measured|, percent.
 [[nodiscard]] double energy_gap_percent(const std::vector<RunEnergy>& runs);
 
@@ -33,13 +36,13 @@ struct GapInput {
   std::size_t bootstrap{};
 };
 
-/// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
 /// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run
 /// to run, together with the readings' noise: what no model of the robot can take away. The variances
 /// come from the fit of everything, so that a wrong explanation does not pass for scatter.
 [[nodiscard]] double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
                                          const Eigen::VectorXd& run_variance, const NoiseModel& noise);
 
+/// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
 [[nodiscard]] GapReport measure_gap(const GapInput& input);
 
 /// Phase of a sample: standstill, accelerate, cruise, brake, turn, spin.

@@ -1,6 +1,6 @@
 #include "diagnosis/held_out.hpp"
 
-#include <numeric>
+#include "diagnosis/indices.hpp"
 
 namespace joulepath {
 
@@ -25,10 +25,8 @@ std::vector<double> held_out_losses(const LogSet& validation, const Identificati
 ModelState refit_on_diagnosis(const LogSet& diagnosis, const Identification& id,
                               const std::vector<ActiveEffect>& effects, Refit* details, int iterations) {
   ModelState start{.nuisance_fraction = id.state.nuisance_fraction, .effects = effects};
-  std::vector<std::size_t> runs(diagnosis.runs.size());
-  std::iota(runs.begin(), runs.end(), std::size_t{0});
-  Refit fitted = refit(diagnosis, runs, id.nuisances, start, id.equations.noise, id.equations.run_variance,
-                       id.dispersion, iterations);
+  Refit fitted = refit(diagnosis, every(diagnosis.runs.size()), id.nuisances, start, id.equations.noise,
+                       id.equations.run_variance, id.dispersion, iterations);
   if (details) *details = fitted;
   return fitted.state;
 }

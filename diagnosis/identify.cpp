@@ -5,17 +5,12 @@
 
 #include "diagnosis/delay_search.hpp"
 #include "diagnosis/floor_patch_search.hpp"
+#include "diagnosis/indices.hpp"
 #include "diagnosis/materiality.hpp"
 #include "diagnosis/parallel.hpp"
 
 namespace joulepath {
 namespace {
-
-std::vector<std::size_t> every(std::size_t count) {
-  std::vector<std::size_t> indices(count);
-  for (std::size_t i = 0; i < count; ++i) indices[i] = i;
-  return indices;
-}
 
 /// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
 Eigen::VectorXd rich_parameters(const Equations& equations) {

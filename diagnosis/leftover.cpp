@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "diagnosis/indices.hpp"
 
 namespace joulepath {
 namespace {
@@ -15,17 +16,11 @@ constexpr double kLeastEvidence = 120.0;
 constexpr double kLeastShare = 0.06;
 constexpr double kCalibrationBox = 3.0;  ///< of a nuisance's sigma: beyond it is no calibration error
 
-std::vector<std::size_t> every_run(const Equations& equations) {
-  std::vector<std::size_t> runs(equations.runs.size());
-  std::iota(runs.begin(), runs.end(), std::size_t{0});
-  return runs;
-}
-
 /// Loss without any effect, calibration errors kept inside their box: one that may go on for ever makes
 /// any gap that looks like it seem small.
 double loss_within_calibration(const Identification& id) {
   const Equations& equations = id.equations;
-  LinearProblem problem = sum_runs(equations.runs, every_run(equations), equations.prior_sd);
+  LinearProblem problem = sum_runs(equations.runs, every(equations.runs.size()), equations.prior_sd);
   std::vector<int> open = equations.columns_of(Column::Kind::nuisance);
   while (true) {
     const Posterior fit = solve(problem, open, id.dispersion);
@@ -48,7 +43,7 @@ double loss_within_calibration(const Identification& id) {
 
 Leftover find_leftover(const Identification& id, const std::vector<int>& columns) {
   const Equations& equations = id.equations;
-  const LinearProblem problem = without_calibration(equations, every_run(equations), id.dispersion);
+  const LinearProblem problem = without_calibration(equations, every(equations.runs.size()), id.dispersion);
   const double nothing = loss_within_calibration(id);
   const double explained = solve(problem, columns, id.dispersion).loss;
   std::map<std::string, std::vector<int>> families;

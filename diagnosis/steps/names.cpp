@@ -1,0 +1,86 @@
+#include "diagnosis/steps/names.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/groups.hpp"
+#include "diagnosis/indices.hpp"
+#include "diagnosis/materiality.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A further effect below both shares (of the energy, of the gain) is not named beside a greater one;
+/// how likely it is there all the same is anyone's guess.
+constexpr double kFormErrorEnergy = 0.02;
+constexpr double kFormErrorGain = 0.05;
+constexpr double kFormErrorProbability = 0.3;
+constexpr double kSurest = 0.995;
+constexpr std::size_t kRanked = 12;
+
+/// Share of the best set's gain in loss that is lost when one of its effects is left out.
+double gain_share_of(const Examination& x, const std::string& label) {
+  const Identification& id = x.id;
+  const Explanation& best = id.explanations.front();
+  const LinearProblem problem =
+      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
+  std::vector<int> columns;
+  for (int c : best.candidates)
+    if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
+      for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
+  const double nothing = solve(problem, {}, id.dispersion).loss,
+               others = solve(problem, columns, id.dispersion).loss;
+  return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
+}
+
+/// A further effect of the mechanics with little energy and little of the evidence.
+bool may_be_form_error(const Examination& x, std::size_t e) {
+  const ModelState& state = x.id.state;
+  if (state.effects.size() < 2 || is_instrument(state.effects[e].candidate.shape.name)) return false;
+  ModelState without = state;
+  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(e));
+  Impact impact = impact_between(x.id.signals, x.point_of(state), x.point_of(without));
+  impact.motor_power = impact.battery_power = 0;  // what is left shows outside the mechanics
+  if (materiality(impact) >= 1) return false;
+  const EnergyShare energy = energy_of_effect(x.id.signals, x.dataset.robot, x.id.nuisances, state, e);
+  if (energy.effect_J > kFormErrorEnergy * energy.total_J) return false;
+  return gain_share_of(x, state.effects[e].candidate.label()) < kFormErrorGain;
+}
+
+}  // namespace
+
+double Examination::probability_of(const ActiveEffect& effect) const {
+  const auto found = probabilities.find(effect.candidate.label());
+  return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(kSurest, found->second);
+}
+
+void choose_names(Examination& x) {
+  x.probabilities = effect_probabilities(x.id.equations, x.id.explanations);
+  std::vector<std::string> doubted;
+  for (std::size_t e = 0; e < x.id.state.effects.size(); ++e) {
+    if (may_be_form_error(x, e))
+      doubted.push_back(x.id.state.effects[e].candidate.label());
+    else
+      x.named.push_back(x.id.state.effects[e]);
+  }
+  if (x.named.empty()) {  // none is the greater one
+    x.named = x.id.state.effects;
+    return;
+  }
+  for (const std::string& label : doubted) {
+    x.probabilities[label] = std::min(x.probabilities[label], kFormErrorProbability);
+    x.report.notes.push_back(
+        label + " is not named: small beside a greater effect, it may stand for that one's form");
+  }
+}
+
+void rank_effects(Examination& x) {
+  std::vector<RankedEffect>& ranking = x.report.ranking;
+  for (const auto& [label, probability] : x.probabilities)
+    if (probability > 1e-4) ranking.push_back({label, probability});
+  std::stable_sort(ranking.begin(), ranking.end(), [](const RankedEffect& a, const RankedEffect& b) {
+    return a.probability > b.probability;
+  });
+  if (ranking.size() > kRanked) ranking.resize(kRanked);
+}
+
+}  // namespace joulepath

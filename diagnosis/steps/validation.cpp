@@ -1,0 +1,142 @@
+#include "diagnosis/steps/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/gap.hpp"
+#include "diagnosis/held_out.hpp"
+#include "diagnosis/steps/correction.hpp"
+#include "diagnosis/steps/verdict.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kCalibrationBox = 3.0;  ///< sigmas that a calibration may be off
+/// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
+constexpr double kLeastGapLeft_percent = 2.0;
+/// Effects that together come near a foreign cause leave both: a tenth of the gap and many noise floors.
+constexpr double kShareOfWrongForm = 0.1;
+constexpr double kFloorsOfWrongForm = 10.0;
+/// Where nothing is named the bar is higher: the scatter of few rough runs is not well known.
+constexpr double kFloorsUnnamed = 4.0;
+constexpr double kLeastGapUnnamed_percent = 4.0;
+/// What a wrong model leaves is no noise: the floor is at most so many times the scatter between runs.
+constexpr double kScatterFactor = 2.0;
+
+/// Logs without any noise (a simulator's) have no floor to measure.
+double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
+
+/// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
+/// the scatter between runs allows: a wrong model must not pass its own error for noise.
+double noise_floor_percent(const Examination& x, const Correction& correction) {
+  const ModelPoint point = x.point_of(correction.state);
+  const double left = energy_gap_percent(run_energies(correction.fitted.signals, point));
+  return std::min(left,
+                  kScatterFactor * run_scatter_percent(correction.fitted.signals, point,
+                                                       x.id.equations.run_variance, x.id.equations.noise));
+}
+
+/// A constant that is far out is an effect: as the rival of a named one it stays within its box.
+ModelState within_calibration(const Examination& x, ModelState state) {
+  for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
+    const double most = kCalibrationBox * x.id.nuisances[k].sigma;
+    state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
+  }
+  return state;
+}
+
+/// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
+bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
+  const std::vector<double> loss = held_out_losses(x.validation, x.id, corrected);
+  double sum = 0, square = 0;
+  const auto n = static_cast<double>(loss.size());
+  for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
+  for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
+  return sum > 0 && (n < 3 || sum * sum > square * 1.0 || sum > 6 * x.id.dispersion);
+}
+
+/// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
+/// can tell.
+bool calibration_leaves_a_gap(const Examination& x, const Correction& calibrated) {
+  const double left =
+      energy_gap_percent(run_energies(read_signals(x.validation, 0.0), x.point_of(calibrated.state)));
+  return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
+                            kLeastGapUnnamed_percent));
+}
+
+/// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
+/// leaves is small, 1 where it makes things worse.
+double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
+                                const Correction& correction) {
+  const std::vector<RunSignals> after_signals = read_signals(x.validation, channel_delay_s(correction.state));
+  const double floor = noise_floor_percent(x, correction);
+  const double before = energy_gap_percent(run_energies(before_signals, x.nominal));
+  const double after = energy_gap_percent(run_energies(after_signals, x.point_of(correction.state)));
+  if (after <= std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
+  if (after > kToleratedWorsening * before) return 1.0;
+  const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
+  return share > kShareOfWrongForm && after > kFloorsOfWrongForm * floor ? 1.0 : share;
+}
+
+/// Names nothing any more; calibration alone is fitted.
+void withdraw(Examination& x, Correction& correction, const std::string& why) {
+  x.report.notes.push_back(why);
+  x.named.clear();
+  correction.state = refit_on_diagnosis(x.diagnosis, x.id, {}, &correction.fitted);
+}
+
+void fill_floors(const NoiseModel& noise, GapReport& gap) {
+  gap.current_A.noise_floor_rms = noise.channel_sd[kCurrentLeft];
+  gap.voltage_V.noise_floor_rms = noise.channel_sd[kWindingLeft];
+  gap.position_m.noise_floor_rms = noise.channel_sd[kPositionX];
+  gap.heading_rad.noise_floor_rms = noise.channel_sd[kHeading];
+  gap.battery_W.noise_floor_rms = noise.channel_sd[kDriverPower];
+}
+
+}  // namespace
+
+Correction validate(Examination& x) {
+  Diagnosis& report = x.report;
+  for (std::size_t r : x.validation.runs) report.validation_runs.push_back(x.dataset.runs[r].name);
+  report.validation_method =
+      x.few ? "the same runs: too few to hold any out" : "held-out runs, never used to choose or fit";
+  const ModelState calibrated = within_calibration(x, refit_on_diagnosis(x.diagnosis, x.id, {}));
+  Correction correction;
+  correction.state = refit_on_diagnosis(x.diagnosis, x.id, x.named, &correction.fitted, 2);
+  if (!x.named.empty() && !holds(x, held_out_losses(x.validation, x.id, calibrated), correction.state)) {
+    withdraw(x, correction, "the best explanation does not hold on the held-out runs and was withdrawn");
+    report.verdict = report.leftover_significant ? Verdict::unexplained : Verdict::no_gap;
+  }
+  if (!x.named.empty()) {
+    const double share = unexplained_energy_share(x, read_signals(x.validation, 0.0), correction);
+    if (share > kUnexplainedShare) {
+      withdraw(x, correction,
+               "the best explanation leaves most of the held-out energy gap and was withdrawn");
+      report.verdict = Verdict::unexplained;
+    } else if (share > 0) {
+      report.verdict = Verdict::partly_explained;
+      x.energy_left_share = share;
+    }
+  }
+  if (report.verdict == Verdict::no_gap && calibration_leaves_a_gap(x, correction)) {
+    report.verdict = Verdict::unexplained;
+    report.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
+  }
+  return correction;
+}
+
+void report_gap(Examination& x, const Correction& correction) {
+  const bool correct_it = !x.named.empty();
+  const std::vector<RunSignals> before = read_signals(x.validation, 0.0);
+  const std::vector<RunSignals> after =
+      read_signals(x.validation, correct_it ? channel_delay_s(correction.state) : 0.0);
+  x.report.gap = measure_gap({.before_signals = before,
+                              .after_signals = after,
+                              .before = x.nominal,
+                              .after = correct_it ? x.point_of(correction.state) : x.nominal,
+                              .noise_floor_percent = finite_or_zero(noise_floor_percent(x, correction)),
+                              .bootstrap = x.options.bootstrap});
+  fill_floors(x.id.equations.noise, x.report.gap);
+}
+
+}  // namespace joulepath
