@@ -6,6 +6,7 @@
 
 #include "scenarios/any_file.hpp"
 #include "tests/app/program_result.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program_result.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

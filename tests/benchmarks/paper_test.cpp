@@ -10,6 +10,7 @@
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath::bench {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/write_diagnosis.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

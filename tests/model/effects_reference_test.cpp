@@ -5,6 +5,7 @@
 
 #include "model/effects/catalog.hpp"
 #include "model/effects/reference.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

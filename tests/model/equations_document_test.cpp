@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/locations.hpp"
+
 namespace joulepath {
 namespace {
 

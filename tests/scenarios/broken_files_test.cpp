@@ -7,6 +7,7 @@
 
 #include "scenarios/any_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

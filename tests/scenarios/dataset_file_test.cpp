@@ -8,6 +8,7 @@
 
 #include "scenarios/run_log.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

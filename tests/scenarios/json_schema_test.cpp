@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scenarios/schema.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

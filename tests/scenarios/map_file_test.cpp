@@ -82,6 +82,7 @@ TEST(MapFile, PngAveragesColorsAndScaleTakesSeeThroughAsUnknown) {
   // 3 x 1 RGBA: black, white, see-through white.
   const unsigned char png[] = {
 #include "tests/data/three_pixels.png.inc"
+#include "tests/support/locations.hpp"
   };
   scratch.write("m.png", std::string(reinterpret_cast<const char*>(png), sizeof png));
   const auto trinary =

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

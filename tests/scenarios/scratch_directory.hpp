@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/locations.hpp"
+
 namespace joulepath {
 
 /// A directory of its own for one test, removed afterwards.

@@ -7,6 +7,7 @@
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/robot_file.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

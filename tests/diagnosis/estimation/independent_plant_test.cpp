@@ -5,6 +5,7 @@
 
 #include "diagnosis/estimation/estimate_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {

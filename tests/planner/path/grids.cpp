@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/locations.hpp"
+
 namespace joulepath {
 namespace {
 
