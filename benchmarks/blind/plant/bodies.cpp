@@ -54,9 +54,9 @@ void Plant::control(std::size_t tick) {
 
 void Plant::step(double day_s) {
   const double dt = d_.step_s;
-  for (std::size_t k = 0; k < 2; ++k) advance_current(k, day_s);
-  advance_battery();
+  for (std::size_t k = 0; k < 2; ++k) prepare_current(k, day_s);
   advance_bodies(day_s);
+  advance_battery();
   time_s_ += dt;
 }
 
@@ -64,7 +64,9 @@ double Plant::edges(double angle_rad) const {
   return d_.edges ? std::floor(angle_rad * kEdgesPerRad) / kEdgesPerRad : angle_rad;
 }
 
-void Plant::advance_current(std::size_t k, double day_s) {
+/// The armature's new current as a straight line in the new speed: free_current - brake * speed. The back-EMF
+/// is that of the end of the step, as are current and speed in the log: no lag between them is left.
+void Plant::prepare_current(std::size_t k, double day_s) {
   Wheel& wheel = wheel_[k];
   const double hot = w_.heating_fraction * (1 - std::exp(-day_s / w_.heating_time_s * (1 + w_.form)));
   double ohm = m_.resistance_ohm[k] * (1 + hot);
@@ -76,11 +78,13 @@ void Plant::advance_current(std::size_t k, double day_s) {
     ohm *= 4.0;
   }
   wheel.voltage_V = volts;
-  const double emf = m_.torque_per_ampere_Nm_A() * wheel.speed_rad_s;
-  const double dt = d_.step_s;
-  wheel.current_A =
-      (wheel.current_A + dt / m_.inductance_H * (volts - emf)) / (1 + dt * ohm / m_.inductance_H);
-  wheel.current_A = std::clamp(wheel.current_A, -m_.max_current_A, m_.max_current_A);
+  const double dt = d_.step_s, slope = dt / m_.inductance_H / (1 + dt * ohm / m_.inductance_H);
+  wheel.free_current_A = wheel.current_A / (1 + dt * ohm / m_.inductance_H) + slope * volts;
+  wheel.brake_A_s_rad = slope * m_.torque_per_ampere_Nm_A();
+  const double expected = wheel.free_current_A - wheel.brake_A_s_rad * wheel.speed_rad_s;
+  if (std::abs(expected) <= m_.max_current_A) return;
+  wheel.free_current_A = std::copysign(m_.max_current_A, expected);  // held at its limit
+  wheel.brake_A_s_rad = 0;
 }
 
 void Plant::advance_battery() {
@@ -93,16 +97,18 @@ void Plant::advance_battery() {
   battery_V_ = m_.open_circuit_voltage_V - m_.internal_resistance_ohm * battery_A_;
 }
 
-/// Newton-Euler about the axle midpoint, implicit in the creep forces: eliminate the wheels, then solve
-/// the remaining 3x3 system for (forward, sideways, yaw rate).
+/// Newton-Euler about the axle midpoint, implicit in creep forces, back-EMF and viscous friction: eliminate
+/// currents and wheels, then solve the remaining 3x3 system for (forward, sideways, yaw rate).
 void Plant::advance_bodies(double day_s) {
   const double dt = d_.step_s, l = m_.half_track_m, C = m_.tyre_creep_N_s_m, J = m_.wheel_axle_inertia_kg_m2;
   double push_N[2], grip[2];  // creep force of a wheel = push - grip * (speed of the contact point)
   for (std::size_t k = 0; k < 2; ++k) {
     const double r = m_.wheel_radius_m[k], torque = wheel_torque(k, day_s);
-    const double free_speed = J * wheel_[k].speed_rad_s + dt * torque, stiff = J + dt * C * r * r;
+    const double damping = m_.viscous_friction_Nm_s_rad + m_.torque_per_ampere_Nm_A() * wheel_[k].brake_A_s_rad;
+    const double free_speed = J * wheel_[k].speed_rad_s + dt * torque;
+    const double stiff = J + dt * (C * r * r + damping);
     push_N[k] = C * r * free_speed / stiff;
-    grip[k] = C * J / stiff;
+    grip[k] = C * (J + dt * damping) / stiff;
     free_[k] = free_speed;
     stiff_[k] = stiff;
   }
@@ -134,6 +140,7 @@ void Plant::turn_wheel(std::size_t k, double contact_speed) {
   const double dt = d_.step_s;
   wheel.speed_rad_s =
       (free_[k] + dt * m_.tyre_creep_N_s_m * m_.wheel_radius_m[k] * contact_speed) / stiff_[k];
+  wheel.current_A = wheel.free_current_A - wheel.brake_A_s_rad * wheel.speed_rad_s;
   wheel.angle_rad += dt * wheel.speed_rad_s;
   const bool still = std::abs(wheel.speed_rad_s) < 0.02;
   wheel.stopped_s = still ? wheel.stopped_s + dt : 0.0;

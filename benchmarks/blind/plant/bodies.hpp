@@ -22,6 +22,7 @@ struct Bristle {
 
 struct Wheel {
   double angle_rad{}, speed_rad_s{}, current_A{}, voltage_V{}, commanded_V{};
+  double free_current_A{}, brake_A_s_rad{};  // the step's new current = free_current - brake * new speed
   double integral_V{};
   double seen_angle_rad{};  // at the controller's last tick
   double since_stop_rad{};  // angle travelled since standstill
@@ -50,7 +51,7 @@ class Plant {
 
  private:
   double edges(double angle_rad) const;
-  void advance_current(std::size_t k, double day_s);
+  void prepare_current(std::size_t k, double day_s);
   void advance_battery();
   double resisting_level(std::size_t k, double day_s) const;
   double wheel_torque(std::size_t k, double day_s);

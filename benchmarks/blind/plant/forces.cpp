@@ -35,10 +35,11 @@ double Plant::resisting_level(std::size_t k, double day_s) const {
   return level + m_.friction_torque_Nm[k] * (1 + w_.rolling_speed_slope_s_m * speed * m_.wheel_radius_m[k]);
 }
 
+/// All torques on a wheel but creep, back-EMF and viscous friction, which the step takes implicitly.
 double Plant::wheel_torque(std::size_t k, double day_s) {
   Wheel& wheel = wheel_[k];
   const double q = wheel.speed_rad_s;
-  double torque = m_.torque_per_ampere_Nm_A() * wheel.current_A - m_.viscous_friction_Nm_s_rad * q;
+  double torque = m_.torque_per_ampere_Nm_A() * wheel.free_current_A;
   torque -= wheel.bristle.force(resisting_level(k, day_s), q, m_.presliding_angle_rad, d_.step_s);
   if (w_.cogging_per_rev > 0)
     torque +=
