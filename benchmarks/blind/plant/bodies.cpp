@@ -68,8 +68,9 @@ double Plant::edges(double angle_rad) const {
 /// is that of the end of the step, as are current and speed in the log: no lag between them is left.
 void Plant::prepare_current(std::size_t k, double day_s) {
   Wheel& wheel = wheel_[k];
-  const double hot = w_.heating_fraction * (1 - std::exp(-day_s / w_.heating_time_s * (1 + w_.form)));
-  double ohm = m_.resistance_ohm[k] * (1 + hot);
+  double ohm = m_.resistance_ohm[k];
+  if (w_.heating_fraction > 0)
+    ohm *= 1 + w_.heating_fraction * (1 - std::exp(-day_s / w_.heating_time_s * (1 + w_.form)));
   const double drop = w_.driver_drop_V * std::clamp(wheel.current_A / 0.005, -1.0, 1.0) +
                       w_.driver_drop_V * w_.form * 0.5 * wheel.current_A;
   double volts = wheel.commanded_V - drop;

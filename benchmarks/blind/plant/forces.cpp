@@ -30,8 +30,9 @@ double Plant::resisting_level(std::size_t k, double day_s) const {
   level += w_.drag_torque_Nm[k] * shape;
   if (wheel.speed_rad_s < 0) level += w_.reverse_torque_Nm * shape;
   level += w_.gear_loss_fraction * m_.torque_per_ampere_Nm_A() * std::abs(wheel.current_A) * shape;
-  level += w_.grease_torque_Nm * std::exp(-day_s / w_.grease_time_s);
-  level += w_.belt_set_torque_Nm * std::exp(-wheel.since_stop_rad / w_.belt_set_angle_rad);
+  if (w_.grease_torque_Nm > 0) level += w_.grease_torque_Nm * std::exp(-day_s / w_.grease_time_s);
+  if (w_.belt_set_torque_Nm > 0)
+    level += w_.belt_set_torque_Nm * std::exp(-wheel.since_stop_rad / w_.belt_set_angle_rad);
   return level + m_.friction_torque_Nm[k] * (1 + w_.rolling_speed_slope_s_m * speed * m_.wheel_radius_m[k]);
 }
 
@@ -58,9 +59,9 @@ double Plant::wheel_torque(std::size_t k, double day_s) {
 
 Plant::BodyForces Plant::outer_forces(double day_s) {
   BodyForces f;
-  const double c = std::cos(heading_rad_), s = std::sin(heading_rad_);
   const auto push = [&](double x_N, double y_N,
                         double ahead_m) {  // a force in map axes, at a point ahead of the axle
+    const double c = std::cos(heading_rad_), s = std::sin(heading_rad_);
     f.forward_N += c * x_N + s * y_N;
     f.sideways_N += -s * x_N + c * y_N;
     f.yaw_Nm += ahead_m * (-s * x_N + c * y_N);
@@ -76,7 +77,8 @@ Plant::BodyForces Plant::outer_forces(double day_s) {
     push(pull * std::cos(w_.draft_direction_rad), pull * std::sin(w_.draft_direction_rad), 0);
   }
   if (w_.cable_N_m != 0) push(-w_.cable_N_m * x_m_, -w_.cable_N_m * y_m_, 0);
-  f.forward_N -= w_.air_drag_N_s2_m2 * forward_ * std::pow(std::abs(forward_), 1.0 + w_.form);
+  if (w_.air_drag_N_s2_m2 > 0)
+    f.forward_N -= w_.air_drag_N_s2_m2 * forward_ * std::pow(std::abs(forward_), 1.0 + w_.form);
   if (w_.scrub_moment_Nm > 0)
     f.yaw_Nm -= scrub_.force(w_.scrub_moment_Nm * (1 + w_.form * (std::abs(yaw_rate_) - 0.5)), yaw_rate_,
                              kScrubPresliding_rad, d_.step_s);
