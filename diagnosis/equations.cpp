@@ -49,6 +49,7 @@ RawRunEquations compress(const RunRows& rows, const NoiseModel& noise) {
   for (Eigen::Index c = 0; c < k; ++c) all.col(p + c) = whiten(rows.own[static_cast<std::size_t>(c)]);
   all.col(p + k) = whiten(rows.residual.value);
   RawRunEquations raw{.gram = Eigen::MatrixXd::Zero(p + k + 1, p + k + 1), .columns = p, .own_columns = k};
+  if (all.rows() == 0) return raw;  // a run at rest throughout says nothing; Eigen divides by its zero rows
   raw.gram.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
   raw.gram.triangularView<Eigen::StrictlyUpper>() = raw.gram.transpose();
   return raw;

@@ -65,6 +65,13 @@ double form_variable(const RunSignals& s, const Geometry& geometry, int form, Ei
 
 double shape_step(double value) { return std::max(1e-3, 0.05 * std::abs(value)); }
 
+/// Least and greatest value that the catalog accepts for a parameter.
+std::pair<double, double> bounds_of(const std::string& effect, const std::string& parameter) {
+  for (const ParameterDescription& known : find_effect(effect)->parameters)
+    if (known.name == parameter) return {known.min, known.max};
+  return {-1e300, 1e300};
+}
+
 class Differencer {
  public:
   Differencer(const RunSignals& signals, const Robot& robot, const std::vector<Nuisance>& nuisances,
@@ -102,8 +109,11 @@ class Differencer {
   Eigen::MatrixXd shape(const Candidate& candidate, const std::string& parameter) const {
     std::size_t index;
     if (!is_active(candidate, state_, index)) return {};
-    const double step = shape_step(candidate.shape.parameters.at(parameter));
-    return difference(signals_, point_, base_, -step, step, [&](double change) {
+    const double value = candidate.shape.parameters.at(parameter);
+    const auto [least, greatest] = bounds_of(candidate.shape.name, parameter);
+    const double step = shape_step(value), down = std::max(-step, least - value),
+                 up = std::min(step, greatest - value);
+    return difference(signals_, point_, base_, down, up, [&](double change) {
       Candidate moved = candidate;
       moved.shape.parameters[parameter] += change;
       return at(with_effect(state_, moved, state_.effects[index].amplitude));
