@@ -9,6 +9,7 @@
 #include "diagnosis/nuisance.hpp"
 #include "diagnosis/refit.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {
@@ -22,7 +23,7 @@ Dataset speeds_and_currents() {
                               folder.string();
   if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
   Dataset dataset = read_dataset((folder / "dataset.yaml").string());
-  for (Run& run : dataset.runs) {
+  for (auto& run : dataset.runs) {
     Trajectory& log = run.log;
     log.motor_voltage_V = {};
     for (std::vector<double>* channel :
@@ -38,7 +39,7 @@ bool have_plant() { return std::filesystem::exists(std::string(JOULEPATH_BINARY_
 TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
   if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = speeds_and_currents();
-  Run& still = dataset.runs[1];
+  auto& still = dataset.runs[1];
   for (Side side : kSides) {
     still.log.wheel_speed_rad_s[side].assign(still.log.size(), 0.0);
     still.log.motor_current_A[side].assign(still.log.size(), 0.0);

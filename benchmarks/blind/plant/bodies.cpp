@@ -105,7 +105,8 @@ void Plant::advance_bodies(double day_s) {
   double push_N[2], grip[2];  // creep force of a wheel = push - grip * (speed of the contact point)
   for (std::size_t k = 0; k < 2; ++k) {
     const double r = m_.wheel_radius_m[k], torque = wheel_torque(k, day_s);
-    const double damping = m_.viscous_friction_Nm_s_rad + m_.torque_per_ampere_Nm_A() * wheel_[k].brake_A_s_rad;
+    const double damping =
+        m_.viscous_friction_Nm_s_rad + m_.torque_per_ampere_Nm_A() * wheel_[k].brake_A_s_rad;
     const double free_speed = J * wheel_[k].speed_rad_s + dt * torque;
     const double stiff = J + dt * (C * r * r + damping);
     push_N[k] = C * r * free_speed / stiff;
