@@ -28,12 +28,15 @@ class PlanCommand : public Command {
   std::string says() const override { return "plan a mission for the least energy"; }
   std::string examples() const override {
     return "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
-           "  joulepath plan mission.yaml --out out --json | jq .energy_J\n";
+           "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
+           "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n";
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("mission", mission_, "mission file (YAML)")->required();
-    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")->required();
+    app.add_option("mission", mission_, "mission file (YAML), or a VDA 5050 order (JSON) with --robot")
+        ->required();
+    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
+        ->required();
     app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
         ->check(CLI::IsMember({"ipopt", "fast"}))
         ->capture_default_str();
@@ -53,9 +56,7 @@ class PlanCommand : public Command {
     const Clock::time_point start = Clock::now();
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "timing.json", "report.html"}, common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
-    MissionRequest mission = read_mission(mission_, reading);
-    if (!robot_.empty()) mission.robot_file = robot_;
-    if (!map_.empty()) mission.map_file = map_;
+    const MissionRequest mission = read_mission_or_order(mission_, robot_, map_, reading);
     const MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;

@@ -90,7 +90,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
       return draft;
     }
     draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options));
-    draft.legs.push_back({.to = leg.path ? "path" : leg.to,
+    draft.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                           .path_source = way.source,
                           .payload = leg.payload,
                           .dwell_s = leg.dwell_s,

@@ -78,6 +78,7 @@ RouteRequest route_request(const LegRequest& leg, std::size_t leg_index, const L
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                  const MissionRequest& mission, const RouteSpace* space, const PlanOptions& options) {
+  if (leg.path && leg.path->ready) return {.path = *leg.path->ready, .source = "given"};
   if (leg.path) return along_bezier(leg, start.pose);
   if (!space)
     refuse(leg.marks, "to", "a leg to a station without a map",

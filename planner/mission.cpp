@@ -106,13 +106,11 @@ const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* sp
 }
 
 [[noreturn]] void refuse_empty(const MissionRequest& mission) {
-  const std::string key = mission.order_file.empty() ? "legs" : "order";
-  throw ConfigError(
-      {.mark = mission.marks.at(key),
-       .key = key,
-       .found = mission.order_file.empty() ? "no leg" : "a VDA 5050 order, which this version does not read",
-       .accepted = "`legs:` or `visit:` with at least one stop",
-       .hint = {}});
+  throw ConfigError({.mark = mission.marks.at("legs"),
+                     .key = "legs",
+                     .found = "no leg",
+                     .accepted = "`legs:` or `visit:` with at least one stop",
+                     .hint = {}});
 }
 
 }  // namespace

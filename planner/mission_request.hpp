@@ -10,6 +10,7 @@
 #include "model/prescribed_motion.hpp"
 #include "model/robot.hpp"
 #include "planner/path/occupancy_grid.hpp"
+#include "planner/path/path.hpp"
 #include "planner/route_graph.hpp"
 
 namespace joulepath {
@@ -44,14 +45,22 @@ struct PayloadAlongLeg {
   double to_kg{};
 };
 
-/// A path given in the mission: a chain of cubic Bezier curves.
+/// A named part of a path, in its arc length.
+struct PathPart {
+  std::string name{};
+  double from_m{};
+  double to_m{};
+};
+
+/// A path given in the mission: a chain of cubic Bezier curves, or a path that is ready to be driven.
 struct PathRequest {
   enum class Frame { start, map };  ///< start: in the robot's frame where the leg begins
   std::vector<BezierPoints> bezier_m{};
   Frame frame{Frame::start};
+  std::optional<Path> ready{};
 };
 
-/// One leg: exactly one of `to`, `path`, `motion`.
+/// One leg: exactly one of `to`, `path`, `motion` (with a path, `to` is the name of its end).
 struct LegRequest {
   std::string to{};
   std::optional<PathRequest> path{};
@@ -63,6 +72,8 @@ struct LegRequest {
   std::optional<double> duration_s{};  ///< of this leg alone, without dwell
   double start_speed_m_s{};
   double end_speed_m_s{};
+  std::optional<double> yaw_rate_rad_s{};  ///< cap on this leg, beside the robot's own
+  std::vector<PathPart> parts{};           ///< of a path: edges of an order
   ItemMarks marks{};
 };
 
@@ -128,6 +139,7 @@ struct MissionRequest {
   Objective objective{};
   std::string order_file{};                           ///< VDA 5050 order instead of legs
   std::map<std::string, double> payload_by_action{};  ///< with an order: kg that an action loads
+  std::map<std::string, double> dwell_by_action_s{};  ///< with an order: how long an action takes
   ItemMarks marks{};
 };
 

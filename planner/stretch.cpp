@@ -63,7 +63,8 @@ std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std
 std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg, std::size_t leg_index,
                                          const MissionRequest& mission, const MissionWorld& world,
                                          const Plant& plant, const PlanOptions& options) {
-  const Limits limits = limits_along(world.robot, leg.payload);
+  Limits limits = limits_along(world.robot, leg.payload);
+  if (leg.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *leg.yaw_rate_rad_s);
   const double leg_length_m = path.distance_m();
   const auto payload_at_kg = [&](double s_m) {
     const double fraction = leg_length_m > 0 ? s_m / leg_length_m : 0.0;

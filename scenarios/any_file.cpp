@@ -9,6 +9,7 @@
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
+#include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
 namespace {
@@ -56,9 +57,9 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
   const MissionRequest mission = read_mission(file, options);
   const MissionWorld world = read_world(mission, options);
   FileSummary summary{"mission", "", {}};
-  summary.text = !mission.order_file.empty() ? "an order"
-                 : mission.legs.empty()      ? counted(mission.visit.size(), "visit")
-                                             : counted(mission.legs.size(), "leg");
+  summary.text =
+      mission.legs.empty() ? counted(mission.visit.size(), "visit") : counted(mission.legs.size(), "leg");
+  if (!mission.order_file.empty()) summary.text += ", from an order";
   if (!world.robot.limits) summary.notes.push_back("its robot has no limits: plan needs them");
   return summary;
 }
@@ -87,6 +88,19 @@ FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options
   return {"fleet",
           counted(fleet.robots.size(), "robot") + ", " + counted(fleet.mission_files.size(), "mission"),
           {}};
+}
+
+FileSummary summary_of_order(const std::string& file) {
+  const Order order = read_order(file);
+  MissionRequest mission{.order_file = file};
+  follow_order(mission);
+  FileSummary summary{
+      "order",
+      counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
+      {}};
+  if (const std::size_t horizon = order.nodes.size() - order.released_count(); horizon > 0)
+    summary.notes.push_back(counted(horizon, "node") + " of the horizon: not planned");
+  return summary;
 }
 
 FileSummary summary_of_output(const Document& document, const FileKind& kind) {
@@ -129,6 +143,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
   const Document document = Document::load(file);
+  if (given_kind.empty() && is_order(document)) return summary_of_order(file);
   const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
   if (kind == "robot") return summary_of_robot(file);
   if (kind == "map") return summary_of_map(file, options);
@@ -144,7 +159,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
                      empty                ? "an empty file"
                      : given_kind.empty() ? "a file of no known kind"
                                           : "kind " + given_kind,
-                     "robot, map, mission, dataset, fleet, run log, route graph, plan or diagnosis",
+                     "robot, map, mission, order, dataset, fleet, run log, route graph, plan or diagnosis",
                      "a first line like `schema: joulepath/robot/1` tells the kind"});
 }
 

@@ -7,6 +7,7 @@
 #include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
 #include "scenarios/robot_file.hpp"
+#include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
 namespace {
@@ -136,6 +137,13 @@ Objective read_objective(const Node& node) {
   return objective;
 }
 
+std::map<std::string, double> figures_by_name(const Node& root, const char* key) {
+  std::map<std::string, double> figures;
+  if (const auto entries = root.find(key))
+    for (const auto& [name, figure] : entries->entries()) figures[name] = figure.number();
+  return figures;
+}
+
 /// What must hold between the parts of a mission.
 void check_consistency(const Node& root, const MissionRequest& mission) {
   const int ways = int(root.has("legs")) + int(root.has("visit")) + int(root.has("order"));
@@ -144,8 +152,8 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
   if (ways > 1 && !(root.has("legs") && mission.legs.empty()) &&
       !(root.has("visit") && mission.visit.empty()))
     root.fail_found("more than one of legs, visit, order", "one of them");
-  if (root.has("payload_by_action") && !root.has("order"))
-    root["payload_by_action"].fail("nothing, unless there is an order");
+  for (const char* key : {"payload_by_action", "dwell_by_action_s"})
+    if (root.has(key) && !root.has("order")) root[key].fail("nothing, unless there is an order");
   const bool graph_or_map = !mission.map_file.empty() || !mission.route_graph_file.empty();
   for (const auto& leg : mission.legs)
     if (!leg.to.empty() && !graph_or_map)
@@ -180,6 +188,8 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
                          .route_graph_file = file_named("route_graph"),
                          .clearance_m = root.number_or("clearance_m", 0.0),
                          .order_file = file_named("order"),
+                         .payload_by_action = figures_by_name(root, "payload_by_action"),
+                         .dwell_by_action_s = figures_by_name(root, "dwell_by_action_s"),
                          .marks = marks_of(root)};
   if (const auto mask = root.find("speed_mask"))
     mission.speed_mask = SpeedMaskRequest{
@@ -192,18 +202,45 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
     for (const auto& leg : legs->items()) mission.legs.push_back(read_leg(leg, mission.stations));
   if (const auto visits = root.find("visit"))
     for (const auto& visit : visits->items()) mission.visit.push_back(read_visit(visit, mission.stations));
+  if (!mission.order_file.empty()) follow_order(mission, NamedBy(root["order"]));
   if (const auto zones = root.find("speed_zones"))
-    mission.speed_zones = read_speed_zones(*zones, mission.legs.size());
+    for (SpeedZone& zone : read_speed_zones(*zones, mission.legs.size()))
+      mission.speed_zones.push_back(std::move(zone));
   if (const auto objective = root.find("objective")) mission.objective = read_objective(*objective);
-  if (const auto actions = root.find("payload_by_action"))
-    for (const auto& [action, payload] : actions->entries())
-      mission.payload_by_action[action] = payload.number();
   check_consistency(root, mission);
   return mission;
 }
 
 MissionRequest read_mission(const std::string& file, const ReadOptions& options) {
-  return mission_from(Document::load(file), options);
+  const Document document = Document::load(file);
+  if (is_order(document))
+    throw ConfigError({{file, 1, 1},
+                       "",
+                       "a VDA 5050 order, which names no robot",
+                       "a mission file",
+                       "plan takes an order with --robot; elsewhere a mission names it with order:"});
+  return mission_from(document, options);
+}
+
+MissionRequest read_mission_or_order(const std::string& file, const std::string& robot_file,
+                                     const std::string& map_file, const ReadOptions& options) {
+  const Document document = Document::load(file);
+  MissionRequest mission{.file = file, .name = std::filesystem::path(file).stem().string()};
+  if (!is_order(document)) {
+    mission = mission_from(document, options);
+  } else {
+    if (robot_file.empty())
+      throw ConfigError({{file, 1, 1},
+                         "",
+                         "a VDA 5050 order, which names no robot",
+                         "--robot and the name of a robot file",
+                         ""});
+    mission.order_file = file;
+    follow_order(mission);
+  }
+  if (!robot_file.empty()) mission.robot_file = robot_file;
+  if (!map_file.empty()) mission.map_file = map_file;
+  return mission;
 }
 
 namespace {

@@ -87,7 +87,9 @@ Schema mission_schema() {
        optional("visit", list(visit_schema()), "instead of legs: the order is the planner's to choose"),
        optional("order", text(), "instead of legs: a VDA 5050 order (JSON)"),
        optional("payload_by_action", dictionary(number(kNotNegative)),
-                "with an order: kg that an action loads"),
+                "with an order: kg that an action loads; `drop` unloads its figure, or all"),
+       optional("dwell_by_action_s", dictionary(number(kNotNegative)),
+                "with an order: how long an action takes; its own parameter `duration` comes first"),
        optional("objective", objective_schema())});
 }
 

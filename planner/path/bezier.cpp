@@ -44,8 +44,17 @@ BezierDerivatives bezier_derivatives(const BezierPoints& p, double t) {
 
 BezierSegment::BezierSegment(const BezierPoints& points_m) : points_m_(points_m) {
   for (std::size_t i = 0; i < 3; ++i) scale_m_ += norm(combine(1, points_m[i + 1], -1, points_m[i]));
+  tabulate();
+}
+
+BezierSegment::BezierSegment(const RationalBezier& curve)
+    : rational_(curve), scale_m_(curve.polygon_length_m()) {
+  tabulate();
+}
+
+void BezierSegment::tabulate() {
   JOULEPATH_ASSERT(std::isfinite(scale_m_) && scale_m_ > 0, "a Bezier segment needs a positive length");
-  const BezierDerivatives start = bezier_derivatives(points_m_, 0);
+  const BezierDerivatives start = derivatives(0);
   const Vector& tangent = start.first_m;
   knots_.push_back({0, 0, norm(tangent), std::atan2(tangent[1], tangent[0]), tangent});
   for (int i = 0; i < kFirstIntervals; ++i) {
@@ -55,7 +64,7 @@ BezierSegment::BezierSegment(const BezierPoints& points_m) : points_m_(points_m)
   }
 }
 
-double BezierSegment::speed_m(double t) const { return norm(bezier_derivatives(points_m_, t).first_m); }
+double BezierSegment::speed_m(double t) const { return norm(derivatives(t).first_m); }
 
 double BezierSegment::arc_m(double from_t, double to_t) const {
   return integrate_gauss8([this](double t) { return speed_m(t); }, from_t, to_t);
@@ -64,9 +73,8 @@ double BezierSegment::arc_m(double from_t, double to_t) const {
 void BezierSegment::refine(double from_t, double to_t, double whole_m, int depth) {
   const double middle_t = 0.5 * (from_t + to_t);
   const double left_m = arc_m(from_t, middle_t), right_m = arc_m(middle_t, to_t);
-  const Vector a = bezier_derivatives(points_m_, from_t).first_m,
-               b = bezier_derivatives(points_m_, middle_t).first_m,
-               c = bezier_derivatives(points_m_, to_t).first_m;
+  const Vector a = derivatives(from_t).first_m, b = derivatives(middle_t).first_m,
+               c = derivatives(to_t).first_m;
   const double turn_rad =
       std::abs(std::atan2(cross(a, b), dot(a, b))) + std::abs(std::atan2(cross(b, c), dot(b, c)));
   const bool exact = std::abs(left_m + right_m - whole_m) <= kQuadratureTolerance * scale_m_;
@@ -81,7 +89,7 @@ void BezierSegment::refine(double from_t, double to_t, double whole_m, int depth
 
 void BezierSegment::append_knot(double t, double arc_from_last_m) {
   const Knot& last = knots_.back();
-  const Vector tangent = bezier_derivatives(points_m_, t).first_m;
+  const Vector tangent = derivatives(t).first_m;
   const double turn_rad = std::atan2(cross(last.tangent_m, tangent), dot(last.tangent_m, tangent));
   knots_.push_back({t, last.s_m + arc_from_last_m, norm(tangent), last.heading_rad + turn_rad, tangent});
 }
@@ -112,7 +120,7 @@ double BezierSegment::parameter(double s_m) const {
 
 PathPoint BezierSegment::at(double s_m) const {
   const Knot& from = knot_before(s_m);
-  const BezierDerivatives d = bezier_derivatives(points_m_, parameter(s_m));
+  const BezierDerivatives d = derivatives(parameter(s_m));
   const double speed = norm(d.first_m), speed3 = speed * speed * speed;
   const double bend = cross(d.first_m, d.second_m);
   PathPoint point;

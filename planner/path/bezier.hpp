@@ -1,24 +1,19 @@
 #pragma once
 
-#include <array>
+#include <optional>
 #include <vector>
 
 #include "model/prescribed_motion.hpp"
 #include "planner/path/path_point.hpp"
+#include "planner/path/rational_bezier.hpp"
 
 namespace joulepath {
 
-/// Position and its derivatives by the curve parameter t in [0, 1] of a cubic Bezier [P1, Eq. (34)].
-struct BezierDerivatives {
-  std::array<double, 2> position_m{};
-  std::array<double, 2> first_m{};
-  std::array<double, 2> second_m{};
-  std::array<double, 2> third_m{};
-};
-
+/// Position and derivatives of a cubic Bezier at t in [0, 1] [P1, Eq. (34)].
 [[nodiscard]] BezierDerivatives bezier_derivatives(const BezierPoints& points_m, double t);
 
-/// A regular cubic Bezier (|B'| > 0 on [0, 1]; see bezier_chain.hpp for what is refused) by arc length.
+/// A regular Bezier curve, cubic or rational (|B'| > 0 on [0, 1]: see bezier_chain.hpp and nurbs.hpp), by arc
+/// length.
 ///
 ///   kappa = B' x B'' / |B'|^3,
 ///   d kappa / d s = (B' x B''' / |B'|^3 - 3 (B' x B'') (B' . B'') / |B'|^5) / |B'|
@@ -27,12 +22,12 @@ struct BezierDerivatives {
 class BezierSegment {
  public:
   explicit BezierSegment(const BezierPoints& points_m);
+  explicit BezierSegment(const RationalBezier& curve);
 
   double length_m() const { return knots_.back().s_m; }
   PathPoint at(double s_m) const;
   /// Curve parameter at an arc length.
   double parameter(double s_m) const;
-  const BezierPoints& points_m() const { return points_m_; }
 
  private:
   struct Knot {
@@ -42,13 +37,18 @@ class BezierSegment {
     double heading_rad{};
     std::array<double, 2> tangent_m{};  ///< B'
   };
+  void tabulate();
+  BezierDerivatives derivatives(double t) const {
+    return rational_ ? bezier_derivatives(*rational_, t) : bezier_derivatives(points_m_, t);
+  }
   double speed_m(double t) const;
   double arc_m(double from_t, double to_t) const;
   void refine(double from_t, double to_t, double whole_m, int depth);
   void append_knot(double t, double arc_from_last_m);
   const Knot& knot_before(double s_m) const;
 
-  BezierPoints points_m_{};
+  BezierPoints points_m_{};                   ///< of a cubic
+  std::optional<RationalBezier> rational_{};  ///< else
   double scale_m_{};
   std::vector<Knot> knots_{};
 };

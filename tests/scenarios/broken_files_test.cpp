@@ -46,7 +46,7 @@ TEST(BrokenFiles, EachGivesItsOwnMessage) {
 
 TEST(BrokenFiles, TheFilesThatTheyWereMadeFromAreRight) {
   for (const char* file : {"robot.yaml", "mission.yaml", "visit.yaml", "map.yaml", "dataset.yaml",
-                           "fleet.yaml", "run.csv", "graph.geojson"})
+                           "fleet.yaml", "run.csv", "graph.geojson", "order.json"})
     EXPECT_NO_THROW(static_cast<void>(read_any_file(kBroken + "good/" + file))) << file;
 }
 

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/mission_request.hpp"
+#include "planner/path/nurbs.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+/// What a robot is to do at a node or on an edge of an order.
+struct OrderAction {
+  /// none: drives on meanwhile, with other actions; single: drives on, alone; soft: stands, with other
+  /// actions; hard: stands, alone.
+  enum class Blocking { none, single, soft, hard };
+  std::string type{};
+  Blocking blocking{Blocking::none};
+  std::optional<double> duration_s{};  ///< the action parameter `duration`, where there is one
+};
+
+struct OrderNode {
+  std::string id{};
+  long sequence{};
+  bool released{};
+  double x_m{};
+  double y_m{};
+  std::optional<double> heading_rad{};
+  double deviation_m{};    ///< how far from it the robot may pass; of an ellipse the smaller half-axis
+  double deviation_rad{};  ///< of the heading
+  std::vector<OrderAction> actions{};
+  ItemMarks marks{};
+};
+
+struct OrderEdge {
+  std::string id{};
+  long sequence{};
+  bool released{};
+  std::optional<double> speed_m_s{};       ///< cap
+  std::optional<double> yaw_rate_rad_s{};  ///< cap
+  double orientation_rad{};
+  bool orientation_is_global{};  ///< in the map; else against the path's tangent: 0 forward, pi in reverse
+  std::optional<Nurbs> trajectory{};  ///< absent: straight
+  std::vector<OrderAction> actions{};
+  ItemMarks marks{};
+};
+
+/// A VDA 5050 order: nodes and edges by turns, edges[i] from nodes[i] to nodes[i + 1], ascending by sequence.
+/// Released ones (the base) come first, the rest is the horizon.
+struct Order {
+  std::string file{};
+  std::string id{};
+  std::string version{};
+  std::string map_id{};
+  std::vector<OrderNode> nodes{};
+  std::vector<OrderEdge> edges{};
+
+  /// Nodes of the base.
+  [[nodiscard]] std::size_t released_count() const;
+};
+
+/// The keys of an order that joulepath reads, VDA 5050 2.x and 3.x; others are accepted and left alone.
+[[nodiscard]] Schema order_schema();
+
+/// Whether a document looks like an order: it has an order id, or nodes and edges.
+[[nodiscard]] bool is_order(const Document& document);
+
+/// Reads an order. A broken one throws ConfigError; its key is a JSON pointer (`/nodes/2/nodePosition/x`).
+[[nodiscard]] Order read_order(const std::string& file, const NamedBy& named_by = {});
+
+}  // namespace joulepath
