@@ -12,6 +12,8 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "blind" / "harness"))
 
+import campaign
+import examine
 import judge
 import plan
 import scorecard
@@ -54,6 +56,26 @@ def cruises(folder):
             yield mean(left), mean(log["motor_current_left_A"][cut]), mean(log["motor_voltage_left_V"][cut])
 
 
+def winding_constants(folder):
+    """(R, K n, L) of the left wheel over all runs by instrumental variables."""
+    system = [[0.0] * 4 for _ in range(3)]
+    for path in sorted(folder.glob("run_*.csv")):
+        log = read(path)
+        i, q, v = (log[key] for key in ("motor_current_left_A", "wheel_speed_left_rad_s", "motor_voltage_left_V"))
+        for k in range(5, len(i) - 5):
+            near = [k - 4, k - 3, k - 2, k + 2, k + 3, k + 4]
+            row = (i[k], q[k], i[k + 1] - i[k - 1], v[k])
+            for a, z in enumerate((mean([i[j] for j in near]), mean([q[j] for j in near]), i[k + 3] - i[k - 3])):
+                for b in range(4):
+                    system[a][b] += z * row[b]
+    for p in range(3):
+        for k in range(3):
+            if k != p:
+                factor = system[k][p] / system[p][p]
+                system[k] = [x - factor * y for x, y in zip(system[k], system[p])]
+    return [system[k][3] / system[k][k] for k in range(3)]
+
+
 class Plant(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -86,6 +108,30 @@ class Plant(unittest.TestCase):
         first = digest(generate(self.folder / "a", "--seed", "5", "--level", "1", "--protocol", "6"))
         self.assertEqual(first, digest(generate(self.folder / "b", "--seed", "5", "--level", "1", "--protocol", "6")))
         self.assertNotEqual(first, digest(generate(self.folder / "c", "--seed", "6", "--level", "1", "--protocol", "6")))
+
+    def test_resistance_and_back_emf_are_not_biased_by_the_time_step(self):
+        """V = R i + K q on means: instruments from neighboring samples, whose noise is not the sample's own."""
+        data = generate(self.folder / "null", "--seed", "11")
+        solved = winding_constants(data)
+        self.assertAlmostEqual(solved[0] / truth_parameter(data, "resistance_ohm"), 1, delta=1e-3)
+        self.assertAlmostEqual(solved[1] / (truth_parameter(data, "torque_constant_Nm_A") * 24.9), 1, delta=2e-4)
+
+    def test_another_day_is_the_same_machine_on_other_runs(self):
+        first = generate(self.folder / "a", "--seed", "5", "--protocol", "6", "--effect", "rolling_resistance")
+        second = generate(self.folder / "b", "--seed", "5", "--protocol", "6", "--effect", "rolling_resistance", "--day", "1")
+        line = lambda d, start: next(l for l in (d / "truth.yaml").read_text().splitlines() if l.lstrip().startswith(start))
+        self.assertEqual(line(first, "parameters"), line(second, "parameters"))
+        self.assertEqual(line(first, "- {effect"), line(second, "- {effect"))
+        self.assertNotEqual((first / "run_01.csv").read_bytes(), (second / "run_01.csv").read_bytes())
+
+    def test_a_proposed_run_is_driven_leg_by_leg(self):
+        motion = {"legs": [{"profile": "trapezoid", "distance_m": 2.0, "speed_m_s": 0.4}, {"profile": "stand", "duration_s": 2},
+                           {"profile": "trapezoid", "distance_m": 2.0, "speed_m_s": 0.4, "direction": "reverse"}], "payload_kg": 3.5}
+        data = generate(self.folder / "a", "--seed", "5", "--protocol", "6", "--append", examine.described(motion))
+        self.assertIn("run_07.csv, payload_kg: 3.5", (data / "dataset.yaml").read_text())
+        x = read(data / "run_07.csv")["position_x_m"]
+        self.assertAlmostEqual(max(x), 2.0, delta=0.05)
+        self.assertAlmostEqual(x[-1], 0.0, delta=0.05)
 
     def test_the_oracle_sees_large_effects_and_no_tiny_ones(self):
         ratios = []
@@ -145,8 +191,47 @@ class Scorer(unittest.TestCase):
 
     def test_any_verdict_but_silence_is_an_alarm_on_null(self):
         cases = [(label("null"), said("explained", "a")), (label("null"), said("unexplained")), (label("null"), said("no_gap")),
-                 (label("null"), judge.Answer(None))]
+                 (label("null"), said("too_little_data"))]
         self.assertEqual(self.value(cases, "false alarm"), 0.5)
+
+    def test_a_diagnosis_that_failed_is_wrong_wherever_it_stands(self):
+        failed = judge.Answer(None)
+        self.assertEqual(self.value([(label("null"), failed)], "false alarm"), 1)
+        self.assertEqual(self.value([(label("single", "a"), failed)], "top-1"), 0)
+        self.assertEqual(self.value([(label("foreign", "f"), failed)], "foreign effect"), 0)
+        self.assertEqual(self.value([(label("null"), failed), (label("null"), said("no_gap"))], "no answer"), 0.5)
+
+    def test_a_label_with_a_side_is_the_effect(self):
+        answer = said("explained", "b", group=["a (left)"])
+        self.assertEqual(answer.group, {"a", "b"})
+        self.assertEqual(judge.Answer({"verdict": "explained", "ranking": [{"effect": "a (right)", "probability": 1}]}).top(1), ["a"])
+
+    def test_the_next_run_settles_a_group_only_if_it_leaves_the_truth_alone(self):
+        first = said("ambiguous", "b", group=["a"])
+        self.assertTrue(judge.settles(first, said("explained", "a"), ["a"]))
+        self.assertTrue(judge.settles(first, said("explained", "c", "a"), ["a", "c"]))
+        self.assertFalse(judge.settles(first, said("explained", "b"), ["a"]))
+        self.assertFalse(judge.settles(first, said("ambiguous", "a", group=["b"]), ["a"]))
+        results = {"x": {"diagnosis": first.raw, "next_runs": {"proposed": {"diagnosis": said("explained", "a").raw}, "random": {"error": "no"}}}}
+        self.assertEqual([(r.hits, r.total) for r in scorecard.next_run_rates({"x": label("single", "a")}, results)], [(1, 1), (0, 1)])
+
+    def test_the_interval_of_the_shrink_is_held_against_a_fresh_day(self):
+        self.assertAlmostEqual(judge.true_shrink({"before_J": 100, "after_J": 10}), 0.9)
+        self.assertIsNone(judge.true_shrink({"before_J": None, "after_J": 10}))
+        self.assertIsNone(judge.true_shrink(None))
+        answer = {**said("explained", "a").raw, "gap": {"energy": {"shrink_fraction": 0.8, "shrink_interval_95": [0.7, 0.85]}}}
+        results = {"x": {"diagnosis": answer, "fresh_day": {"before_J": 100, "after_J": 10}},
+                   "y": {"diagnosis": answer, "fresh_day": {"before_J": 100, "after_J": 25}}}
+        coverage, difference = scorecard.shrink_values({}, results)
+        self.assertEqual((coverage.value, coverage.count), (0.5, 2))
+        self.assertAlmostEqual(difference.value, 0.075)
+
+    def test_a_floor_cell_is_right_where_it_touches_the_patch(self):
+        patch = {"parameters": {"x_min_m": 1.8, "x_max_m": 3.0, "y_min_m": -1, "y_max_m": 1}}
+        self.assertTrue(judge.patch_overlaps("x 2 to 3 m, y 0 to 1 m", patch))
+        self.assertTrue(judge.patch_overlaps("x 1 to 2 m, y -1 to 0 m", patch))
+        self.assertFalse(judge.patch_overlaps("x 3 to 4 m, y 0 to 1 m", patch))
+        self.assertIsNone(judge.patch_overlaps(None, patch))
 
     def test_pairs_foreign_and_removed(self):
         cases = [(label("pair", "a", "b"), said("explained", "b", "a")), (label("pair", "a", "b"), said("explained", "a")),
@@ -168,6 +253,20 @@ class Scorer(unittest.TestCase):
         self.assertAlmostEqual(ece, 0.0)
         self.assertAlmostEqual(brier, 0.16)
         self.assertEqual(smallest_found([(4, 1), (3, 1), (2, 1), (1, 0)]), 2)
+
+
+class Campaign(unittest.TestCase):
+    def test_a_line_that_was_cut_is_done_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder) / "diagnosed.jsonl"
+            self.assertEqual(campaign.done_cases(log), {})
+            log.write_text('{"id": "case_0001"}\n{"id": "case_00')
+            self.assertEqual(list(campaign.done_cases(log)), ["case_0001"])
+            self.assertEqual(log.read_text(), '{"id": "case_0001"}\n')
+
+    def test_a_motion_that_is_none_is_not_driven(self):
+        self.assertIsNone(examine.described({}))
+        self.assertEqual(examine.described({"profile": "stand", "duration_s": 10}), "profile:stand,duration_s:10,payload_kg:0")
 
 
 class Sealing(unittest.TestCase):

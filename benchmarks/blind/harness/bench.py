@@ -40,7 +40,7 @@ def short(jobs):
         seal.seal("short", plan.SHORT, 60, jobs)
         left = campaign.diagnose_all(frozen, "short", plan.SHORT, 3600, jobs)
         output = results.parents[1] / "build" / "blind_short"
-        missing, failed = report.score(frozen, "short", output, False, "blind")
+        missing, failed = report.score(frozen, "short", output, False, "blind", True)
         return 1 if left or missing or failed else 0
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
@@ -53,6 +53,7 @@ def main():
     parser.add_argument("--name", default="full", help="campaign's name")
     parser.add_argument("--cases", type=int, default=0, help="seal the first N cases only (any prefix keeps the bins' proportions)")
     parser.add_argument("--minutes", type=float, default=55, help="stop diagnosing after this long; call again to go on")
+    parser.add_argument("--partial", action="store_true", help="score although cases are not diagnosed yet")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     if arguments.short:
@@ -74,7 +75,7 @@ def main():
         if left and arguments.stage == "all":
             return 0
     if arguments.stage in ("all", "score"):
-        report.score(frozen, name, workspace.RESULTS, True, "blind")
+        report.score(frozen, name, workspace.RESULTS, True, "blind", arguments.partial)
     return 0
 
 

@@ -1,5 +1,7 @@
 """What one answer says, and whether it is right. The rules stand here and nowhere else."""
 
+import re
+
 SILENT = ("no_gap", "too_little_data")
 SIDED = ("dragging_wheel", "current_sensor_offset", "wheel_radius_mismatch")
 
@@ -18,6 +20,15 @@ def material(label):
     return detectable(label) and (oracle.get("effect_percent", 0) >= 1 or oracle.get("effect_pose_rms", 0) >= 0.02)
 
 
+def effect_of(label):
+    """The effect's name of a label such as `dragging_wheel (left)`."""
+    return label.split(" (")[0]
+
+
+def group_of(cause):
+    return {cause["effect"]} | {effect_of(label) for label in cause.get("indistinguishable_from") or []}
+
+
 class Answer:
     """A diagnosis, or a control's answer in the same form."""
 
@@ -26,11 +37,10 @@ class Answer:
         self.verdict = self.raw.get("verdict", "failed")
         self.causes = self.raw.get("causes") or []
         self.names = [cause["effect"] for cause in self.causes]
-        self.ranking = [entry["effect"] for entry in self.raw.get("ranking") or []] or list(self.names)
-        self.silent = self.verdict in SILENT + ("failed",)
-        self.group = set(self.names)
-        for cause in self.causes:
-            self.group |= set(cause.get("indistinguishable_from") or [])
+        self.ranking = [effect_of(entry["effect"]) for entry in self.raw.get("ranking") or []] or list(self.names)
+        self.failed = self.verdict == "failed"
+        self.silent = self.failed or self.verdict in SILENT
+        self.group = set().union(*map(group_of, self.causes))
 
     @property
     def gives_a_name(self):
@@ -51,9 +61,7 @@ class Answer:
 
     @property
     def group_of_first(self):
-        if not self.names:
-            return set()
-        return {self.names[0]} | set(self.causes[0].get("indistinguishable_from") or [])
+        return group_of(self.causes[0]) if self.causes else set()
 
     @property
     def probability(self):
@@ -103,16 +111,27 @@ def clear_top(cells, ratio=1.25):
     return ordered[0][0]
 
 
-def patch_overlaps(value, effect):
-    """Does a floor cell of the answer touch the true patch? The cell as {x, y}, or with bounds."""
+def settles(first, again, truth):
+    """Of a group that holds a true effect: does the second answer name a true effect of it, and that one alone?"""
+    groups = [group_of(cause) for cause in first.causes if cause.get("indistinguishable_from")]
+    wanted = set().union(*groups) & set(truth)
+    return any(cause["effect"] in wanted and not cause.get("indistinguishable_from") for cause in again.causes)
+
+
+def true_shrink(fresh_day):
+    """Share of the energy gap that the correction closes on a day that nobody saw; None where that was not driven."""
+    before, after = ((fresh_day or {}).get(key) for key in ("before_J", "after_J"))
+    return 1 - after / before if before and after is not None else None
+
+
+CELL = re.compile(r"x (-?[\d.]+) to (-?[\d.]+) m, y (-?[\d.]+) to (-?[\d.]+) m")
+
+
+def patch_overlaps(cell, effect):
+    """Does a floor cell of the answer (`x 1 to 2 m, y 0 to 1 m`) touch the true patch? None: no such cell."""
+    found = CELL.fullmatch(cell or "")
+    if not found:
+        return None
+    x_low, x_high, y_low, y_high = map(float, found.groups())
     p = effect["parameters"]
-    if not isinstance(value, dict):
-        return None
-    x = value.get("x_m", value.get("x", value.get("x_min_m")))
-    y = value.get("y_m", value.get("y", value.get("y_min_m")))
-    if x is None or y is None:
-        return None
-    size = 1.0
-    x_high, y_high = value.get("x_max_m", x + size / 2), value.get("y_max_m", y + size / 2)
-    x_low, y_low = value.get("x_min_m", x - size / 2), value.get("y_min_m", y - size / 2)
     return x_low < p["x_max_m"] and x_high > p["x_min_m"] and y_low < p["y_max_m"] and y_high > p["y_min_m"]

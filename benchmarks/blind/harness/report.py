@@ -1,36 +1,32 @@
 """Score a diagnosed campaign once and write the report."""
-import json
 import pathlib
 import platform
 import subprocess
 import sys
 import time
 
+from campaign import done_cases
 import plots
 import scorecard
 import seal
 import workspace
-from judge import Answer, detectable, material
-from statistics_of import calibration, median
+from judge import Answer, detectable, material, truth_of
+from statistics_of import calibration
 
 CONTROLS = ("always_friction", "plain_refit", "stlsq", "black_box")
 
 
 def load(frozen, name):
     labels = seal.open_labels(frozen, name)
-    log = workspace.sealed_folder(frozen, name) / "diagnosed.jsonl"
-    if not log.exists():
+    results = done_cases(workspace.sealed_folder(frozen, name) / "diagnosed.jsonl")
+    if not results:
         sys.exit("nothing is diagnosed yet")
-    results = {}
-    for line in log.read_text().splitlines():
-        entry = json.loads(line)
-        results[entry["id"]] = entry
     return labels, results
 
 
 def card_table(cases, seconds, labels, results):
     rows = scorecard.rates(cases) + scorecard.place_rates(cases) + scorecard.next_run_rates(labels, results)
-    rows += scorecard.values(cases, seconds)
+    rows += scorecard.values(cases, seconds) + scorecard.shrink_values(labels, results)
     lines = ["| measure | value | 95 % interval | cases | aim / fails | |", "|---|---|---|---|---|---|"]
     return lines + [row.row() for row in rows]
 
@@ -38,7 +34,7 @@ def card_table(cases, seconds, labels, results):
 def control_table(labels, results):
     columns = {"joulepath": {i: Answer(r.get("diagnosis")) for i, r in results.items()}}
     for control in CONTROLS:
-        answers = {i: Answer(r["controls"][control]) for i, r in results.items() if control in r.get("controls", {})}
+        answers = {i: Answer(r["controls"][control]) for i, r in results.items() if control in (r.get("controls") or {})}
         if answers:
             columns[control] = answers
     measured = {name: scorecard.rates([(labels[i], a) for i, a in answers.items()]) for name, answers in columns.items()}
@@ -99,56 +95,94 @@ def case_lines(labels, results):
         true = "+".join(f"{e['effect']}={next(iter(e['parameters'].values())):.4g}" for e in label["effects"]) or "null"
         lines.append(f"{i}\t{label['bin']}\t{label['robot']}\t{label['runs']}\t{label['level']}\t{true}\t"
                      f"{('material' if material(label) else 'detectable') if detectable(label) else '-'}\t{answer.verdict}\t{','.join(answer.names) or '-'}\t"
-                     f"{answer.probability:.3f}\t{results[i].get('seconds', 0):.2f}\t{results[i]['data_sha256'][:16]}")
+                     f"{answer.probability:.3f}\t{results[i].get('seconds', 0):.2f}\t{results[i].get('data_sha256', '-')[:16]}")
     return lines
 
 
-def score(frozen, name, folder, sealed, prefix):
-    """Write `folder`/`prefix`.md, its plots and the list of all cases. Opens the labels: once per campaign."""
+def shrink_curve(cases):
+    """(fraction of the held-out gap closed, share of cases that close at least this)."""
+    shrinks = sorted(a.energy("shrink_fraction") or 0 for l, a in cases if l["bin"] == "single" and detectable(l)
+                     and not a.silent and (a.energy("before_percent") or 0) > 2)
+    return [(max(0.0, s), 1 - k / len(shrinks)) for k, s in enumerate(shrinks)]
+
+
+def figures(cases, power, confusion, reliability):
+    """{file name: SVG}; what has no point is left out."""
+    line = plots.line_plot
+    drawn = {"confusion.svg": plots.confusion_plot(confusion),
+             "risk_coverage.svg": line("risk against coverage", "share of all cases answered with a name", "share of wrong names",
+                                       {"joulepath": scorecard.risk_coverage(cases)}),
+             "reliability.svg": line("reliability of the probabilities", "probability said", "share right",
+                                     {"joulepath": [(p, s) for p, s, _ in reliability]}, True)}
+    if power:
+        drawn["power.svg"] = plots.power_plot(power)
+    curve = shrink_curve(cases)
+    if curve:
+        drawn["shrink.svg"] = line("held-out energy gap closed", "fraction of the gap closed", "share of cases that close at least this",
+                                   {"joulepath": curve})
+    return drawn
+
+
+def head_lines(frozen, name, sealed, labels, results, prefix):
+    bins = {}
+    for i in results:
+        bins[labels[i]["bin"]] = bins.get(labels[i]["bin"], 0) + 1
+    failed = sum("diagnosis" not in r for r in results.values())
+    status = ("Sealed: labels' hashes were committed before the first diagnosis, seeds derive from the frozen commit" if sealed
+              else "REHEARSAL: not sealed (tree or manifest not committed); it shows mechanics, it is no evidence")
+    return ["# Blind benchmark of the diagnosis", "",
+            f"Command `./dev bench blind`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
+            f"{status}. Seeds: SHA-256 of the frozen commit and the case's key (`benchmarks/blind/harness/plan.py`).",
+            f"{len(results)} cases scored of {len(labels)} sealed ({len(labels) - len(results)} not diagnosed); {failed} diagnoses gave no answer: "
+            "a miss where something was to be said, an alarm on null sets. Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",
+            f"Every case stands in `{prefix}/cases.tsv`. What counts as right: `benchmarks/blind/harness/judge.py`.", ""]
+
+
+DETECTABLE = """Wilson intervals. "aim": reaches the aim; "ok": between aim and failing; "FAILS": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25. Material: the effect changes the energy by 1 % or the pose by 0.02 (m, rad, rms); the diagnosis declares a materiality floor, and below it silence is its answer. Fresh day: 24 runs of the same machine on another day, driven after the diagnosis; its energy gap with the robot file as it was and as corrected. Run times are those of several diagnoses at once, one per core."""
+
+CONTROL_METHODS = """`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing."""
+
+
+def report_files(frozen, name, sealed, prefix, labels, results):
+    """{path below the results folder: text} of the whole report."""
+    cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
+    seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
+    power, confusion = scorecard.power(cases), scorecard.confusion(cases)
+    told = [(a.probability, a.first in truth_of(l)) for l, a in cases if a.gives_a_name]
+    _, _, reliability = calibration(told)
+    drawn = figures(cases, power, confusion, reliability)
+    picture = lambda title, file: f"![{title}]({prefix}/{file})" if file in drawn else ""
+    lines = head_lines(frozen, name, sealed, labels, results, prefix)
+    lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results) + ["", DETECTABLE, ""]
+    lines += ["## Controls on the same cases", ""] + control_table(labels, results) + ["", CONTROL_METHODS, ""]
+    lines += ["## By robot, protocol and level", ""] + split_table(cases) + [""]
+    lines += ["## Confusion", "", picture("confusion", "confusion.svg"), ""] + confusion_lines(confusion) + [""]
+    lines += ["## Power", "", picture("power", "power.svg"), ""] + power_lines(power) + [""]
+    lines += ["## Probabilities, risk and shrink", "",
+              " ".join(filter(None, (picture("reliability", "reliability.svg"), picture("risk and coverage", "risk_coverage.svg"),
+                                     picture("shrink", "shrink.svg")))), "",
+              "| probability said | share right | answers |", "|---|---|---|"]
+    lines += [f"| {p:.2f} | {s:.2f} | {n} |" for p, s, n in reliability]
+    files = {f"{prefix}/{file}": text for file, text in drawn.items()}
+    files[f"{prefix}/cases.tsv"] = "\n".join(case_lines(labels, results)) + "\n"
+    files[f"{prefix}.md"] = "\n".join(lines) + "\n"
+    return files
+
+
+def score(frozen, name, folder, sealed, prefix, partial=False):
+    """Write `folder`/`prefix`.md, its plots and the list of all cases. Opens the labels: once per campaign (a score that
+    fails before it has written anything has shown nobody anything and does not count)."""
     marker = workspace.sealed_folder(frozen, name) / "opened"
     if sealed and marker.exists():
         sys.exit(f"this campaign was opened and scored on {marker.read_text().strip()}: draw a new one")
     labels, results = load(frozen, name)
+    missing = len(labels) - len(results)
+    if missing and not partial:
+        sys.exit(f"{missing} cases are not diagnosed yet: call `diagnose` again, or score --partial (which is the only score there will be)")
+    files = report_files(frozen, name, sealed, prefix, labels, results)
     marker.write_text(time.strftime("%Y-%m-%d %H:%M:%S") + "\n")
-    missing = [i for i in labels if i not in results]
-    cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
-    seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
-    failed = [i for i, r in results.items() if "diagnosis" not in r]
-    folder.mkdir(parents=True, exist_ok=True)
-    plots_folder = folder / prefix
-    plots_folder.mkdir(exist_ok=True)
-    power, confusion = scorecard.power(cases), scorecard.confusion(cases)
-    _, _, reliability = calibration([(a.probability, a.first in [e["effect"] for e in l["effects"]]) for l, a in cases if a.gives_a_name])
-    (plots_folder / "power.svg").write_text(plots.power_plot(power)) if power else None
-    (plots_folder / "confusion.svg").write_text(plots.confusion_plot(confusion))
-    (plots_folder / "risk_coverage.svg").write_text(plots.line_plot("risk against coverage", "share of all cases answered with a name", "share of wrong names", {"joulepath": scorecard.risk_coverage(cases)}))
-    (plots_folder / "reliability.svg").write_text(plots.line_plot("reliability of the probabilities", "probability said", "share right", {"joulepath": [(p, s) for p, s, _ in reliability]}, True))
-    shrinks = sorted(a.energy("shrink_fraction") or 0 for l, a in cases if l["bin"] == "single" and detectable(l) and not a.silent and (a.energy("before_percent") or 0) > 2)
-    if shrinks:
-        curve = [(max(0.0, s), 1 - k / len(shrinks)) for k, s in enumerate(shrinks)]
-        (plots_folder / "shrink.svg").write_text(plots.line_plot("held-out energy gap closed", "fraction of the gap closed", "share of cases that close at least this", {"joulepath": curve}))
-    (plots_folder / "cases.tsv").write_text("\n".join(case_lines(labels, results)) + "\n")
-    bins = {}
-    for label, _ in cases:
-        bins[label["bin"]] = bins.get(label["bin"], 0) + 1
-    status = ("sealed: labels' hashes were committed before the first diagnosis, seeds derive from the frozen commit" if sealed
-              else "REHEARSAL: not sealed (tree or manifest not committed); it shows mechanics, it is no evidence")
-    lines = ["# Blind benchmark of the diagnosis", "",
-             f"Command `./dev bench blind`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
-             f"{status}. Seeds: SHA-256 of the frozen commit and the case's key (`benchmarks/blind/harness/plan.py`).",
-             f"{len(cases)} cases scored of {len(labels)} sealed ({len(missing)} not diagnosed); {len(failed)} diagnoses failed and count as silent. "
-             + "Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",
-             "Every case stands in `" + f"{prefix}/cases.tsv" + "`. What counts as right: `benchmarks/blind/harness/judge.py`.", "",
-             "## Scorecard", ""] + card_table(cases, seconds, labels, results) + [
-             "", "Wilson intervals. \"aim\": reaches the aim; \"ok\": between aim and failing; \"FAILS\": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25. Material: the effect changes the energy by 1 % or the pose by 0.02 (m, rad, rms); the diagnosis declares a materiality floor, and below it silence is its answer.", "",
-             "## Controls on the same cases", ""] + control_table(labels, results) + [
-             "", "`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing.", "",
-             "## By robot, protocol and level", ""] + split_table(cases) + ["",
-             "## Confusion", "", f"![confusion]({prefix}/confusion.svg)", ""] + confusion_lines(confusion) + ["",
-             "## Power", "", f"![power]({prefix}/power.svg)", ""] + power_lines(power) + ["",
-             "## Probabilities, risk and shrink", "", f"![reliability]({prefix}/reliability.svg) ![risk and coverage]({prefix}/risk_coverage.svg)" + (f" ![shrink]({prefix}/shrink.svg)" if shrinks else ""), "",
-             "| probability said | share right | answers |", "|---|---|---|"] + [f"| {p:.2f} | {s:.2f} | {n} |" for p, s, n in reliability]
-    (folder / f"{prefix}.md").write_text("\n".join(lines) + "\n")
-    print(f"{folder / (prefix + '.md')}")
-    print("\n".join(card_table(cases, seconds, labels, results)))
-    return len(missing), len(failed)
+    for path, text in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text)
+    print(files[f"{prefix}.md"].split("## Controls")[0] + f"{folder / (prefix + '.md')}")
+    return missing, sum("diagnosis" not in r for r in results.values())

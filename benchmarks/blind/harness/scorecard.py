@@ -47,6 +47,22 @@ class Value:
         return f"| {self.name} | {self.value:.3g} | | {self.count} | {aim} | {self.state()} |"
 
 
+class Within(Value):
+    """A share that shall lie in a range: too wide an interval is no better than too narrow a one."""
+
+    def state(self):
+        if math.isnan(self.value):
+            return ""
+        inside = lambda low, high: low <= self.value <= high
+        return "aim" if inside(*self.aim) else ("ok" if inside(*self.fails) else "FAILS")
+
+    def row(self):
+        if self.count == 0:
+            return f"| {self.name} | no case | | | | |"
+        low, high = wilson(round(self.value * self.count), self.count)
+        return f"| {self.name} | {self.value:.3g} | {low:.3f}–{high:.3f} | {self.count} | {self.aim[0]:g}–{self.aim[1]:g} / {self.fails[0]:g}–{self.fails[1]:g} | {self.state()} |"
+
+
 def rates(cases):
     """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions."""
     of = lambda name: [(l, a) for l, a in cases if l["bin"] == name]
@@ -68,13 +84,14 @@ def rates(cases):
         Rate("silent on a detectable single effect", (a.silent for l, a in singles), None, None, False),
         Rate("wrong name, when a name is given", (judge.wrong_name(a, l) for l, a in named), 0.02, 0.05, False),
         Rate("a name too many, when a name is given", (bool(set(a.names) - set(judge.truth_of(l))) for l, a in named), None, None, False),
-        Rate("false alarm on null sets", (not a.silent for l, a in nulls), 0.01, 0.05, False),
+        Rate("false alarm on null sets (a failure counts as one)", (a.failed or not a.silent for l, a in nulls), 0.01, 0.05, False),
         Rate("pairs: both", (both(l, a) for l, a in pairs), 0.85, 0.65),
         Rate("pairs: both, detectable and material", (both(l, a) for l, a in pairs if judge.material(l)), None, None),
         Rate("pairs: at least one", (bool(set(judge.truth_of(l)) & a.group) and not a.silent for l, a in pairs), 0.98, 0.95),
         Rate("foreign effect: says none fits (unexplained or partly)", (a.says_none_fits() for l, a in foreign), 0.9, 0.75),
         Rate("foreign effect: says unexplained, names nothing", (a.verdict == "unexplained" for l, a in foreign), None, None),
         Rate("true effect removed: says none fits", (a.says_none_fits() for l, a in removed), 0.85, 0.75),
+        Rate("no answer at all", (a.failed for l, a in cases), 0.0, 0.0, False),
         Rate("correction makes held-out runs worse", ((a.energy("shrink_fraction") or 0) < 0 for l, a in cases if a.gives_a_name), None, None, False),
     ]
 
@@ -106,14 +123,31 @@ def next_run_rates(labels, results):
     outcomes = {"proposed": [], "random": []}
     for case_id, result in results.items():
         first = judge.Answer(result.get("diagnosis"))
-        truth = set(judge.truth_of(labels[case_id]))
-        if not result.get("follow_up") or not first.group_of_first & truth:
+        truth = judge.truth_of(labels[case_id])
+        grouped = [c for c in first.causes if c.get("indistinguishable_from") and judge.group_of(c) & set(truth)]
+        if not result.get("next_runs") or not grouped:
             continue
-        for name, again in result["follow_up"].items():
-            answer = judge.Answer((again or {}).get("diagnosis"))
-            outcomes[name].append(not answer.silent and len(answer.group_of_first) == 1 and answer.first in truth)
+        for name in outcomes:
+            again = judge.Answer((result["next_runs"].get(name) or {}).get("diagnosis"))
+            outcomes[name].append(judge.settles(first, again, truth))
     return [Rate("the proposed next run settles the group", outcomes["proposed"], 0.8, 0.6),
             Rate("a random next run settles the group (control)", outcomes["random"], None, None)]
+
+
+def shrink_values(labels, results):
+    """The shrink that was said (fraction and interval) against that on a day that nobody saw."""
+    covered, errors = [], []
+    for case_id, result in results.items():
+        answer = judge.Answer(result.get("diagnosis"))
+        true = judge.true_shrink(result.get("fresh_day"))
+        interval = answer.energy("shrink_interval_95")
+        if true is None or not interval or not answer.gives_a_name:
+            continue
+        covered.append(interval[0] <= true <= interval[1])
+        errors.append(abs(answer.energy("shrink_fraction") - true))
+    share = sum(covered) / len(covered) if covered else float("nan")
+    return [Within("interval of the shrink covers that of a fresh day", share, len(covered), (0.93, 0.97), (0.85, 1.0)),
+            Value("shrink said against that of a fresh day, median difference", median(errors), len(errors), None, None)]
 
 
 def values(cases, seconds):
@@ -134,7 +168,7 @@ def values(cases, seconds):
         Value("held-out energy gap closed, median fraction of the gap (gap > 2 %)", median(shrink), len(shrink), 0.85, 0.6, True),
         Value("the same, of the ceiling", median(of_ceiling), len(of_ceiling), 0.95, 0.6, True),
         Value("median error of the effect's first parameter", median([e for _, e, _ in errors]), len(errors), 0.05, 0.15),
-        Value("95 % interval of that parameter covers the truth", sum(covered) / len(covered) if covered else float("nan"), len(covered), None, None, True),
+        Within("95 % interval of that parameter covers the truth", sum(covered) / len(covered) if covered else float("nan"), len(covered), (0.90, 0.98), (0.80, 1.0)),
         Value("mean size of the named group", mean, len(groups), 1.5, 3.0),
         Value("expected calibration error of the probabilities", ece, len(told), 0.03, 0.08),
         Value("Brier score of the probabilities", brier, len(told), None, None),

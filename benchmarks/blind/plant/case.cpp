@@ -16,6 +16,9 @@ namespace {
 /// Which stream of random numbers a part of a case uses: parts do not disturb one another.
 Random stream(const Case& c, std::uint64_t part) { return Random(c.request.seed * 1000003ULL + part); }
 
+/// The same of what differs from day to day.
+Random day_stream(const Case& c, std::uint64_t part) { return stream(c, part + 100000ULL * c.request.day); }
+
 void draw_calibration_error(Case& c) {
   Random random = stream(c, 1);
   c.calibrated = c.nominal;
@@ -108,7 +111,7 @@ Case draw_case(const CaseRequest& request) {
   draw_calibration_error(c);
   draw_noise(c);
   draw_roughness(c);
-  Random days = stream(c, 4);
+  Random days = day_stream(c, 4);
   c.runs = test_day(c.nominal, request.runs, days);
   for (const std::string& description : request.appended) {
     Run run = described_run(description, c.nominal);
@@ -127,7 +130,7 @@ Case draw_case(const CaseRequest& request) {
 }
 
 Machine machine_in_run(const Case& c, const Machine& base, std::size_t index) {
-  Random random = stream(c, 1000 + index);
+  Random random = day_stream(c, 1000 + index);
   Machine m = base;
   for (double& t : m.friction_torque_Nm) t *= 1 + c.friction_scatter * random.normal();
   for (double& r : m.resistance_ohm) r *= 1 + c.resistance_scatter * random.normal();
@@ -154,7 +157,7 @@ void write_case(const Case& c, const std::string& folder) {
             << ", start_time_s: " << c.runs[k].start_time_s << "}\n";
     std::vector<Sample> log =
         noise_free_run(machine_in_run(c, c.truth, k), c.nominal, c.world, c.runs[k], Discretization{});
-    Random random = stream(c, 2000 + k);
+    Random random = day_stream(c, 2000 + k);
     add_noise(log, c.noise, random);
     write_file(where / name, run_csv(log));
   }

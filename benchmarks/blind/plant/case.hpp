@@ -19,6 +19,7 @@ struct CaseRequest {
   int runs{24};
   int level{0};  ///< 0 = white noise and textbook forms, 1 = rough
   std::uint64_t seed{1};
+  std::uint64_t day{0};                 ///< another day of the same machine: other runs, scatter and noise
   std::vector<std::string> appended{};  ///< descriptions of runs after the test day, see described_run
 };
 

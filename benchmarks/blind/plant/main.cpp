@@ -17,14 +17,16 @@ namespace {
 constexpr const char* kUsage =
     "usage: blind_plant --effect NAME[,NAME] [--size X[,X]] [--robot nomad|warehouse|small] [--protocol "
     "24|12|6]\n"
-    "                   [--level 0|1] [--seed S] [--out DIR] [--label FILE|none] [--oracle]\n"
+    "                   [--level 0|1] [--seed S] [--day D] [--out DIR] [--label FILE|none] [--oracle]\n"
     "       blind_plant --list\n"
     "  --effect   none, a catalog name, a foreign kind, or two of them\n"
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
     "  --out      folder of the data set; absent: the label alone is written\n"
     "  --label    where the label goes, YAML or (*.json) JSON (default: DIR/truth.yaml; `none`: nowhere)\n"
-    "  --append   more runs after the test day: key:value,...;... as in a mission's `motion:` (profile, "
-    "speed_m_s, ...)\n"
+    "  --day      another day of the same machine (default 0): other runs, scatter and noise\n"
+    "  --append   more runs after the test day: legs key:value,... joined by + (keys of a mission's "
+    "`motion:`),\n"
+    "             runs by ;\n"
     "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
 
 std::vector<std::string> split(const std::string& text) {
@@ -58,6 +60,7 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
   request.runs = std::stoi(get("--protocol", "24"));
   request.level = std::stoi(get("--level", "0"));
   request.seed = std::stoull(get("--seed", "1"));
+  request.day = std::stoull(get("--day", "0"));
   std::istringstream appended(get("--append", ""));
   for (std::string one; std::getline(appended, one, ';');) request.appended.push_back(one);
   if (request.runs < 1 || request.runs > 24 || request.level < 0 || request.level > 1 ||
@@ -80,7 +83,7 @@ int run(int argc, char** argv) {
       throw std::invalid_argument("unexpected argument '" + key + "'");
   }
   for (const auto& [key, value] : given)
-    if (std::string(" --effect --size --robot --protocol --level --seed --out --label --append ")
+    if (std::string(" --effect --size --robot --protocol --level --seed --day --out --label --append ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
   const std::string out = given["--out"];

@@ -167,43 +167,72 @@ std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random)
   return runs;
 }
 
-Run described_run(const std::string& description, const Machine& m) {
-  std::map<std::string, std::string> given;
-  std::istringstream in(description);
+namespace {
+
+using Description = std::map<std::string, std::string>;
+
+Description description_of(const std::string& text) {
+  Description given;
+  std::istringstream in(text);
   for (std::string part; std::getline(in, part, ',');) {
     const std::size_t colon = part.find(':');
     if (colon == std::string::npos)
       throw std::invalid_argument("a motion is key:value,..., not '" + part + "'");
     given[part.substr(0, colon)] = part.substr(colon + 1);
   }
-  const auto number = [&](const char* key, double fallback) {
-    const auto at = given.find(key);
-    return at == given.end() ? fallback : std::stod(at->second);
-  };
-  const std::string profile = given.count("profile") ? given["profile"] : "trapezoid";
-  const double payload_kg = number("payload_kg", 0), heading_rad = number("heading_rad", 0);
-  const double rate = number("acceleration_m_s2", m.base_acceleration_m_s2);
-  const double direction = given["direction"] == "reverse" ? -1 : 1;
-  double speed = number("speed_m_s", rate * number("ramp_s", 0.5 * m.top_speed_m_s / rate));
-  if (profile == "stand") {
-    Run run = begin("stand", payload_kg, heading_rad);
-    rest(run, number("duration_s", 10));
-    return run;
-  }
+  return given;
+}
+
+double number(const Description& given, const char* key, double fallback) {
+  const auto at = given.find(key);
+  return at == given.end() ? fallback : std::stod(at->second);
+}
+
+std::string word(const Description& given, const char* key, const char* fallback) {
+  const auto at = given.find(key);
+  return at == given.end() ? fallback : at->second;
+}
+
+/// One leg from rest to rest, appended to the run.
+void append_leg(Run& run, const Description& given, const Machine& m) {
+  const double rate = number(given, "acceleration_m_s2", m.base_acceleration_m_s2);
+  const std::string profile = word(given, "profile", "trapezoid");
+  if (profile == "stand") return rest(run, number(given, "duration_s", 10));
   if (profile == "spin") {
-    const double angle = number("angle_rad", 4.0),
-                 yaw = std::copysign(number("yaw_rate_rad_s", m.base_yaw_rate_rad_s), angle);
-    const double slope = number("yaw_acceleration_rad_s2", m.base_yaw_rate_rad_s);
-    return spin(yaw, slope,
-                std::max(1.0, number("duration_s", std::abs(angle / yaw) - std::abs(yaw) / slope)),
-                payload_kg, heading_rad);
+    const double angle = number(given, "angle_rad", 4.0),
+                 yaw = std::copysign(number(given, "yaw_rate_rad_s", m.base_yaw_rate_rad_s), angle),
+                 slope = number(given, "yaw_acceleration_rad_s2", m.base_yaw_rate_rad_s);
+    const double cruise_s = number(given, "duration_s", std::abs(angle / yaw) - std::abs(yaw) / slope);
+    trapezoid(run, yaw, slope, std::max(1.0, cruise_s), [](double w, double) { return std::pair{0.0, w}; });
+    return rest(run, kRest_s);
   }
-  const double radius = number("radius_m", 0), angle = number("angle_rad", 2.0);
-  const double distance = radius > 0 ? std::abs(angle) * radius : number("distance_m", 4.0);
-  speed = std::min(speed, std::sqrt(0.9 * rate * distance));
-  const double cruise_s = std::max(0.5, number("duration_s", distance / speed - speed / rate));
+  const double radius = number(given, "radius_m", 0), angle = number(given, "angle_rad", 2.0);
+  const double distance = radius > 0 ? std::abs(angle) * radius : number(given, "distance_m", 4.0);
+  const double wanted =
+      number(given, "speed_m_s", rate * number(given, "ramp_s", 0.5 * m.top_speed_m_s / rate));
+  const double speed = std::min(wanted, std::sqrt(0.9 * rate * distance));
+  const double cruise_s = std::max(0.5, number(given, "duration_s", distance / speed - speed / rate));
   const double curvature = radius > 0 ? std::copysign(1.0 / radius, angle) : 0.0;
-  return arc(profile, direction * speed, rate, cruise_s, curvature, payload_kg, heading_rad);
+  const double direction = word(given, "direction", "forward") == "reverse" ? -1 : 1;
+  trapezoid(run, direction * speed, rate, cruise_s, [&](double v, double) {
+    return std::pair{v, curvature * v};
+  });
+  rest(run, kRest_s);
+}
+
+}  // namespace
+
+Run described_run(const std::string& description, const Machine& m) {
+  std::istringstream in(description);
+  Run run;
+  for (std::string leg; std::getline(in, leg, '+');) {
+    const Description given = description_of(leg);
+    if (run.kind.empty())
+      run = begin("described", number(given, "payload_kg", 0), number(given, "heading_rad", 0));
+    append_leg(run, given, m);
+  }
+  if (run.kind.empty()) throw std::invalid_argument("a described run needs a leg");
+  return run;
 }
 
 }  // namespace blind

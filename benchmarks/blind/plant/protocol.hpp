@@ -26,9 +26,10 @@ struct Run {
 /// curves, reverse, slow and fast, several headings, payloads mixed, in random order.
 [[nodiscard]] std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random);
 
-/// One more run from a description such as a diagnosis proposes: `profile:trapezoid,speed_m_s:0.5,...` with
-/// the keys of a prescribed motion (profile, speed_m_s, acceleration_m_s2, distance_m, duration_s, ramp_s,
-/// radius_m, angle_rad, yaw_rate_rad_s, direction), and payload_kg, heading_rad. Throws
+/// One more run from a description such as a diagnosis proposes: legs from rest to rest joined by `+`, each
+/// `profile:trapezoid,speed_m_s:0.5,...` with the keys of a prescribed motion (profile, speed_m_s,
+/// acceleration_m_s2, distance_m, duration_s, ramp_s, radius_m, angle_rad, yaw_rate_rad_s,
+/// yaw_acceleration_rad_s2, direction); the first leg's payload_kg and heading_rad are the run's. Throws
 /// std::invalid_argument.
 [[nodiscard]] Run described_run(const std::string& description, const Machine& nominal);
 
