@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/left_out_effects.hpp"
 #include "app/output_directory.hpp"
 #include "app/report/diagnosis_report.hpp"
 #include "app/terminal.hpp"
@@ -108,18 +109,24 @@ class Diagnose : public Command {
 
   void declare(CLI::App& app) override {
     app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
-    app.add_option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")->required();
+    app.add_option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
+        ->required();
     app.add_option("--robot", robot_, "robot file in place of the dataset's");
+    app.add_option("--without", without_, "effect to take out of the catalog (several: commas, or again)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
     add_common_flags(app, common_, "qjfu");
   }
 
   int run() override {
-    OutputDirectory out(out_, {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
+    const std::set<std::string> without = left_out_effects(without_);
+    OutputDirectory out(out_,
+                        {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
     const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
                                          robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
-    Diagnosis diagnosis = diagnose(dataset);
+    Diagnosis diagnosis = diagnose(dataset, {.without = without});
     if (diagnosis.corrected_robot) {
       const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);
       diagnosis.decision_missions = cost.missions;
@@ -141,6 +148,7 @@ class Diagnose : public Command {
 
  private:
   std::string dataset_{}, out_{}, robot_{};
+  std::vector<std::string> without_{};
   bool fail_on_gap_{};
   CommonOptions common_{};
 };

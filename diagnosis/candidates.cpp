@@ -105,11 +105,11 @@ std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& rob
   return {value_or(setting, first, 0) - replaced_value(setting.name, robot)};
 }
 
-std::vector<Candidate> catalog_candidates(const Robot& robot) {
+std::vector<Candidate> catalog_candidates(const Robot& robot, const std::set<std::string>& without) {
   std::vector<Candidate> candidates;
   for (const EffectDescription& description : effect_catalog()) {
     const std::string name(description.info.name);
-    if (name == "floor_patch") continue;
+    if (name == "floor_patch" || without.contains(name)) continue;
     const ParameterDescription& first = description.parameters.front();
     Candidate candidate{.shape = {.name = name},
                         .amplitude = {first.name},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,8 @@ EffectSetting setting_of(const Candidate& candidate, const std::vector<double>& 
 std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& robot);
 
 /// Every effect of the catalog with a grid over its shape parameters; floor_patch is left out, its
-/// region comes from floor_patch_search().
-std::vector<Candidate> catalog_candidates(const Robot& robot);
+/// region comes from floor_patch_search(). Effects named in `without` are left out too.
+std::vector<Candidate> catalog_candidates(const Robot& robot, const std::set<std::string>& without = {});
 
 /// Names of an effect's shape parameters: all that are no amplitude.
 std::vector<std::string> shape_parameters(const std::string& effect);

@@ -39,6 +39,8 @@ void prepare(Examination& x) {
   const Survey survey = survey_dataset(x.dataset, x.all_signals);
   x.report.missing_channels = survey.missing_channels;
   x.report.notes = survey.notes;
+  for (const std::string& effect : x.options.without)
+    x.report.notes.push_back(effect + " is taken out of the catalog");
 }
 
 void propose_next(Examination& x) {
@@ -63,7 +65,7 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
     return std::move(x.report);
   }
   prepare(x);
-  x.id = identify(x.diagnosis);
+  x.id = identify(x.diagnosis, {.without = options.without});
   x.report.where = localize_gap(x.all_signals, x.nominal, x.id.equations.noise, options.bootstrap);
   choose_names(x);
   rank_effects(x);

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,6 +107,7 @@ struct Diagnosis {
 
 struct DiagnoseOptions {
   std::size_t bootstrap{400};
+  std::set<std::string> without{};  ///< effects taken out of the catalog
 };
 
 /// Where the gap lies, which effect of the catalog causes it, how far it shrinks with it. The same

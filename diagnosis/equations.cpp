@@ -19,7 +19,7 @@ struct RunRows {
 
 /// The state's effects come first, each in place of the catalog's candidates of the same name and side.
 std::vector<Candidate> candidates_about(const Robot& robot, const ModelState& state,
-                                        const std::vector<Candidate>& extra, bool whole_catalog) {
+                                        const std::vector<Candidate>& extra, const EquationOptions& options) {
   std::vector<Candidate> list;
   for (const ActiveEffect& effect : state.effects) list.push_back(effect.candidate);
   const std::size_t active = list.size();
@@ -28,8 +28,8 @@ std::vector<Candidate> candidates_about(const Robot& robot, const ModelState& st
       if (list[k].label() == candidate.label()) return;
     list.push_back(candidate);
   };
-  if (whole_catalog)
-    for (const Candidate& candidate : catalog_candidates(robot)) add(candidate);
+  if (options.whole_catalog)
+    for (const Candidate& candidate : catalog_candidates(robot, options.without)) add(candidate);
   for (const Candidate& candidate : extra) add(candidate);
   return list;
 }
@@ -144,7 +144,7 @@ std::vector<int> Equations::columns_of_candidate(int candidate, bool with_shapes
 Equations build_equations(const std::vector<RunSignals>& signals, const Robot& robot,
                           const std::vector<Nuisance>& nuisances, const ModelState& state,
                           const std::vector<Candidate>& extra, const EquationOptions& options) {
-  Equations equations{.candidates = candidates_about(robot, state, extra, options.whole_catalog)};
+  Equations equations{.candidates = candidates_about(robot, state, extra, options)};
   const DictionaryLayout layout = lay_out(signals, robot);
   if (options.dictionary) equations.dictionary = dictionary_entries(layout);
   equations.columns = list_columns(robot, nuisances, state, equations.candidates, equations.dictionary.size(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct EquationOptions {
   const NoiseModel* noise{};  ///< reuse instead of estimating
   const Eigen::VectorXd* run_variance{};
   const NoiseModel* first_noise{};  ///< where the estimate starts; absent: white
+  std::set<std::string> without{};  ///< effects that the catalog is taken to lack
 };
 
 /// Linearizes the model at a state and compresses every run. `extra` are candidates beyond the

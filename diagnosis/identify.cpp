@@ -43,16 +43,18 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
   const std::vector<std::size_t> runs = every(logs.runs.size());
   result.state.nuisance_fraction.assign(result.nuisances.size(), 0.0);
   if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0)
-    for (const Candidate& candidate : catalog_candidates(robot))
+    for (const Candidate& candidate : catalog_candidates(robot, options.without))
       if (candidate.shape.name == "time_misalignment") result.state.effects.push_back({candidate, {delay_s}});
   result.signals = read_signals(logs, channel_delay_s(result.state));
   std::map<std::string, double> known;
   NoiseModel noise;
   for (int round = 0;; ++round) {
-    const std::vector<Candidate> patches =
-        floor_patch_candidates(result.signals, robot, result.nuisances, result.state);
-    result.equations = build_equations(result.signals, robot, result.nuisances, result.state, patches,
-                                       {.first_noise = round > 0 ? &noise : nullptr});
+    std::vector<Candidate> patches;
+    if (!options.without.contains("floor_patch"))
+      patches = floor_patch_candidates(result.signals, robot, result.nuisances, result.state);
+    result.equations =
+        build_equations(result.signals, robot, result.nuisances, result.state, patches,
+                        {.first_noise = round > 0 ? &noise : nullptr, .without = options.without});
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations));
     const LinearProblem problem = without_calibration(result.equations, runs, result.dispersion);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "diagnosis/refit.hpp"
@@ -22,6 +24,7 @@ struct IdentifyOptions {
   double further_effect_cost{14.0};
   int most_effects{4};
   int rounds{4};
+  std::set<std::string> without{};  ///< effects that the catalog is taken to lack
 };
 
 /// Searches for the effects behind a gap: linearize, weigh sets of effects, take the best over, refit by

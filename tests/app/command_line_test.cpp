@@ -37,6 +37,20 @@ TEST(CommandLine, UsageErrorsEndWithTwoAndOneHint) {
   EXPECT_NE(run_program(scratch, "schema robt").err.find("did you mean robot?"), std::string::npos);
 }
 
+TEST(CommandLine, AnUnknownEffectToLeaveOutIsToldWithTheNamesThatComeNear) {
+  const ScratchDirectory scratch;
+  const auto slip =
+      run_program(scratch, "diagnose none.yaml --out " + scratch.at("out") + " --without rolling_resistanc");
+  EXPECT_EQ(slip.code, 2);
+  EXPECT_NE(slip.err.find("did you mean rolling_resistance"), std::string::npos) << slip.err;
+  const auto word = run_program(
+      scratch, "diagnose none.yaml --out " + scratch.at("out") + " --without wheel_slip,friction");
+  EXPECT_EQ(word.code, 2);
+  EXPECT_NE(word.err.find("no effect 'friction'"), std::string::npos) << word.err;
+  EXPECT_NE(word.err.find("coulomb_friction"), std::string::npos) << word.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("out")));
+}
+
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   const ScratchDirectory scratch;
   for (const char* file :

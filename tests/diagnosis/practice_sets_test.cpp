@@ -103,6 +103,21 @@ TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
   EXPECT_NEAR(first.causes[0].parameters[0].value, reversed.causes[0].parameters[0].value, 1e-6);
 }
 
+TEST(Diagnosis, NeverNamesWhatIsTakenOutOfTheCatalog) {
+  if (!std::filesystem::exists(path_of("p14_floor_patch_rough")))
+    GTEST_SKIP() << "no practice sets beside the sources";
+  using Pair = std::pair<const char*, const char*>;
+  for (const auto& [folder, effect] :
+       {Pair{"p14_floor_patch_rough", "floor_patch"}, Pair{"p10_time_misalignment", "time_misalignment"}}) {
+    const Diagnosis d = diagnose(read_dataset(path_of(folder)), {.bootstrap = 20, .without = {effect}});
+    for (const Cause& cause : d.causes) {
+      EXPECT_NE(cause.effect.name, effect);
+      EXPECT_EQ(std::ranges::count(cause.indistinguishable_from, effect), 0) << effect;
+    }
+    for (const RankedEffect& ranked : d.ranking) EXPECT_NE(ranked.effect, effect);
+  }
+}
+
 TEST(Diagnosis, OfTooFewRunsNamesNothing) {
   if (!std::filesystem::exists(path_of("p03_rolling_resistance")))
     GTEST_SKIP() << "no practice sets beside the sources";
