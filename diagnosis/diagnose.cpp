@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/energy/diagnose_energies.hpp"
+#include "diagnosis/energy/energy_run.hpp"
 #include "diagnosis/localize.hpp"
 #include "diagnosis/next_run.hpp"
 #include "diagnosis/split.hpp"
@@ -60,8 +62,13 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   for (std::size_t r = 0; r < dataset.runs.size(); ++r)
     if (has_usable_log(dataset.runs[r])) x.usable.push_back(r);
   x.report.artifacts = artifact_texts(dataset);
+  if (x.usable.empty() && std::ranges::any_of(dataset.runs, is_energy_run)) {
+    Diagnosis of_energies = diagnose_energies(dataset, options);
+    of_energies.artifacts = std::move(x.report.artifacts);
+    return of_energies;
+  }
   if (x.usable.empty()) {
-    x.report.notes.push_back("no run has a log with wheel speeds: only energies can be compared");
+    x.report.notes.push_back("no run has a log with wheel speeds, nor an energy with its motion");
     return std::move(x.report);
   }
   prepare(x);
@@ -76,6 +83,7 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   report_control(x);
   write_correction(x, correction.state);
   propose_next(x);
+  judge_on_energies(dataset, x.report);
   return std::move(x.report);
 }
 

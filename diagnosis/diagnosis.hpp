@@ -49,6 +49,7 @@ struct WhereCell {
   double share_of_gap{};
   double energy_J{};
   Range95 interval_95{};
+  std::optional<double> bias_percent{};  ///< predicted less measured, of the cell's |measured| energy
 };
 
 struct FoundParameter {

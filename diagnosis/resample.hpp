@@ -23,22 +23,40 @@ class Dice {
   std::uint64_t state_;
 };
 
-/// 95 % interval of statistic(runs) over `draws` resamples of whole runs, with replacement.
-template <class Statistic>
-std::pair<double, double> bootstrap_interval(std::size_t runs, std::size_t draws, Statistic&& statistic) {
-  if (runs == 0 || draws == 0) return {0.0, 0.0};
+/// 95 % intervals of `count` statistics over `draws` resamples of whole runs, with replacement;
+/// statistics(runs, values) fills in the values of one resample.
+template <class Statistics>
+std::vector<std::pair<double, double>> bootstrap_intervals(std::size_t runs, std::size_t draws,
+                                                           std::size_t count, Statistics&& statistics) {
+  std::vector<std::pair<double, double>> intervals(count);
+  if (runs == 0 || draws == 0) return intervals;
   Dice dice(20200101);
-  std::vector<double> values;
+  std::vector<std::vector<double>> values(count, std::vector<double>(draws));
   std::vector<std::size_t> chosen(runs);
+  std::vector<double> drawn(count);
   for (std::size_t d = 0; d < draws; ++d) {
     for (std::size_t& r : chosen) r = dice.below(runs);
-    values.push_back(statistic(chosen));
+    statistics(chosen, drawn);
+    for (std::size_t k = 0; k < count; ++k) values[k][d] = drawn[k];
   }
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.025), at(0.975)};
+  for (std::size_t k = 0; k < count; ++k) {
+    std::sort(values[k].begin(), values[k].end());
+    const auto at = [&](double q) {
+      return values[k][static_cast<std::size_t>(q * static_cast<double>(draws - 1))];
+    };
+    intervals[k] = {at(0.025), at(0.975)};
+  }
+  return intervals;
+}
+
+/// 95 % interval of statistic(runs).
+template <class Statistic>
+std::pair<double, double> bootstrap_interval(std::size_t runs, std::size_t draws, Statistic&& statistic) {
+  return bootstrap_intervals(runs, draws, 1,
+                             [&](const std::vector<std::size_t>& chosen, std::vector<double>& value) {
+                               value[0] = statistic(chosen);
+                             })
+      .front();
 }
 
 }  // namespace joulepath

@@ -18,15 +18,6 @@ bool is_active(const Candidate& candidate, const ModelState& state, std::size_t&
   return false;
 }
 
-/// Central difference of predictions along one parameter.
-template <class PredictAt>
-Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
-                           double low, double high, PredictAt&& predict_at) {
-  const Eigen::MatrixXd up = signature_rows(signals, point, base, predict_at(high));
-  if (low == 0) return up / high;
-  return (up - signature_rows(signals, point, base, predict_at(low))) / (high - low);
-}
-
 /// The state with one candidate's amplitudes set; replaces the active effect of the same label.
 ModelState with_effect(ModelState state, const Candidate& candidate, const std::vector<double>& amplitude) {
   std::size_t index;
@@ -35,6 +26,15 @@ ModelState with_effect(ModelState state, const Candidate& candidate, const std::
   else
     state.effects.push_back({candidate, amplitude});
   return state;
+}
+
+/// Central difference of predictions along one parameter.
+template <class PredictAt>
+Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
+                           double low, double high, PredictAt&& predict_at) {
+  const Eigen::MatrixXd up = signature_rows(signals, point, base, predict_at(high));
+  if (low == 0) return up / high;
+  return (up - signature_rows(signals, point, base, predict_at(low))) / (high - low);
 }
 
 constexpr int kFormCount = 5;
@@ -93,17 +93,10 @@ class Differencer {
   }
 
   Eigen::MatrixXd amplitude(const Candidate& candidate, std::size_t part) const {
-    std::size_t index;
-    std::vector<double> value(candidate.amplitude.size(), 0.0);
-    if (is_active(candidate, state_, index)) value = state_.effects[index].amplitude;
     if (candidate.shape.name == "time_misalignment") return delay();
-    const double step = candidate.step[part] * 0.5;
-    const bool one_sided = candidate.nonnegative && value[part] < step;
-    return difference(signals_, point_, base_, one_sided ? 0.0 : -step, step, [&](double change) {
-      std::vector<double> moved = value;
-      moved[part] += change;
-      return at(with_effect(state_, candidate, moved));
-    });
+    const AmplitudeStep step = amplitude_step(state_, candidate, part);
+    return difference(signals_, point_, base_, step.low, step.high,
+                      [&](double change) { return at(with_change(state_, candidate, step, part, change)); });
   }
 
   Eigen::MatrixXd shape(const Candidate& candidate, const std::string& parameter) const {
@@ -170,6 +163,22 @@ class Differencer {
 };
 
 }  // namespace
+
+AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate, std::size_t part) {
+  AmplitudeStep step{.value = std::vector<double>(candidate.amplitude.size(), 0.0)};
+  std::size_t index;
+  if (is_active(candidate, state, index)) step.value = state.effects[index].amplitude;
+  step.high = candidate.step[part] * 0.5;
+  step.low = candidate.nonnegative && step.value[part] < step.high ? 0.0 : -step.high;
+  return step;
+}
+
+ModelState with_change(const ModelState& state, const Candidate& candidate, const AmplitudeStep& step,
+                       std::size_t part, double change) {
+  std::vector<double> moved = step.value;
+  moved[part] += change;
+  return with_effect(state, candidate, moved);
+}
 
 std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
                                  const ModelState& state, const std::vector<Candidate>& candidates,

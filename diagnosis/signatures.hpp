@@ -7,6 +7,20 @@
 
 namespace joulepath {
 
+/// Where a candidate's amplitudes stand in a state, and the changes of one of them that difference it: from
+/// `low` (0 where physics allows no less) to `high`.
+struct AmplitudeStep {
+  std::vector<double> value{};
+  double low{};
+  double high{};
+};
+[[nodiscard]] AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate,
+                                           std::size_t part);
+
+/// The state with that amplitude changed; the candidate is added where the state does not have it.
+[[nodiscard]] ModelState with_change(const ModelState& state, const Candidate& candidate,
+                                     const AmplitudeStep& step, std::size_t part, double change);
+
 /// Columns of the linear problem about a state, without rows: nuisances, candidates, shapes of the
 /// state's own effects, dictionary.
 [[nodiscard]] std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,

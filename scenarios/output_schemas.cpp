@@ -60,10 +60,12 @@ Schema gap_schema() {
 }
 
 Schema where_schema() {
-  return list(open(map({required("axis", choice({"phase", "wheel", "speed", "payload", "floor", "heading",
-                                                 "direction", "time_of_day", "channel", "run"})),
-                        required("value", text()), required("share_of_gap", result()),
-                        required("energy_J", result()), required("interval_95", interval())})));
+  return list(open(
+      map({required("axis", choice({"phase", "wheel", "speed", "payload", "floor", "heading", "direction",
+                                    "time_of_day", "channel", "run", "path", "acceleration"})),
+           required("value", text()), required("share_of_gap", result()), required("energy_J", result()),
+           required("interval_95", interval()),
+           optional("bias_percent", result(), "predicted - measured, of the cell's energy")})));
 }
 
 Schema cause_schema() {

@@ -62,6 +62,16 @@ Json gap_json(const GapReport& gap) {
           {"energy_by_phase", phases}};
 }
 
+Json where_json(const WhereCell& cell) {
+  Json json{{"axis", cell.axis},
+            {"value", cell.value},
+            {"share_of_gap", rounded(cell.share_of_gap)},
+            {"energy_J", rounded(cell.energy_J)},
+            {"interval_95", interval(cell.interval_95)}};
+  if (cell.bias_percent) json["bias_percent"] = rounded(*cell.bias_percent);
+  return json;
+}
+
 Json cause_json(const Cause& cause) {
   Json parameters = Json::object();
   if (cause.effect.side) parameters["side"] = {{"value", side_name(*cause.effect.side)}};
@@ -109,12 +119,7 @@ Json next_json(const NextExperiment& next) {
 
 std::string diagnosis_json(const Diagnosis& d) {
   Json where = Json::array(), causes = Json::array(), ranking = Json::array();
-  for (const WhereCell& cell : d.where)
-    where.push_back({{"axis", cell.axis},
-                     {"value", cell.value},
-                     {"share_of_gap", rounded(cell.share_of_gap)},
-                     {"energy_J", rounded(cell.energy_J)},
-                     {"interval_95", interval(cell.interval_95)}});
+  for (const WhereCell& cell : d.where) where.push_back(where_json(cell));
   for (const Cause& cause : d.causes) causes.push_back(cause_json(cause));
   for (const RankedEffect& r : d.ranking)
     ranking.push_back({{"effect", r.effect}, {"probability", rounded(r.probability)}});

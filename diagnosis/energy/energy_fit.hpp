@@ -1,0 +1,42 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "diagnosis/attribution.hpp"
+#include "diagnosis/energy/energy_equations.hpp"
+
+namespace joulepath {
+
+/// Everything that may be asked of runs without a log, linearized about the robot file.
+struct EnergyProblem {
+  const Robot& robot;
+  std::vector<EnergyRun> runs{};
+  std::vector<Nuisance> nuisances{};
+  EnergyNoise noise{};
+  Equations equations{};           ///< whole catalog, less what energies cannot show at all
+  std::vector<int> visible{};      ///< candidates that these runs could show
+  std::set<std::string> hidden{};  ///< labels of the others
+};
+
+[[nodiscard]] EnergyProblem pose_energy_problem(const Robot& robot, std::vector<EnergyRun> runs,
+                                                const std::set<std::string>& without);
+
+/// Weighs sets of at most two effects on some of the runs; best first, only material ones.
+[[nodiscard]] std::vector<Explanation> explain_energies(const EnergyProblem& problem,
+                                                        const std::vector<std::size_t>& which);
+
+/// A set of effects fitted to energies by Gauss-Newton on full predictions.
+struct EnergyFit {
+  ModelState state{};
+  Eigen::VectorXd doubts{};           ///< of the motion, in sigmas
+  std::vector<Eigen::VectorXd> sd{};  ///< per effect: of its amplitudes
+};
+[[nodiscard]] EnergyFit fit_energies(const EnergyProblem& problem, const std::vector<std::size_t>& which,
+                                     const std::vector<Candidate>& effects);
+
+/// Predicted less measured energy (J) of some runs.
+[[nodiscard]] Eigen::VectorXd energy_gaps_J(const EnergyProblem& problem, const EnergyFit& fit,
+                                            const std::vector<std::size_t>& which);
+
+}  // namespace joulepath
