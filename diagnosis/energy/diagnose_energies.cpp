@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLeastRunsToName = 8;  ///< two numbers each, against a whole catalog
 constexpr double kSureEnough = 0.9;
+constexpr double kSurest = 0.995;
 constexpr double kMaterialGap_percent = 2.0;
 constexpr double kFloorsLeft = 2.0;  ///< a held-out gap above so many noise floors is not explained
 constexpr double kLeastProbability = 1e-4;
@@ -67,7 +68,7 @@ void measure(EnergyExamination& x, const HeldOutGaps& gaps) {
   energy.after_percent = 100 * energy.after_J / measured_J;
   energy.bias_before_percent = 100 * bias_before_J / measured_J;
   energy.bias_after_percent = 100 * bias_after_J / measured_J;
-  energy.noise_floor_percent = noise_floor_percent(x.problem.noise);
+  energy.noise_floor_percent = noise_floor_percent(x.problem.repeatability);
   const auto shrink = [&](const std::vector<std::size_t>& rows) {
     double before = 0, after = 0;
     for (std::size_t i : rows) before += std::abs(gaps.before_J[i]), after += std::abs(gaps.after_J[i]);
@@ -85,9 +86,27 @@ bool is_left(const EnergyGap& energy, double percent) {
   return percent > std::max(kFloorsLeft * energy.noise_floor_percent, kMaterialGap_percent);
 }
 
+/// Nothing is corrected; the candidates stay in the ranking.
+void correct_nothing(EnergyGap& energy) {
+  energy.after_J = energy.before_J, energy.after_percent = energy.before_percent;
+  energy.bias_after_percent = energy.bias_before_percent;
+  energy.shrink_fraction = 0, energy.shrink_interval_95 = {};
+}
+
+void withdraw(EnergyExamination& x) {
+  EnergyGap& energy = x.report.gap.energy;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the best explanation turns a gap of %.3g %% on held-out rows into one of %.3g %% and was "
+                "withdrawn",
+                energy.before_percent, energy.after_percent);
+  x.report.notes.emplace_back(text);
+  x.report.verdict = is_left(energy, energy.before_percent) ? Verdict::unexplained : Verdict::too_little_data;
+}
+
 /// Names that chance or the robot file itself would do for are not given.
 void judge(EnergyExamination& x) {
-  const EnergyGap& energy = x.report.gap.energy;
+  EnergyGap& energy = x.report.gap.energy;
   const std::vector<int>& best = x.explanations.front().candidates;
   if (x.problem.runs.size() < kLeastRunsToName) {
     x.report.verdict = Verdict::too_little_data;
@@ -95,17 +114,16 @@ void judge(EnergyExamination& x) {
                              " runs: candidates only; log speed, voltage and current of some");
     return;
   }
-  if (best.empty() || energy.shrink_interval_95.first <= 0) {
-    if (!best.empty())
-      x.report.notes.push_back(
-          "the best explanation does not shrink the gap of held-out rows for sure and "
-          "was withdrawn");
-    const double left = best.empty() ? energy.after_percent : energy.before_percent;
-    x.report.verdict = is_left(energy, left) ? Verdict::unexplained : Verdict::no_gap;
+  if (best.empty()) {
+    x.report.verdict = is_left(energy, energy.before_percent) ? Verdict::unexplained : Verdict::no_gap;
     return;
   }
-  for (int c : best) x.named.push_back(x.problem.equations.candidates[static_cast<std::size_t>(c)]);
-  x.report.verdict = is_left(energy, energy.after_percent) ? Verdict::partly_explained : Verdict::explained;
+  if (energy.shrink_interval_95.first <= 0) {
+    withdraw(x);
+    return;
+  }
+  x.named = candidates_of(x.problem, x.explanations.front());
+  x.report.verdict = Verdict::explained;  // or less, as report_causes() finds
 }
 
 std::vector<FoundParameter> parameters_of(const EnergyFit& fit, std::size_t e, const Robot& robot) {
@@ -131,12 +149,15 @@ void report_causes(EnergyExamination& x) {
   const std::vector<std::size_t> all = every(x.problem.runs.size());
   const EnergyFit fit = fit_energies(x.problem, all, x.named);
   const Explanation& best = x.explanations.front();
-  bool sure = true;
+  // The motion was not recorded: a part that is left may be its doing, and so may the part explained.
+  const EnergyGap& energy = x.report.gap.energy;
+  const double left = is_left(energy, energy.after_percent) ? energy.after_J / energy.before_J : 0.0;
+  bool sure = left == 0;
   double changes_J = 0;
   for (std::size_t e = 0; e < x.named.size(); ++e) {
     const std::string label = x.named[e].label();
     Cause cause{.effect = setting_of(x.named[e], fit.state.effects[e].amplitude, x.problem.robot),
-                .probability = std::min(0.995, probabilities.at(label)),
+                .probability = (1 - left) * std::min(kSurest, probabilities.at(label)),
                 .indistinguishable_from = stand_ins(x.problem.equations, x.explanations, best.candidates[e]),
                 .parameters = parameters_of(fit, e, x.problem.robot)};
     if (!cause.indistinguishable_from.empty() && x.report.pinned_combination.empty())
@@ -154,7 +175,7 @@ void report_causes(EnergyExamination& x) {
   }
   for (Cause& cause : x.report.causes) cause.energy_share /= std::max(1e-9, changes_J);
   if (!sure) x.report.verdict = Verdict::ambiguous;
-  if (sure && x.report.verdict == Verdict::explained) {
+  if (sure) {
     x.report.corrected_robot = x.problem.robot;
     for (const EffectSetting& setting : settings_of(x.problem.robot, fit.state))
       (is_instrument(setting.name) ? x.report.corrected_instruments : x.report.corrected_robot->effects)
@@ -199,7 +220,8 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
   EnergyExamination x{.options = options,
                       .problem = pose_energy_problem(dataset.robot, energy_runs(dataset), options.without)};
   tell_limits(x);
-  x.report.where = localize_energy_gap(x.problem.runs, dataset.robot, x.problem.noise, options.bootstrap);
+  x.report.where =
+      localize_energy_gap(x.problem.runs, dataset.robot, x.problem.repeatability, options.bootstrap);
   x.folds = energy_folds(dataset, x.problem.runs);
   x.explanations =
       explain_energies(x.problem, x.folds.size() == 1 && x.problem.runs.size() >= kLeastRunsToName
@@ -213,7 +235,10 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
       x.folds.size() == 1 ? "held-out rows, never used to choose or fit"
                           : "each row in turn, its effects chosen and fitted on the other folds' rows";
   judge(x);
-  if (!x.named.empty()) report_causes(x);
+  if (x.named.empty())
+    correct_nothing(x.report.gap.energy);
+  else
+    report_causes(x);
   describe_leftover(x);
   report_controls(x);
   return std::move(x.report);

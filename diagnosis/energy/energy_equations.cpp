@@ -17,17 +17,6 @@ constexpr double kLeastScatter = 0.005;  ///< what a wattmeter and a stop watch 
 constexpr double kSmoothPriorSd = 0.2;   ///< of the smooth function's coefficients
 constexpr double kLeastFreedom = 4;      ///< degrees of freedom to estimate a scatter from
 
-/// Sum and difference of the wheels, or the battery's energy alone.
-Eigen::VectorXd rows_of(const EnergyRun& run, const RunJoules& joules) {
-  if (!run.wheel_J) return Eigen::VectorXd::Constant(1, joules.battery_J);
-  return Eigen::Vector2d(joules.wheel_J.left + joules.wheel_J.right,
-                         joules.wheel_J.right - joules.wheel_J.left);
-}
-
-RunJoules measured_joules(const EnergyRun& run) {
-  return {.wheel_J = run.wheel_J.value_or(Sided<double>{}), .battery_J = run.battery_J.value_or(0.0)};
-}
-
 Eigen::VectorXd row_scatter_J(const EnergyRun& run, const EnergyNoise& noise) {
   const double joules = std::abs(run.measured_J());
   if (!run.wheel_J) return Eigen::VectorXd::Constant(1, joules * noise.sum);
@@ -73,7 +62,7 @@ Eigen::VectorXd relative_errors(const std::vector<EnergyRun>& runs, const std::v
   for (std::size_t k = 0; k < which.size(); ++k) {
     const EnergyRun& run = runs[which[k]];
     const Eigen::VectorXd gap =
-        rows_of(run, joules_of(run.motion, {.robot = robot})) - rows_of(run, measured_joules(run));
+        energy_rows(run, joules_of(run.motion, {.robot = robot})) - measured_rows(run);
     error[static_cast<Eigen::Index>(k)] = gap[row] / std::abs(run.measured_J());
   }
   return error;
@@ -92,11 +81,11 @@ Eigen::MatrixXd run_matrix(const EnergyRun& run, const Robot& robot, const std::
                            const ModelState& state, const std::vector<Candidate>& candidates,
                            const std::vector<Column>& columns, const EnergyNoise& noise) {
   const auto at = [&](const DrivenMotion& motion, const ModelState& s) {
-    return rows_of(run, joules_of(motion, model_point(robot, nuisances, s)));
+    return energy_rows(run, joules_of(motion, model_point(robot, nuisances, s)));
   };
   const Eigen::VectorXd base = at(run.motion, state);
   Eigen::MatrixXd matrix(base.size(), static_cast<Eigen::Index>(columns.size()) + 1);
-  matrix.col(matrix.cols() - 1) = rows_of(run, measured_joules(run)) - base;
+  matrix.col(matrix.cols() - 1) = measured_rows(run) - base;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const Column& column = columns[k];
     const auto owner = static_cast<std::size_t>(column.owner);
@@ -124,6 +113,17 @@ Eigen::MatrixXd run_matrix(const EnergyRun& run, const Robot& robot, const std::
 }
 
 }  // namespace
+
+Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules) {
+  if (!run.wheel_J) return Eigen::VectorXd::Constant(1, joules.battery_J);
+  return Eigen::Vector2d(joules.wheel_J.left + joules.wheel_J.right,
+                         joules.wheel_J.right - joules.wheel_J.left);
+}
+
+Eigen::VectorXd measured_rows(const EnergyRun& run) {
+  return energy_rows(
+      run, {.wheel_J = run.wheel_J.value_or(Sided<double>{}), .battery_J = run.battery_J.value_or(0.0)});
+}
 
 EnergyNoise estimate_energy_noise(const std::vector<EnergyRun>& runs, const Robot& robot) {
   std::vector<std::size_t> of_wheels;

@@ -7,6 +7,10 @@
 
 namespace joulepath {
 
+/// What is compared of a run: sum of the wheels, right less left; or the battery's energy alone (J).
+[[nodiscard]] Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules);
+[[nodiscard]] Eigen::VectorXd measured_rows(const EnergyRun& run);
+
 /// How much energies scatter from run to run for no reason that the runs tell, relative to a run's energy.
 struct EnergyNoise {
   double sum{};         ///< of both wheels, or of the battery

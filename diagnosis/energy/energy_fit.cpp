@@ -9,6 +9,7 @@ namespace joulepath {
 namespace {
 
 constexpr int kIterations = 3;
+constexpr int kNoiseRounds = 4;
 constexpr int kMostEffects = 2;         ///< a sum and a difference per run do not carry more
 constexpr double kMaterial = 0.01;      ///< of the energy
 constexpr double kVisibleSigmas = 2.0;  ///< that a large effect must move the data beyond calibration
@@ -55,7 +56,46 @@ std::vector<double> least_amplitudes(const EnergyProblem& problem) {
   return least;
 }
 
+/// Root mean square of what a fit leaves of one row of each run that has it, relative to the run's energy.
+double left_over(const EnergyProblem& problem, const EnergyFit& fit, Eigen::Index row) {
+  double square = 0, count = 0;
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    const Eigen::VectorXd gap_J = row_gaps_J(problem, fit, r);
+    if (row >= gap_J.size()) continue;
+    square += std::pow(gap_J[row] / problem.runs[r].measured_J(), 2), count += 1;
+  }
+  const double freedom = count - static_cast<double>(fit.state.effects.size()) - 1;
+  return freedom > 0 ? std::sqrt(square / freedom) : 0.0;
+}
+
+void linearize(EnergyProblem& problem, const std::vector<Candidate>& candidates) {
+  problem.equations =
+      build_energy_equations(problem.runs, problem.robot, problem.nuisances,
+                             {.nuisance_fraction = std::vector<double>(problem.nuisances.size(), 0.0)},
+                             no_doubts(), candidates, problem.noise);
+}
+
+/// What the best explanation leaves is not noise of the readings, but it says how far the model can be
+/// believed: the scatter grows until the best explanation is as good as it claims.
+void add_model_error(EnergyProblem& problem) {
+  for (int round = 0; round < kNoiseRounds; ++round) {
+    const Explanation best = explain_energies(problem, every(problem.runs.size())).front();
+    if (best.candidates.empty()) return;
+    const EnergyFit fit = fit_energies(problem, every(problem.runs.size()), candidates_of(problem, best));
+    problem.noise.sum = std::max(problem.noise.sum, left_over(problem, fit, 0));
+    problem.noise.difference = std::max(problem.noise.difference, left_over(problem, fit, 1));
+    linearize(problem, std::vector<Candidate>(problem.equations.candidates));
+  }
+}
+
 }  // namespace
+
+std::vector<Candidate> candidates_of(const EnergyProblem& problem, const Explanation& explanation) {
+  std::vector<Candidate> candidates;
+  for (int c : explanation.candidates)
+    candidates.push_back(problem.equations.candidates[static_cast<std::size_t>(c)]);
+  return candidates;
+}
 
 EnergyProblem pose_energy_problem(const Robot& robot, std::vector<EnergyRun> runs,
                                   const std::set<std::string>& without) {
@@ -64,11 +104,10 @@ EnergyProblem pose_energy_problem(const Robot& robot, std::vector<EnergyRun> run
   std::set<std::string> left_out = beyond_energies(problem.runs);
   problem.hidden = left_out;
   left_out.insert(without.begin(), without.end());
-  problem.equations =
-      build_energy_equations(problem.runs, robot, problem.nuisances,
-                             {.nuisance_fraction = std::vector<double>(problem.nuisances.size(), 0.0)},
-                             no_doubts(), catalog_candidates(robot, left_out), problem.noise);
+  linearize(problem, catalog_candidates(robot, left_out));
   find_visible(problem);
+  problem.repeatability = problem.noise;
+  add_model_error(problem);
   return problem;
 }
 
@@ -113,19 +152,22 @@ EnergyFit fit_energies(const EnergyProblem& problem, const std::vector<std::size
   return fit;
 }
 
+Eigen::VectorXd row_gaps_J(const EnergyProblem& problem, const EnergyFit& fit, std::size_t r) {
+  const ModelPoint point = model_point(problem.robot, problem.nuisances, fit.state);
+  const EnergyRun& run = problem.runs[r];
+  const auto rows = [&](const DrivenMotion& motion) { return energy_rows(run, joules_of(motion, point)); };
+  Eigen::VectorXd predicted_J = rows(run.motion);
+  for (std::size_t k = 0; k < kMotionDoubts.size(); ++k)
+    predicted_J +=
+        0.5 * fit.doubts[static_cast<Eigen::Index>(k)] * (rows(run.doubted[k][1]) - rows(run.doubted[k][0]));
+  return predicted_J - measured_rows(run);
+}
+
 Eigen::VectorXd energy_gaps_J(const EnergyProblem& problem, const EnergyFit& fit,
                               const std::vector<std::size_t>& which) {
-  const ModelPoint point = model_point(problem.robot, problem.nuisances, fit.state);
   Eigen::VectorXd gap_J(static_cast<Eigen::Index>(which.size()));
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    const EnergyRun& run = problem.runs[which[i]];
-    double predicted_J = run.of(joules_of(run.motion, point));
-    for (std::size_t k = 0; k < kMotionDoubts.size(); ++k)
-      predicted_J +=
-          0.5 * fit.doubts[static_cast<Eigen::Index>(k)] *
-          (run.of(joules_of(run.doubted[k][1], point)) - run.of(joules_of(run.doubted[k][0], point)));
-    gap_J[static_cast<Eigen::Index>(i)] = predicted_J - run.measured_J();
-  }
+  for (std::size_t i = 0; i < which.size(); ++i)
+    gap_J[static_cast<Eigen::Index>(i)] = row_gaps_J(problem, fit, which[i])[0];
   return gap_J;
 }
 

@@ -13,7 +13,8 @@ struct EnergyProblem {
   const Robot& robot;
   std::vector<EnergyRun> runs{};
   std::vector<Nuisance> nuisances{};
-  EnergyNoise noise{};
+  EnergyNoise repeatability{};     ///< of the readings
+  EnergyNoise noise{};             ///< with what the best explanation leaves
   Equations equations{};           ///< whole catalog, less what energies cannot show at all
   std::vector<int> visible{};      ///< candidates that these runs could show
   std::set<std::string> hidden{};  ///< labels of the others
@@ -34,6 +35,12 @@ struct EnergyFit {
 };
 [[nodiscard]] EnergyFit fit_energies(const EnergyProblem& problem, const std::vector<std::size_t>& which,
                                      const std::vector<Candidate>& effects);
+
+[[nodiscard]] std::vector<Candidate> candidates_of(const EnergyProblem& problem,
+                                                   const Explanation& explanation);
+
+/// Predicted less measured rows (J) of a run: sum of the wheels, right less left; or the battery.
+[[nodiscard]] Eigen::VectorXd row_gaps_J(const EnergyProblem& problem, const EnergyFit& fit, std::size_t run);
 
 /// Predicted less measured energy (J) of some runs.
 [[nodiscard]] Eigen::VectorXd energy_gaps_J(const EnergyProblem& problem, const EnergyFit& fit,

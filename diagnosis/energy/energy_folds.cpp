@@ -59,9 +59,8 @@ std::vector<EnergyFold> energy_folds(const Dataset& dataset, const std::vector<E
 
 HeldOutGaps held_out_gaps(const EnergyProblem& problem, const std::vector<EnergyFold>& folds) {
   return gather(problem, folds, [&](const EnergyFold& fold) {
-    const Explanation best = explain_energies(problem, fold.fitted).front();
-    std::vector<Candidate> chosen;
-    for (int c : best.candidates) chosen.push_back(problem.equations.candidates[static_cast<std::size_t>(c)]);
+    const std::vector<Candidate> chosen =
+        candidates_of(problem, explain_energies(problem, fold.fitted).front());
     return energy_gaps_J(problem, fit_energies(problem, fold.fitted, chosen), fold.judged);
   });
 }
