@@ -73,7 +73,10 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   }
   prepare(x);
   x.id = identify(x.diagnosis, {.without = options.without});
-  x.report.where = localize_gap(x.all_signals, x.nominal, x.id.equations.noise, options.bootstrap);
+  const std::vector<OtherPrediction> others = other_predictions(x.dataset, x.all_signals, sampling(x));
+  if (const std::string told = told_by_others(x.all_signals, others); !told.empty())
+    x.report.notes.push_back(told);
+  x.report.where = localize_gap(x.all_signals, others, x.nominal, x.id.equations.noise, options.bootstrap);
   choose_names(x);
   rank_effects(x);
   judge(x);

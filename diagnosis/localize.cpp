@@ -31,9 +31,10 @@ std::string floor_cell(double x_m, double y_m) {
 
 class Localizer {
  public:
-  Localizer(const std::vector<RunSignals>& signals, const ModelPoint& nominal, const NoiseModel& noise)
+  Localizer(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+            const ModelPoint& nominal, const NoiseModel& noise)
       : nominal_(nominal), noise_(noise), ledger_(signals.size()) {
-    for (std::size_t r = 0; r < signals.size(); ++r) add_run(signals[r], r);
+    for (std::size_t r = 0; r < signals.size(); ++r) add_run(signals[r], others[r], r);
   }
   const GapLedger& ledger() const { return ledger_; }
 
@@ -49,8 +50,8 @@ class Localizer {
                      (voltage_V * voltage_V * sd_A * sd_A + current_A * current_A * sd_V2));
   }
 
-  void add_run(const RunSignals& run, std::size_t r) {
-    const Prediction p = predict(run, nominal_);
+  void add_run(const RunSignals& run, const OtherPrediction& other, std::size_t r) {
+    const Prediction p = in_place_of(predict(run, nominal_), other);
     const ResidualRows rows = residual_rows(run, nominal_, p);
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(run, side);
@@ -114,9 +115,10 @@ class Localizer {
 
 }  // namespace
 
-std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals, const ModelPoint& nominal,
+std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
+                                    const std::vector<OtherPrediction>& others, const ModelPoint& nominal,
                                     const NoiseModel& noise, std::size_t bootstrap) {
-  return Localizer(signals, nominal, noise)
+  return Localizer(signals, others, nominal, noise)
       .ledger()
       .cells({"phase", "wheel", "speed", "payload", "floor", "heading", "direction", "time_of_day", "channel",
               "run"},

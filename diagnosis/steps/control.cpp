@@ -6,6 +6,7 @@
 
 #include "diagnosis/gap.hpp"
 #include "diagnosis/held_out.hpp"
+#include "diagnosis/steps/ceiling.hpp"
 
 namespace joulepath {
 namespace {
@@ -30,12 +31,8 @@ ActiveEffect with_amplitudes(const Candidate& candidate, const Explanation& expl
 }  // namespace
 
 void report_control(Examination& x) {
-  const EnergyGap& energy = x.report.gap.energy;
-  const double base_J = energy.before_J;
-  x.report.ceiling_shrink_fraction =
-      base_J > 0
-          ? std::clamp(1 - energy.noise_floor_percent / std::max(1e-9, energy.before_percent), 0.0, 1.0)
-          : 0.0;
+  const double base_J = x.report.gap.energy.before_J;
+  x.report.ceiling_shrink_fraction = ceiling_shrink_fraction(x);
   if (x.named.empty()) return;
   const std::set<std::string> spoken_for = labels_spoken_for(x);
   for (const Explanation& e : x.id.explanations) {
