@@ -31,7 +31,8 @@ class FrontStretch {
       envelope_ = nlp::rate_envelope(problem_);
       if (envelope_.blocked) return;
       const Profile fastest = profile_from_squares(problem_.s, envelope_.fastest);
-      const nlp::DenseCheck check = nlp::check_densely(problem_, motion_, fastest, 1.0);
+      const nlp::DenseCheck check = nlp::check_densely(
+          problem_, motion_, fastest, nlp::counted_energy_J(problem_, envelope_.fastest), 1.0);
       if (check.worst_ratio <= 1 + 1e-6) break;
       tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
     }
@@ -46,6 +47,7 @@ class FrontStretch {
   const ProfileRequest& request() const { return request_; }
 
   std::optional<Sum> at_price(double price_W) {
+    if (jerk_limited()) return planned_at_price(price_W);
     if (std::isinf(price_W) || problem_.unknown_count() == 0) return sum_of(envelope_.fastest);
     problem_.time_weight_W = request_.plant.robot.power.standby_W + price_W;
     nlp::Solution solution = nlp::solve_fast(problem_, start_, {.tolerance = 1e-8});
@@ -55,15 +57,22 @@ class FrontStretch {
   }
 
  private:
+  bool jerk_limited() const { return std::isfinite(request_.limits.jerk_m_s3) && !is_turn(request_.piece); }
+
+  /// A whole plan per price: under a jerk limit squares of the rate alone are not the unknowns.
+  std::optional<Sum> planned_at_price(double price_W) const {
+    ProfileRequest request = request_;
+    request.time = std::isinf(price_W) ? TimeGoal{.mode = TimeMode::minimum_time}
+                                       : TimeGoal{.mode = TimeMode::time_price, .price_W = price_W};
+    const ProfileResult result = solve_profile(request);
+    if (!result.profile) return std::nullopt;
+    const double energy_J = energy_by_cause(motion_, *result.profile).motion_J();
+    return Sum{.duration_s = result.profile->duration_s(), .motion_energy_J = energy_J};
+  }
+
   Sum sum_of(const std::vector<double>& b) const {
-    Sum sum;
-    const double weight = 1 - request_.plant.robot.power.regeneration_efficiency;
-    for (std::size_t k = 0; k < problem_.segment_count(); ++k) {
-      const nlp::Interval<double> interval = nlp::plain_interval(problem_.segments[k], b[k], b[k + 1]);
-      sum.duration_s += interval.dt;
-      for (double energy_J : nlp::Energy::both(interval))
-        sum.motion_energy_J += energy_J + weight * std::max(0.0, -energy_J);
-    }
+    Sum sum{.duration_s = duration_of(problem_, b)};
+    for (double energy_J : nlp::counted_energy_J(problem_, b)) sum.motion_energy_J += energy_J;
     return sum;
   }
 

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/first_guess.hpp"
 #include "planner/infeasibility_finder.hpp"
-#include "planner/jerk_filter.hpp"
+#include "planner/jerk_profile.hpp"
 #include "planner/nlp/certificate.hpp"
 #include "planner/nlp/dense_check.hpp"
 #include "planner/nlp/fast_solver.hpp"
@@ -10,6 +11,7 @@
 #include "planner/nlp/grid.hpp"
 #include "planner/nlp/ipopt_solver.hpp"
 #include "planner/profile.hpp"
+#include "planner/request_check.hpp"
 
 namespace joulepath {
 namespace {
@@ -19,45 +21,6 @@ using nlp::Problem;
 constexpr int kRounds = 12;         ///< of tightening and refinement
 constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
 constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
-
-std::vector<double> blend(const nlp::RateEnvelope& envelope, double share) {
-  std::vector<double> b(envelope.fastest.size());
-  for (std::size_t k = 0; k < b.size(); ++k)
-    b[k] = share * envelope.fastest[k] + (1 - share) * envelope.slowest[k];
-  b.front() = envelope.fastest.front();
-  b.back() = envelope.fastest.back();
-  return b;
-}
-
-/// A profile between the slowest and the fastest that takes about `duration_s`.
-std::vector<double> guess(const Problem& problem, const nlp::RateEnvelope& envelope, double duration_s) {
-  double low = 1e-12, high = 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double share = std::sqrt(low * high);
-    (duration_of(problem, blend(envelope, share)) > duration_s ? low : high) = share;
-  }
-  return blend(envelope, std::min(high, 0.9999));
-}
-
-std::optional<Infeasibility> senseless(const ProfileRequest& request) {
-  const double length = piece_length(request.piece);
-  if (!(std::isfinite(length) && length > 0))
-    return explain_request(request, "path", "the path has no length: nothing to drive");
-  if (!(request.start_rate >= 0) || !(request.end_rate >= 0) ||
-      !std::isfinite(request.start_rate + request.end_rate))
-    return explain_request(request, "start_speed", "start and end speed must be 0 or more");
-  const Limits& limits = request.limits;
-  for (double limit : {limits.speed_m_s, limits.acceleration_m_s2, limits.deceleration_m_s2,
-                       limits.lateral_acceleration_m_s2, limits.yaw_rate_rad_s,
-                       limits.yaw_acceleration_rad_s2, limits.wheel_acceleration_rad_s2,
-                       limits.traction_coefficient, limits.motor_power_W, limits.battery_power_W})
-    if (!(limit >= 0)) return explain_request(request, "limits", "a limit must be a number of 0 or more");
-  if (std::isnan(limits.jerk_m_s3))
-    return explain_request(request, "limits", "a jerk limit must be a number");
-  if (!(request.payload.from_kg >= 0) || !(request.payload.to_kg >= 0))
-    return explain_request(request, "payload", "a payload must be a number of 0 or more");
-  return std::nullopt;
-}
 
 class ProfileSolver {
  public:
@@ -71,7 +34,8 @@ class ProfileSolver {
       const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
       result_.summary.nodes = problem.node_count();
       if (!solve_on(problem)) return std::move(result_);
-      const nlp::DenseCheck check = nlp::check_densely(problem, motion_, *best_, request_.accuracy);
+      const nlp::DenseCheck check = nlp::check_densely(
+          problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), request_.accuracy);
       const bool accurate =
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool last = round + 1 == kRounds;
@@ -109,7 +73,7 @@ class ProfileSolver {
     const bool equal = problem.duration_row == nlp::DurationRow::equal;
     const double aim_s =
         equal ? problem.duration_s : std::min(0.9 * problem.duration_s + 0.1 * minimum_s, 1.5 * minimum_s);
-    const std::vector<double> start = guess(problem, envelope, aim_s);
+    const std::vector<double> start = first_guess(problem, envelope, aim_s);
     SolveSummary& summary = result_.summary;
     const char* solver = "fast";
     if (request_.solver == SolverChoice::fast && summary.handed_over.empty()) {
@@ -135,6 +99,7 @@ class ProfileSolver {
 
   bool take(const Problem& problem, const std::vector<double>& b, const char* solver) {
     result_.summary.solver = solver;
+    best_b_ = b;
     best_ = profile_from_squares(problem.s, b);
     return true;
   }
@@ -225,6 +190,7 @@ class ProfileSolver {
   const ProfileRequest& request_;
   PathMotion motion_;
   ProfileResult result_{};
+  std::vector<double> best_b_{};  ///< squares of the rate
   std::optional<Profile> best_{};
   nlp::Solution solution_{};
   double last_ratio_{};

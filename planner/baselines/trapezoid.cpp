@@ -105,7 +105,6 @@ double TrapezoidFamily::duration_s(const std::vector<double>& b) const {
 
 double TrapezoidFamily::energy_J(const std::vector<double>& b) const {
   constexpr double kTolerance = 2e-5;
-  const double weight = 1 - request_->plant.robot.power.regeneration_efficiency;
   double sum_J = 0;
   for (std::size_t k = 0; k < problem_.segment_count(); ++k) {
     const nlp::Interval<double> interval = nlp::plain_interval(problem_.segments[k], b[k], b[k + 1]);
@@ -116,7 +115,7 @@ double TrapezoidFamily::energy_J(const std::vector<double>& b) const {
           value < row.bounds.low - kTolerance * std::abs(row.bounds.low))
         return kNoLimit;
     }
-    for (double energy_J : nlp::Energy::both(interval)) sum_J += energy_J + weight * std::max(0.0, -energy_J);
+    sum_J += nlp::kept_energy_J(interval);
   }
   return sum_J;
 }

@@ -9,8 +9,8 @@ namespace joulepath::nlp {
 namespace {
 
 double smallest_eigenvalue(const Jet& jet) {
-  const double middle = 0.5 * (jet.d00 + jet.d11), half = 0.5 * (jet.d00 - jet.d11);
-  return middle - std::hypot(half, jet.d01);
+  const double middle = 0.5 * (jet.dd[0] + jet.dd[2]), half = 0.5 * (jet.dd[0] - jet.dd[2]);
+  return middle - std::hypot(half, jet.dd[1]);
 }
 
 class Certifier {
@@ -58,7 +58,7 @@ class Certifier {
         if (b0 + b1 <= 0) continue;
         const Jet jet = lagrangian(k, b0, b1);
         if (fixed0 && fixed1) continue;
-        least = std::min(least, fixed0 ? jet.d11 : fixed1 ? jet.d00 : smallest_eigenvalue(jet));
+        least = std::min(least, fixed0 ? jet.dd[2] : fixed1 ? jet.dd[0] : smallest_eigenvalue(jet));
         if (fixed1) break;
       }
       if (fixed0) break;
@@ -91,10 +91,10 @@ Certificate certify(const Problem& problem, const Solution& solution, const std:
     }
     const Jet part = certifier.lagrangian(k, b[k], b[k + 1]);
     bound += part.value;
-    slope[k] += part.d0;
-    slope[k + 1] += part.d1;
+    slope[k] += part.d[0];
+    slope[k + 1] += part.d[1];
     const double curvature = certifier.least_curvature(k, reach(k), reach(k + 1));
-    if (curvature >= -1e-9 * (std::abs(part.d00) + std::abs(part.d11))) continue;
+    if (curvature >= -1e-9 * (std::abs(part.dd[0]) + std::abs(part.dd[2]))) continue;
     result.convex = false;
     const auto square = [](double x) { return x * x; };
     bound += 0.5 * curvature *

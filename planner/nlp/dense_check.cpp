@@ -16,14 +16,6 @@ constexpr double kWorthALook = 1 - 1e-3;  ///< a limit used less does not peak a
 constexpr double kTolerated = 3e-7;       ///< relative
 constexpr double kCoarse = 5e-3;  ///< a violation beyond this asks for a node, not for tightening alone
 
-/// Energy of segment k as the problem counts it.
-double transcribed_energy_J(const Problem& problem, const Profile& profile, std::size_t k) {
-  const double b0 = profile.rate[k] * profile.rate[k], b1 = profile.rate[k + 1] * profile.rate[k + 1];
-  const std::array<double, 2> energy = Energy::both(plain_interval(problem.segments[k], b0, b1));
-  const double weight = 1 - problem.request->plant.robot.power.regeneration_efficiency;
-  return energy[0] + energy[1] + weight * (std::max(0.0, -energy[0]) + std::max(0.0, -energy[1]));
-}
-
 /// Looks at the limits of one segment, and between the looks at where a parabola through three of them peaks.
 class SegmentLook {
  public:
@@ -32,7 +24,8 @@ class SegmentLook {
         motion_(motion),
         profile_(profile),
         from_(profile.s[k]),
-        ds_(profile.s[k + 1] - profile.s[k]) {}
+        ds_(profile.s[k + 1] - profile.s[k]),
+        jerk_(profile.jerk[k]) {}
 
   std::map<std::string_view, double> worst_uses() const {
     std::map<std::string_view, std::array<double, kLooks + 1>> uses;
@@ -50,7 +43,7 @@ class SegmentLook {
   template <class Use>
   void look(double share, Use&& use) const {
     const ProfileState state = profile_.at_s(from_ + ds_ * std::clamp(share, 1e-7, 1 - 1e-7));
-    for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, 0.0, use);
+    for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, jerk_, use);
   }
 
   double peak(std::string_view name, const std::array<double, kLooks + 1>& ratios) const {
@@ -70,13 +63,20 @@ class SegmentLook {
   const ProfileRequest& request_;
   const PathMotion& motion_;
   const Profile& profile_;
-  double from_{}, ds_{};
+  double from_{}, ds_{}, jerk_{};
 };
 
 }  // namespace
 
+std::vector<double> counted_energy_J(const Problem& problem, const std::vector<double>& b) {
+  std::vector<double> energy_J;
+  for (std::size_t k = 0; k < problem.segment_count(); ++k)
+    energy_J.push_back(kept_energy_J(plain_interval(problem.segments[k], b[k], b[k + 1])));
+  return energy_J;
+}
+
 DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const Profile& profile,
-                         double accuracy) {
+                         const std::vector<double>& counted_energy_J, double accuracy) {
   const ProfileRequest& request = *problem.request;
   const std::size_t count = problem.segment_count();
   DenseCheck result{.cut = std::vector<bool>(count, false)};
@@ -92,7 +92,7 @@ DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const
       if (ratio > 1 + kCoarse) result.cut[k] = true;
     }
     const double exact_J = segment_energy_J(motion, profile, k);
-    error_J[k] = transcribed_energy_J(problem, profile, k) - exact_J;
+    error_J[k] = counted_energy_J[k] - exact_J;
     result.energy_J += exact_J;
   }
   double sum_J = 0, size_J = 0;

@@ -15,8 +15,13 @@ struct DenseCheck {
   double energy_error_J{};            ///< |sum of (transcribed - exact)|
 };
 
-/// Looks at every limit on sub-points of every segment, and at the energy of every segment.
+/// What each segment costs as the problem counts it, standby left out.
+[[nodiscard]] std::vector<double> counted_energy_J(const Problem& problem, const std::vector<double>& b);
+
+/// Looks at every limit on sub-points of every segment, and at the energy of every segment against what was
+/// counted for it.
 [[nodiscard]] DenseCheck check_densely(const Problem& problem, const PathMotion& motion,
-                                       const Profile& profile, double accuracy);
+                                       const Profile& profile, const std::vector<double>& counted_energy_J,
+                                       double accuracy);
 
 }  // namespace joulepath::nlp

@@ -95,7 +95,7 @@ class FastSolver {
       if (rows_known_ && linear_rows_only(k)) {
         const double a = b_[k], c = b_[k + 1];
         for (std::size_t i = p_.first_row[k]; i < p_.first_row[k + 1]; ++i)
-          rows_[i].value = rows_[i].d0 * a + rows_[i].d1 * c + constant_[i];
+          rows_[i].value = rows_[i].d[0] * a + rows_[i].d[1] * c + constant_[i];
         continue;
       }
       const Interval<Jet> interval = jet_interval(p_.segments[k], b_[k], b_[k + 1]);
@@ -107,7 +107,7 @@ class FastSolver {
     constant_.resize(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const std::size_t k = p_.rows[i].segment;
-      constant_[i] = rows_[i].value - rows_[i].d0 * b_[k] - rows_[i].d1 * b_[k + 1];
+      constant_[i] = rows_[i].value - rows_[i].d[0] * b_[k] - rows_[i].d[1] * b_[k + 1];
     }
   }
 
@@ -226,19 +226,19 @@ class FastSolver {
     const double weight = p_.time_weight_W + multiplier_of_time();
     for (std::size_t k = 0; k < p_.segment_count(); ++k) {
       const SegmentJets& j = jets_[k];
-      double g0 = weight * j.duration_s.d0, g1 = weight * j.duration_s.d1;
+      double g0 = weight * j.duration_s.d[0], g1 = weight * j.duration_s.d[1];
       for (std::size_t c = 0; c < 2; ++c) {
         const double part =
             p_.energy_weight - (c < p_.channels ? recoveries_[k * p_.channels + c].sum.y : 0.0);
-        g0 += part * j.energy_J[c].d0;
-        g1 += part * j.energy_J[c].d1;
+        g0 += part * j.energy_J[c].d[0];
+        g1 += part * j.energy_J[c].d[1];
       }
       add_gradient(k, g0, g1, to);
     }
     for (const RowSide& side : sides_) {
       const Jet& g = rows_[side.row];
       const double y = side.sign * side.pair.y;
-      add_gradient(p_.rows[side.row].segment, y * g.d0, y * g.d1, to);
+      add_gradient(p_.rows[side.row].segment, y * g.d[0], y * g.d[1], to);
     }
   }
 
@@ -256,8 +256,8 @@ class FastSolver {
     const double weight = p_.time_weight_W + multiplier_of_time();
     for (std::size_t k = 0; k < p_.segment_count(); ++k) {
       const SegmentJets& j = jets_[k];
-      double h00 = weight * j.duration_s.d00, h01 = weight * j.duration_s.d01,
-             h11 = weight * j.duration_s.d11;
+      double h00 = weight * j.duration_s.dd[0], h01 = weight * j.duration_s.dd[1],
+             h11 = weight * j.duration_s.dd[2];
       for (std::size_t c = 0; c < 2; ++c) {
         const Jet& E = j.energy_J[c];
         double part = p_.energy_weight;
@@ -265,21 +265,21 @@ class FastSolver {
           const Recovery& r = recoveries_[k * p_.channels + c];
           part -= r.sum.y;
           const double sigma = r.z.sigma * r.sum.sigma * r.inverse_sigma;
-          h00 += sigma * E.d0 * E.d0;
-          h01 += sigma * E.d0 * E.d1;
-          h11 += sigma * E.d1 * E.d1;
+          h00 += sigma * E.d[0] * E.d[0];
+          h01 += sigma * E.d[0] * E.d[1];
+          h11 += sigma * E.d[1] * E.d[1];
         }
-        h00 += part * E.d00;
-        h01 += part * E.d01;
-        h11 += part * E.d11;
+        h00 += part * E.dd[0];
+        h01 += part * E.dd[1];
+        h11 += part * E.dd[2];
       }
       add_hessian(k, h00, h01, h11);
     }
     for (const RowSide& side : sides_) {
       const Jet& g = rows_[side.row];
       const double sigma = side.pair.sigma, y = side.sign * side.pair.y;
-      add_hessian(p_.rows[side.row].segment, sigma * g.d0 * g.d0 + y * g.d00, sigma * g.d0 * g.d1 + y * g.d01,
-                  sigma * g.d1 * g.d1 + y * g.d11);
+      add_hessian(p_.rows[side.row].segment, sigma * g.d[0] * g.d[0] + y * g.dd[0],
+                  sigma * g.d[0] * g.d[1] + y * g.dd[1], sigma * g.d[1] * g.d[1] + y * g.dd[2]);
     }
     for (std::size_t k = 0; k < low_.size(); ++k) {
       hessian_.diagonal[k] += low_[k].sigma;
@@ -306,7 +306,7 @@ class FastSolver {
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
     for (std::size_t k = 0; k < p_.segment_count(); ++k) {
       const SegmentJets& j = jets_[k];
-      double g0 = p_.time_weight_W * j.duration_s.d0, g1 = p_.time_weight_W * j.duration_s.d1;
+      double g0 = p_.time_weight_W * j.duration_s.d[0], g1 = p_.time_weight_W * j.duration_s.d[1];
       for (std::size_t c = 0; c < 2; ++c) {
         double part = p_.energy_weight;
         if (c < p_.channels) {
@@ -315,15 +315,15 @@ class FastSolver {
           const double excess = p_.recovery_weight - r.z.corrected * r.z.inverse - wanted;
           part += -wanted + r.sum.sigma * (r.z.sigma * r.residual - excess) * r.inverse_sigma;
         }
-        g0 += part * j.energy_J[c].d0;
-        g1 += part * j.energy_J[c].d1;
+        g0 += part * j.energy_J[c].d[0];
+        g1 += part * j.energy_J[c].d[1];
       }
       add_gradient(k, g0, g1, gradient_);
     }
     for (const RowSide& side : sides_) {
       const Jet& g = rows_[side.row];
       const double y = side.sign * (side.pair.corrected - side.pair.y * side.residual) * side.pair.inverse;
-      add_gradient(p_.rows[side.row].segment, y * g.d0, y * g.d1, gradient_);
+      add_gradient(p_.rows[side.row].segment, y * g.d[0], y * g.d[1], gradient_);
     }
     for (std::size_t k = 0; k < low_.size(); ++k) {
       gradient_[k] -= low_[k].corrected * low_[k].inverse;
@@ -341,7 +341,7 @@ class FastSolver {
     if (!has_duration()) return;
     std::fill(time_gradient_.begin(), time_gradient_.end(), 0.0);
     for (std::size_t k = 0; k < p_.segment_count(); ++k)
-      add_gradient(k, jets_[k].duration_s.d0, jets_[k].duration_s.d1, time_gradient_);
+      add_gradient(k, jets_[k].duration_s.d[0], jets_[k].duration_s.d[1], time_gradient_);
     time_solved_ = time_gradient_;
     hessian_.solve(time_solved_);
     double curvature = equality() ? 0.0 : time_.s / time_.y, along = 0;
@@ -369,14 +369,14 @@ class FastSolver {
     for (RowSide& side : sides_) {
       const Jet& g = rows_[side.row];
       const std::size_t k = p_.rows[side.row].segment;
-      side.pair.ds = -side.sign * (g.d0 * step_at(k) + g.d1 * step_at(k + 1)) + side.residual;
+      side.pair.ds = -side.sign * (g.d[0] * step_at(k) + g.d[1] * step_at(k + 1)) + side.residual;
       side.pair.dual_step();
     }
     for (std::size_t i = 0; i < recoveries_.size(); ++i) {
       Recovery& r = recoveries_[i];
       const Jet& E = energy_of(i);
       const std::size_t k = i / p_.channels;
-      const double moved = E.d0 * step_at(k) + E.d1 * step_at(k + 1) + r.residual;
+      const double moved = E.d[0] * step_at(k) + E.d[1] * step_at(k + 1) + r.residual;
       const double excess =
           p_.recovery_weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
       r.z.ds = -(excess + r.sum.sigma * moved) * r.inverse_sigma;

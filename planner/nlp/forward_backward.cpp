@@ -6,7 +6,7 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr double kLargest = 1e6;  ///< square of a rate that nothing reaches
+constexpr double kLargest = 1e6;       ///< square of a rate that nothing reaches
 constexpr double kStandstill = 1e-15;  ///< a square of the rate that is rounding
 constexpr int kSweeps = 12;
 
@@ -42,9 +42,11 @@ std::vector<HalfPlane> half_planes(const Problem& problem, std::size_t k, const 
   for (std::size_t i = problem.first_row[k]; i < problem.first_row[k + 1]; ++i) {
     const ActiveRow& row = problem.rows[i];
     const Jet g = evaluate_row(problem, row, interval);
-    const double offset = g.value - g.d0 * at[k] - g.d1 * at[k + 1];
-    if (std::isfinite(row.bounds.high)) planes.push_back({g.d0, g.d1, row.bounds.high - offset, row.name});
-    if (std::isfinite(row.bounds.low)) planes.push_back({-g.d0, -g.d1, offset - row.bounds.low, row.name});
+    const double offset = g.value - g.d[0] * at[k] - g.d[1] * at[k + 1];
+    if (std::isfinite(row.bounds.high))
+      planes.push_back({g.d[0], g.d[1], row.bounds.high - offset, row.name});
+    if (std::isfinite(row.bounds.low))
+      planes.push_back({-g.d[0], -g.d[1], offset - row.bounds.low, row.name});
   }
   return planes;
 }
@@ -112,7 +114,8 @@ RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
     planes[k] = half_planes(problem, k, at);
     const double cap = k == 0 ? std::min(problem.cap[0].squared, kLargest) : capped(problem, k);
     span[k] = project(planes[k], span[k + 1], cap, problem.cap[k].limit);
-    if (span[k].high < span[k].low * (1 - 1e-9) - 1e-12 || span[k].high < 0 || (k > 0 && span[k].high <= kStandstill)) {
+    if (span[k].high < span[k].low * (1 - 1e-9) - 1e-12 || span[k].high < 0 ||
+        (k > 0 && span[k].high <= kStandstill)) {
       envelope.blocked = blocked_at(k, span[k]);
       return envelope;
     }

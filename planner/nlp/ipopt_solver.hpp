@@ -1,5 +1,6 @@
 #pragma once
 
+#include "planner/nlp/jerk_program.hpp"
 #include "planner/nlp/problem.hpp"
 #include "planner/nlp/solution.hpp"
 
@@ -14,5 +15,8 @@ struct IpoptOptions {
 /// Solves with Ipopt (interior point, MUMPS), exact sparse derivatives, no output. `b_guess`: all nodes.
 [[nodiscard]] Solution solve_with_ipopt(const Problem& problem, const std::vector<double>& b_guess,
                                         const IpoptOptions& options = {});
+
+/// The same with a jerk limit.
+[[nodiscard]] JerkSolution solve_with_ipopt(const JerkProgram& program, const IpoptOptions& options = {});
 
 }  // namespace joulepath::nlp

@@ -18,18 +18,24 @@ void for_term(std::size_t index, Rows& terms, Function&& function, std::index_se
   ((I == index ? (function(std::get<I>(terms)), 0) : 0), ...);
 }
 
-template <class Real>
-Real evaluate(const Problem& problem, const ActiveRow& row, const Interval<Real>& interval) {
-  Real value{};
+template <class AnyInterval>
+auto evaluate(const Problem& problem, const ActiveRow& row, const AnyInterval& interval) {
+  typename AnyInterval::Real value{};
   for_term(
       row.term, const_cast<Rows&>(problem.terms), [&](const auto& term) { value = term(interval, row.row); },
       std::make_index_sequence<std::tuple_size_v<Rows>>());
   return value;
 }
 
-/// Share of the segment's length covered after a share tau of its time.
+/// Share of the segment's length covered after a share tau of its time, at constant acceleration.
 double length_share(double u0, double u1, double tau) {
   return u0 + u1 > 0 ? (2 * u0 * tau + (u1 - u0) * tau * tau) / (u0 + u1) : tau;
+}
+
+/// Its inverse: share of the time after a share of the length.
+double time_share(double u0, double u1, double share) {
+  const double u = std::sqrt(std::max(0.0, u0 * u0 + share * (u1 * u1 - u0 * u0)));
+  return u0 + u > 0 ? share * (u0 + u1) / (u0 + u) : share;
 }
 
 class Transcriber {
@@ -40,10 +46,13 @@ class Transcriber {
   Segment segment(double s0, double s1) const {
     Segment segment{.s0 = s0, .ds = s1 - s0, .plant = &request_.plant};
     constexpr std::array<double, kLimitPoints> fractions{0.0, 0.5, 1.0};
-    for (std::size_t i = 0; i < kLimitPoints; ++i) segment.limit_points[i] = point(segment, fractions[i]);
     const double u0 = rate(s0), u1 = rate(s1);
-    for (std::size_t q = 0; q < kEnergyPoints; ++q)
-      segment.energy_points[q] = point(segment, length_share(u0, u1, kEnergyTimes[q]));
+    for (std::size_t i = 0; i < kLimitPoints; ++i)
+      segment.limit_points[i] = point(segment, fractions[i], time_at(segment, u0, u1, fractions[i]));
+    for (std::size_t q = 0; q < kEnergyPoints; ++q) {
+      const double tau = kEnergyTimes[q];
+      segment.energy_points[q] = point(segment, length_at(segment, u0, u1, tau), tau);
+    }
     return segment;
   }
 
@@ -55,11 +64,28 @@ class Transcriber {
     return reference_rate(request_, motion_.length(), s, rate_cap_squared(request_, motion_.rates(s), s));
   }
 
-  SegmentPoint point(const Segment& segment, double fraction) const {
+  /// Share of the length after a share of the time, as the profile before has it.
+  double length_at(const Segment& segment, double u0, double u1, double tau) const {
+    if (!previous_) return length_share(u0, u1, tau);
+    const auto [from_s, to_s] = times(segment);
+    return (previous_->at_time(from_s + tau * (to_s - from_s)).s - segment.s0) / segment.ds;
+  }
+  double time_at(const Segment& segment, double u0, double u1, double share) const {
+    if (share == 0 || share == 1) return share;
+    if (!previous_) return time_share(u0, u1, share);
+    const auto [from_s, to_s] = times(segment);
+    return (previous_->at_s(segment.s0 + share * segment.ds).time_s - from_s) / (to_s - from_s);
+  }
+  std::pair<double, double> times(const Segment& segment) const {
+    return {previous_->at_s(segment.s0).time_s, previous_->at_s(segment.s0 + segment.ds).time_s};
+  }
+
+  SegmentPoint point(const Segment& segment, double fraction, double time_share) const {
     const double s = segment.s0 + segment.ds * std::clamp(fraction, kInset, 1 - kInset);
     const double time_s = previous_ ? previous_->at_s(s).time_s : 0.0;
     const PathMotion::Place place = motion_.place(s, time_s);
-    SegmentPoint result{.fraction = fraction, .rates = place.rates, .site = place.site};
+    SegmentPoint result{
+        .fraction = fraction, .time_share = time_share, .rates = place.rates, .site = place.site};
     result.affine = fit_affine(request_.plant, result.rates, result.site, result.wheel);
     return result;
   }
@@ -68,14 +94,6 @@ class Transcriber {
   const PathMotion& motion_;
   const Profile* previous_{};
 };
-
-double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit, double from,
-                  double to) {
-  double factor = 1.0;
-  for (const Tightening& t : tightenings)
-    if (t.limit == limit && t.from < to && t.to > from) factor *= t.factor;
-  return factor;
-}
 
 /// Caps of a segment's two ends such that the chord between them stays below the cap inside.
 void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
@@ -183,6 +201,14 @@ void set_objective(Problem& problem) {
 
 }  // namespace
 
+double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit, double from,
+                  double to) {
+  double factor = 1.0;
+  for (const Tightening& t : tightenings)
+    if (t.limit == limit && t.from < to && t.to > from) factor *= t.factor;
+  return factor;
+}
+
 Problem transcribe(const ProfileRequest& request, const PathMotion& motion, const std::vector<double>& s,
                    const std::vector<Tightening>& tightenings, const Profile* previous) {
   Problem problem{.request = &request,
@@ -210,6 +236,10 @@ Jet evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<Je
 }
 
 double evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<double>& interval) {
+  return evaluate(problem, row, interval);
+}
+
+JerkJet evaluate_row(const Problem& problem, const ActiveRow& row, const JerkInterval<JerkJet>& interval) {
   return evaluate(problem, row, interval);
 }
 

@@ -17,6 +17,10 @@ struct Tightening {
   double factor{1.0};
 };
 
+/// By how much a limit is tightened on a stretch: the product of all that touch it.
+[[nodiscard]] double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit,
+                                double from, double to);
+
 /// One row of one segment that can reach its bounds.
 struct ActiveRow {
   std::size_t segment{};
@@ -61,6 +65,8 @@ struct Problem {
 [[nodiscard]] Jet evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<Jet>& interval);
 [[nodiscard]] double evaluate_row(const Problem& problem, const ActiveRow& row,
                                   const Interval<double>& interval);
+[[nodiscard]] JerkJet evaluate_row(const Problem& problem, const ActiveRow& row,
+                                   const JerkInterval<JerkJet>& interval);
 
 /// Exact duration of squares of the rate.
 [[nodiscard]] double duration_of(const Problem& problem, const std::vector<double>& b);

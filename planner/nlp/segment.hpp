@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "planner/nlp/jet.hpp"
 #include "planner/nlp/range.hpp"
@@ -39,7 +41,8 @@ struct WheelLoad {
 
 /// A place within a segment with what the model needs there.
 struct SegmentPoint {
-  double fraction{};  ///< of the segment's length
+  double fraction{};    ///< of the segment's length
+  double time_share{};  ///< of the segment's time
   PathRates rates{};
   Site site{};
   bool affine{};
@@ -59,72 +62,75 @@ struct Segment {
   std::array<SegmentPoint, kEnergyPoints> energy_points{};
 };
 
-/// Two neighbouring nodes as a term sees them: squares of the rate and what follows from them.
+/// How the path coordinate moves at an instant.
 template <class Real>
+struct Motion {
+  Real a{};  ///< acceleration
+  Real b{};  ///< square of the rate
+  Real u{};  ///< rate
+};
+
+/// Two neighbouring nodes as a term sees them, with constant acceleration between them. Every kind of
+/// interval has `Real`, `segment`, `dt`, at_limit_point() and at_energy_point(); see jerk_interval.hpp.
+template <class R>
 struct Interval {
+  using Real = R;
   const Segment& segment;
   Real b0{}, b1{};  ///< rate^2
   Real u0{}, u1{};  ///< rate
   Real a{};         ///< (b1 - b0)/(2 ds), constant in the segment
   Real dt{};        ///< 2 ds/(u0 + u1), exact
+
+  Motion<Real> at_limit_point(std::size_t point) const {
+    using std::sqrt;
+    if (point == 0) return {a, b0, u0};
+    if (point + 1 == kLimitPoints) return {a, b1, u1};
+    const double f = segment.limit_points[point].fraction;
+    const Real b = (1 - f) * b0 + f * b1;
+    return {a, b, sqrt(b)};
+  }
+  Motion<Real> at_energy_point(std::size_t point) const {
+    const double tau = kEnergyTimes[point];
+    const Real u = (1 - tau) * u0 + tau * u1;
+    return {a, Real(u * u), u};
+  }
 };
 
-/// Wheel loads at a point for given acceleration, rate squared, rate.
 template <class Real>
-Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& point, const Real& a,
-                                   const Real& b, const Real& u) {
-  Sided<WheelLoad<Real>> loads;
-  if (point.affine) {
-    for (Side side : kSides) {
-      const AffineWheel& wheel = point.wheel[side];
-      loads[side] = {wheel.current_A(a, b, u), wheel.voltage_V(a, b, u), wheel.force_N(a, b, u)};
-    }
-    return loads;
-  }
+WheelLoad<Real> affine_load(const AffineWheel& wheel, const Motion<Real>& motion) {
+  return {wheel.current_A(motion.a, motion.b, motion.u), wheel.voltage_V(motion.a, motion.b, motion.u),
+          wheel.force_N(motion.a, motion.b, motion.u)};
+}
+
+/// Wheel loads at a point for a motion there.
+template <class Real>
+Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& point,
+                                   const Motion<Real>& motion) {
+  if (point.affine) return {affine_load(point.wheel.left, motion), affine_load(point.wheel.right, motion)};
   if constexpr (std::is_same_v<Real, Range>) {
     constexpr Range anything{-kNoLimit, kNoLimit};
     return {{anything, anything, anything}, {anything, anything, anything}};
   } else {
     const Sided<WheelState<Real>> wheels =
-        operating_point(*segment.plant, PathMotion::body_motion(point.rates, u, a), point.site);
-    for (Side side : kSides)
-      loads[side] = {wheels[side].current_A, wheels[side].voltage_V, wheels[side].contact_force_N};
-    return loads;
+        operating_point(*segment.plant, PathMotion::body_motion(point.rates, motion.u, motion.a), point.site);
+    return map_sides(wheels, [](Side, const WheelState<Real>& wheel) {
+      return WheelLoad<Real>{wheel.current_A, wheel.voltage_V, wheel.contact_force_N};
+    });
   }
 }
 
-/// Square of the rate and rate at one of the limit points.
-template <class Real>
-struct PointRate {
-  Real b{}, u{};
-};
-
-template <class Real>
-PointRate<Real> rate_at(const Interval<Real>& interval, std::size_t point) {
-  using std::sqrt;
-  if (point == 0) return {interval.b0, interval.u0};
-  if (point + 1 == kLimitPoints) return {interval.b1, interval.u1};
-  const double f = interval.segment.limit_points[point].fraction;
-  const Real b = (1 - f) * interval.b0 + f * interval.b1;
-  return {b, sqrt(b)};
-}
-
-/// Wheel loads at one of the limit points.
-template <class Real>
-WheelLoad<Real> load_at(const Interval<Real>& interval, std::size_t point, Side side) {
+/// Wheel load at one of the limit points.
+template <class AnyInterval, class Real = typename AnyInterval::Real>
+WheelLoad<Real> load_at(const AnyInterval& interval, std::size_t point, Side side) {
   const SegmentPoint& place = interval.segment.limit_points[point];
-  const PointRate<Real> rate = rate_at(interval, point);
-  if (place.affine) {
-    const AffineWheel& wheel = place.wheel[side];
-    return {wheel.current_A(interval.a, rate.b, rate.u), wheel.voltage_V(interval.a, rate.b, rate.u),
-            wheel.force_N(interval.a, rate.b, rate.u)};
-  }
-  return wheel_loads(interval.segment, place, interval.a, rate.b, rate.u)[side];
+  const Motion<Real> motion = interval.at_limit_point(point);
+  if (place.affine) return affine_load(place.wheel[side], motion);
+  return wheel_loads(interval.segment, place, motion)[side];
 }
 
 /// The interval with derivatives by b0 and b1; a rest end is a constant.
 inline Interval<Jet> jet_interval(const Segment& segment, double b0, double b1) {
-  const Jet x0 = b0 > 0 ? Jet::variable0(b0) : Jet(0.0), x1 = b1 > 0 ? Jet::variable1(b1) : Jet(0.0);
+  const Jet x0 = b0 > 0 ? Jet::variable(0, b0) : Jet(0.0), x1 = b1 > 0 ? Jet::variable(1, b1) : Jet(0.0);
   const Jet u0 = sqrt(x0), u1 = sqrt(x1);
   return {segment, x0, x1, u0, u1, (x1 - x0) / (2 * segment.ds), 2 * segment.ds / (u0 + u1)};
 }

@@ -27,11 +27,8 @@ struct EndRates {
 inline Jet duration_jet(double ds, const EndRates& r) {
   const double sum = r.u[0] + r.u[1], dt = 2 * ds / sum, p = -dt / sum, q = -2 * p / sum;
   return {dt,
-          p * r.d[0],
-          p * r.d[1],
-          q * r.d[0] * r.d[0] + p * r.dd[0],
-          q * r.d[0] * r.d[1],
-          q * r.d[1] * r.d[1] + p * r.dd[1]};
+          {p * r.d[0], p * r.d[1]},
+          {q * r.d[0] * r.d[0] + p * r.dd[0], q * r.d[0] * r.d[1], q * r.d[1] * r.d[1] + p * r.dd[1]}};
 }
 
 /// Electrical power V i where both are affine, at a time share tau of the segment: written out, since
@@ -49,11 +46,10 @@ inline Jet power_jet(const AffineWheel& wheel, double ds, double a, double tau, 
   const double h = 0.5 / ds, a0 = rest0 ? 0.0 : -h, a1 = rest1 ? 0.0 : h;
   const double u0 = (1 - tau) * r.d[0], u1 = tau * r.d[1];
   return {v * i,
-          Pa * a0 + Pu * u0,
-          Pa * a1 + Pu * u1,
-          Paa * a0 * a0 + 2 * Pau * a0 * u0 + Puu * u0 * u0 + Pu * (1 - tau) * r.dd[0],
-          Paa * a0 * a1 + Pau * (a0 * u1 + a1 * u0) + Puu * u0 * u1,
-          Paa * a1 * a1 + 2 * Pau * a1 * u1 + Puu * u1 * u1 + Pu * tau * r.dd[1]};
+          {Pa * a0 + Pu * u0, Pa * a1 + Pu * u1},
+          {Paa * a0 * a0 + 2 * Pau * a0 * u0 + Puu * u0 * u0 + Pu * (1 - tau) * r.dd[0],
+           Paa * a0 * a1 + Pau * (a0 * u1 + a1 * u0) + Puu * u0 * u1,
+           Paa * a1 * a1 + 2 * Pau * a1 * u1 + Puu * u1 * u1 + Pu * tau * r.dd[1]}};
 }
 
 /// Energies of the channels and the time of a segment with derivatives by the squares at its ends: the

@@ -15,9 +15,9 @@ struct Acceleration {
     if (segment.limit_points[0].rates.along == 0) return {};
     return {-limits.deceleration_m_s2, limits.acceleration_m_s2};
   }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t) const {
-    return interval.a;
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t) const {
+    return interval.at_limit_point(0).a;
   }
 };
 

@@ -20,14 +20,15 @@ struct BatteryPower {
     if (choice == 3) return {};  // both kept: below both driving, or both negative and no burden
     return {-kNoLimit, limits.battery_power_W - supply.standby_W};
   }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t row) const {
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t row) const {
     const double eta = interval.segment.plant->robot.power.regeneration_efficiency;
     const std::size_t point = row / 4, choice = row % 4;
-    const WheelLoad<Real> left = load_at(interval, point, Side::left);
-    const WheelLoad<Real> right = load_at(interval, point, Side::right);
-    return (choice & 1 ? eta : 1.0) * (left.voltage_V * left.current_A) +
-           (choice & 2 ? eta : 1.0) * (right.voltage_V * right.current_A);
+    const auto left = load_at(interval, point, Side::left);
+    const auto right = load_at(interval, point, Side::right);
+    using Real = typename AnyInterval::Real;
+    return Real((choice & 1 ? eta : 1.0) * (left.voltage_V * left.current_A) +
+                (choice & 2 ? eta : 1.0) * (right.voltage_V * right.current_A));
   }
 };
 

@@ -11,8 +11,8 @@ struct Duration {
   static constexpr std::size_t rows = 1;
 
   Bounds bounds(const Segment&, std::size_t) const { return {0.0, kNoLimit}; }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t) const {
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t) const {
     return interval.dt;
   }
 };

@@ -11,10 +11,10 @@ struct MotorPower {
   Limits limits{};
 
   Bounds bounds(const Segment&, std::size_t) const { return within(limits.motor_power_W); }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t row) const {
-    const WheelLoad<Real> load = load_at(interval, point_of(row), side_of(row));
-    return load.voltage_V * load.current_A;
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t row) const {
+    const auto load = load_at(interval, point_of(row), side_of(row));
+    return typename AnyInterval::Real(load.voltage_V * load.current_A);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <string_view>
 
+#include "planner/nlp/jerk_interval.hpp"
 #include "planner/nlp/segment.hpp"
 
 namespace joulepath::nlp {
@@ -19,13 +20,15 @@ constexpr Bounds within(double size) { return {-size, size}; }
 /// without its unit. To add one, write its file and list it in formulation.hpp.
 template <class T>
 concept SegmentTerm = requires(const T& term, const Interval<double>& plain, const Interval<Jet>& jet,
-                               const Interval<Range>& range, std::size_t row) {
+                               const Interval<Range>& range, const JerkInterval<JerkJet>& with_jerk,
+                               std::size_t row) {
   { T::name } -> std::convertible_to<std::string_view>;
   { T::rows } -> std::convertible_to<std::size_t>;
   { term.bounds(plain.segment, row) } -> std::same_as<Bounds>;
   { term(plain, row) } -> std::same_as<double>;
   { term(jet, row) } -> std::same_as<Jet>;
   { term(range, row) } -> std::same_as<Range>;
+  { term(with_jerk, row) } -> std::same_as<JerkJet>;
 };
 
 /// Rows that exist per limit point and side: row = 2 point + side.

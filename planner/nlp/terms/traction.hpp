@@ -16,8 +16,8 @@ struct Traction {
     const double load_N = 0.5 * plant.robot.total_mass_kg(plant.payload_kg(stated_kg)) * kGravity_m_s2;
     return within(limits.traction_coefficient * load_N);
   }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t row) const {
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t row) const {
     return load_at(interval, point_of(row), side_of(row)).force_N;
   }
 };

@@ -15,27 +15,54 @@ struct WheelEnergy {
   static constexpr std::size_t rows = 2;
 
   Bounds bounds(const Segment&, std::size_t) const { return {0.0, kNoLimit}; }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t channel) const {
-    const std::array<Real, 2> energy_J = both(interval);
-    return energy_J[channel];
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t channel) const {
+    return both(interval)[channel];
   }
 
-  template <class Real>
-  static std::array<Real, 2> both(const Interval<Real>& interval) {
-    std::array<Real, 2> sum_W{Real(0.0), Real(0.0)};
-    for (std::size_t q = 0; q < kEnergyPoints; ++q) {
-      const SegmentPoint& point = interval.segment.energy_points[q];
-      const Real u = (1 - kEnergyTimes[q]) * interval.u0 + kEnergyTimes[q] * interval.u1;
-      const Sided<WheelLoad<Real>> load = wheel_loads(interval.segment, point, interval.a, Real(u * u), u);
-      sum_W[0] += load.left.voltage_V * load.left.current_A;
-      sum_W[1] += load.right.voltage_V * load.right.current_A;
-    }
+  /// Of both channels.
+  template <class AnyInterval, class Real = typename AnyInterval::Real>
+  static std::array<Real, 2> both(const AnyInterval& interval) {
+    const std::array<std::array<Real, 2>, kEnergyPoints> parts = by_point(interval);
+    return {parts[0][0] + parts[1][0], parts[0][1] + parts[1][1]};
+  }
+
+  /// What each quadrature point contributes to both channels: [point][channel].
+  template <class AnyInterval, class Real = typename AnyInterval::Real>
+  static std::array<std::array<Real, 2>, kEnergyPoints> by_point(const AnyInterval& interval) {
     const bool bus = interval.segment.plant->robot.power.sharing == PowerSharing::bus;
     const Real half = 0.5 * interval.dt;
-    if (bus) return {half * (sum_W[0] + sum_W[1]), Real(0.0)};
-    return {half * sum_W[0], half * sum_W[1]};
+    std::array<std::array<Real, 2>, kEnergyPoints> parts;
+    for (std::size_t q = 0; q < kEnergyPoints; ++q) {
+      const Sided<WheelLoad<Real>> load =
+          wheel_loads(interval.segment, interval.segment.energy_points[q], interval.at_energy_point(q));
+      const Real left_W = load.left.voltage_V * load.left.current_A;
+      const Real right_W = load.right.voltage_V * load.right.current_A;
+      if (bus)
+        parts[q] = {half * (left_W + right_W), Real(0.0)};
+      else
+        parts[q] = {half * left_W, half * right_W};
+    }
+    return parts;
   }
 };
+
+/// What the battery gives for a segment (J), standby left out: max(E, eta E) summed over the channels. Under
+/// a jerk limit the larger is taken at each quadrature point: there power may change its sign within a
+/// segment.
+template <class AnyInterval>
+double kept_energy_J(const AnyInterval& interval) {
+  const double eta = interval.segment.plant->robot.power.regeneration_efficiency;
+  double sum_J = 0;
+  const auto add = [&](const std::array<double, 2>& energy_J) {
+    for (double part_J : energy_J) sum_J += std::max(part_J, eta * part_J);
+  };
+  if constexpr (std::is_same_v<AnyInterval, JerkInterval<double>>) {
+    for (const std::array<double, 2>& part_J : WheelEnergy::by_point(interval)) add(part_J);
+  } else {
+    add(WheelEnergy::both(interval));
+  }
+  return sum_J;
+}
 
 }  // namespace joulepath::nlp

@@ -11,11 +11,11 @@ struct YawAcceleration {
   Limits limits{};
 
   Bounds bounds(const Segment&, std::size_t) const { return within(limits.yaw_acceleration_rad_s2); }
-  template <class Real>
-  Real operator()(const Interval<Real>& interval, std::size_t row) const {
+  template <class AnyInterval>
+  auto operator()(const AnyInterval& interval, std::size_t row) const {
     const PathRates& rates = interval.segment.limit_points[row].rates;
-    const double f = interval.segment.limit_points[row].fraction;
-    return rates.turn * interval.a + rates.turn_slope * ((1 - f) * interval.b0 + f * interval.b1);
+    const auto motion = interval.at_limit_point(row);
+    return rates.turn * motion.a + rates.turn_slope * motion.b;
   }
 };
 

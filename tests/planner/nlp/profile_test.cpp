@@ -84,26 +84,6 @@ TEST(Profile, ATunedTrapezoidKeepsTheYawAccelerationThroughACorner) {
   EXPECT_FALSE(trapezoid_best_tuned(request, 0.9 * least_s).feasible);
 }
 
-TEST(Profile, JerkLimitHoldsAndTheBoundIsThatWithoutIt) {
-  for (bool curved : {false, true}) {
-    ProfileRequest request = straight_request(8.0);
-    if (curved) request.piece = bezier_piece();
-    request.time = {TimeMode::time_budget, curved ? 14.0 : 13.0};
-    const double free_J = replay(request, *solve_profile(request).profile).energy_J;
-    request.limits.jerk_m_s3 = 0.8;
-    const ProfileResult result = solve_profile(request);
-    ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
-    const ReplayResult again = replay(request, *result.profile);
-    EXPECT_TRUE(again.valid()) << again.limit << " " << again.worst_violation << " at " << again.s;
-    EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6);
-    EXPECT_LE(result.profile->duration_s(), request.time.duration_s * (1 + 1e-9));
-    EXPECT_EQ(result.summary.status, SolveStatus::feasible);
-    EXPECT_LE(result.summary.lower_bound_J, free_J);
-    EXPECT_GE(again.energy_J, free_J * (1 - 1e-6));
-    EXPECT_LE(again.energy_J, free_J * 1.1);
-  }
-}
-
 TEST(Profile, AJumpOfAccelerationBreaksAJerkLimit) {
   ProfileRequest request = straight_request(8.0);
   const Profile profile = *solve_profile(request).profile;

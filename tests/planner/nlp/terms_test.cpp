@@ -80,25 +80,70 @@ TYPED_TEST(EveryTerm, HasExactDerivatives) {
         EXPECT_NEAR(jet.value, plain, bent ? 0.05 * (1 + std::abs(plain)) : 2e-6 * std::abs(plain) + 1e-6)
             << "value";
         const double scale = std::abs(jet.value) / b0;
-        expect_near(jet.d0, (value(b0 + h, b1) - value(b0 - h, b1)) / (2 * h), scale, "d0", bent);
-        expect_near(jet.d1, (value(b0, b1 + h) - value(b0, b1 - h)) / (2 * h), scale, "d1", bent);
-        const double curve = (std::abs(jet.d0) + std::abs(jet.d1)) / b0;
-        expect_near(jet.d00, (jet_at(b0 + h, b1).d0 - jet_at(b0 - h, b1).d0) / (2 * h), curve, "d00", bent);
-        expect_near(jet.d01, (jet_at(b0, b1 + h).d0 - jet_at(b0, b1 - h).d0) / (2 * h), curve, "d01", bent);
-        expect_near(jet.d11, (jet_at(b0, b1 + h).d1 - jet_at(b0, b1 - h).d1) / (2 * h), curve, "d11", bent);
+        expect_near(jet.d[0], (value(b0 + h, b1) - value(b0 - h, b1)) / (2 * h), scale, "d0", bent);
+        expect_near(jet.d[1], (value(b0, b1 + h) - value(b0, b1 - h)) / (2 * h), scale, "d1", bent);
+        const double curve = (std::abs(jet.d[0]) + std::abs(jet.d[1])) / b0;
+        expect_near(jet.dd[0], (jet_at(b0 + h, b1).d[0] - jet_at(b0 - h, b1).d[0]) / (2 * h), curve, "d00",
+                    bent);
+        expect_near(jet.dd[1], (jet_at(b0, b1 + h).d[0] - jet_at(b0, b1 - h).d[0]) / (2 * h), curve, "d01",
+                    bent);
+        expect_near(jet.dd[2], (jet_at(b0, b1 + h).d[1] - jet_at(b0, b1 - h).d[1]) / (2 * h), curve, "d11",
+                    bent);
       }
     }
+  }
+}
+
+/// The same terms between nodes of constant jerk: five unknowns.
+TYPED_TEST(EveryTerm, HasExactDerivativesUnderConstantJerk) {
+  constexpr std::size_t kUnknowns = 5;
+  for (bool bent : {false, true}) {
+    const Bench bench(corner(bent));
+    const TypeParam term = make_term<TypeParam>(bench.request.limits);
+    for (std::size_t k = 2; k + 2 < bench.problem.segment_count(); k += 9) {
+      const Segment& segment = bench.problem.segments[k];
+      const std::array<double, kUnknowns> x{0.15, 0.21, 0.18, 0.3, 0.2};
+      for (std::size_t row = 0; row < TypeParam::rows; ++row) {
+        const JerkJet jet = term(jet_jerk_interval(segment, x), row);
+        const double scale = std::abs(jet.value), h = 1e-5;
+        for (std::size_t i = 0, at = 0; i < kUnknowns; ++i) {
+          auto low = x, high = x;
+          low[i] -= h;
+          high[i] += h;
+          const JerkJet before = term(jet_jerk_interval(segment, low), row);
+          const JerkJet after = term(jet_jerk_interval(segment, high), row);
+          expect_near(jet.d[i], (after.value - before.value) / (2 * h), 10 * scale, "gradient", bent);
+          for (std::size_t j = 0; j <= i; ++j, ++at)
+            expect_near(jet.dd[at], (after.d[j] - before.d[j]) / (2 * h), 100 * scale + std::abs(jet.d[j]),
+                        "Hessian", bent);
+        }
+      }
+    }
+  }
+}
+
+/// Kinematics by themselves: a motion of constant jerk leaves no defect, and its states are those in time.
+TEST(JerkInterval, AMotionOfConstantJerkHasNoDefect) {
+  const double u0 = 0.3, a0 = -0.2, jerk = 0.7, dt = 0.6;
+  const auto u = [&](double t) { return u0 + a0 * t + jerk * t * t / 2; };
+  const Segment segment{.ds = u0 * dt + a0 * dt * dt / 2 + jerk * dt * dt * dt / 6};
+  const JerkInterval<double> interval{segment, u0, a0, u(dt), a0 + jerk * dt, dt};
+  EXPECT_NEAR(interval.speed_defect(), 0, 1e-15);
+  EXPECT_NEAR(interval.distance_defect(), 0, 1e-15);
+  for (double tau : {0.0, 0.3, 1.0}) {
+    EXPECT_NEAR(interval.at(tau).u, u(tau * dt), 1e-15);
+    EXPECT_NEAR(interval.at(tau).a, a0 + jerk * tau * dt, 1e-15);
   }
 }
 
 void expect_same(const Jet& x, const Jet& y) {
   const auto near = [](double a, double b, double scale) { EXPECT_NEAR(a, b, 1e-9 * (std::abs(a) + scale)); };
   near(x.value, y.value, 1e-3);
-  near(x.d0, y.d0, 1);
-  near(x.d1, y.d1, 1);
-  near(x.d00, y.d00, 100);
-  near(x.d01, y.d01, 100);
-  near(x.d11, y.d11, 100);
+  near(x.d[0], y.d[0], 1);
+  near(x.d[1], y.d[1], 1);
+  near(x.dd[0], y.dd[0], 100);
+  near(x.dd[1], y.dd[1], 100);
+  near(x.dd[2], y.dd[2], 100);
 }
 
 TEST(SegmentJets, WrittenOutEqualForwardMode) {

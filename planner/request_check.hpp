@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/profile.hpp"
+
+namespace joulepath {
+
+/// A path or a number of the request that makes no sense by itself: NaN, negative, nothing to drive.
+[[nodiscard]] std::optional<Infeasibility> senseless(const ProfileRequest& request);
+
+}  // namespace joulepath

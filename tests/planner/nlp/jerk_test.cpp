@@ -1,0 +1,179 @@
+// Jerk as a constraint of the nonlinear program: closed forms, limits between nodes, every mode of time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/profile.hpp"
+#include "planner/replay.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+ProfileRequest straight(double length_m, double jerk_m_s3) {
+  const Robot robot = testing::nomad();
+  ProfileRequest request{.piece = straight_piece({}, length_m),
+                         .plant = make_plant(robot),
+                         .limits = *robot.limits,
+                         .nodes = 100};
+  request.limits.jerk_m_s3 = jerk_m_s3;
+  return request;
+}
+
+ProfileRequest bezier(double jerk_m_s3) {
+  ProfileRequest request = straight(1, jerk_m_s3);
+  request.piece = Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})});
+  return request;
+}
+
+/// Seven segments of constant jerk from rest to rest; fewer where speed or acceleration is not reached.
+double s_curve_duration_s(double length_m, double speed, double acceleration, double jerk) {
+  const auto ramp_s = [&](double v) {
+    return v >= acceleration * acceleration / jerk ? v / acceleration + acceleration / jerk
+                                                   : 2 * std::sqrt(v / jerk);
+  };
+  const auto ramps_m = [&](double v) { return v * ramp_s(v); };
+  if (ramps_m(speed) <= length_m) return 2 * ramp_s(speed) + (length_m - ramps_m(speed)) / speed;
+  double low = 0, high = speed;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (ramps_m(middle) < length_m ? low : high) = middle;
+  }
+  return 2 * ramp_s(low);
+}
+
+Profile solved(const ProfileRequest& request) {
+  const ProfileResult result = solve_profile(request);
+  EXPECT_TRUE(result.profile.has_value()) << result.summary.message;
+  if (!result.profile) return {};
+  const ReplayResult again = replay(request, *result.profile);
+  EXPECT_TRUE(again.valid()) << again.limit << " " << again.worst_violation << " at " << again.s;
+  EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6);
+  EXPECT_NEAR(result.profile->rate.back(), request.end_rate, 1e-9);
+  return *result.profile;
+}
+
+double energy_J(const ProfileRequest& request) { return replay(request, solved(request)).energy_J; }
+
+TEST(Jerk, LeastTimeOfAStraightLineIsTheSevenSegmentSCurve) {
+  for (double length_m : {0.5, 3.0, 10.0})
+    for (double jerk_m_s3 : {0.2, 0.8, 3.0}) {
+      ProfileRequest request = straight(length_m, jerk_m_s3);
+      request.time = {.mode = TimeMode::minimum_time};
+      const double exact_s =
+          s_curve_duration_s(length_m, request.limits.speed_m_s, request.limits.acceleration_m_s2, jerk_m_s3);
+      const double duration_s = solved(request).duration_s();
+      EXPECT_GE(duration_s, exact_s * (1 - 1e-6)) << length_m << " m, " << jerk_m_s3 << " m/s^3";
+      EXPECT_LE(duration_s, exact_s * (1 + 5e-5)) << length_m << " m, " << jerk_m_s3 << " m/s^3";
+    }
+}
+
+TEST(Jerk, EveryTimeModeKeepsItsPromise) {
+  ProfileRequest request = bezier(0.8);
+  request.time = {.mode = TimeMode::minimum_time};
+  const double least_s = solved(request).duration_s();
+  request.time = {.mode = TimeMode::free_time};
+  const double free_s = solved(request).duration_s();
+  EXPECT_GT(free_s, least_s);
+  const double between_s = 0.5 * (least_s + free_s);
+  request.time = {.mode = TimeMode::fixed_time, .duration_s = 1.3 * free_s};
+  EXPECT_NEAR(solved(request).duration_s(), 1.3 * free_s, 1e-6);
+  request.time = {.mode = TimeMode::time_budget, .duration_s = between_s};
+  EXPECT_NEAR(solved(request).duration_s(), between_s, 1e-6);
+  request.time = {.mode = TimeMode::time_budget, .duration_s = 1.3 * free_s};
+  EXPECT_NEAR(solved(request).duration_s(), free_s, 1e-3 * free_s);
+  request.time = {.mode = TimeMode::time_price, .price_W = 20};
+  const double priced_s = solved(request).duration_s();
+  EXPECT_LT(priced_s, free_s);
+  EXPECT_GE(priced_s, least_s * (1 - 1e-5));
+}
+
+TEST(Jerk, PriceOfASecondIsTheSlopeOfTheEnergy) {
+  ProfileRequest request = straight(5, 0.5);
+  request.plant.robot.power.standby_W = 0;
+  const auto at = [&](double duration_s) {
+    request.time = {.mode = TimeMode::time_budget, .duration_s = duration_s};
+    return solve_profile(request);
+  };
+  const double T = 9, h = 0.05;
+  const auto value = [&](const ProfileResult& result) { return replay(request, *result.profile).energy_J; };
+  const double slope = (value(at(T - h)) - value(at(T + h))) / (2 * h);
+  EXPECT_NEAR(at(T).summary.price_of_time_W, slope, 0.01 * slope);
+}
+
+TEST(Jerk, CostsEnergyAndLessOfItAsTheLimitGrows) {
+  ProfileRequest request = bezier(kNoLimit);
+  request.time = {.mode = TimeMode::time_budget, .duration_s = 12};
+  const double without_J = energy_J(request);
+  double before_J = kNoLimit;
+  for (double jerk_m_s3 : {0.3, 1.0, 5.0, 1e4}) {
+    request.limits.jerk_m_s3 = jerk_m_s3;
+    const double with_J = energy_J(request);
+    EXPECT_GE(with_J, without_J * (1 - 1e-5)) << jerk_m_s3;
+    EXPECT_LE(with_J, before_J * (1 + 1e-5)) << jerk_m_s3;
+    before_J = with_J;
+  }
+  EXPECT_NEAR(before_J, without_J, 2e-4 * without_J);
+}
+
+TEST(Jerk, StartsAndEndsAtSpeed) {
+  for (TimeMode mode : {TimeMode::minimum_time, TimeMode::free_time}) {
+    ProfileRequest request = bezier(0.6);
+    request.start_rate = 0.5;
+    request.end_rate = 0.3;
+    request.time = {.mode = mode};
+    const Profile profile = solved(request);
+    EXPECT_EQ(profile.rate.front(), 0.5);
+    EXPECT_NEAR(profile.acceleration.front(), 0, 1e-9);
+  }
+}
+
+/// At constant speed from start to end there is nothing to plan, and jerk costs nothing.
+TEST(Jerk, CruiseAtTheLimitIsTheFastestWhateverTheJerk) {
+  ProfileRequest request = straight(4, 0.1);
+  request.start_rate = request.end_rate = request.limits.speed_m_s;
+  request.time = {.mode = TimeMode::minimum_time};
+  EXPECT_NEAR(solved(request).duration_s(), 4 / request.limits.speed_m_s, 1e-5);
+}
+
+TEST(Jerk, FastSolverHandsOverAndTheBoundIsThatWithoutTheLimit) {
+  ProfileRequest request = bezier(0.8);
+  request.solver = SolverChoice::fast;
+  request.time = {.mode = TimeMode::time_budget, .duration_s = 14};
+  const ProfileResult result = solve_profile(request);
+  EXPECT_EQ(result.summary.solver, "ipopt");
+  EXPECT_NE(result.summary.handed_over.find("jerk"), std::string::npos);
+  EXPECT_EQ(result.summary.status, SolveStatus::feasible);
+  EXPECT_TRUE(result.summary.local);
+  request.limits.jerk_m_s3 = kNoLimit;
+  EXPECT_LE(result.summary.lower_bound_J, energy_J(request));
+  EXPECT_GT(result.summary.lower_bound_J, 0);
+}
+
+/// A deadline that an S-curve keeps is kept, however close; one that it misses is refused.
+TEST(Jerk, NoDeadlineThatAnSCurveMakesIsRefused) {
+  ProfileRequest request = straight(3, 0.8);
+  const double exact_s =
+      s_curve_duration_s(3, request.limits.speed_m_s, request.limits.acceleration_m_s2, 0.8);
+  for (double slack : {1e-4, 1e-3, 1e-2}) {
+    request.time = {.mode = TimeMode::time_budget, .duration_s = exact_s * (1 + slack)};
+    EXPECT_LE(solved(request).duration_s(), exact_s * (1 + slack) + 1e-6);
+  }
+  request.time.duration_s = 0.98 * exact_s;
+  const ProfileResult result = solve_profile(request);
+  EXPECT_EQ(result.summary.status, SolveStatus::infeasible);
+  ASSERT_TRUE(result.infeasibility.has_value());
+  EXPECT_EQ(result.infeasibility->constraint, "jerk");
+  EXPECT_NEAR(result.infeasibility->relaxation.at("deadline_s"), exact_s, 1e-4 * exact_s);
+}
+
+TEST(Jerk, LeavesATurnInPlaceAlone) {
+  ProfileRequest request = straight(1, 0.5);
+  request.piece = TurnInPlace{{}, 1.5};
+  const double with_J = energy_J(request);
+  request.limits.jerk_m_s3 = kNoLimit;
+  EXPECT_EQ(with_J, energy_J(request));
+}
+
+}  // namespace
+}  // namespace joulepath
