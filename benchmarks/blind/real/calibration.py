@@ -29,13 +29,13 @@ def deviation(values):
 
 
 class Drive:
-    """The fitted constants. `rms` is what the torques leave, N m; `scatter` the deviation of a stretch's friction and
-    `spread` that of constants, all relative; `scrub` is the torque on a wheel while the robot turns."""
+    """The fitted constants. `torque_rms` and `voltage_rms` are what is left over; `scatter` is the deviation of a
+    stretch's friction, `spread` that of constants, relative; `scrub` is the torque on a wheel while the robot turns."""
 
     def __init__(self):
         self.friction, self.viscous, self.scrub = [0.0, 0.0], 0.0, 0.0
         self.straight_inertia = self.turning_inertia = 0.0
-        self.rms, self.voltage_rms, self.scatter, self.spread = 0.0, 1.0, 0.0, {}
+        self.torque_rms, self.voltage_rms, self.scatter, self.spread = 0.0, 1.0, 0.0, {}
         self.torque_per_ampere, self.ohm, self.drop_V = None, None, None
 
 
@@ -53,39 +53,38 @@ def fit_winding(drive, runs):
         drive.spread[key] = 2 * deviation([part[c] for part in parts]) / abs(whole[c])
 
 
-def friction_columns(window, side, viscous):
-    wheel = (1.0, 0.0) if side == "left" else (0.0, 1.0)
-    inertia = (window.straight_acceleration * window.sign, window.turning_acceleration * window.sign, window.turn * window.sign)
-    return wheel + inertia + ((abs(window.speed),) if viscous else ())
+TORQUES = {"left": lambda w, side: float(side == "left"), "right": lambda w, side: float(side == "right"),
+           "viscous": lambda w, side: abs(w.speed), "straight": lambda w, side: w.straight_acceleration * w.sign,
+           "turning": lambda w, side: w.turning_acceleration * w.sign, "scrub": lambda w, side: w.turn * w.sign}
 
 
-def fit_friction(drive, runs, viscous=True):
-    """T_m of both sides, inertias, scrub and nu from the currents; the scatter of T_m between stretches."""
+def fit_friction(drive, runs, terms):
+    """T_m of both sides and the other `terms` (keys of TORQUES) from the currents; the scatter of T_m between stretches."""
     entries = [(k, side, w) for k, run in enumerate(runs) for side in SIDES for w in run[side]]
-    rows = [friction_columns(w, side, viscous) for _, side, w in entries]
+    rows = [[TORQUES[term](w, side) for term in terms] for _, side, w in entries]
     torques = [drive.torque_per_ampere * w.current for _, _, w in entries]
-    solved = least_squares(rows, torques)
-    if viscous and solved[5] < 0:
-        return fit_friction(drive, runs, False)
-    drive.friction, drive.scrub = solved[:2], solved[4]
-    drive.straight_inertia, drive.turning_inertia = solved[2:4]
-    drive.viscous = solved[5] if viscous else 0.0
+    solved = dict(zip(terms, least_squares(rows, torques)))
+    if solved.get("viscous", 0.0) < 0:
+        return fit_friction(drive, runs, [term for term in terms if term != "viscous"])
+    drive.friction = [solved["left"], solved["right"]]
+    drive.viscous, drive.scrub = solved.get("viscous", 0.0), solved.get("scrub", 0.0)
+    drive.straight_inertia, drive.turning_inertia = solved["straight"], solved.get("turning", 0.0)
     left = {}
     for (k, side, _), row, torque in zip(entries, rows, torques):
-        left.setdefault((k, side), []).append(torque - sum(c * x for c, x in zip(solved, row)))
-    drive.rms = mean([e * e for errors in left.values() for e in errors]) ** 0.5
+        left.setdefault((k, side), []).append(torque - sum(solved[term] * x for term, x in zip(terms, row)))
+    drive.torque_rms = mean([e * e for errors in left.values() for e in errors]) ** 0.5
     drive.scatter = deviation([mean(errors) / drive.friction[SIDES.index(side)]
                                for (_, side), errors in left.items() if len(errors) >= LEAST_WINDOWS])
 
 
-def calibrate(runs, torque_per_ampere=None):
+def calibrate(runs, torque_per_ampere=None, terms=tuple(TORQUES)):
     """`runs` is a list of {side: [Window]}, one per stretch; without `torque_per_ampere` it is taken from the voltages."""
     drive = Drive()
     if torque_per_ampere is None:
         fit_winding(drive, runs)
     else:
         drive.torque_per_ampere = torque_per_ampere
-    fit_friction(drive, runs)
+    fit_friction(drive, runs, list(terms))
     return drive
 
 
