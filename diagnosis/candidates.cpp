@@ -46,6 +46,40 @@ double replaced_value(const std::string& effect, const Robot& robot) {
 
 constexpr double kHardestContact_N_s_m = 1e8;
 
+/// What drives and stops a robot: the measure by which a resistance is small or large.
+struct OwnResistance {
+  double torque_Nm{}, moment_Nm{}, force_N{}, current_A{};
+};
+
+OwnResistance own_resistance(const Robot& robot) {
+  OwnResistance own;
+  for (Side side : kSides) {
+    const Motor& motor = robot.motor[side];
+    const double radius_m = robot.geometry.wheel_radius_m[side];
+    const double rolling_N = 0.01 * 9.81 * robot.inertia.chassis_mass_kg / 2;  // of a hard tire
+    const double torque_Nm = motor.friction_torque_Nm + rolling_N * radius_m;
+    own.torque_Nm += 0.5 * torque_Nm;
+    own.force_N += torque_Nm / radius_m;
+    own.current_A += 0.5 * torque_Nm / motor.torque_per_ampere_Nm_A();
+  }
+  own.moment_Nm = own.force_N * robot.geometry.half_track_m;
+  return own;
+}
+
+/// The catalog's typical sizes are those of a robot of 24 kg; this is what they are on another robot.
+double typical_size(const ParameterDescription& parameter, const Robot& robot) {
+  constexpr OwnResistance kReference{
+      .torque_Nm = 0.463, .moment_Nm = 1.53, .force_N = 9.27, .current_A = 0.27};
+  const OwnResistance own = own_resistance(robot);
+  const std::string_view name(parameter.name);
+  if (name == "moment_Nm") return parameter.typical * own.moment_Nm / kReference.moment_Nm;
+  if (parameter.unit == std::string_view("N m"))
+    return parameter.typical * own.torque_Nm / kReference.torque_Nm;
+  if (name == "offset_A") return parameter.typical * own.current_A / kReference.current_A;
+  if (name == "coefficient_N_s2_m2") return parameter.typical * own.force_N / kReference.force_N;
+  return parameter.typical;
+}
+
 void add_with_grid(const EffectDescription& description, Candidate candidate, std::vector<Candidate>& out) {
   std::vector<Candidate> grown{std::move(candidate)};
   for (const std::string& name : shape_parameters(std::string(description.info.name))) {
@@ -113,7 +147,7 @@ std::vector<Candidate> catalog_candidates(const Robot& robot, const std::set<std
     const ParameterDescription& first = description.parameters.front();
     Candidate candidate{.shape = {.name = name},
                         .amplitude = {first.name},
-                        .step = {first.typical},
+                        .step = {typical_size(first, robot)},
                         .nonnegative = kOneSigned.contains(name)};
     if (name == "floor_slope")
       candidate.amplitude = {"x", "y"}, candidate.step = {first.typical, first.typical};

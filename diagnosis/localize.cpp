@@ -39,10 +39,13 @@ class Localizer {
   const GapLedger& ledger() const { return ledger_; }
 
  private:
-  /// Mean size of the power's error that sensor noise makes.
-  double noise_W(double voltage_V, double current_A, Side side) const {
+  /// Mean size of the power's error that sensor noise makes; without a voltage channel V is that of the
+  /// measured current, whose error counts in it, too.
+  double noise_W(double voltage_V, double current_A, Side side, bool voltage_measured) const {
     const std::size_t s = side == Side::left ? 0 : 1;
     const double sd_A = noise_.channel_sd[kCurrentLeft + s], ohm = nominal_.robot.motor[side].resistance_ohm;
+    if (!voltage_measured)
+      return std::sqrt(2 / std::numbers::pi) * std::abs(voltage_V + ohm * current_A) * sd_A;
     const double winding_V = noise_.channel_sd[kWindingLeft + s];
     const double sd_V2 =
         std::max(winding_V * winding_V - ohm * ohm * sd_A * sd_A, 0.1 * winding_V * winding_V);
@@ -57,7 +60,8 @@ class Localizer {
       const Eigen::VectorXd measured = measured_power_W(run, side);
       for (Eigen::Index j = 0; j < measured.size(); ++j) {
         const double gap_W = p.power_W[side][j] - measured[j];
-        const double noise = noise_W(p.voltage_V[side][j], p.current_A[side][j], side);
+        const double noise =
+            noise_W(p.voltage_V[side][j], p.current_A[side][j], side, run.motor_voltage_V[side].size() > 0);
         book_sample(run, r, side, j,
                     {.gap_J = std::abs(gap_W) * run.period_s,
                      .noise_J = noise * run.period_s,

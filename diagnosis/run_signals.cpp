@@ -6,6 +6,7 @@
 #include "diagnosis/smoothing.hpp"
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
+#include "model/motor.hpp"
 
 namespace joulepath {
 namespace {
@@ -121,6 +122,14 @@ Samples product(const Samples& a, const Samples& b) {
   return result;
 }
 
+/// What a measured current takes where no voltage is logged: (R i + Kv n q') i, by the robot file's winding.
+Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const Samples& current_A) {
+  Samples power(current_A.size());
+  for (std::size_t k = 0; k < power.size(); ++k)
+    power[k] = motor_voltage_V(motor, current_A[k], speed_rad_s[k]) * current_A[k];
+  return power;
+}
+
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
                  const Samples& heading, double least_speed_rad_s) {
   for (Side side : kSides) {
@@ -181,9 +190,10 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
         thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));
     signals.motor_current_A[side] =
         thinner.smooth(thinner.on_grid(log.motor_current_A[side], options.channel_delay_s));
-    const Samples power = log.motor_power_W[side].empty()
-                              ? product(log.motor_voltage_V[side], log.motor_current_A[side])
-                              : log.motor_power_W[side];
+    Samples power = log.motor_power_W[side];
+    if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
+    if (power.empty())
+      power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
     signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, options.channel_delay_s));
   }
   signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));

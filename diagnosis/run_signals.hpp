@@ -31,7 +31,7 @@ struct RunSignals {
   Sided<Eigen::VectorXd> wheel_along_y_rad{};
   Sided<Eigen::VectorXd> motor_voltage_V{};
   Sided<Eigen::VectorXd> motor_current_A{};
-  Sided<Eigen::VectorXd> motor_power_W{};  ///< logged, or voltage times current of each sample
+  Sided<Eigen::VectorXd> motor_power_W{};  ///< logged; or V i of each sample; or (R i + Kv n q') i
   Eigen::VectorXd battery_power_W{};
   Eigen::VectorXd battery_voltage_V{};
   Eigen::VectorXd battery_current_A{};

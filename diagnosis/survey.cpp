@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace joulepath {
@@ -13,6 +14,17 @@ double share_of(const std::vector<RunSignals>& signals, Has&& has) {
   double count = 0;
   for (const RunSignals& run : signals) count += has(run) ? 1 : 0;
   return signals.empty() ? 0.0 : count / static_cast<double>(signals.size());
+}
+
+/// Who a finding is about: up to three runs by name, more by their number.
+std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
+  constexpr std::size_t kMostNames = 3;
+  if (runs.size() > kMostNames)
+    return (runs.size() == all ? "all " : "") + std::to_string(runs.size()) + " runs: ";
+  std::string text;
+  for (const std::string& run : runs)
+    if (!run.empty()) text += (text.empty() ? "" : ", ") + run;
+  return text.empty() ? text : text + ": ";
 }
 
 }  // namespace
@@ -30,7 +42,9 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
         [](const RunSignals& r) {
           return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
         });
-  lacks("motor_voltage", "winding, driver and magnet errors cannot be told from errors of the current sensor",
+  lacks("motor_voltage",
+        "winding, driver and magnet errors cannot be told from errors of the current sensor; energies are "
+        "those that the currents take by the robot file's winding",
         [](const RunSignals& r) {
           return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
         });
@@ -72,11 +86,18 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
 }
 
 std::vector<std::string> artifact_texts(const Dataset& dataset) {
+  std::vector<std::string> findings;                          // in the order in which they came
+  std::map<std::string, std::vector<std::string>> runs_with;  // by what was found
+  for (const LogArtifact& artifact : dataset.artifacts) {
+    const std::string finding = artifact.kind + (artifact.channel.empty() ? "" : " in " + artifact.channel) +
+                                (artifact.description.empty() ? "" : ": " + artifact.description);
+    std::vector<std::string>& runs = runs_with[finding];
+    if (runs.empty()) findings.push_back(finding);
+    runs.push_back(artifact.run);
+  }
   std::vector<std::string> texts;
-  for (const LogArtifact& artifact : dataset.artifacts)
-    texts.push_back((artifact.run.empty() ? "" : artifact.run + ": ") + artifact.kind +
-                    (artifact.channel.empty() ? "" : " in " + artifact.channel) +
-                    (artifact.description.empty() ? "" : ": " + artifact.description));
+  for (const std::string& finding : findings)
+    texts.push_back(runs_text(runs_with[finding], dataset.runs.size()) + finding);
   for (const Run& run : dataset.runs)
     if (run.current_sign_from_motion) {
       texts.push_back("currents are unsigned: their sign is taken from the wheels' motion");

@@ -8,21 +8,27 @@
 #include "diagnosis/equations.hpp"
 #include "diagnosis/nuisance.hpp"
 #include "diagnosis/refit.hpp"
+#include "diagnosis/survey.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/robot_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath {
 namespace {
 
-/// A plant's test day of which wheel speeds and currents alone were logged, as on many real robots.
-Dataset speeds_and_currents() {
+/// A test day of six runs of the benchmark's plant, with an effect and its size, or `none`.
+Dataset test_day(const std::string& effect) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "odd_runs";
   std::filesystem::remove_all(folder);
-  const std::string command = std::string(JOULEPATH_BINARY_DIR) +
-                              "/bin/blind_plant --effect none --protocol 6 --seed 31 --out " +
-                              folder.string();
+  const std::string command = std::string(JOULEPATH_BINARY_DIR) + "/bin/blind_plant --effect " + effect +
+                              " --protocol 6 --seed 31 --out " + folder.string();
   if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
-  Dataset dataset = read_dataset((folder / "dataset.yaml").string());
+  return read_dataset((folder / "dataset.yaml").string());
+}
+
+/// Wheel speeds and currents alone, as on many real robots.
+Dataset speeds_and_currents(const std::string& effect) {
+  Dataset dataset = test_day(effect);
   for (auto& run : dataset.runs) {
     Trajectory& log = run.log;
     log.motor_voltage_V = {};
@@ -38,7 +44,7 @@ bool have_plant() { return std::filesystem::exists(std::string(JOULEPATH_BINARY_
 
 TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
   if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
-  Dataset dataset = speeds_and_currents();
+  Dataset dataset = speeds_and_currents("none");
   auto& still = dataset.runs[1];
   for (Side side : kSides) {
     still.log.wheel_speed_rad_s[side].assign(still.log.size(), 0.0);
@@ -51,7 +57,7 @@ TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
 /// Derivatives by a shape parameter at the end of what the catalog accepts are taken from within.
 TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
   if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
-  const Dataset dataset = speeds_and_currents();
+  const Dataset dataset = speeds_and_currents("none");
   const std::vector<Nuisance> nuisances = calibration_nuisances(dataset.robot);
   const std::vector<RunSignals> signals = read_signals({.dataset = &dataset, .runs = {0, 1, 2}}, 0.0);
   for (const double trail_m : {0.005, 10.0}) {
@@ -65,6 +71,50 @@ TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
                                                 {.whole_catalog = false, .dictionary = false});
     for (const RunEquations& run : equations.runs) EXPECT_TRUE(run.gram.allFinite()) << trail_m;
   }
+}
+
+/// The same day with and without its voltages: V = R i + Kv n q' gives nearly the same joules.
+TEST(OddRuns, WithoutVoltagesEnergiesAreThoseOfTheCurrents) {
+  if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const std::string effect = "rolling_resistance --size 0.01";
+  const EnergyGap with = diagnose(test_day(effect), {.bootstrap = 20}).gap.energy;
+  const EnergyGap without = diagnose(speeds_and_currents(effect), {.bootstrap = 20}).gap.energy;
+  EXPECT_GT(with.before_percent, 10);
+  EXPECT_NEAR(without.before_percent, with.before_percent, 0.05 * with.before_percent);
+  EXPECT_NEAR(without.before_J, with.before_J, 0.05 * with.before_J);
+}
+
+/// A finding that every run shares is told once.
+TEST(OddRuns, TheSameArtifactOfManyRunsIsOneText) {
+  Dataset dataset;
+  dataset.runs.resize(5);
+  for (int k = 1; k <= 5; ++k)
+    dataset.artifacts.push_back({"unsigned", "run_" + std::to_string(k), "motor_current_left_A", "no sign"});
+  dataset.artifacts.push_back({"clock jump", "run_2", "", "0.3 s"});
+  EXPECT_EQ(artifact_texts(dataset),
+            (std::vector<std::string>{"all 5 runs: unsigned in motor_current_left_A: no sign",
+                                      "run_2: clock jump: 0.3 s"}));
+}
+
+/// What counts as a usual size grows with the robot: catalog sizes are those of the Nomad.
+TEST(Candidates, UsualSizesGrowWithTheRobotsOwnResistance) {
+  const Robot nomad = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml");
+  Robot heavy = nomad;
+  for (Side side : kSides) heavy.motor[side].friction_torque_Nm *= 10;
+  heavy.inertia.chassis_mass_kg *= 10;
+  const auto step = [](const Robot& robot, const std::string& effect) {
+    for (const Candidate& candidate : catalog_candidates(robot))
+      if (candidate.shape.name == effect) return candidate.step[0];
+    return 0.0;
+  };
+  for (const char* effect :
+       {"coulomb_friction", "turning_scrub", "dragging_wheel", "current_sensor_offset", "quadratic_drag"}) {
+    const double typical = find_effect(effect)->parameters.front().typical;
+    EXPECT_NEAR(step(nomad, effect), typical, 0.05 * typical) << effect;
+    EXPECT_NEAR(step(heavy, effect), 10 * step(nomad, effect), 1e-9) << effect;
+  }
+  for (const char* effect : {"rolling_resistance", "wheel_radius_error", "torque_constant_error"})
+    EXPECT_DOUBLE_EQ(step(heavy, effect), find_effect(effect)->parameters.front().typical) << effect;
 }
 
 }  // namespace
