@@ -9,6 +9,7 @@
 #include "app/report/diagnosis_report.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/decision_cost.hpp"
 #include "scenarios/robot_file.hpp"
@@ -137,7 +138,8 @@ class Diagnose : public Command {
     out.write("report.html", report::diagnosis_report(diagnosis, json, dataset));
     if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
-      out.write("dataset_corrected.yaml", corrected_dataset_text(dataset, diagnosis));
+      out.write("dataset_corrected.yaml",
+                corrected_dataset_text(dataset, diagnosis.corrected_instruments, out_));
     out.commit();
     if (common_.json)
       std::cout << json;

@@ -9,10 +9,6 @@ namespace joulepath {
 /// `diagnosis.json` with exactly the keys of docs (formats). Numbers to six significant digits.
 [[nodiscard]] std::string diagnosis_json(const Diagnosis& diagnosis);
 
-/// `dataset_corrected.yaml`: the dataset's text with the instrument effects' inverse in `columns:`, or a
-/// note where a column mapping cannot say it.
-[[nodiscard]] std::string corrected_dataset_text(const Dataset& dataset, const Diagnosis& diagnosis);
-
 /// A mission of prescribed motions: the run that the diagnosis proposes.
 [[nodiscard]] std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file);
 
