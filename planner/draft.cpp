@@ -22,12 +22,6 @@ std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequ
                        .message = "the payload exceeds what the robot may carry"};
 }
 
-bool begins_as(const LegWays& ways, const LegStart& start) {
-  const Pose &a = ways.start.pose, &b = start.pose;
-  return (!ways.ways.empty() || ways.settled) && ways.start.heading_free == start.heading_free &&
-         a.x_m == b.x_m && a.y_m == b.y_m && a.heading_rad == b.heading_rad;
-}
-
 /// A leg that ends at speed goes on at that speed, without a dwell.
 void check_joint(const MissionRequest& mission, std::size_t k) {
   const LegRequest& leg = mission.legs[k];
@@ -57,33 +51,28 @@ Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility r
   return plan;
 }
 
-Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
-                 const Plant& plant, const PlanOptions& options, const std::vector<double>& price_W,
-                 std::vector<LegWays>& ways, Plan& plan) {
+Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
+                 const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
   Draft draft;
-  LegStart start{.pose = mission.start.pose, .heading_free = !mission.start.heading_given};
-  for (std::size_t k = 0; k < mission.legs.size(); ++k) {
+  Pose here = mission.start.pose;
+  for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k) {
     const LegRequest& leg = mission.legs[k];
     check_joint(mission, k);
-    if (auto reason = payload_too_heavy(world.robot, leg, start.pose)) {
+    if (auto reason = payload_too_heavy(world.robot, leg, here)) {
       plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
       return draft;
     }
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
-      draft.legs.push_back(prescribed_leg(leg, plant, start.pose));
+      draft.legs.push_back(prescribed_leg(leg, plant, here));
       if (auto reason = broken_limit(draft.legs.back(), plant, limits_along(world.robot, leg.payload))) {
         plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
         return draft;
       }
-      start.pose =
-          sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      here = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
       continue;
     }
-    const ChoiceContext context{mission, world, space, plant, options, price_W[k]};
-    if (k >= ways.size()) ways.resize(k + 1);
-    if (!begins_as(ways[k], start)) ways[k] = leg_ways(leg, k, start, context);
-    LegPath way = choose_leg_path(ways[k], leg, k, context);
+    LegPath& way = paths[k];
     if (way.infeasibility) {
       const double s_m = way.infeasibility->s;
       plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
@@ -96,9 +85,9 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
                           .dwell_s = leg.dwell_s,
                           .distance_m = way.path.distance_m(),
                           .turned_rad = way.path.turned_rad(),
-                          .alternatives = way.alternatives});
-    if (way.path.pieces.empty()) continue;
-    start = {.pose = way.path.end(), .heading_free = false};
+                          .alternatives = std::move(way.alternatives),
+                          .improvements = std::move(way.improvements)});
+    if (!way.path.pieces.empty()) here = way.path.end();
   }
   return draft;
 }

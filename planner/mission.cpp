@@ -65,16 +65,21 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
   const double floor_W = lowest_price_W(mission.objective);
   std::vector<double> price_W(mission.legs.size(), floor_W);
   TimedDraft timed;
-  std::vector<LegWays> ways;
-  for (int round = 0; round < kRounds; ++round) {
-    timed.draft = draft_legs(mission, world, space, plant, options, price_W, ways, plan);
+  const MissionWays ways(mission, world, space, plant, options);
+  const auto time_along = [&](bool refine) {
+    timed.draft = draft_legs(mission, world, plant, options, ways.choose(price_W, refine), plan);
     if (plan.status != SolveStatus::optimal ||
         !check_each_leg(timed.draft, floor_W, SolverChoice::fast, plan))
-      return timed;
+      return false;
     timed.split = share_time(timed.draft, mission, plant, SolverChoice::fast);
+    return true;
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    if (!time_along(false)) return timed;
     if (!space || !moved(price_W, timed.split.price_W)) break;
     price_W = timed.split.price_W;
   }
+  if (space && options.steps.refinement) time_along(true);
   return timed;
 }
 

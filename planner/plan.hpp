@@ -34,13 +34,22 @@ struct BaselineTotal {
   std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
 };
 
-/// What the planner looked at before it settled on a leg's path.
+/// What the planner looked at before it settled on a leg's path: driven between the chosen ways of its
+/// neighbors, turns at both stops included.
 struct PathAlternative {
   std::string name{};
-  double energy_J{};  ///< standby and the price of time included
+  double energy_J{};  ///< standby included
   double duration_s{};
   double distance_m{};
   bool chosen{};
+};
+
+/// A leg after a step of choosing its way, as the inner solves see it at the leg's price of a second.
+struct WayImprovement {
+  std::string step{};  ///< shortest_route | corners | routes | stops | refinement
+  double energy_J{};   ///< standby included
+  double duration_s{};
+  double cost_J{};  ///< energy and time at its price
 };
 
 struct LegPlan {
@@ -59,6 +68,7 @@ struct LegPlan {
   EnergyByCause energy{};  ///< driving and dwell
   std::vector<BaselineTotal> baselines{};
   std::vector<PathAlternative> alternatives{};
+  std::vector<WayImprovement> improvements{};
 };
 
 /// Why a mission cannot be driven, and the smallest change found that would make it possible.

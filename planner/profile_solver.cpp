@@ -34,6 +34,7 @@ class ProfileSolver {
       const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
       result_.summary.nodes = problem.node_count();
       if (!solve_on(problem)) return std::move(result_);
+      if (request_.draft) return sketch();
       const nlp::DenseCheck check = nlp::check_densely(
           problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), request_.accuracy);
       const bool accurate =
@@ -109,6 +110,12 @@ class ProfileSolver {
     result_.summary.message = verdict.message;
     result_.infeasibility = std::move(verdict);
     return false;
+  }
+
+  ProfileResult sketch() {
+    result_.summary.status = SolveStatus::feasible;
+    result_.profile = std::move(best_);
+    return std::move(result_);
   }
 
   /// The certificate: dual bound on this grid, and what half of the nodes cost more.
@@ -206,7 +213,7 @@ ProfileResult solve_profile(const ProfileRequest& request) {
     result.infeasibility = std::move(verdict);
     return result;
   }
-  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece))
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) && !request.draft)
     return solve_with_jerk_limit(request);
   return ProfileSolver(request).solve();
 }

@@ -7,11 +7,20 @@
 
 namespace joulepath {
 
+/// Which steps of choosing ways are taken; without one its simplest alternative stands.
+struct WaySteps {
+  bool corners{true};     ///< else stop, turn, go at every corner
+  bool routes{true};      ///< else the shortest route
+  bool stops{true};       ///< else the robot turns on the spot at stops
+  bool refinement{true};  ///< else corners stay as they were blended
+};
+
 struct PlanOptions {
   SolverChoice solver{SolverChoice::ipopt};
   std::size_t nodes{200};
   double accuracy{1e-4};
   unsigned seed{1};
+  WaySteps steps{};
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.

@@ -90,8 +90,8 @@ class VisitSearch {
 
   LegCost measure(std::size_t from, std::size_t to) const {
     LegRequest leg{.to = visits_[to].station, .marks = visits_[to].marks};
-    const RouteResult route = plan_route(
-        *context_.space, route_request(leg, to, start_of(from), context_.mission, context_.options));
+    const RouteResult route =
+        plan_route(*context_.space, route_request(leg, start_of(from), context_.mission, context_.options));
     LegCost result{.reachable = route.found()};
     for (std::size_t k = 0; k < 3 && result.reachable; ++k) {
       const double payload_kg = 0.5 * static_cast<double>(k) * heaviest_kg_;

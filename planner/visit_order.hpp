@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/leg_choice.hpp"
+#include "planner/ways/mission_ways.hpp"
 
 namespace joulepath {
 

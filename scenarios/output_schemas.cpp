@@ -23,6 +23,18 @@ Schema baselines_schema() {
                 optional("parameters", dictionary(result()))})));
 }
 
+Schema alternatives_schema() {
+  return list(
+      open(map({required("name", text()), required("energy_J", result()), required("duration_s", result()),
+                required("distance_m", result()), required("chosen", boolean())})));
+}
+
+Schema improvements_schema() {
+  return list(open(map({required("step", text(), "shortest_route | corners | routes | stops | refinement"),
+                        required("energy_J", result()), required("duration_s", result()),
+                        required("cost_J", result(), "energy, and time at the leg's price")})));
+}
+
 Schema leg_schema() {
   return open(
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
@@ -30,7 +42,9 @@ Schema leg_schema() {
            required("payload_kg",
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
            required("price_of_time_W", result(), "-dE/dT: what a second more would save"),
-           required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema())}));
+           required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
+           optional("alternatives", alternatives_schema(), "ways that were looked at, turns included"),
+           optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));
 }
 
 Schema battery_schema() {

@@ -78,6 +78,13 @@ Json alternative_json(const PathAlternative& alternative) {
           {"chosen", alternative.chosen}};
 }
 
+Json improvement_json(const WayImprovement& improvement) {
+  return {{"step", improvement.step},
+          {"energy_J", number(improvement.energy_J)},
+          {"duration_s", number(improvement.duration_s)},
+          {"cost_J", number(improvement.cost_J)}};
+}
+
 std::size_t longest_stretch(const LegPlan& leg) {
   std::size_t longest = 0;
   double most_s = -1.0;
@@ -105,10 +112,13 @@ Json leg_json(const LegPlan& leg) {
             {"energy_by_cause_J", cause_json(leg.energy)},
             {"stretches", Json::array()},
             {"alternatives", Json::array()},
+            {"improvements", Json::array()},
             {"baselines", Json::array()}};
   for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
   for (const PathAlternative& alternative : leg.alternatives)
     json["alternatives"].push_back(alternative_json(alternative));
+  for (const WayImprovement& improvement : leg.improvements)
+    json["improvements"].push_back(improvement_json(improvement));
   for (const BaselineTotal& baseline : leg.baselines)
     json["baselines"].push_back(baseline_json(baseline, leg.energy, longest_stretch(leg)));
   return json;

@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "planner/path/candidates.hpp"
 #include "planner/path/lattice.hpp"
 #include "planner/path/polyline.hpp"
+#include "planner/path/route.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace {

@@ -67,6 +67,33 @@ bool torque_is_the_same_everywhere(const ProfileRequest& request) {
   });
 }
 
+constexpr int kLooksPerSegment = 24;
+constexpr double kSafeShare =
+    0.7;  ///< of the curvature at which a wheel stands, where only samples are known
+
+/// Whether a wheel may stand or run backwards somewhere on the curve: |curvature| >= 1 / half track.
+bool wheel_may_reverse(const Curve& curve, double half_track_m) {
+  return std::any_of(curve.segments().begin(), curve.segments().end(), [&](const CurveSegment& segment) {
+    return std::visit(
+        [&](const auto& part) {
+          const bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+          const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
+          double most_per_m = 0;
+          for (int i = 0; i <= looks; ++i)
+            most_per_m = std::max(most_per_m, std::abs(part.at(part.length_m() * i / looks).curvature_per_m));
+          return most_per_m * half_track_m > (linear ? 1 - 1e-9 : kSafeShare);
+        },
+        segment);
+  });
+}
+
+/// Without effects only the sign of a wheel's friction jumps.
+bool torque_may_jump(const ProfileRequest& request) {
+  if (torque_is_the_same_everywhere(request)) return false;
+  return !request.plant.effects.empty() ||
+         wheel_may_reverse(std::get<Curve>(request.piece), request.plant.robot.geometry.half_track_m);
+}
+
 /// Drops nodes that are closer together than rounding allows; both ends stay.
 std::vector<double> without_doubles(std::vector<double> nodes, double length) {
   std::sort(nodes.begin(), nodes.end());
@@ -103,7 +130,7 @@ std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileReque
       nodes.push_back(cap.from_m);
       nodes.push_back(cap.to_m);
     }
-  if (!torque_is_the_same_everywhere(request)) add_jumps(motion, nodes);
+  if (torque_may_jump(request)) add_jumps(motion, nodes);
   return without_doubles(std::move(nodes), motion.length());
 }
 

@@ -16,7 +16,7 @@ Vector combine(double a, const Vector& u, double b, const Vector& v) {
 }
 double cross(const Vector& u, const Vector& v) { return u[0] * v[1] - u[1] * v[0]; }
 double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1]; }
-double norm(const Vector& u) { return std::hypot(u[0], u[1]); }
+double norm(const Vector& u) { return std::sqrt(dot(u, u)); }
 
 constexpr int kFirstIntervals = 4;
 constexpr int kDeepest = 40;

@@ -121,14 +121,15 @@ std::optional<Point2> meeting_point(const Point2& a, const Point2& b, const Poin
   return Point2{a[0] + t * ux, a[1] + t * uy};
 }
 
-/// Two corners close to each other that turn the same way become one, which leaves room for a wide blend.
-std::vector<Point2> merged_corners(std::vector<Point2> p, const LineFree& free, const TravelCost& cost) {
+}  // namespace
+
+std::vector<Point2> merged_corners(std::vector<Point2> p, const LineFree& free, double within_m,
+                                   double extra_m) {
   for (std::size_t i = 1; i + 2 < p.size();) {
     const Point2 a = p[i - 1], b = p[i], c = p[i + 1], d = p[i + 2];
     const auto corner = meeting_point(a, b, c, d);
-    const bool merge = corner && distance_m(b, c) < kMergeWithin_m &&
-                       polyline_cost({a, *corner, d}, cost) <
-                           polyline_cost({a, b, c, d}, cost) + kMergeExtra_m * cost.least_rate &&
+    const bool merge = corner && distance_m(b, c) < within_m &&
+                       polyline_length_m({a, *corner, d}) < polyline_length_m({a, b, c, d}) + extra_m &&
                        free(a, *corner) && free(*corner, d);
     if (!merge) {
       ++i;
@@ -140,8 +141,6 @@ std::vector<Point2> merged_corners(std::vector<Point2> p, const LineFree& free, 
   }
   return p;
 }
-
-}  // namespace
 
 double polyline_length_m(const std::vector<Point2>& polyline_m) { return polyline_cost(polyline_m, {}); }
 
@@ -159,7 +158,7 @@ std::vector<Point2> pull_taut(std::vector<Point2> polyline_m, const LineFree& fr
     }
     if (polyline_cost(p, cost) > (1 - kSettled) * cost_before) break;
   }
-  return merged_corners(p, free, cost);
+  return merged_corners(p, free, kMergeWithin_m, kMergeExtra_m);
 }
 
 }  // namespace joulepath

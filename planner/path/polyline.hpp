@@ -15,6 +15,12 @@ using LineFree = std::function<bool(const Point2& from_m, const Point2& to_m)>;
 [[nodiscard]] std::vector<Point2> pull_taut(std::vector<Point2> polyline_m, const LineFree& free,
                                             const TravelCost& cost);
 
+/// Makes one corner of two neighboring ones that turn the same way, where their outer lines meet in free
+/// floor, the two are within `within_m` of each other and the way gets at most `extra_m` longer: one corner
+/// has room for a wider blend.
+[[nodiscard]] std::vector<Point2> merged_corners(std::vector<Point2> polyline_m, const LineFree& free,
+                                                 double within_m, double extra_m);
+
 [[nodiscard]] double polyline_length_m(const std::vector<Point2>& polyline_m);
 
 }  // namespace joulepath

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <cstdio>
 
-#include "planner/path/lattice.hpp"
-#include "planner/path/polyline.hpp"
-#include "planner/path/rate_table.hpp"
+#include "planner/path/end_leads.hpp"
+#include "planner/path/homotopy.hpp"
+#include "planner/path/route_cache.hpp"
+#include "planner/path/route_pool.hpp"
 
 namespace joulepath {
 namespace {
 
 /// Shaping keeps this much more away than the final check, so that it cannot fail by rounding.
 constexpr double kShapeMargin_m = 0.001;
-constexpr double kWorthSwitching = 1e-4;
 constexpr double kArrived_m = 1e-6;
 
 std::string obstruction_text(const char* what, const Collision& c) {
@@ -57,32 +57,6 @@ RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Poin
   return verdict;
 }
 
-/// The taut polyline of the better of OMPL's solution and a lattice's (or, in narrow places, the grid's) own.
-void search(const FreeSpace& space, const RouteRequest& request, RouteResult& result) {
-  const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
-  FreeSpace::Cells cells = FreeSpace::Cells::clear;
-  std::vector<Point2> cell_route =
-      Lattice(space).route(start, goal, DiscLineCheck(space, start, goal, cells));
-  if (cell_route.empty()) cell_route = space.cell_route(start, goal, cells);
-  if (cell_route.empty()) cell_route = space.cell_route(start, goal, cells = FreeSpace::Cells::free);
-  const DiscLineCheck free(space, start, goal, cells);
-  const SearchResult found =
-      search_polyline(space, {start, goal, cells, request.planner, request.cost, request.seed});
-  result.search_iterations = found.iterations;
-  result.searched_by = found.iterations == 0 ? "line of sight" : found.planner;
-  if (!found.polyline_m.empty()) result.polyline_m = pull_taut(found.polyline_m, free, request.cost);
-  if (found.iterations == 0 || cell_route.empty()) return;
-  const auto taut = pull_taut(cell_route, free, request.cost);
-  for (std::size_t i = 0; i + 1 < taut.size(); ++i)
-    if (!free(taut[i], taut[i + 1])) return;
-  if (result.polyline_m.empty() ||
-      polyline_cost(taut, request.cost) <
-          (1 - kWorthSwitching) * polyline_cost(result.polyline_m, request.cost)) {
-    result.polyline_m = taut;
-    result.searched_by = "lattice";
-  }
-}
-
 Path with_end_turns(const Path& inner, const RouteRequest& request) {
   Path path;
   if (!inner.pieces.empty()) {
@@ -112,63 +86,32 @@ std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteReq
   return std::nullopt;
 }
 
+std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request) {
+  if (auto verdict = blocked_ends(space, request)) return verdict;
+  const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
+  if (is_there_already(request) || space.any_heading().connected(start, goal) ||
+      space.some_heading().connected(start, goal))
+    return std::nullopt;
+  return unconnected(space.any_heading(), start, goal);
+}
+
+bool is_there_already(const RouteRequest& request) {
+  return std::hypot(request.goal_x_m - request.start.x_m, request.goal_y_m - request.start.y_m) < kArrived_m;
+}
+
+RouteSpace::~RouteSpace() = default;
+RouteSpace::RouteSpace(RouteSpace&&) noexcept = default;
+RouteSpace& RouteSpace::operator=(RouteSpace&&) noexcept = default;
+
 RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, const Footprint& footprint,
                        double clearance_m)
     : field_(std::make_unique<ObstacleField>(map, keepout)),
       checker_(*field_, footprint, clearance_m),
       any_heading_(*field_, checker_.circumscribed_radius_m() + clearance_m) {
+  islands_m_ = island_points(any_heading_);
+  routes_ = std::make_unique<RouteCache>();
   if (!checker_.is_disc()) some_heading_.emplace(*field_, checker_.inscribed_radius_m() + clearance_m);
 }
-
-namespace {
-
-/// Lead lengths tried for a blend at an end.
-constexpr double kLeads_m[] = {0.3, 0.5, 0.8, 1.2, 1.8};
-
-/// The polyline with a lead along the heading at an end, its corner blended: of the leads that are free, the
-/// one that turns least in place, then the shortest. Absent where there is no room.
-std::optional<SmoothPath> with_lead(const std::vector<Point2>& line, bool at_start, double heading_rad,
-                                    const FootprintChecker& careful, const CornerPolicy& policy) {
-  std::optional<SmoothPath> best;
-  for (const double lead_m : kLeads_m) {
-    std::vector<Point2> led = line;
-    const double dx = lead_m * std::cos(heading_rad), dy = lead_m * std::sin(heading_rad);
-    if (at_start) {
-      led.insert(led.begin() + 1, {line.front()[0] + dx, line.front()[1] + dy});
-    } else {
-      led.insert(led.end() - 1, {line.back()[0] - dx, line.back()[1] - dy});
-    }
-    SmoothPath smooth = smooth_polyline(led, careful, policy);
-    const CornerReport& corner = at_start ? smooth.corners.front() : smooth.corners.back();
-    if (corner.radius_m == 0 || careful.first_collision(smooth.path)) continue;
-    const double turned_rad = smooth.path.turned_rad();
-    const bool less_turning = !best || turned_rad < best->path.turned_rad() - 1e-9;
-    const bool as_much = best && turned_rad < best->path.turned_rad() + 1e-9;
-    if (less_turning || (as_much && smooth.path.distance_m() < best->path.distance_m()))
-      best = std::move(smooth);
-  }
-  return best;
-}
-
-SmoothPath smooth_with_leads(const std::vector<Point2>& polyline_m, const RouteRequest& request,
-                             const FootprintChecker& careful, const CornerPolicy& policy) {
-  SmoothPath smooth = smooth_polyline(polyline_m, careful, policy);
-  if (polyline_m.size() < 2 || policy.kind == CornerPolicy::Kind::stop_turn_go) return smooth;
-  const auto differ = [](double a_rad, double b_rad) {
-    return std::abs(wrapped_angle_rad(a_rad - b_rad)) > 1e-6;
-  };
-  if (request.blend_start && !request.start_heading_free &&
-      differ(smooth.path.start().heading_rad, request.start.heading_rad))
-    if (auto led = with_lead(smooth.polyline_m, true, request.start.heading_rad, careful, policy))
-      smooth = *led;
-  if (request.blend_goal && request.goal_heading_rad &&
-      differ(smooth.path.end().heading_rad, *request.goal_heading_rad))
-    if (auto led = with_lead(smooth.polyline_m, false, *request.goal_heading_rad, careful, policy))
-      smooth = *led;
-  return smooth;
-}
-
-}  // namespace
 
 RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
                         const std::vector<Point2>& polyline_m) {
@@ -183,7 +126,10 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
   stopping.corners = {CornerPolicy::Kind::stop_turn_go, 0};
   for (const RouteRequest* way :
        {&request, static_cast<const RouteRequest*>(&bending), static_cast<const RouteRequest*>(&stopping)}) {
-    const SmoothPath smooth = smooth_with_leads(polyline_m, *way, careful, way->corners);
+    const bool leaves_along = way->blend_start && !way->start_heading_free;
+    const SmoothPath smooth = *smooth_along_headings(
+        polyline_m, leaves_along ? std::optional(way->start.heading_rad) : std::nullopt,
+        way->blend_goal ? way->goal_heading_rad : std::nullopt, careful, way->corners);
     result.path = with_end_turns(smooth.path, request);
     result.corners = smooth.corners;
     const auto collision = checker.first_collision(result.path);
@@ -201,28 +147,20 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
 
 RouteResult plan_route(const RouteSpace& space, const RouteRequest& request) {
   RouteResult result;
-  if (auto verdict = blocked_ends(space, request)) {
+  if (auto verdict = no_way(space, request)) {
     result.verdict = *verdict;
     return result;
   }
-  const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
-  if (std::hypot(goal[0] - start[0], goal[1] - start[1]) < kArrived_m) return shape_route(space, request, {});
-  const bool any_heading = space.any_heading().connected(start, goal);
-  if (!any_heading && !space.some_heading().connected(start, goal)) {
-    result.verdict = unconnected(space.any_heading(), start, goal);
+  if (is_there_already(request)) return shape_route(space, request, {});
+  const std::vector<PooledRoute> routes = pool_routes(space, request, {.classes = 1, .searches = 1});
+  if (routes.empty()) {
+    result.verdict = unconnected(space.any_heading(), {request.start.x_m, request.start.y_m},
+                                 {request.goal_x_m, request.goal_y_m});
     return result;
   }
-  RateTable table(request.cost, space.field().extent_m());
-  RouteRequest quick = request;
-  quick.cost = table.cost();
-  search(any_heading ? space.any_heading() : space.some_heading(), quick, result);
-  if (result.polyline_m.empty()) {
-    result.verdict = unconnected(space.any_heading(), start, goal);
-    return result;
-  }
-  RouteResult shaped = shape_route(space, request, result.polyline_m);
-  shaped.search_iterations = result.search_iterations;
-  shaped.searched_by = result.searched_by;
+  RouteResult shaped = shape_route(space, request, routes.front().polyline_m);
+  shaped.search_iterations = routes.front().search_iterations;
+  shaped.searched_by = routes.front().searched_by;
   return shaped;
 }
 

@@ -12,10 +12,16 @@
 
 namespace joulepath {
 
+class RouteCache;
+
 /// A floor as one robot sees it: obstacles, outline, and which places are connected. Made once per map,
-/// keep-out mask, footprint and clearance; then read-only and safe to share between threads.
+/// keep-out mask, footprint and clearance; then read-only and safe to share between threads. Routes that
+/// were searched on it are kept.
 class RouteSpace {
  public:
+  ~RouteSpace();
+  RouteSpace(RouteSpace&&) noexcept;
+  RouteSpace& operator=(RouteSpace&&) noexcept;
   RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, const Footprint& footprint,
              double clearance_m);
 
@@ -25,12 +31,17 @@ class RouteSpace {
   const FreeSpace& any_heading() const { return any_heading_; }
   /// For the largest disc inside of the outline: what no heading can avoid. The same for round robots.
   const FreeSpace& some_heading() const { return some_heading_ ? *some_heading_ : any_heading_; }
+  /// A point inside of every island (homotopy.hpp) of any_heading().
+  const std::vector<Point2>& islands_m() const { return islands_m_; }
+  RouteCache& routes() const { return *routes_; }
 
  private:
   std::unique_ptr<ObstacleField> field_{};  ///< its own allocation: the checker keeps a pointer to it
   FootprintChecker checker_;
   FreeSpace any_heading_;
   std::optional<FreeSpace> some_heading_{};
+  std::vector<Point2> islands_m_{};
+  std::unique_ptr<RouteCache> routes_;
 };
 
 struct RouteRequest {
@@ -82,6 +93,12 @@ struct RouteResult {
 
 /// Why the robot cannot stand at the request's start or goal; absent when it can.
 [[nodiscard]] std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request);
+
+/// Why there can be no way at all: an end is blocked, or the ends are not connected; absent otherwise.
+[[nodiscard]] std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request);
+
+/// Whether the goal is where the request starts.
+[[nodiscard]] bool is_there_already(const RouteRequest& request);
 
 /// Finds a way from a pose to a place and shapes it into a path with continuous curvature that the
 /// footprint can follow with its clearance everywhere; turns in place at the ends where headings differ.

@@ -19,6 +19,7 @@ struct TravelCost {
   /// Cost per metre at a point, heading along the travel; absent: `least_rate` everywhere (length).
   std::function<double(double x_m, double y_m, double heading_rad)> rate{};
   double least_rate{1.0};  ///< positive lower bound of `rate`; the closer, the faster the search
+  double per_rad{};        ///< cost of a corner per radian: ranks routes, the search itself does not see it
 };
 
 /// A search for the cheapest polyline of a disc between two points.
@@ -44,7 +45,7 @@ struct SearchResult {
 /// number of threads: every random number comes from the request's seed.
 [[nodiscard]] SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request);
 
-/// Cost of a polyline under a travel cost.
+/// Cost of a polyline under a travel cost, corners left out.
 [[nodiscard]] double polyline_cost(const std::vector<Point2>& polyline_m, const TravelCost& cost);
 
 }  // namespace joulepath

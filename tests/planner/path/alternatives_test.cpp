@@ -3,8 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/path/candidates.hpp"
 #include "planner/path/graph_route.hpp"
+#include "planner/path/homotopy.hpp"
+#include "planner/path/route_pool.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace joulepath {
@@ -40,32 +41,43 @@ TEST(Homotopy, SidesOfAnIslandAreDifferentClasses) {
   EXPECT_FALSE(same_homotopy_class(above, below, islands));
 }
 
-TEST(Candidates, PassTheIslandOnBothSidesCheapestFirst) {
+TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
   OccupancyGrid map = free_grid(200, 100, 0.1);
   fill(map, 80, 35, 120, 60);  // its lower side is nearer
   const RouteSpace space(map, nullptr, kDisc, 0.05);
-  const auto routes = plan_candidates(space, across(3, 4.5, 17, 4.5), 3);
+  const auto routes = pool_routes(space, across(3, 4.5, 17, 4.5), {});
   ASSERT_EQ(routes.size(), 2u);
-  EXPECT_LT(routes[0].polyline_cost, routes[1].polyline_cost);
-  const auto islands = island_points(space.any_heading());
-  EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, islands));
-  for (const RouteResult& route : routes)
-    EXPECT_FALSE(space.checker().first_collision(route.path).has_value());
+  EXPECT_LT(routes[0].cost, routes[1].cost);
+  EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, space.islands_m()));
 }
 
-TEST(Candidates, AreManyAndAllDifferentInAWarehouse) {
+TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
   const OccupancyGrid map = warehouse_grid(2);
   const RouteSpace space(map, nullptr, kDisc, 0.05);
-  const auto routes = plan_candidates(space, across(1.3, 1.3, 58, 37), 4);
+  const PoolOptions options{.dearest_ratio = 1.3};
+  const auto routes = pool_routes(space, across(1.3, 1.3, 58, 37), options);
   EXPECT_GE(routes.size(), 3u);
-  const auto islands = island_points(space.any_heading());
   for (std::size_t i = 0; i < routes.size(); ++i) {
-    ASSERT_TRUE(routes[i].found());
-    EXPECT_LE(routes[i].polyline_cost, 1.5 * routes[0].polyline_cost);
-    EXPECT_FALSE(space.checker().first_collision(routes[i].path).has_value());
+    EXPECT_LE(routes[i].cost, options.dearest_ratio * routes[0].cost);
+    const RouteResult shaped = shape_route(space, across(1.3, 1.3, 58, 37), routes[i].polyline_m);
+    EXPECT_TRUE(shaped.found());
+    EXPECT_FALSE(space.checker().first_collision(shaped.path).has_value());
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_FALSE(same_homotopy_class(routes[i].polyline_m, routes[j].polyline_m, islands));
+      EXPECT_FALSE(same_homotopy_class(routes[i].polyline_m, routes[j].polyline_m, space.islands_m()));
   }
+}
+
+TEST(RoutePool, ACornersPriceRanksRoutesAndIsNotPartOfWhatIsKept) {
+  OccupancyGrid map = free_grid(200, 100, 0.1);
+  fill(map, 80, 35, 120, 60);
+  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  RouteRequest request = across(3, 4.5, 17, 4.5);
+  const auto plain = pool_routes(space, request, {});
+  request.cost.per_rad = 2.0;
+  const auto priced = pool_routes(space, request, {});
+  ASSERT_FALSE(priced.empty());
+  EXPECT_NEAR(priced[0].cost, plain[0].cost + 2.0 * corner_angles_rad(plain[0].polyline_m), 1e-9);
+  EXPECT_EQ(pool_routes(space, across(3, 4.5, 17, 4.5), {})[0].cost, plain[0].cost);
 }
 
 TEST(TravelCostSearch, GoesAroundADearPatch) {

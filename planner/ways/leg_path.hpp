@@ -16,6 +16,7 @@ struct LegPath {
   std::string source{};  ///< bezier | ompl_bitstar | ...
   std::optional<Infeasibility> infeasibility{};
   std::vector<PathAlternative> alternatives{};
+  std::vector<WayImprovement> improvements{};
 };
 
 /// Where a leg begins. A start without a heading (a station that names none) leaves it open.
@@ -30,8 +31,8 @@ struct LegStart {
                                const MissionRequest& mission, const RouteSpace* space,
                                const PlanOptions& options);
 
-/// The route search of a leg to a station; its seed differs from leg to leg.
-[[nodiscard]] RouteRequest route_request(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
+/// The route search of a leg to a station.
+[[nodiscard]] RouteRequest route_request(const LegRequest& leg, const LegStart& start,
                                          const MissionRequest& mission, const PlanOptions& options);
 
 }  // namespace joulepath

@@ -1,4 +1,4 @@
-#include "planner/leg_path.hpp"
+#include "planner/ways/leg_path.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -53,7 +53,7 @@ Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal) {
 LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                        const MissionRequest& mission, const RouteSpace& space, const PlanOptions& options) {
   const Station& goal = mission.stations.at(leg.to);
-  const RouteResult route = plan_route(space, route_request(leg, leg_index, start, mission, options));
+  const RouteResult route = plan_route(space, route_request(leg, start, mission, options));
   if (route.verdict.status == RouteStatus::start_blocked && leg_index == 0)
     refuse(mission.start.marks, mission.start.station.empty() ? "x_m" : "station",
            "a start where the robot does not fit: " + route.verdict.message,
@@ -65,15 +65,15 @@ LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegSt
 
 }  // namespace
 
-RouteRequest route_request(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
-                           const MissionRequest& mission, const PlanOptions& options) {
+RouteRequest route_request(const LegRequest& leg, const LegStart& start, const MissionRequest& mission,
+                           const PlanOptions& options) {
   const Station& goal = mission.stations.at(leg.to);
   return {.start = start.pose,
           .goal_x_m = goal.x_m,
           .goal_y_m = goal.y_m,
           .goal_heading_rad = goal.heading_rad,
           .start_heading_free = start.heading_free,
-          .seed = options.seed + 1000003ULL * leg_index};
+          .seed = options.seed};
 }
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,

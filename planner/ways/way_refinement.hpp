@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/ways/leg_path.hpp"
+#include "planner/ways/way_chain.hpp"
+#include "planner/ways/way_run.hpp"
+
+namespace joulepath {
+
+/// The chosen ways of a run on their way to becoming paths: control points may be moved, then turns in place
+/// at the stops are added.
+class RefinedRun {
+ public:
+  RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run);
+
+  /// Moves the control points of each leg in turn, its neighbors' headings given; a way that leaves or
+  /// reaches a stop in the heading of its neighbor keeps that heading.
+  void refine();
+
+  /// The paths of the legs, turns in place included.
+  [[nodiscard]] std::vector<LegPath> paths() const;
+
+  /// Adds what refinement made of a leg to its alternatives and improvements.
+  void tell(std::size_t k, LegPath& path) const;
+
+ private:
+  struct Part {
+    const Way* way{};
+    Path path{};
+    double leaves_rad{};
+    double arrives_rad{};
+    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or as the station says)
+    PathScore score{};     ///< between its neighbors
+    bool refined{};
+  };
+  std::optional<double> heading_before(std::size_t k) const;
+  std::optional<double> heading_after(std::size_t k) const;
+  PathScore score(std::size_t k, const Path& path) const;
+  void refine(std::size_t k);
+
+  const ChainRequest& request_;
+  const WayRun& run_;
+  std::vector<Part> parts_{};
+};
+
+}  // namespace joulepath

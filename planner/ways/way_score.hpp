@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <map>
+
+#include "planner/mission_request.hpp"
+#include "planner/path/route.hpp"
+#include "planner/plan.hpp"
+#include "planner/stretch.hpp"
+
+namespace joulepath {
+
+/// Everything that a choice among ways looks at.
+struct ChoiceContext {
+  const MissionRequest& mission;
+  const MissionWorld& world;
+  const RouteSpace* space{};
+  const Plant& plant;
+  const PlanOptions& options;
+  double price_W{};  ///< of a second on this leg, on top of standby
+
+  /// The price with which ways are compared: very high instead of infinite.
+  double finite_price_W() const;
+};
+
+/// Energy and time of a path driven at its best for a price of time.
+struct PathScore {
+  double energy_J{};  ///< standby included
+  double duration_s{};
+  bool drivable{};
+
+  double cost_J(double price_W) const { return drivable ? energy_J + price_W * duration_s : kNoLimit; }
+  PathScore& operator+=(const PathScore& other);
+};
+
+/// The score of a path on a leg, by inner profile solves on a coarse grid (`draft`): ways differ by percents,
+/// grids by hundredths of them.
+[[nodiscard]] PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
+                                   const ChoiceContext& context);
+
+/// What turns in place cost, by payload and angle: tabulated by inner solves, interpolated between. Effects
+/// that depend on the place or the heading are taken at the origin.
+class TurnScores {
+ public:
+  explicit TurnScores(const ChoiceContext& context) : context_(context) {}
+
+  PathScore turn(double from_rad, double to_rad, double payload_kg);
+
+ private:
+  static constexpr std::size_t kAngles = 12;
+  struct Table {
+    std::array<PathScore, kAngles + 1> at{};  ///< at angles pi (i / kAngles)^2
+  };
+  const Table& table(double payload_kg);
+
+  ChoiceContext context_;
+  std::map<double, Table> tables_{};
+};
+
+/// Cost of travel on a leg for the search: J/m of friction, rolling, slope and floor patches at a steady
+/// speed with this leg's payload, plus standby and the price of time over that speed; J/rad of a corner.
+/// Where the floor is alike everywhere `rate` is absent and costs count in metres of travel.
+[[nodiscard]] TravelCost travel_cost(const LegRequest& leg, const ChoiceContext& context, TurnScores& turns);
+
+}  // namespace joulepath
