@@ -52,14 +52,6 @@ double gap_J(const StretchPlan& stretch) {
           std::abs(stretch.summary.price_of_time_W) * stretch.profile.duration_s());
 }
 
-/// Profiles under a jerk limit are never optimal, whatever their gap.
-bool has_jerk_limit(const Plan& plan) {
-  for (const LegPlan& leg : plan.legs)
-    for (const StretchPlan& stretch : leg.stretches)
-      if (std::isfinite(stretch.request.limits.jerk_m_s3)) return true;
-  return false;
-}
-
 std::string seconds(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", value);
@@ -116,8 +108,7 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
     plan.message = "the replay found " + plan.worst_limit + " exceeded";
   } else if (plan.status == SolveStatus::optimal && plan.gap_percent > 100.0 * std::max(accuracy, 1e-3)) {
     plan.status = SolveStatus::feasible;
-  } else if (plan.status == SolveStatus::feasible && !plan.local && plan.gap_percent <= 100.0 * accuracy &&
-             !has_jerk_limit(plan)) {
+  } else if (plan.status == SolveStatus::feasible && !plan.local && plan.gap_percent <= 100.0 * accuracy) {
     plan.status = SolveStatus::optimal;  // what one stretch lacks is little of the whole
   }
 }
