@@ -160,6 +160,30 @@ class Plant(unittest.TestCase):
         self.assertGreater(said["stlsq"]["gap"]["energy"]["shrink_fraction"], 0.7)
 
 
+@unittest.skipUnless(pathlib.Path(PLANT).with_name("blind_mujoco").exists(), "blind_mujoco is not built (libmujoco-dev)")
+class MuJoCo(unittest.TestCase):
+    def test_cruising_takes_friction_and_rolling_resistance_by_the_closed_form(self):
+        with tempfile.TemporaryDirectory() as folder:
+            data = pathlib.Path(folder) / "rolling"
+            subprocess.run([str(pathlib.Path(PLANT).with_name("blind_mujoco")), "--effect", "rolling_resistance", "--size", "0.01", "--seed", "11",
+                            "--protocol", "6", "--out", str(data)], check=True)
+            friction, viscous = truth_parameter(data, "friction_torque_Nm"), truth_parameter(data, "viscous_friction_Nm_s_rad")
+            mass, radius = truth_parameter(data, "chassis_mass_kg") + 2 * 1.39, truth_parameter(data, "wheel_radius_m")
+            kt_n, found = truth_parameter(data, "torque_constant_Nm_A") * 24.9, list(cruises(data))
+            self.assertGreater(len(found), 1)
+            for speed, current, _ in found:  # payloads of 0 to 10.5 kg
+                extra = kt_n * current - friction - viscous * speed
+                self.assertGreater(extra, 0.01 * mass * 9.80665 / 2 * radius - 0.012)
+                self.assertLess(extra, 0.01 * (mass + 10.7) * 9.80665 / 2 * radius + 0.012)
+
+    def test_what_mujoco_has_no_form_for_is_refused(self):
+        program = str(pathlib.Path(PLANT).with_name("blind_mujoco"))
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([program, "--effect", "gear_efficiency", "--out", folder, "--protocol", "6"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no form of this effect", done.stderr)
+
+
 def label(bin_name, *effects, detectable=True):
     return {"id": "x", "bin": bin_name, "level": 0, "robot": "nomad", "runs": 24,
             "effects": [{"effect": e, "foreign": bin_name == "foreign", "side": "", "parameters": {"p": 0.5}} for e in effects],

@@ -57,6 +57,8 @@ struct World {
   double eddy_torque_Nm{};  ///< a magnetic brake: torque peaks at the critical speed, falls above
   double eddy_speed_rad_s{3.0};
   double foldback_current_A{};  ///< driver that reduces its output above this current (0 = never)
+
+  bool operator==(const World&) const = default;
 };
 
 }  // namespace blind
