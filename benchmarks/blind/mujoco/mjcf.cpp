@@ -9,6 +9,8 @@ namespace blind {
 namespace {
 
 constexpr double kTireFriction = 0.9;
+constexpr double kCasterClearance_m =
+    3e-4;  // a soft contact gives way by half of it: the wheels carry the robot
 
 /// The world holds nothing beyond what this physics can show.
 void refuse_what_has_no_form(const World& w) {
@@ -57,7 +59,7 @@ std::string caster(double ahead_m, double axle_height_m) {
   const double radius = 0.3 * axle_height_m;
   std::ostringstream out;
   out << "<geom type=\"sphere\" size=\"" << radius << "\" pos=\"" << ahead_m << " 0 "
-      << radius - axle_height_m
+      << radius + kCasterClearance_m - axle_height_m
       << "\" contype=\"0\" conaffinity=\"1\" priority=\"1\" condim=\"1\" solref=\"0.004 1\"/>\n";
   return out.str();
 }
