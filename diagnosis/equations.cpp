@@ -5,6 +5,7 @@
 
 #include "diagnosis/indices.hpp"
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/resolution.hpp"
 #include "diagnosis/signatures.hpp"
 
 namespace joulepath {
@@ -175,7 +176,8 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     // fit of everything leaves is asked for its memory.
     std::vector<ResidualRows> left(rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
-    equations.noise = options.first_noise ? *options.first_noise : white_noise(left);
+    const std::array<double, kChannelCount> floor = resolution_floor(signals);
+    equations.noise = options.first_noise ? *options.first_noise : white_noise(left, floor);
     equations.run_variance = run_start_variance(robot);
     for (int pass = options.first_noise ? 1 : 0; pass < 3; ++pass) {
       raw = compress_all(rows, equations.noise);
@@ -185,7 +187,7 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
       equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
       if (pass == 2) break;
       left = leftover_rows(rows, estimate, raw, equations.run_variance);
-      equations.noise = estimate_noise(left);
+      equations.noise = estimate_noise(left, floor);
     }
   }
   equations.runs = marginalize_all(raw, equations.run_variance);

@@ -42,11 +42,16 @@ Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel
   return sum;
 }
 
+/// Size of a channel's noise, 1 without data.
+double size_of(const Autocovariance& r, double least_sd) {
+  return r.count > 0 ? std::hypot(std::sqrt(r.lag[0]), least_sd) : 1.0;
+}
+
 /// Yule-Walker's equations for two lags.
-void fit_memory(NoiseModel& noise, int channel, const Autocovariance& r) {
+void fit_memory(NoiseModel& noise, int channel, const Autocovariance& r, double least_sd) {
   const auto c = static_cast<std::size_t>(channel);
   noise.stationary_ratio[c] = 1.0;
-  noise.channel_sd[c] = r.count > 0 ? std::sqrt(r.lag[0]) : 1.0;
+  noise.channel_sd[c] = size_of(r, least_sd);
   if (r.count < 30 || r.lag[0] <= 0) return;
   const double rho1 = std::clamp(r.lag[1] / r.lag[0], -0.98, 0.98);
   const double rho2 = std::clamp(r.lag[2] / r.lag[0], -0.98, 0.98);
@@ -93,9 +98,11 @@ Covariance made_positive(const Covariance& covariance) {
 
 }  // namespace
 
-NoiseModel estimate_noise(const std::vector<ResidualRows>& runs) {
+NoiseModel estimate_noise(const std::vector<ResidualRows>& runs,
+                          const std::array<double, kChannelCount>& least_sd) {
   NoiseModel noise;
-  for (int c = 0; c < kChannelCount; ++c) fit_memory(noise, c, autocovariance(runs, c));
+  for (int c = 0; c < kChannelCount; ++c)
+    fit_memory(noise, c, autocovariance(runs, c), least_sd[static_cast<std::size_t>(c)]);
   Covariance sum = Covariance::Zero(), count = Covariance::Zero();
   for (const ResidualRows& run : runs) {
     const Eigen::MatrixXi history = history_of(run.present);
@@ -117,18 +124,23 @@ NoiseModel estimate_noise(const std::vector<ResidualRows>& runs) {
     for (int b = 0; b <= a; ++b)
       if (count(a, b) > 30 && share_noise(a, b))
         covariance(a, b) = covariance(b, a) = sum(a, b) / count(a, b);
+  for (int c = 0; c < kChannelCount; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    covariance(c, c) += least_sd[i] * least_sd[i];
+  }
   noise.innovation_covariance = made_positive(covariance);
   return noise;
 }
 
-NoiseModel white_noise(const std::vector<ResidualRows>& runs) {
+NoiseModel white_noise(const std::vector<ResidualRows>& runs,
+                       const std::array<double, kChannelCount>& least_sd) {
   NoiseModel noise;
   noise.innovation_covariance.setIdentity();
   for (int c = 0; c < kChannelCount; ++c) {
     const Autocovariance r = autocovariance(runs, c);
     const auto i = static_cast<std::size_t>(c);
     noise.stationary_ratio[i] = 1.0;
-    noise.channel_sd[i] = r.count > 0 && r.lag[0] > 0 ? std::sqrt(r.lag[0]) : 1.0;
+    noise.channel_sd[i] = r.count > 0 && r.lag[0] + least_sd[i] > 0 ? size_of(r, least_sd[i]) : 1.0;
     noise.innovation_covariance(c, c) = noise.channel_sd[i] * noise.channel_sd[i];
   }
   return noise;

@@ -20,11 +20,13 @@ struct NoiseModel {
 };
 
 /// Estimates the noise from rows that hold nothing but noise (residuals of a rich fit), one entry per
-/// run. A channel without data gets unit noise.
-[[nodiscard]] NoiseModel estimate_noise(const std::vector<ResidualRows>& rows);
+/// run. A channel without data gets unit noise; `least_sd` of each channel is added in quadrature.
+[[nodiscard]] NoiseModel estimate_noise(const std::vector<ResidualRows>& rows,
+                                        const std::array<double, kChannelCount>& least_sd = {});
 
 /// The same without memory or shared noise: each channel's size alone.
-[[nodiscard]] NoiseModel white_noise(const std::vector<ResidualRows>& rows);
+[[nodiscard]] NoiseModel white_noise(const std::vector<ResidualRows>& rows,
+                                     const std::array<double, kChannelCount>& least_sd = {});
 
 /// Turns rows into uncorrelated entries of unit variance. The same pattern of presence gives the same
 /// order of entries, so that signatures and residuals of a run match.
