@@ -7,6 +7,11 @@
 namespace joulepath {
 namespace {
 
+/// Effects smaller than this share of what matters are not named, whatever speaks for them.
+constexpr double kLeastSize = 0.08;
+constexpr double kShareOfFormError = 0.05;
+constexpr std::size_t kMostReconsidered = 300;
+
 /// Physics' signs, and sizes worth a name.
 bool sizes_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -19,9 +24,10 @@ bool sizes_hold(const Equations& equations, const std::vector<int>& columns, con
   return true;
 }
 
-bool is_material(const Equations& equations, const Explanation& explanation, const Eigen::VectorXd& mean,
-                 const std::vector<double>& least_amplitude) {
-  if (least_amplitude.empty()) return true;
+/// Amplitude of each candidate of an explanation, as a multiple of what just matters.
+std::vector<double> sizes_of(const Equations& equations, const Explanation& explanation,
+                             const Eigen::VectorXd& mean, const std::vector<double>& least_amplitude) {
+  std::vector<double> sizes;
   for (int c : explanation.candidates) {
     double square = 0;
     for (std::size_t k = 0; k < explanation.columns.size(); ++k) {
@@ -29,9 +35,9 @@ bool is_material(const Equations& equations, const Explanation& explanation, con
       if (column.owner == c && column.kind == Column::Kind::amplitude)
         square += mean[static_cast<Eigen::Index>(k)] * mean[static_cast<Eigen::Index>(k)];
     }
-    if (std::sqrt(square) < least_amplitude[static_cast<std::size_t>(c)]) return false;
+    sizes.push_back(std::sqrt(square) / least_amplitude[static_cast<std::size_t>(c)]);
   }
-  return true;
+  return sizes;
 }
 
 Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
@@ -44,11 +50,33 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
   const double cost = effects > 0 ? options.effect_cost + (effects - 1) * options.further_effect_cost : 0.0;
   explanation.score = posterior.log_evidence - empty_evidence - cost;
   explanation.loss = posterior.loss;
-  explanation.material = is_material(equations, explanation, posterior.mean, options.least_amplitude);
+  if (!options.least_amplitude.empty()) {
+    explanation.size = sizes_of(equations, explanation, posterior.mean, options.least_amplitude);
+    explanation.material =
+        std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
+  }
   if (!sizes_hold(equations, explanation.columns, posterior.mean)) explanation.score = -1e300;
   explanation.mean = std::move(posterior.mean);
   explanation.covariance = std::move(posterior.covariance);
   return explanation;
+}
+
+/// Whether the data insist on every effect below the materiality floor: each alone must bring much
+/// evidence, the more the smaller it is, and not a small share of the whole, as inexact forms of a great
+/// effect do.
+bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                  const SearchOptions& options, double empty_evidence) {
+  for (std::size_t k = 0; k < explanation.candidates.size(); ++k) {
+    if (explanation.size[k] >= 1) continue;
+    if (explanation.size[k] < kLeastSize) return false;
+    std::vector<int> others = explanation.candidates;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const double without = evaluate(problem, equations, std::move(others), options, empty_evidence).score;
+    const double needed = options.small_effect_evidence / std::sqrt(explanation.size[k]) +
+                          kShareOfFormError * std::max(0.0, explanation.score);
+    if (explanation.score - without < needed) return false;
+  }
+  return true;
 }
 
 bool has_name(const Equations& equations, const std::vector<int>& set, int candidate) {
@@ -97,6 +125,10 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
   }
   std::stable_sort(met.begin(), met.end(),
                    [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
+  if (std::isfinite(options.small_effect_evidence))
+    for (std::size_t k = 0; k < std::min(met.size(), kMostReconsidered); ++k)
+      if (!met[k].material)
+        met[k].material = beyond_doubt(problem, equations, met[k], options, empty_evidence);
   return met;
 }
 

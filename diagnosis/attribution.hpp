@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct Explanation {
   Eigen::MatrixXd covariance{};
   double score{};  ///< log evidence and log prior, relative to "nothing"
   double loss{};
-  bool material{true};  ///< every effect of it is large enough to matter
+  std::vector<double> size{};  ///< of each candidate, in amplitudes that just matter
+  bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
 };
 
 struct SearchOptions {
@@ -27,6 +29,9 @@ struct SearchOptions {
   double dispersion{1.0};
   std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
+  /// Evidence for an effect of just material size that makes it be named below that size too; grows as
+  /// 1/sqrt(size). Infinite: smaller ones are passed over.
+  double small_effect_evidence{std::numeric_limits<double>::infinity()};
 };
 
 /// Forward beam search over sets of candidates with the calibration projected out; every set met is

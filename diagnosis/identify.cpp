@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/delay_search.hpp"
 #include "diagnosis/floor_patch_search.hpp"
@@ -11,6 +12,9 @@
 
 namespace joulepath {
 namespace {
+
+/// With fewer runs noise and scatter are known too little to name what hardly matters.
+constexpr std::size_t kRunsForSmallEffects = 8;
 
 /// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
 Eigen::VectorXd rich_parameters(const Equations& equations) {
@@ -66,13 +70,15 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
          .dispersion = result.dispersion,
          .allowed = {},
          .least_amplitude = least_amplitudes(result.signals, robot, result.nuisances, result.state,
-                                             result.equations.candidates, known)});
+                                             result.equations.candidates, known),
+         .small_effect_evidence = runs.size() >= kRunsForSmallEffects
+                                      ? options.small_effect_evidence
+                                      : std::numeric_limits<double>::infinity()});
     std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
     const Explanation& best = result.explanations.front();
     if ((round > 0 || best.candidates.empty()) &&
         labels_of(result.equations, best) == labels_of(result.state))
       break;
-    if (round == options.rounds) break;
     const Eigen::VectorXd parameters =
         fit_parameters(result.equations, runs, best.columns, result.dispersion);
     Refit fitted = refit(logs, runs, result.nuisances,
@@ -80,6 +86,7 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
                          result.equations.noise, result.equations.run_variance, result.dispersion, 2);
     result.state = fitted.state;
     result.signals = std::move(fitted.signals);
+    if (round == options.rounds) break;  // did not settle: the last answer stands, refitted
   }
   return result;
 }

@@ -12,7 +12,8 @@ namespace {
 /// Loss that one free column buys by chance, and how much more counts as a finding: calibrated on
 /// development cases.
 constexpr double kChancePerColumn = 3.0;
-constexpr double kLeastEvidence = 120.0;
+constexpr double kLeastEvidence = 60.0;
+constexpr double kManyRuns = 18.0;  ///< with fewer, the noise is known less: more evidence is asked for
 constexpr double kLeastShare = 0.06;
 constexpr double kCalibrationBox = 3.0;  ///< of a nuisance's sigma: beyond it is no calibration error
 
@@ -60,7 +61,9 @@ Leftover find_leftover(const Identification& id, const std::vector<int>& columns
       explained - solve(problem, all, id.dispersion).loss - chance(all.size() - columns.size());
   const double possible = std::max(1.0, (nothing - explained) + std::max(0.0, leftover.evidence));
   leftover.share = std::clamp(leftover.evidence / possible, 0.0, 1.0);
-  leftover.significant = leftover.evidence > kLeastEvidence && leftover.share > kLeastShare;
+  const double runs = std::min(kManyRuns, static_cast<double>(equations.runs.size()));
+  const double least = kLeastEvidence * std::pow(kManyRuns / runs, 2);
+  leftover.significant = leftover.evidence > least && leftover.share > kLeastShare;
   if (!leftover.significant) return leftover;
   std::vector<std::pair<double, std::string>> gains;
   for (const auto& [name, family] : families) {

@@ -16,7 +16,7 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
   ModelPoint point{.robot = robot};
   for (std::size_t k = 0; k < nuisances.size(); ++k) {
     if (nuisances[k].key == kCreepNuisance)
-      point.contact_creep_m_s_N = kUsualCreep_m_s_N * state.nuisance_fraction[k];
+      point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * state.nuisance_fraction[k];
     else if (nuisances[k].key == kStampNuisance)
       continue;  // a column of the linear problem alone: too small to be read anew
     else if (is_payload_nuisance(nuisances[k]))

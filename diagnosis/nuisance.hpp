@@ -8,8 +8,15 @@ namespace joulepath {
 /// electrical channels' time stamps are good to a part of a sample only.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
-inline constexpr double kUsualCreep_m_s_N = 7e-5;  ///< 1/creep stiffness of a rubber tire, order of magnitude
-inline constexpr double kStampFraction = 0.2;      ///< of the log's period, 1-sigma
+/// Creep compliance of a rubber tire times the mass that it carries, order of magnitude: stiffness grows
+/// with the load.
+inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
+inline constexpr double kStampFraction = 0.2;  ///< of the log's period, 1-sigma
+
+/// 1-sigma of the creep compliance of a robot's tires, m/s per N.
+inline double usual_creep_m_s_N(const Robot& robot) {
+  return kUsualCreep_kg_m_s_N / robot.total_mass_kg(0.0);
+}
 
 /// What `uncertainty:` says, then creep and time stamps: all that a calibration may have missed.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);

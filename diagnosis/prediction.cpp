@@ -193,7 +193,8 @@ ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, c
     for (Eigen::Index j = 0; j < n; ++j) {
       const bool turning = signals.turning[side][static_cast<std::size_t>(j)];
       if (!turning) rows.present(j, current) = false;
-      if (!turning && !has_current) rows.present(j, winding) = false;
+      const bool told = has_current ? signals.conducting[side][static_cast<std::size_t>(j)] : turning;
+      if (!told) rows.present(j, winding) = false;
     }
   }
   const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&

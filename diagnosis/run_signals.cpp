@@ -154,6 +154,20 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   }
 }
 
+constexpr double kDeadBand_A = 0.1;
+
+/// Currents below which a driver's dead band hides the winding: less than friction takes.
+double dead_band_A(const Motor& motor) {
+  return std::min(kDeadBand_A, 0.5 * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A());
+}
+
+std::vector<bool> beyond(const Eigen::VectorXd& values, double least) {
+  std::vector<bool> result(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j)
+    result[static_cast<std::size_t>(j)] = std::abs(values[j]) >= least;
+  return result;
+}
+
 }  // namespace
 
 bool has_usable_log(const Run& run) {
@@ -190,6 +204,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
         thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));
     signals.motor_current_A[side] =
         thinner.smooth(thinner.on_grid(log.motor_current_A[side], options.channel_delay_s));
+    signals.conducting[side] = beyond(signals.motor_current_A[side], dead_band_A(robot.motor[side]));
     Samples power = log.motor_power_W[side];
     if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
     if (power.empty())

@@ -44,6 +44,9 @@ struct RunSignals {
   /// Samples of each wheel in which it turns one way throughout the kernel: there Coulomb friction
   /// has a known direction.
   Sided<std::vector<bool>> turning{};
+  /// Samples in which a measured current is beyond the driver's dead band: near zero the voltage may be
+  /// anything in it. Empty without currents.
+  Sided<std::vector<bool>> conducting{};
 
   Eigen::Index size() const { return time_s.size(); }
 };

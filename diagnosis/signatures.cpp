@@ -37,10 +37,10 @@ Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, c
   return (up - signature_rows(signals, point, base, predict_at(low))) / (high - low);
 }
 
-constexpr int kFormCount = 5;
+constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 constexpr double kFormSpread = 0.12;
 
-/// What a law's strength may depend on beyond the textbook, scaled to [-1, 1].
+/// A variable of kFormVariables, scaled to [-1, 1].
 double form_variable(const RunSignals& s, const Geometry& geometry, int form, Eigen::Index j) {
   const Twist<double> twist =
       body_twist(geometry, Sided<double>{s.wheel_speed_rad_s.left[j], s.wheel_speed_rad_s.right[j]});

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/equations.hpp"
@@ -20,6 +22,10 @@ struct AmplitudeStep {
 /// The state with that amplitude changed; the candidate is added where the state does not have it.
 [[nodiscard]] ModelState with_change(const ModelState& state, const Candidate& candidate,
                                      const AmplitudeStep& step, std::size_t part, double change);
+
+/// What the strength of a law may depend on beyond the textbook: one form column each.
+inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw rate", "payload",
+                                                                "acceleration", "time of day"};
 
 /// Columns of the linear problem about a state, without rows: nuisances, candidates, shapes of the
 /// state's own effects, dictionary.

@@ -14,6 +14,7 @@ namespace {
 constexpr double kFormErrorEnergy = 0.02;
 constexpr double kFormErrorGain = 0.05;
 constexpr double kFormErrorProbability = 0.3;
+constexpr double kLeastProbability = 0.15;
 constexpr double kSurest = 0.995;
 constexpr std::size_t kRanked = 12;
 
@@ -57,8 +58,11 @@ void choose_names(Examination& x) {
   x.probabilities = effect_probabilities(x.id.equations, x.id.explanations);
   std::vector<std::string> doubted;
   for (std::size_t e = 0; e < x.id.state.effects.size(); ++e) {
+    const std::string label = x.id.state.effects[e].candidate.label();
+    if (x.probabilities[label] < kLeastProbability && x.id.state.effects.size() > 1)
+      continue;  // the other sets do without it
     if (may_be_form_error(x, e))
-      doubted.push_back(x.id.state.effects[e].candidate.label());
+      doubted.push_back(label);
     else
       x.named.push_back(x.id.state.effects[e]);
   }

@@ -45,6 +45,10 @@ ModelState within_calibration(const Examination& x, ModelState state) {
   return state;
 }
 
+constexpr double kChanceLoss = 6.0;         ///< that held-out runs may differ by, in units of their noise
+constexpr double kCertainEvidence = 100.0;  ///< of the diagnosis runs alone
+constexpr double kModestEvidence = 30.0;    ///< that a worse held-out energy outweighs
+
 /// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
 bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
   const std::vector<double> loss = held_out_losses(x.validation, x.id, corrected);
@@ -52,7 +56,10 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
   const auto n = static_cast<double>(loss.size());
   for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
   for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
-  return sum > 0 && (n < 3 || sum * sum > square * 1.0 || sum > 6 * x.id.dispersion);
+  const double chance = kChanceLoss * x.id.dispersion;
+  if (sum > 0 && (n < 3 || sum * sum > square || sum > chance)) return true;
+  // Held-out runs that hardly show a certain effect (no turn, say) must only not speak against it.
+  return x.id.explanations.front().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
 }
 
 /// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
@@ -64,18 +71,23 @@ bool calibration_leaves_a_gap(const Examination& x, const Correction& calibrated
                             kLeastGapUnnamed_percent));
 }
 
+/// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
+double caution(const Examination& x) { return x.validation.runs.size() < 3 ? 2.0 : 1.0; }
+
 /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
-/// leaves is small, 1 where it makes things worse.
+/// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
 double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
-                                const Correction& correction) {
+                                const ModelState& calibrated, const Correction& correction) {
   const std::vector<RunSignals> after_signals = read_signals(x.validation, channel_delay_s(correction.state));
   const double floor = noise_floor_percent(x, correction);
   const double before = energy_gap_percent(run_energies(before_signals, x.nominal));
   const double after = energy_gap_percent(run_energies(after_signals, x.point_of(correction.state)));
-  if (after <= std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
-  if (after > kToleratedWorsening * before) return 1.0;
+  if (after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
+  if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
+  const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
+  if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;
   const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
-  return share > kShareOfWrongForm && after > kFloorsOfWrongForm * floor ? 1.0 : share;
+  return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;
 }
 
 /// Names nothing any more; calibration alone is fitted.
@@ -108,7 +120,7 @@ Correction validate(Examination& x) {
     report.verdict = report.leftover_significant ? Verdict::unexplained : Verdict::no_gap;
   }
   if (!x.named.empty()) {
-    const double share = unexplained_energy_share(x, read_signals(x.validation, 0.0), correction);
+    const double share = unexplained_energy_share(x, read_signals(x.validation, 0.0), calibrated, correction);
     if (share > kUnexplainedShare) {
       withdraw(x, correction,
                "the best explanation leaves most of the held-out energy gap and was withdrawn");

@@ -2,6 +2,7 @@
 
 #include "diagnosis/leftover.hpp"
 #include "diagnosis/split.hpp"
+#include "diagnosis/steps/forms.hpp"
 
 namespace joulepath {
 namespace {
@@ -35,6 +36,7 @@ void judge(Examination& x) {
   } else {
     report.verdict = leftover.significant ? Verdict::partly_explained : Verdict::explained;
   }
+  judge_forms(x);
   if (!x.named.empty() && !any_sure(x) && report.verdict == Verdict::explained)
     report.verdict = Verdict::ambiguous;
 }
