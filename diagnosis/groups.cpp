@@ -15,6 +15,23 @@ std::multiset<std::string> labels_of(const Equations& equations, const std::vect
   return labels;
 }
 
+constexpr std::size_t kMostRivals = 100;
+constexpr double kFreeAmplitude = 30.0;
+
+/// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
+/// alone say.
+double loss_of_laws(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                    double dispersion) {
+  std::vector<int> columns;
+  for (int k : explanation.columns)
+    if (equations.columns[static_cast<std::size_t>(k)].kind != Column::Kind::form) columns.push_back(k);
+  LinearProblem free = problem;
+  for (int k : columns)
+    if (equations.columns[static_cast<std::size_t>(k)].kind == Column::Kind::amplitude)
+      free.prior_sd[k] *= kFreeAmplitude;
+  return solve(free, columns, dispersion).loss;
+}
+
 }  // namespace
 
 std::map<std::string, double> effect_probabilities(const Equations& equations,
@@ -36,23 +53,33 @@ std::map<std::string, double> effect_probabilities(const Equations& equations,
   return weight;
 }
 
-std::vector<std::string> stand_ins(const Equations& equations, const std::vector<Explanation>& explanations,
-                                   int candidate) {
+std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
+                               const std::vector<Explanation>& explanations, int candidate,
+                               double dispersion) {
   if (explanations.empty()) return {};
   const Explanation& best = explanations.front();
   const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
   std::multiset<std::string> rest = labels_of(equations, best.candidates);
   rest.erase(rest.find(label));
-  std::vector<std::string> found;
+  const double own_loss = loss_of_laws(problem, equations, best, dispersion);
+  std::vector<StandIn> found;
+  std::size_t looked_at = 0;
   for (const Explanation& e : explanations) {
-    if (e.score < best.score - kStandInLogOdds) break;
-    if (e.candidates.size() != best.candidates.size()) continue;
+    if (e.candidates.size() != best.candidates.size() || looked_at > kMostRivals) continue;
     std::multiset<std::string> other = labels_of(equations, e.candidates);
     if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
       continue;
     for (const std::string& kept : rest) other.erase(other.find(kept));
-    if (other.size() == 1 && std::find(found.begin(), found.end(), *other.begin()) == found.end())
-      found.push_back(*other.begin());
+    if (other.size() != 1) continue;
+    ++looked_at;
+    const double loss_more = loss_of_laws(problem, equations, e, dispersion) - own_loss;
+    if (loss_more > kStandInLoss) continue;
+    const auto known =
+        std::find_if(found.begin(), found.end(), [&](const StandIn& s) { return s.label == *other.begin(); });
+    if (known == found.end())
+      found.push_back({*other.begin(), loss_more});
+    else
+      known->loss_more = std::min(known->loss_more, loss_more);
   }
   return found;
 }

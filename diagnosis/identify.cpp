@@ -16,6 +16,9 @@ namespace {
 /// With fewer runs noise and scatter are known too little to name what hardly matters.
 constexpr std::size_t kRunsForSmallEffects = 8;
 
+/// The fit of everything takes much of few runs' noise with it: what it leaves is too small by about this.
+constexpr double kFewRunsDispersion = 2.0;
+
 /// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
 Eigen::VectorXd rich_parameters(const Equations& equations) {
   std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
@@ -60,7 +63,8 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
         build_equations(result.signals, robot, result.nuisances, result.state, patches,
                         {.first_noise = round > 0 ? &noise : nullptr, .without = options.without});
     noise = result.equations.noise;
-    result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations));
+    result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
+                        (runs.size() < kRunsForSmallEffects ? kFewRunsDispersion : 1.0);
     const LinearProblem problem = without_calibration(result.equations, runs, result.dispersion);
     result.explanations = search_explanations(
         problem, result.equations,

@@ -22,7 +22,7 @@ struct Identification {
 struct IdentifyOptions {
   double effect_cost{6.0};
   double further_effect_cost{14.0};
-  double small_effect_evidence{16.0};
+  double small_effect_evidence{13.0};
   int most_effects{4};
   int rounds{4};
   std::set<std::string> without{};  ///< effects that the catalog is taken to lack

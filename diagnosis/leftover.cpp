@@ -12,7 +12,7 @@ namespace {
 /// Loss that one free column buys by chance, and how much more counts as a finding: calibrated on
 /// development cases.
 constexpr double kChancePerColumn = 3.0;
-constexpr double kLeastEvidence = 60.0;
+constexpr double kLeastEvidence = 40.0;
 constexpr double kManyRuns = 18.0;  ///< with fewer, the noise is known less: more evidence is asked for
 constexpr double kLeastShare = 0.06;
 constexpr double kCalibrationBox = 3.0;  ///< of a nuisance's sigma: beyond it is no calibration error
@@ -62,7 +62,7 @@ Leftover find_leftover(const Identification& id, const std::vector<int>& columns
   const double possible = std::max(1.0, (nothing - explained) + std::max(0.0, leftover.evidence));
   leftover.share = std::clamp(leftover.evidence / possible, 0.0, 1.0);
   const double runs = std::min(kManyRuns, static_cast<double>(equations.runs.size()));
-  const double least = kLeastEvidence * std::pow(kManyRuns / runs, 2);
+  const double least = kLeastEvidence * std::pow(kManyRuns / runs, 1.9);
   leftover.significant = leftover.evidence > least && leftover.share > kLeastShare;
   if (!leftover.significant) return leftover;
   std::vector<std::pair<double, std::string>> gains;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/patch_edge.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
 
@@ -135,10 +136,10 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
         x_slip_m += along_m_s * std::cos(site.pose.heading_rad) * signals.period_s;
         y_slip_m += along_m_s * std::sin(site.pose.heading_rad) * signals.period_s;
       }
-      state = operating_point(
+      state = operating_point_over_kernel(
           plant,
           BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s},
-          site);
+          site, twist.speed_m_s * signals.kernel_sigma_s);
     }
     for (Side side : kSides) {
       blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);

@@ -4,13 +4,18 @@
 #include <cmath>
 
 #include "diagnosis/parallel.hpp"
+#include "diagnosis/run_covariance.hpp"
 
 namespace joulepath {
 namespace {
 
+constexpr double kPatchEdgeStep_m = 0.2;  ///< that an edge moves by in one iteration
+
 double clamp_shape(const Candidate& candidate, const std::string& name, double old_value, double value) {
   for (const ParameterDescription& parameter : find_effect(candidate.shape.name)->parameters)
     if (parameter.name == name) value = std::clamp(value, parameter.min, parameter.max);
+  if (candidate.shape.name == "floor_patch")
+    return std::clamp(value, old_value - kPatchEdgeStep_m, old_value + kPatchEdgeStep_m);
   if (old_value > 0) value = std::clamp(value, 0.5 * old_value, 2.0 * old_value);
   return value;
 }
@@ -103,6 +108,9 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
     state = moved(result.equations, nuisances, state, result.parameters);
   }
   result.state = state;
+  result.fit_runs = fit_runs.size();
+  result.run_covariance = run_covariance(result.equations, fit_runs, result.columns, result.parameters,
+                                         result.covariance, dispersion);
   return result;
 }
 

@@ -26,8 +26,10 @@ struct Refit {
   std::vector<RunSignals> signals{};  ///< read at the state's delay
   Equations equations{};              ///< about the state, its own effects alone
   Eigen::VectorXd parameters{};       ///< of the equations
-  Eigen::MatrixXd covariance{};       ///< of nuisances, then the effects' columns
-  std::vector<int> columns{};         ///< rows of `covariance`
+  Eigen::MatrixXd covariance{};       ///< of nuisances, then the effects' columns, by the noise model
+  Eigen::MatrixXd run_covariance{};   ///< the same from how runs differ
+  std::size_t fit_runs{};
+  std::vector<int> columns{};  ///< rows of `covariance`
 };
 
 /// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given.

@@ -37,8 +37,8 @@ UniformLog uniform_grid(const Samples& time_s) {
 class Thinner {
  public:
   Thinner(const Trajectory& log, const SignalOptions& options) : log_(log), grid_(uniform_grid(log.time_s)) {
-    const double sigma_s = std::max(options.kernel_sigma_s, 1.2 * grid_.period_s);
-    kernel_ = gaussian_kernel(sigma_s, grid_.period_s);
+    sigma_s_ = std::max(options.kernel_sigma_s, 1.2 * grid_.period_s);
+    kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
     stride_ =
         std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options.period_s / grid_.period_s)));
     const std::size_t margin = kernel_.half_width();
@@ -46,6 +46,7 @@ class Thinner {
   }
 
   const Samples& grid_time_s() const { return grid_.time_s; }
+  double sigma_s() const { return sigma_s_; }
   double grid_period_s() const { return grid_.period_s; }
   double period_s() const { return grid_.period_s * static_cast<double>(stride_); }
   const std::vector<std::size_t>& centers() const { return centers_; }
@@ -74,6 +75,7 @@ class Thinner {
 
   const Trajectory& log_;
   UniformLog grid_;
+  double sigma_s_{};
   SmoothingKernel kernel_{};
   std::size_t stride_{1};
   std::vector<std::size_t> centers_{};
@@ -184,7 +186,8 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   RunSignals signals{.name = run.name,
                      .run_index = run_index,
                      .period_s = thinner.period_s(),
-                     .log_period_s = thinner.grid_period_s()};
+                     .log_period_s = thinner.grid_period_s(),
+                     .kernel_sigma_s = thinner.sigma_s()};
 
   const Sided<Samples> logged_wheels = wheel_speeds(log, robot);
   const Sided<Samples> wheels{thinner.on_grid(logged_wheels.left), thinner.on_grid(logged_wheels.right)};

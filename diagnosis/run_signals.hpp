@@ -17,8 +17,9 @@ namespace joulepath {
 struct RunSignals {
   std::string name{};
   std::size_t run_index{};
-  double period_s{};      ///< between samples here, not in the log
-  double log_period_s{};  ///< of the log
+  double period_s{};        ///< between samples here, not in the log
+  double log_period_s{};    ///< of the log
+  double kernel_sigma_s{};  ///< of the smoothing
   Eigen::VectorXd time_s{};
   Eigen::VectorXd time_of_day_s{};
   Eigen::VectorXd payload_kg{};

@@ -11,6 +11,7 @@ namespace {
 
 /// Prior width of an amplitude in steps (sizes worth noticing).
 constexpr double kAmplitudePriorSteps = 4.0;
+constexpr double kPatchEdgeSd_m = 0.1;
 
 bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
   for (index = 0; index < state.effects.size(); ++index)
@@ -63,7 +64,16 @@ double form_variable(const RunSignals& s, const Geometry& geometry, int form, Ei
   }
 }
 
-double shape_step(double value) { return std::max(1e-3, 0.05 * std::abs(value)); }
+/// An edge of a floor patch is known from the scan to a bin; other shapes to a half of their value.
+double shape_prior_sd(const Candidate& candidate, const std::string& parameter) {
+  if (candidate.shape.name == "floor_patch") return kPatchEdgeSd_m;
+  return 0.5 * std::abs(candidate.shape.parameters.at(parameter));
+}
+
+double shape_step(const Candidate& candidate, double value) {
+  return candidate.shape.name == "floor_patch" ? 0.5 * kPatchEdgeSd_m
+                                               : std::max(1e-3, 0.05 * std::abs(value));
+}
 
 /// Least and greatest value that the catalog accepts for a parameter.
 std::pair<double, double> bounds_of(const std::string& effect, const std::string& parameter) {
@@ -104,7 +114,7 @@ class Differencer {
     if (!is_active(candidate, state_, index)) return {};
     const double value = candidate.shape.parameters.at(parameter);
     const auto [least, greatest] = bounds_of(candidate.shape.name, parameter);
-    const double step = shape_step(value), down = std::max(-step, least - value),
+    const double step = shape_step(candidate, value), down = std::max(-step, least - value),
                  up = std::min(step, greatest - value);
     return difference(signals_, point_, base_, down, up, [&](double change) {
       Candidate moved = candidate;
@@ -196,11 +206,11 @@ std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>
       columns.push_back({Kind::amplitude, static_cast<int>(c), static_cast<int>(a),
                          kAmplitudePriorSteps * candidates[c].step[a],
                          active ? state.effects[index].amplitude[a] : 0.0});
-    if (!active || candidates[c].shape.name == "floor_patch") continue;
+    if (!active) continue;
     const std::vector<std::string> shapes = shape_parameters(candidates[c].shape.name);
     for (std::size_t s = 0; s < shapes.size(); ++s)
       columns.push_back({Kind::shape, static_cast<int>(c), static_cast<int>(s),
-                         0.5 * std::abs(candidates[c].shape.parameters.at(shapes[s])), 0.0});
+                         shape_prior_sd(candidates[c], shapes[s]), 0.0});
   }
   for (std::size_t c = 0; forms && c < candidates.size(); ++c) {
     std::size_t index;

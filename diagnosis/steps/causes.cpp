@@ -18,8 +18,10 @@ void report_stand_ins(Examination& x, const std::string& label, Cause& cause) {
   const Explanation& best = id.explanations.front();
   for (int c : best.candidates) {
     if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label) continue;
-    cause.indistinguishable_from = stand_ins(id.equations, id.explanations, c);
-    if (cause.indistinguishable_from.empty() || !x.report.pinned_combination.empty()) continue;
+    const auto found = x.stand_ins.find(label);
+    if (found == x.stand_ins.end()) continue;
+    cause.indistinguishable_from = found->second;
+    if (!x.report.pinned_combination.empty()) continue;
     x.report.pinned_combination =
         pinned_combination(without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion),
                            id.equations, best, label, cause.indistinguishable_from.front(), id.dispersion);

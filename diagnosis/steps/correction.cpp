@@ -4,6 +4,10 @@ namespace joulepath {
 
 void write_correction(Examination& x, const ModelState& corrected) {
   if (x.named.empty()) return;
+  if (x.report.verdict == Verdict::ambiguous) {
+    x.report.notes.push_back("which effect of the group it is cannot be told: no correction is written");
+    return;
+  }
   const EnergyGap& energy = x.report.gap.energy;
   if (energy.after_J > kToleratedWorsening * energy.before_J &&
       energy.after_percent > kFloorsLeft * energy.noise_floor_percent) {

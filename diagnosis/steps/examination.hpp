@@ -21,8 +21,9 @@ struct Examination {
   std::vector<RunSignals> all_signals{};
   Identification id{};
   ModelPoint nominal{};
-  std::map<std::string, double> probabilities{};  ///< of effects by label
-  std::vector<ActiveEffect> named{};              ///< what the diagnosis stands for, so far
+  std::map<std::string, double> probabilities{};                ///< of effects by label
+  std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label, what may be meant instead
+  std::vector<ActiveEffect> named{};                            ///< what the diagnosis stands for, so far
   double energy_left_share{};  ///< of the held-out gap, where the names explain a part only
 
   ModelPoint point_of(const ModelState& state) const {

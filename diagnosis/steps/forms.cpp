@@ -18,12 +18,22 @@ const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "
 /// Their strength at small yaw rates depends on how the law passes through zero, which logs do not show.
 const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 
+/// Below this evidence, a wrong law is no more than scatter that looks like one.
+constexpr double kLeastEvidence = 20.0;
+constexpr double kLeastEvidenceOfFewRuns = 100.0;
+constexpr std::size_t kFewRuns = 8;
+
 void withdraw(Examination& x, const std::string& note, const std::string& depends_on) {
   x.report.notes.push_back(note);
+  x.named.clear();
+  const double least = x.diagnosis.runs.size() < kFewRuns ? kLeastEvidenceOfFewRuns : kLeastEvidence;
+  if (x.id.explanations.front().score < least && !x.report.leftover_significant) {
+    x.report.verdict = Verdict::no_gap;
+    return;
+  }
   x.report.verdict = Verdict::unexplained;
   x.report.leftover_significant = true;
   x.report.leftover_description = depends_on;
-  x.named.clear();
 }
 
 }  // namespace

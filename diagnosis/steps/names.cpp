@@ -1,6 +1,7 @@
 #include "diagnosis/steps/names.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/groups.hpp"
 #include "diagnosis/indices.hpp"
@@ -47,6 +48,28 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
   return gain_share_of(x, state.effects[e].candidate.label()) < kFormErrorGain;
 }
 
+/// Effects that the data cannot tell apart share their probability by what the data say, not by which
+/// size is usual.
+void share_probabilities(Examination& x) {
+  const Identification& id = x.id;
+  const LinearProblem problem =
+      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
+  for (int c : id.explanations.front().candidates) {
+    const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
+    const std::vector<StandIn> others = stand_ins(problem, id.equations, id.explanations, c, id.dispersion);
+    double weight = 1, sum = x.probabilities[label];
+    for (const StandIn& other : others) {
+      x.stand_ins[label].push_back(other.label);
+      sum += x.probabilities[other.label];
+      weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
+    }
+    if (others.empty()) continue;
+    x.probabilities[label] = sum / weight;
+    for (const StandIn& other : others)
+      x.probabilities[other.label] = sum / weight * std::exp(-0.5 * kScoreFlattening * other.loss_more);
+  }
+}
+
 }  // namespace
 
 double Examination::probability_of(const ActiveEffect& effect) const {
@@ -56,10 +79,12 @@ double Examination::probability_of(const ActiveEffect& effect) const {
 
 void choose_names(Examination& x) {
   x.probabilities = effect_probabilities(x.id.equations, x.id.explanations);
+  share_probabilities(x);
   std::vector<std::string> doubted;
   for (std::size_t e = 0; e < x.id.state.effects.size(); ++e) {
     const std::string label = x.id.state.effects[e].candidate.label();
-    if (x.probabilities[label] < kLeastProbability && x.id.state.effects.size() > 1)
+    if (x.probabilities[label] < kLeastProbability && !x.stand_ins.contains(label) &&
+        x.id.state.effects.size() > 1)
       continue;  // the other sets do without it
     if (may_be_form_error(x, e))
       doubted.push_back(label);

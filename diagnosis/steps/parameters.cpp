@@ -1,6 +1,7 @@
 #include "diagnosis/steps/parameters.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace joulepath {
@@ -24,23 +25,38 @@ std::vector<Eigen::Index> covariance_rows(const Refit& fitted, std::size_t effec
   return rows;
 }
 
-/// Standard deviation of a slope's grade or direction, from those of its components.
-double slope_sd(const Refit& fitted, const ActiveEffect& slope, const std::vector<Eigen::Index>& rows,
-                bool direction) {
-  const double x = slope.amplitude[0], y = slope.amplitude[1], grade = std::max(1e-9, std::hypot(x, y));
-  const double gx = direction ? -y / (grade * grade) : x / grade,
-               gy = direction ? x / (grade * grade) : y / grade;
-  return std::sqrt(std::max(0.0, gx * gx * fitted.covariance(rows[0], rows[0]) +
-                                     gy * gy * fitted.covariance(rows[1], rows[1]) +
-                                     2 * gx * gy * fitted.covariance(rows[0], rows[1])));
+/// Standard deviation along a gradient over some parameters: the greater of what the noise model and the
+/// runs' differences say.
+double sd_along(const Refit& fitted, const std::vector<Eigen::Index>& rows,
+                const std::vector<double>& gradient) {
+  double greatest = 0;
+  for (const Eigen::MatrixXd* covariance : {&fitted.covariance, &fitted.run_covariance}) {
+    double variance = 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      for (std::size_t j = 0; j < gradient.size(); ++j)
+        variance += gradient[i] * gradient[j] * (*covariance)(rows[i], rows[j]);
+    greatest = std::max(greatest, variance);
+  }
+  return std::sqrt(greatest);
 }
 
-double parameter_sd(const Refit& fitted, std::size_t effect, const std::string& name) {
+/// A slope's grade or direction, as a gradient over its components.
+std::vector<double> slope_gradient(const ActiveEffect& slope, bool direction) {
+  const double x = slope.amplitude[0], y = slope.amplitude[1], grade = std::max(1e-9, std::hypot(x, y));
+  if (direction) return {-y / (grade * grade), x / (grade * grade)};
+  return {x / grade, y / grade};
+}
+
+/// Half a 95 % interval, for the number of runs that it rests on.
+double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
   const ActiveEffect& active = fitted.state.effects[effect];
   const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
-  if (rows.empty()) return kPatchEdge_m;
-  if (active.candidate.shape.name == "floor_slope") return slope_sd(fitted, active, rows, name != "grade");
-  return std::sqrt(fitted.covariance(rows[0], rows[0]));
+  const bool slope = active.candidate.shape.name == "floor_slope";
+  const std::vector<double> gradient =
+      slope ? slope_gradient(active, name != "grade") : std::vector<double>{1.0};
+  const double sd = rows.size() < gradient.size() ? kPatchEdge_m : sd_along(fitted, rows, gradient);
+  const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
+  return sd * boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
 }  // namespace
@@ -52,11 +68,11 @@ std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t ef
   for (const ParameterDescription& parameter : find_effect(setting.name)->parameters) {
     const auto at = setting.parameters.find(parameter.name);
     if (at == setting.parameters.end()) continue;
-    const double sd = parameter_sd(fitted, effect, parameter.name);
-    Range95 interval{at->second - 1.96 * sd, at->second + 1.96 * sd};
+    const double half = half_interval(fitted, effect, parameter.name);
+    Range95 interval{at->second - half, at->second + half};
     if (setting.name == "wheel_slip") {  // symmetric in the compliance
       const double compliance = 1 / at->second;
-      interval = {1 / (compliance + 1.96 * sd), 1 / std::max(1e-9, compliance - 1.96 * sd)};
+      interval = {1 / (compliance + half), 1 / std::max(1e-9, compliance - half)};
     }
     found.push_back({parameter.name, at->second, interval});
   }

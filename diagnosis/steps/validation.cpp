@@ -5,6 +5,7 @@
 
 #include "diagnosis/gap.hpp"
 #include "diagnosis/held_out.hpp"
+#include "diagnosis/materiality.hpp"
 #include "diagnosis/steps/correction.hpp"
 #include "diagnosis/steps/verdict.hpp"
 
@@ -74,6 +75,15 @@ bool calibration_leaves_a_gap(const Examination& x, const Correction& calibrated
 /// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
 double caution(const Examination& x) { return x.validation.runs.size() < 3 ? 2.0 : 1.0; }
 
+/// Whether the named effects change the motors' energy at all: others are judged by what they do change.
+bool claims_energy(const Examination& x, const Correction& correction) {
+  ModelState without = correction.state;
+  without.effects.clear();
+  const Impact impact =
+      impact_between(correction.fitted.signals, x.point_of(correction.state), x.point_of(without));
+  return impact.motor_power >= MaterialityFloor{}.motor_power;
+}
+
 /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
 /// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
 double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
@@ -85,6 +95,7 @@ double unexplained_energy_share(const Examination& x, const std::vector<RunSigna
   if (after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
   if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
   const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
+  if (!claims_energy(x, correction)) return after > by_calibration + floor ? 1.0 : 0.0;
   if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;
   const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
   return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;
@@ -95,6 +106,17 @@ void withdraw(Examination& x, Correction& correction, const std::string& why) {
   x.report.notes.push_back(why);
   x.named.clear();
   correction.state = refit_on_diagnosis(x.diagnosis, x.id, {}, &correction.fitted);
+}
+
+/// Constants are moved only where that brings the energy of the runs that it was fitted to nearer: an
+/// effect that takes no energy of the motors needs none of it.
+void keep_constants_that_fit(const Examination& x, Correction& correction) {
+  ModelState nominal = correction.state;
+  std::fill(nominal.nuisance_fraction.begin(), nominal.nuisance_fraction.end(), 0.0);
+  const auto gap = [&](const ModelState& state) {
+    return energy_gap_percent(run_energies(correction.fitted.signals, x.point_of(state)));
+  };
+  if (gap(nominal) < gap(correction.state)) correction.state = nominal;
 }
 
 void fill_floors(const NoiseModel& noise, GapReport& gap) {
@@ -130,6 +152,7 @@ Correction validate(Examination& x) {
       x.energy_left_share = share;
     }
   }
+  if (!x.named.empty()) keep_constants_that_fit(x, correction);
   if (report.verdict == Verdict::no_gap && calibration_leaves_a_gap(x, correction)) {
     report.verdict = Verdict::unexplained;
     report.notes.push_back("calibration errors do not make up the gap, and no known effect holds");

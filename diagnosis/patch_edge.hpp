@@ -1,0 +1,14 @@
+#pragma once
+
+#include "model/operating_point.hpp"
+
+namespace joulepath {
+
+/// Operating point of a smoothed sample. Where the smoothing kernel reaches over the edge of a floor
+/// patch, the mean over the kernel: the patch acts on a part of the sample. `reach_m` is the way that the
+/// robot goes within the kernel's standard deviation.
+[[nodiscard]] Sided<WheelState<double>> operating_point_over_kernel(const Plant& plant,
+                                                                    const BodyMotion<double>& motion,
+                                                                    const Site& site, double reach_m);
+
+}  // namespace joulepath
