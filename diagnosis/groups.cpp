@@ -32,6 +32,26 @@ double loss_of_laws(const LinearProblem& problem, const Equations& equations, co
   return solve(free, columns, dispersion).loss;
 }
 
+/// Calls use(explanation, label) for each explanation with one other effect, `label`, in the place of a
+/// candidate of the best one.
+template <class Use>
+void for_each_rival(const Equations& equations, const std::vector<Explanation>& explanations, int candidate,
+                    Use&& use) {
+  if (explanations.empty()) return;
+  const Explanation& best = explanations.front();
+  const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
+  std::multiset<std::string> rest = labels_of(equations, best.candidates);
+  rest.erase(rest.find(label));
+  for (const Explanation& e : explanations) {
+    if (e.candidates.size() != best.candidates.size()) continue;
+    std::multiset<std::string> other = labels_of(equations, e.candidates);
+    if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
+      continue;
+    for (const std::string& kept : rest) other.erase(other.find(kept));
+    if (other.size() == 1) use(e, *other.begin());
+  }
+}
+
 }  // namespace
 
 std::map<std::string, double> effect_probabilities(const Equations& equations,
@@ -53,34 +73,35 @@ std::map<std::string, double> effect_probabilities(const Equations& equations,
   return weight;
 }
 
+std::vector<std::string> stand_ins_by_score(const Equations& equations,
+                                            const std::vector<Explanation>& explanations, int candidate) {
+  std::vector<std::string> found;
+  for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
+    if (e.score >= explanations.front().score - kStandInLogOdds &&
+        std::find(found.begin(), found.end(), label) == found.end())
+      found.push_back(label);
+  });
+  return found;
+}
+
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                const std::vector<Explanation>& explanations, int candidate,
                                double dispersion) {
   if (explanations.empty()) return {};
-  const Explanation& best = explanations.front();
-  const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
-  std::multiset<std::string> rest = labels_of(equations, best.candidates);
-  rest.erase(rest.find(label));
-  const double own_loss = loss_of_laws(problem, equations, best, dispersion);
+  const double own_loss = loss_of_laws(problem, equations, explanations.front(), dispersion);
   std::vector<StandIn> found;
-  std::size_t looked_at = 0;
-  for (const Explanation& e : explanations) {
-    if (e.candidates.size() != best.candidates.size() || looked_at > kMostRivals) continue;
-    std::multiset<std::string> other = labels_of(equations, e.candidates);
-    if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
-      continue;
-    for (const std::string& kept : rest) other.erase(other.find(kept));
-    if (other.size() != 1) continue;
-    ++looked_at;
+  std::size_t rivals = 0;
+  for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
+    if (++rivals > kMostRivals) return;
     const double loss_more = loss_of_laws(problem, equations, e, dispersion) - own_loss;
-    if (loss_more > kStandInLoss) continue;
+    if (loss_more > kStandInLoss) return;
     const auto known =
-        std::find_if(found.begin(), found.end(), [&](const StandIn& s) { return s.label == *other.begin(); });
+        std::find_if(found.begin(), found.end(), [&](const StandIn& s) { return s.label == label; });
     if (known == found.end())
-      found.push_back({*other.begin(), loss_more});
+      found.push_back({label, loss_more});
     else
       known->loss_more = std::min(known->loss_more, loss_more);
-  }
+  });
   return found;
 }
 

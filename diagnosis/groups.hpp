@@ -13,6 +13,12 @@ namespace joulepath {
 [[nodiscard]] std::map<std::string, double> effect_probabilities(
     const Equations& equations, const std::vector<Explanation>& explanations);
 
+/// Labels that could stand in for one effect of the best explanation, usual sizes weighed in: all that
+/// energies alone can tell.
+[[nodiscard]] std::vector<std::string> stand_ins_by_score(const Equations& equations,
+                                                          const std::vector<Explanation>& explanations,
+                                                          int candidate);
+
 /// An effect that could stand in for a named one, the rest kept.
 struct StandIn {
   std::string label{};
@@ -30,6 +36,7 @@ struct StandIn {
                                              const Explanation& best, const std::string& label,
                                              const std::string& other, double dispersion);
 
+inline constexpr double kStandInLogOdds = 4.0;
 inline constexpr double kStandInLoss = 6.0;      ///< a likelihood ratio of 20 tells two effects apart
 inline constexpr double kScoreFlattening = 0.7;  ///< log evidence of real data is worth less than its face
 

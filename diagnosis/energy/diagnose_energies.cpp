@@ -156,10 +156,11 @@ void report_causes(EnergyExamination& x) {
   double changes_J = 0;
   for (std::size_t e = 0; e < x.named.size(); ++e) {
     const std::string label = x.named[e].label();
-    Cause cause{.effect = setting_of(x.named[e], fit.state.effects[e].amplitude, x.problem.robot),
-                .probability = (1 - left) * std::min(kSurest, probabilities.at(label)),
-                .indistinguishable_from = stand_ins(x.problem.equations, x.explanations, best.candidates[e]),
-                .parameters = parameters_of(fit, e, x.problem.robot)};
+    Cause cause{
+        .effect = setting_of(x.named[e], fit.state.effects[e].amplitude, x.problem.robot),
+        .probability = (1 - left) * std::min(kSurest, probabilities.at(label)),
+        .indistinguishable_from = stand_ins_by_score(x.problem.equations, x.explanations, best.candidates[e]),
+        .parameters = parameters_of(fit, e, x.problem.robot)};
     if (!cause.indistinguishable_from.empty() && x.report.pinned_combination.empty())
       x.report.pinned_combination =
           pinned_combination(without_calibration(x.problem.equations, all), x.problem.equations, best, label,

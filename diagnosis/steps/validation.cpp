@@ -23,6 +23,9 @@ constexpr double kFloorsUnnamed = 4.0;
 constexpr double kLeastGapUnnamed_percent = 4.0;
 /// What a wrong model leaves is no noise: the floor is at most so many times the scatter between runs.
 constexpr double kScatterFactor = 2.0;
+constexpr double kChanceLoss = 6.0;         ///< that held-out runs may differ by, in units of their noise
+constexpr double kCertainEvidence = 100.0;  ///< of the diagnosis runs alone
+constexpr double kModestEvidence = 30.0;    ///< that a worse held-out energy outweighs
 
 /// Logs without any noise (a simulator's) have no floor to measure.
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
@@ -45,10 +48,6 @@ ModelState within_calibration(const Examination& x, ModelState state) {
   }
   return state;
 }
-
-constexpr double kChanceLoss = 6.0;         ///< that held-out runs may differ by, in units of their noise
-constexpr double kCertainEvidence = 100.0;  ///< of the diagnosis runs alone
-constexpr double kModestEvidence = 30.0;    ///< that a worse held-out energy outweighs
 
 /// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
 bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
@@ -146,7 +145,8 @@ Correction validate(Examination& x) {
     if (share > kUnexplainedShare) {
       withdraw(x, correction,
                "the best explanation leaves most of the held-out energy gap and was withdrawn");
-      report.verdict = Verdict::unexplained;
+      const bool modest = x.id.explanations.front().score < kModestEvidence && !report.leftover_significant;
+      report.verdict = modest ? Verdict::no_gap : Verdict::unexplained;
     } else if (share > 0) {
       report.verdict = Verdict::partly_explained;
       x.energy_left_share = share;

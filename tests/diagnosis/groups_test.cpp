@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "scenarios/write_diagnosis.hpp"
+#include "tests/support/blind_day.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kRolling = 0.008;
+
+/// Runs of a robot with a rolling resistance that its file does not have. At a given load it is a
+/// friction torque of c N r, which is how it is put in here.
+Dataset rolling_day(const std::vector<double>& payloads_kg, const testing::LogNoise& noise) {
+  Dataset dataset{.robot = testing::nomad()};
+  dataset.robot.uncertainty = {{"friction_torque", 0.03}, {"torque_constant", 0.01}, {"resistance", 0.02}};
+  unsigned seed = 7;
+  for (double payload_kg : payloads_kg) {
+    Robot real = dataset.robot;
+    const double load_N = 0.5 * kGravity_m_s2 * real.total_mass_kg(payload_kg);
+    for (Side side : kSides)
+      real.motor[side].friction_torque_Nm += kRolling * load_N * real.geometry.wheel_radius_m[side];
+    const double kind = seed % 4;
+    const auto law = testing::swinging(0.35 + 0.05 * kind, 0.1, 0.8 + 0.2 * kind, 0.1 * kind);
+    dataset.runs.push_back(
+        testing::synthetic_run(real, "run_" + std::to_string(seed), 15, payload_kg, law, noise, seed));
+    dataset.runs.back().start_time_s = 30.0 * seed;
+    ++seed;
+  }
+  return dataset;
+}
+
+bool group_holds(const Cause& cause, const std::string& effect) {
+  return cause.effect.name == effect ||
+         std::count(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end(), effect) > 0;
+}
+
+TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
+  const Diagnosis d =
+      diagnose(rolling_day(std::vector<double>(8, 5.0), {0.002, 0.005, 0.01}), {.bootstrap = 20});
+  ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  EXPECT_TRUE(group_holds(d.causes[0], "rolling_resistance"));
+  EXPECT_TRUE(group_holds(d.causes[0], "coulomb_friction"));
+  EXPECT_LT(d.causes[0].probability, 0.6);
+  EXPECT_FALSE(d.pinned_combination.empty());
+  EXPECT_FALSE(d.corrected_robot.has_value());
+  EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(),
+                          [](const std::string& n) { return n.find("one payload") != std::string::npos; }));
+}
+
+TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
+  const Diagnosis d = diagnose(rolling_day({0, 8, 0, 8, 0, 8, 0, 8, 0, 8}, {}), {.bootstrap = 20});
+  ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.verdict, Verdict::explained);
+  EXPECT_EQ(d.causes[0].effect.name, "rolling_resistance");
+  EXPECT_TRUE(d.causes[0].indistinguishable_from.empty());
+  EXPECT_NEAR(d.causes[0].parameters[0].value, kRolling, 0.02 * kRolling);
+  EXPECT_EQ(diagnosis_json(d).find("nan"), std::string::npos);
+  EXPECT_EQ(diagnosis_json(d).find("null"), std::string::npos);
+}
+
+TEST(Group, WithoutVoltagesAMagnetIsNotToldFromACurrentSensor) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = testing::blind_day("torque_constant_error", 0.1, 0, 12, 77);
+  for (Run& run : dataset.runs) {
+    run.log.motor_voltage_V = {};
+    run.log.battery_voltage_V.clear();
+    run.log.battery_current_A.clear();
+  }
+  const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
+  ASSERT_FALSE(d.causes.empty()) << verdict_name(d.verdict);
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  EXPECT_TRUE(group_holds(d.causes[0], "torque_constant_error"));
+  EXPECT_TRUE(group_holds(d.causes[0], "current_sensor_gain"));
+}
+
+}  // namespace
+}  // namespace joulepath
