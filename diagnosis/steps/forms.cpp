@@ -15,7 +15,8 @@ constexpr double kInexactLaw = 10.0;
 
 const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "stribeck_friction",
                                        "quadratic_drag"};
-/// Their strength at small yaw rates depends on how the law passes through zero, which logs do not show.
+/// Their strength at small yaw rates depends on how the law passes through zero, which logs do not show:
+/// the yaw rate says nothing against them, and other forms only that they explain a part.
 const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 
 /// Below this evidence, a wrong law is no more than scatter that looks like one.
@@ -74,7 +75,7 @@ void judge_forms(Examination& x) {
     if (doubt.chi_squared < kInexactLaw) continue;
     const std::string text = effect.candidate.label() + " fits only with a strength that depends on " +
                              doubt.depends_on + ", as the catalog's law does not";
-    if (doubt.chi_squared > kAnotherLaw) {
+    if (doubt.chi_squared > kAnotherLaw && !kTurningLaws.contains(effect.candidate.shape.name)) {
       withdraw(x, text, "depends on " + doubt.depends_on);
       return;
     }

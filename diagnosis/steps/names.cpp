@@ -16,8 +16,11 @@ constexpr double kFormErrorEnergy = 0.02;
 constexpr double kFormErrorGain = 0.05;
 constexpr double kFormErrorProbability = 0.3;
 constexpr double kLeastProbability = 0.15;
-/// Share of names said to be sure that were right on development cases (`./dev bench diagnosis_coverage`).
+/// Share of names said to be sure that were right on development cases, with many runs and with few
+/// (`./dev bench diagnosis_coverage`).
 constexpr double kSurest = 0.97;
+constexpr double kSurestOfFewRuns = 0.85;
+constexpr std::size_t kFewRuns = 8;
 constexpr std::size_t kRanked = 12;
 
 /// Share of the best set's gain in loss that is lost when one of its effects is left out.
@@ -75,7 +78,8 @@ void share_probabilities(Examination& x) {
 
 double Examination::probability_of(const ActiveEffect& effect) const {
   const auto found = probabilities.find(effect.candidate.label());
-  return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(kSurest, found->second);
+  const double surest = diagnosis.runs.size() < kFewRuns ? kSurestOfFewRuns : kSurest;
+  return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(surest, found->second);
 }
 
 void choose_names(Examination& x) {

@@ -7,6 +7,8 @@
 namespace joulepath {
 namespace {
 
+/// Share by which an inexact form moves a law's mean strength, whatever the runs say; on development cases.
+constexpr double kLawInexactness = 0.025;
 constexpr double kPatchEdge_m = 0.05;  ///< half a step of the scan for a floor patch
 
 /// Rows of the refit's covariance that belong to a parameter of an effect.
@@ -47,6 +49,17 @@ std::vector<double> slope_gradient(const ActiveEffect& slope, bool direction) {
   return {x / grade, y / grade};
 }
 
+/// A law's strength averages over what its form leaves out; a constant or an instrument has no form.
+double form_sd(const ActiveEffect& active, const std::string& name) {
+  const EffectDescription& description = *find_effect(active.candidate.shape.name);
+  const Stage stage = description.info.stage;
+  if (stage == Stage::parameters || stage == Stage::instrument || stage == Stage::supply) return 0.0;
+  if (name != description.parameters.front().name) return 0.0;
+  double square = 0;
+  for (double amplitude : active.amplitude) square += amplitude * amplitude;
+  return kLawInexactness * std::sqrt(square);
+}
+
 /// Half a 95 % interval, for the number of runs that it rests on.
 double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
   const ActiveEffect& active = fitted.state.effects[effect];
@@ -56,7 +69,8 @@ double half_interval(const Refit& fitted, std::size_t effect, const std::string&
       slope ? slope_gradient(active, name != "grade") : std::vector<double>{1.0};
   const double sd = rows.size() < gradient.size() ? kPatchEdge_m : sd_along(fitted, rows, gradient);
   const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
-  return sd * boost::math::quantile(boost::math::students_t(degrees), 0.975);
+  return std::hypot(sd, form_sd(active, name)) *
+         boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
 }  // namespace

@@ -83,18 +83,27 @@ bool claims_energy(const Examination& x, const Correction& correction) {
   return impact.motor_power >= MaterialityFloor{}.motor_power;
 }
 
+/// Without voltages, energies rest on the robot file's winding, which is itself under examination.
+bool energies_are_measured(const std::vector<RunSignals>& signals) {
+  return std::any_of(signals.begin(), signals.end(), [](const RunSignals& run) {
+    return run.motor_voltage_V.left.size() > 0 || run.motor_voltage_V.right.size() > 0;
+  });
+}
+
 /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
 /// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
 double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
                                 const ModelState& calibrated, const Correction& correction) {
+  if (!energies_are_measured(before_signals)) return 0.0;
   const std::vector<RunSignals> after_signals = read_signals(x.validation, channel_delay_s(correction.state));
   const double floor = noise_floor_percent(x, correction);
   const double before = energy_gap_percent(run_energies(before_signals, x.nominal));
   const double after = energy_gap_percent(run_energies(after_signals, x.point_of(correction.state)));
-  if (after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
+  const bool claims = claims_energy(x, correction);
+  if (claims && after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
   if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
   const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
-  if (!claims_energy(x, correction)) return after > by_calibration + floor ? 1.0 : 0.0;
+  if (!claims) return after > by_calibration + floor ? 1.0 : 0.0;
   if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;
   const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
   return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;

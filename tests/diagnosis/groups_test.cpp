@@ -69,7 +69,7 @@ TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
 TEST(Group, WithoutVoltagesAMagnetIsNotToldFromACurrentSensor) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = testing::blind_day("torque_constant_error", 0.1, 0, 12, 77);
-  for (Run& run : dataset.runs) {
+  for (auto& run : dataset.runs) {
     run.log.motor_voltage_V = {};
     run.log.battery_voltage_V.clear();
     run.log.battery_current_A.clear();

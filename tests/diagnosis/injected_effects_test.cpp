@@ -19,7 +19,7 @@ void PrintTo(const Injection& injection, std::ostream* out) { *out << injection.
 using joulepath::testing::blind_day;
 using joulepath::testing::have_blind_plant;
 
-class InjectedEffect : public testing::TestWithParam<Injection> {};
+class InjectedEffect : public ::testing::TestWithParam<Injection> {};
 
 TEST_P(InjectedEffect, IsNamedOrInTheNamedGroup) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
@@ -36,21 +36,21 @@ TEST_P(InjectedEffect, IsNamedOrInTheNamedGroup) {
 
 INSTANTIATE_TEST_SUITE_P(
     Catalog, InjectedEffect,
-    testing::Values(Injection{"rolling_resistance", 0.01}, Injection{"floor_patch", 0.03},
-                    Injection{"stribeck_friction", 0.15}, Injection{"coulomb_friction", 0.06},
-                    Injection{"dragging_wheel", 0.08}, Injection{"direction_dependent_friction", 0.1},
-                    Injection{"viscous_friction", 0.008}, Injection{"gear_efficiency", 0.12},
-                    Injection{"turning_scrub", 0.8}, Injection{"caster_swivel", 1.5},
-                    Injection{"quadratic_drag", 6.0}, Injection{"wheel_slip", 250.0},
-                    Injection{"payload_mass_error", 0.3}, Injection{"center_of_mass_offset", 0.06},
-                    Injection{"yaw_inertia_error", 0.8}, Injection{"wheel_radius_error", 0.03},
-                    Injection{"wheel_radius_mismatch", 0.02}, Injection{"track_width_error", 0.06},
-                    Injection{"floor_slope", 0.008}, Injection{"winding_resistance_error", 0.2},
-                    Injection{"winding_heating", 0.3}, Injection{"torque_constant_error", 0.06},
-                    Injection{"driver_voltage_drop", 0.4}, Injection{"standby_power_error", 3.0},
-                    Injection{"supply_sag", 0.4}, Injection{"current_sensor_offset", 0.06},
-                    Injection{"current_sensor_gain", 0.1}, Injection{"time_misalignment", 0.08}),
-    [](const testing::TestParamInfo<Injection>& injected) { return injected.param.effect; });
+    ::testing::Values(Injection{"rolling_resistance", 0.01}, Injection{"floor_patch", 0.03},
+                      Injection{"stribeck_friction", 0.15}, Injection{"coulomb_friction", 0.06},
+                      Injection{"dragging_wheel", 0.08}, Injection{"direction_dependent_friction", 0.1},
+                      Injection{"viscous_friction", 0.008}, Injection{"gear_efficiency", 0.12},
+                      Injection{"turning_scrub", 0.8}, Injection{"caster_swivel", 1.5},
+                      Injection{"quadratic_drag", 6.0}, Injection{"wheel_slip", 250.0},
+                      Injection{"payload_mass_error", 0.3}, Injection{"center_of_mass_offset", 0.06},
+                      Injection{"yaw_inertia_error", 0.8}, Injection{"wheel_radius_error", 0.03},
+                      Injection{"wheel_radius_mismatch", 0.02}, Injection{"track_width_error", 0.06},
+                      Injection{"floor_slope", 0.008}, Injection{"winding_resistance_error", 0.2},
+                      Injection{"winding_heating", 0.3}, Injection{"torque_constant_error", 0.06},
+                      Injection{"driver_voltage_drop", 0.4}, Injection{"standby_power_error", 3.0},
+                      Injection{"supply_sag", 0.4}, Injection{"current_sensor_offset", 0.06},
+                      Injection{"current_sensor_gain", 0.1}, Injection{"time_misalignment", 0.08}),
+    [](const ::testing::TestParamInfo<Injection>& injected) { return injected.param.effect; });
 
 /// This robot coasts against so much friction that regeneration returns a fifth of the materiality floor:
 /// the data are beyond doubt all the same.
