@@ -16,6 +16,7 @@ import campaign
 import examine
 import judge
 import plan
+import plots
 import scorecard
 import seal
 from statistics_of import calibration, smallest_found, wilson
@@ -268,6 +269,18 @@ class Scorer(unittest.TestCase):
 
     def test_parameter_error_and_interval(self):
         self.assertEqual([(e, round(x, 6), c) for e, x, c in judge.parameter_errors(said("explained", "a"), label("single", "a"))], [("a", 0.1, True)])
+
+    def test_answers_that_are_equally_sure_are_one_point_of_risk_and_coverage(self):
+        cases = [(label("single", "a"), said("explained", "b", probability=0.9)), (label("single", "a"), said("explained", "a", probability=0.9)),
+                 (label("single", "a"), said("explained", "a", probability=0.5)), (label("single", "a"), said("no_gap"))]
+        self.assertEqual(scorecard.risk_coverage(cases), [(0.5, 0.5), (0.75, 1 / 3)])
+
+    def test_right_is_silence_on_null_and_none_fits_on_foreign(self):
+        self.assertTrue(plots.is_right("(null)", "(no_gap)"))
+        self.assertTrue(plots.is_right("f (foreign)", "(unexplained)"))
+        self.assertFalse(plots.is_right("f (foreign)", "a"))
+        self.assertFalse(plots.is_right("a", "(unexplained)"))
+        self.assertEqual(scorecard.confusion([(label("foreign", "f"), said("unexplained"))]), {"f (foreign)": {"(unexplained)": 1}})
 
     def test_statistics(self):
         low, high = wilson(8, 10)

@@ -20,7 +20,7 @@ def power_plot(table):
     """One row per effect: every case at its size (logarithmic), green found, red missed, grey undetectable."""
     names = sorted(table)
     left, width, row = 210, 520, 18
-    body = [text(left, 16, "size of the effect, smallest to largest drawn (logarithmic); green found, red missed, grey: no observer could")]
+    body = [text(8, 16, "size of the effect, smallest to largest drawn (logarithmic); green: found, red: missed, grey: no observer could")]
     for k, name in enumerate(names):
         y = 36 + k * row
         points = table[name]["points"]
@@ -40,6 +40,13 @@ def power_plot(table):
     return svg(left + width + 20, 46 + row * len(names), body)
 
 
+def is_right(true, said):
+    """Null sets want silence, foreign causes that none fits, the others their name."""
+    if true == "(null)":
+        return said == "(no_gap)"
+    return said in ("(unexplained)", "(partly_explained)") if true.endswith("(foreign)") else said == true
+
+
 def confusion_plot(table):
     """Rows: truth; columns: what was said first."""
     rows = sorted(table)
@@ -55,7 +62,7 @@ def confusion_plot(table):
         for j, said in enumerate(columns):
             count = table[true].get(said, 0)
             share = count / total
-            color = HIT if said == true or (true == "(null)" and said == "(no_gap)") else MISS
+            color = HIT if is_right(true, said) else MISS
             fill = f'fill="{color}" fill-opacity="{0.12 + 0.88 * share:.2f}"' if count else 'fill="#f6f6f6"'
             body.append(f'<rect x="{left + j * cell}" y="{y}" width="{cell - 1}" height="{cell - 1}" {fill}/>')
             if count:

@@ -210,7 +210,7 @@ def confusion(cases):
             continue
         if label["bin"] not in ("single", "null", "foreign"):
             continue
-        true = label["effects"][0]["effect"] if label["effects"] else "(null)"
+        true = label["effects"][0]["effect"] + (" (foreign)" if label["bin"] == "foreign" else "") if label["effects"] else "(null)"
         said = answer.first if answer.gives_a_name else f"({answer.verdict})"
         row = table.setdefault(true, {})
         row[said] = row.get(said, 0) + 1
@@ -222,7 +222,8 @@ def risk_coverage(cases):
     told = sorted(((a.probability, judge.wrong_name(a, l)) for l, a in cases
                    if l["bin"] in ("single", "pair", "null", "foreign") and a.gives_a_name), reverse=True)
     curve, wrong = [], 0
-    for k, (_, is_wrong) in enumerate(told, 1):
+    for k, (probability, is_wrong) in enumerate(told, 1):
         wrong += is_wrong
-        curve.append((k / max(1, len(cases)), wrong / k))
+        if k == len(told) or told[k][0] < probability:  # answers that are equally sure come together
+            curve.append((k / max(1, len(cases)), wrong / k))
     return curve
