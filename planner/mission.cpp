@@ -149,7 +149,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     LegPlan& leg = timed.draft.legs[k];
     leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.draft.legs[k - 1].dwell_s;
     settle_leg(leg, timed.draft.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options, plant);
-    leg.baselines = leg_baselines(leg);
+    if (options.baselines) leg.baselines = leg_baselines(leg);
   }
   plan.legs = std::move(timed.draft.legs);
   sum_up(plan, plant, options.accuracy);

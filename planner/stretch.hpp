@@ -21,6 +21,7 @@ struct PlanOptions {
   double accuracy{1e-4};
   unsigned seed{1};
   WaySteps steps{};
+  bool baselines{true};  ///< compare with classic profiles; costs more than the plan itself
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.

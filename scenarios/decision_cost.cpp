@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/parallel.hpp"
 #include "planner/mission.hpp"
 
 namespace joulepath {
@@ -17,6 +18,7 @@ Robot with_limits(Robot robot) {
     robot.limits = Limits{
         .speed_m_s = 1.0, .acceleration_m_s2 = 0.5, .deceleration_m_s2 = 0.5, .yaw_acceleration_rad_s2 = 1.0};
   robot.battery.capacity_Wh = kNoLimit;  // the question is energy, not range
+  robot.uncertainty.clear();             // nor how sure it is
   return robot;
 }
 
@@ -40,20 +42,26 @@ double energy_on(const Plant& plant, const Plan& plan) {
 }  // namespace
 
 DecisionCost decision_cost(const Robot& nominal, const Robot& corrected) {
-  DecisionCost cost;
   const Plant plant = make_plant(with_limits(corrected));
-  const PlanOptions options{.solver = SolverChoice::fast, .nodes = kNodes};
+  const PlanOptions options{.solver = SolverChoice::fast, .nodes = kNodes, .baselines = false};
+  const double half_load_kg = 0.5 * std::min(10.0, with_limits(nominal).limits->max_payload_kg);
+  const std::vector<MissionRequest> missions{mission_along(kStraight, 0.0),
+                                             mission_along(kStraight, half_load_kg),
+                                             mission_along(kTurn, 0.0), mission_along(kTurn, half_load_kg)};
+  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the corrected plant.
+  std::vector<double> energy_J(2 * missions.size());
+  parallel_for(energy_J.size(), [&](std::size_t k) {
+    const Robot& robot = k % 2 == 0 ? nominal : corrected;
+    energy_J[k] = energy_on(plant, plan_mission(missions[k / 2], {.robot = with_limits(robot)}, options));
+  });
+  DecisionCost cost;
   double nominal_J = 0.0, corrected_J = 0.0;
-  for (const BezierPoints& curve : {kStraight, kTurn})
-    for (const double payload_kg : {0.0, 0.5 * std::min(10.0, with_limits(nominal).limits->max_payload_kg)}) {
-      const MissionRequest mission = mission_along(curve, payload_kg);
-      const Plan by_nominal = plan_mission(mission, {.robot = with_limits(nominal)}, options);
-      const Plan by_corrected = plan_mission(mission, {.robot = with_limits(corrected)}, options);
-      if (by_nominal.legs.empty() || by_corrected.legs.empty()) continue;
-      ++cost.missions;
-      nominal_J += energy_on(plant, by_nominal);
-      corrected_J += energy_on(plant, by_corrected);
-    }
+  for (std::size_t m = 0; m < missions.size(); ++m) {
+    if (energy_J[2 * m] == 0 || energy_J[2 * m + 1] == 0) continue;  // could not be planned
+    ++cost.missions;
+    nominal_J += energy_J[2 * m];
+    corrected_J += energy_J[2 * m + 1];
+  }
   if (corrected_J > 0) cost.joules_lost_percent = 100.0 * (nominal_J - corrected_J) / corrected_J;
   return cost;
 }
