@@ -40,7 +40,7 @@ void for_each_step(const Plant& plant, double payload_kg, const Track& track, co
 }  // namespace
 
 Track paper_curve(double bend) {
-  return {.curve = BezierSegment(BezierPoints{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, bend * 2.7}}})};
+  return {.curve = BezierSegment({{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, bend * 2.7}}})};
 }
 
 std::vector<DriveSample> drive(const Plant& plant, double payload_kg, const Track& track,

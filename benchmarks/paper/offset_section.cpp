@@ -61,8 +61,7 @@ void offset_section(PaperReport& report) {
   const std::vector<double> kg_straight(printed::kStraightPayloads.begin(), printed::kStraightPayloads.end());
   const std::vector<double> a_curve{0.15, 0.18, 0.2, 0.22}, kg_curve{0, 5.7, 8.25, 10.5};
   const auto tight = [](double bend) {
-    return Track{.curve =
-                     BezierSegment(BezierPoints{{{0, 0}, {0.675, 0}, {0.675, 0}, {0.675, bend * 0.675}}})};
+    return Track{.curve = BezierSegment({{{0, 0}, {0.675, 0}, {0.675, 0}, {0.675, bend * 0.675}}})};
   };
   Plot plot{.title = "Error of the d = 0 model against the robot's d",
             .x_label = "center of mass ahead of the axle (m)",

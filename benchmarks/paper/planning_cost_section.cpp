@@ -92,8 +92,8 @@ void planning_cost_section(PaperReport& report) {
   full.power.standby_W = 10;
   const Pose origin{};
   const auto curve = [](double size, double bend) {
-    return Curve({BezierSegment(
-        BezierPoints{{{0, 0}, {2.7 * size, 0}, {2.7 * size, 0}, {2.7 * size, bend * 2.7 * size}}})});
+    return Curve(
+        {BezierSegment({{{0, 0}, {2.7 * size, 0}, {2.7 * size, 0}, {2.7 * size, bend * 2.7 * size}}})});
   };
   const std::vector<Task> tasks{{"straight, 10 m", straight_piece(origin, 10.0)},
                                 {"straight, 2 m", straight_piece(origin, 2.0)},

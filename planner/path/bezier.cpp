@@ -47,9 +47,12 @@ BezierSegment::BezierSegment(const BezierPoints& points_m) : points_m_(points_m)
   tabulate();
 }
 
-BezierSegment::BezierSegment(const RationalBezier& curve)
-    : rational_(curve), scale_m_(curve.polygon_length_m()) {
-  tabulate();
+BezierSegment BezierSegment::rational(const RationalBezier& curve) {
+  BezierSegment segment;
+  segment.rational_ = curve;
+  segment.scale_m_ = curve.polygon_length_m();
+  segment.tabulate();
+  return segment;
 }
 
 void BezierSegment::tabulate() {

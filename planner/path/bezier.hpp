@@ -22,7 +22,7 @@ namespace joulepath {
 class BezierSegment {
  public:
   explicit BezierSegment(const BezierPoints& points_m);
-  explicit BezierSegment(const RationalBezier& curve);
+  static BezierSegment rational(const RationalBezier& curve);
 
   double length_m() const { return knots_.back().s_m; }
   PathPoint at(double s_m) const;
@@ -37,6 +37,7 @@ class BezierSegment {
     double heading_rad{};
     std::array<double, 2> tangent_m{};  ///< B'
   };
+  BezierSegment() = default;
   void tabulate();
   BezierDerivatives derivatives(double t) const {
     return rational_ ? bezier_derivatives(*rational_, t) : bezier_derivatives(points_m_, t);

@@ -45,7 +45,7 @@ std::vector<RationalBezier> bezier_pieces(const Nurbs& nurbs) {
 }
 
 CurveSegment segment_of(const RationalBezier& piece) {
-  if (!piece.straight()) return BezierSegment(piece);
+  if (!piece.straight()) return BezierSegment::rational(piece);
   const auto first = piece.place_m(0), last = piece.place_m(piece.points.size() - 1);
   const double x = last[0] - first[0], y = last[1] - first[1];
   return LinearCurvature({first[0], first[1], std::atan2(y, x)}, std::hypot(x, y));
