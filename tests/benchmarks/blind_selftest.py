@@ -277,6 +277,7 @@ class Scorer(unittest.TestCase):
 
     def test_right_is_silence_on_null_and_none_fits_on_foreign(self):
         self.assertTrue(plots.is_right("(null)", "(no_gap)"))
+        self.assertIn("svg", plots.power_plot({"a": {"points": [(0.0, True, True)]}}))  # an effect that takes something away: size 0
         self.assertTrue(plots.is_right("f (foreign)", "(unexplained)"))
         self.assertFalse(plots.is_right("f (foreign)", "a"))
         self.assertFalse(plots.is_right("a", "(unexplained)"))

@@ -25,7 +25,7 @@ def power_plot(table):
         y = 36 + k * row
         points = table[name]["points"]
         logs = [math.log(s) for s, _, _ in points if s > 0]
-        low, high = min(logs), max(logs)
+        low, high = min(logs, default=0.0), max(logs, default=0.0)
         span = (high - low) or 1.0
         body.append(text(left - 8, y + 4, name, "end"))
         body.append(f'<line x1="{left}" x2="{left + width}" y1="{y}" y2="{y}" stroke="{GRID}"/>')
