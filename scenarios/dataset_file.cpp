@@ -4,6 +4,7 @@
 
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/plausible.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
 
@@ -88,11 +89,22 @@ class RunReader {
     else
       add(node["file"]);
     run.name = node.has("file") ? node["file"].text() : node["files"].items().front().text();
+    const Node named_by = node.has("file") ? node["file"] : node["files"];
+    refuse_repeated(run.name, named_by);
     RunLog log = read_run_log(files, sources_, dataset_.robot.geometry, run.name);
     run.log = std::move(log.trajectory);
     run.current_sign_from_motion = log.current_sign_from_motion;
+    check_plausible(run, dataset_.robot, named_by);
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
     if (const auto predicted = node.find("predicted")) read_predicted(*predicted, run);
+  }
+
+  /// The same log twice would count twice as evidence, and be held out from itself.
+  void refuse_repeated(const std::string& name, const Node& named_by) const {
+    for (std::size_t r = 0; r < dataset_.runs.size(); ++r)
+      if (dataset_.runs[r].name == name)
+        named_by.fail_found("\"" + name + "\", which runs[" + std::to_string(r) + "] has already",
+                            "a log that no other run has", "remove one of them");
   }
 
   /// Another simulator writes the format's own names (then `columns:` is not for it), or the log's.

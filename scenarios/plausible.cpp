@@ -1,0 +1,102 @@
+#include "scenarios/plausible.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/kinematics.hpp"
+#include "scenarios/log_columns.hpp"
+
+namespace joulepath {
+namespace {
+
+struct Bound {
+  const char* column;
+  double most;  ///< of the absolute value
+  const char* hint;
+};
+constexpr Bound kBounds[] = {
+    {"motor_voltage_left_V", 1000, "millivolts?"},      {"motor_voltage_right_V", 1000, "millivolts?"},
+    {"motor_current_left_A", 1000, "milliamperes?"},    {"motor_current_right_A", 1000, "milliamperes?"},
+    {"motor_power_left_W", 1e5, "milliwatts?"},         {"motor_power_right_W", 1e5, "milliwatts?"},
+    {"battery_voltage_V", 1000, "millivolts?"},         {"battery_current_A", 2000, "milliamperes?"},
+    {"gyro_yaw_rate_rad_s", 30, "degrees per second?"}, {"payload_kg", 1e4, "grams?"},
+};
+constexpr double kFastest_m_s = 20.0;    ///< of a wheel's rim
+constexpr double kLongestStep_s = 60.0;  ///< between samples, median
+constexpr double kOddRatio = 2.0;        ///< between a body's speed and its wheels'
+constexpr double kMoving_m_s = 0.05;     ///< mean speed below which nothing is compared
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+double greatest(const std::vector<double>& values) {
+  double most = 0;
+  for (double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+[[noreturn]] void refuse(const Node& named_by, const std::string& found, const std::string& accepted,
+                         const std::string& hint) {
+  named_by.fail_found(found, accepted, hint + " `columns:` with scale converts");
+}
+
+void check_time(const Trajectory& log, const Node& named_by) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
+  if (steps.empty()) return;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  if (*middle > kLongestStep_s)
+    refuse(named_by, "time_s with a sample every " + figure(*middle) + " s",
+           "at most " + figure(kLongestStep_s) + " s between samples", "milliseconds, microseconds?");
+}
+
+void check_wheels(const Trajectory& log, const Geometry& geometry, const Node& named_by) {
+  for (Side side : kSides) {
+    const double most = greatest(log.wheel_speed_rad_s[side]);
+    if (most * geometry.wheel_radius_m[side] <= kFastest_m_s) continue;
+    refuse(named_by,
+           std::string("wheel_speed_") + side_name(side) + "_rad_s up to " + figure(most) + " rad/s, " +
+               figure(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
+           "at most " + figure(kFastest_m_s) + " m/s", "degrees per second, rpm or encoder ticks?");
+  }
+}
+
+/// Mean size of the body's speed as logged (or from the pose), and as this robot's wheels would have it.
+void check_robot(const Trajectory& log, const Geometry& geometry, const Node& named_by) {
+  const std::size_t n = log.size();
+  if (log.linear_speed_m_s.size() != n || log.wheel_speed_rad_s.left.size() != n || n == 0) return;
+  double body = 0, wheels = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    body += std::abs(log.linear_speed_m_s[i]) / static_cast<double>(n);
+    wheels += std::abs(body_twist(geometry, Sided<double>{log.wheel_speed_rad_s.left[i],
+                                                          log.wheel_speed_rad_s.right[i]})
+                           .speed_m_s) /
+              static_cast<double>(n);
+  }
+  if (std::max(body, wheels) < kMoving_m_s) return;
+  if (body <= kOddRatio * wheels && wheels <= kOddRatio * body) return;
+  named_by.fail_found("a mean speed of " + figure(body) + " m/s where this robot's wheels turn for " +
+                          figure(wheels) + " m/s",
+                      "a log of the robot that the dataset names",
+                      "is it another robot's log, or wheel speeds before the gear?");
+}
+
+}  // namespace
+
+void check_plausible(const Run& run, const Robot& robot, const Node& named_by) {
+  Trajectory log = run.log;
+  check_time(log, named_by);
+  check_wheels(log, robot.geometry, named_by);
+  for (const Bound& bound : kBounds)
+    if (const double most = greatest(find_log_column(bound.column)->channel(log)); most > bound.most)
+      refuse(named_by, std::string(bound.column) + " up to " + figure(most), "at most " + figure(bound.most),
+             bound.hint);
+  check_robot(log, robot.geometry, named_by);
+}
+
+}  // namespace joulepath
