@@ -51,6 +51,19 @@ TEST(CommandLine, AnUnknownEffectToLeaveOutIsToldWithTheNamesThatComeNear) {
   EXPECT_FALSE(std::filesystem::exists(scratch.at("out")));
 }
 
+TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
+  const ScratchDirectory scratch;
+  for (const auto& entry : std::filesystem::directory_iterator(kBroken + "dataset")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const auto result =
+        run_program(scratch, "diagnose " + entry.path().string() + " --out " + scratch.at("out"));
+    EXPECT_EQ(result.code, 2) << entry.path();
+    EXPECT_EQ(result.out, "") << entry.path();
+    EXPECT_NE(result.err.find("accepted: "), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("out"))) << entry.path();
+  }
+}
+
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   const ScratchDirectory scratch;
   for (const char* file :
