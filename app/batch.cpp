@@ -77,7 +77,8 @@ class BatchCommand : public Command {
   std::string says() const override { return "plan many missions"; }
   std::string examples() const override {
     return "  joulepath batch scenarios/missions --out out/batch -j 2\n"
-           "  joulepath batch orders.jsonl --out out/batch --resume\n";
+           "  joulepath batch missions.jsonl --out out/batch --resume\n\n"
+           "Exit code 0: every mission has its line in results.jsonl, whatever it says; .status tells.\n";
   }
 
   void declare(CLI::App& app) override {

@@ -12,6 +12,7 @@ namespace joulepath {
   COMMAND(init)                     \
   COMMAND(plan)                     \
   COMMAND(batch)                    \
+  COMMAND(export)                   \
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \
   COMMAND(diagnose)                 \

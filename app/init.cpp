@@ -59,6 +59,7 @@ std::string simulated_log(const Robot& robot, int index) {
       .effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.008}}}},
       .reference = motion.trajectory,
       .payload_kg = payload_kg(index),
+      .sensors = typical_sensors(),
       .seed = static_cast<std::uint64_t>(index + 1)};
   return run_log_text(simulate(request).log);
 }

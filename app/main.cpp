@@ -59,6 +59,21 @@ std::string unknown_command_hint(int argc, char** argv,
   return "no command '" + std::string(argv[1]) + "'" + (near.empty() ? "" : " (did you mean " + near + "?)");
 }
 
+std::string command_typed(const CLI::App& app) {
+  const auto subcommands = app.get_subcommands();
+  return subcommands.empty() ? "" : " " + subcommands.front()->get_name();
+}
+
+/// The nearest option of the command in use, for an argument that it does not know.
+std::string unknown_argument(const std::string& argument, const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string near = nearest_word(argument, names);
+  return "unknown argument " + argument + (near.empty() ? "" : " (did you mean " + near + "?)");
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Energy-optimal trajectories, power models and sim-to-real diagnosis for differential-drive robots",
@@ -86,12 +101,18 @@ int run(int argc, char** argv) {
     return tell(message, kBadInput, "joulepath --help lists the commands");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    // What is missing may be what was mistyped: an unknown argument is told first.
+    const std::vector<std::string> extras = app.remaining(true);
+    return tell(extras.empty() ? error.what() : unknown_argument(extras.front(), app), kBadInput,
+                "see: joulepath" + command_typed(app) + " --help");
   } catch (const CLI::Success& success) {
     return app.exit(success, std::cout, std::cerr);
+  } catch (const CLI::ExtrasError&) {
+    return tell(unknown_argument(app.remaining(true).front(), app), kBadInput,
+                "see: joulepath" + command_typed(app) + " --help");
   } catch (const CLI::ParseError& error) {
-    const std::string where =
-        app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
-    return tell(error.what(), kBadInput, "see: joulepath" + where + " --help");
+    return tell(error.what(), kBadInput, "see: joulepath" + command_typed(app) + " --help");
   }
   return guarded(*chosen);
 }

@@ -70,7 +70,7 @@ double energy_with(const Plan& plan, const Plant& plant, const Nuisance& nuisanc
       request.plant = other;
       energy_J += energy_by_cause(path_motion(request), stretch.profile).total_J();
     }
-    if (leg.prescribed) energy_J += prescribed_energy(leg, other).total_J();
+    if (leg.prescribed) energy_J += prescribed_energy(leg, other, 0.0, leg.duration_s).total_J();
     energy_J += other.robot.power.standby_W * leg.dwell_s;
   }
   return energy_J;

@@ -82,6 +82,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     draft.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                           .path_source = way.source,
                           .payload = leg.payload,
+                          .parts = leg.parts,
                           .dwell_s = leg.dwell_s,
                           .distance_m = way.path.distance_m(),
                           .turned_rad = way.path.turned_rad(),

@@ -1,7 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "planner/profile.hpp"
+#include "planner/segment_energy.hpp"
 
 namespace joulepath {
 namespace {
@@ -41,14 +42,24 @@ void integrate(const PathMotion& motion, const Profile& profile, double from_s, 
 
 }  // namespace
 
-EnergyByCause energy_by_cause(const PathMotion& motion, const Profile& profile) {
+EnergyByCause energy_between(const PathMotion& motion, const Profile& profile, double from_s, double to_s) {
   constexpr int kHalvings = 12;
   EnergyByCause sum;
-  for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
-    if (profile.time_s[k + 1] > profile.time_s[k])
-      integrate(motion, profile, profile.time_s[k], profile.time_s[k + 1], kHalvings, sum);
-  sum.standby_J += profile.wait_s * motion.plant().robot.power.standby_W;
+  const std::vector<double>& time_s = profile.time_s;
+  const auto after = std::upper_bound(time_s.begin(), time_s.end(), from_s) - time_s.begin();
+  for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0)); k + 1 < time_s.size();
+       ++k) {
+    const double begin_s = std::max(from_s, time_s[k]), end_s = std::min(to_s, time_s[k + 1]);
+    if (end_s > begin_s) integrate(motion, profile, begin_s, end_s, kHalvings, sum);
+    if (time_s[k + 1] >= to_s) break;
+  }
+  const double waited_s = std::max(0.0, to_s - std::max(from_s, time_s.back()));
+  sum.standby_J += waited_s * motion.plant().robot.power.standby_W;
   return sum;
+}
+
+EnergyByCause energy_by_cause(const PathMotion& motion, const Profile& profile) {
+  return energy_between(motion, profile, 0.0, profile.duration_s());
 }
 
 }  // namespace joulepath

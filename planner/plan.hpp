@@ -58,6 +58,7 @@ struct LegPlan {
   SolveStatus status{SolveStatus::failed};
   PayloadAlongLeg payload{};
   std::vector<StretchPlan> stretches{};
+  std::vector<PathPart> parts{};           ///< named by the mission: edges of an order
   std::optional<Trajectory> prescribed{};  ///< a prescribed motion, sampled; no stretches then
   double start_s{};                        ///< departure, from the mission's start
   double duration_s{};                     ///< driving

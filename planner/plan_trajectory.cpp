@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/prescribed_leg.hpp"
+#include "planner/segment_energy.hpp"
 
 namespace joulepath {
 namespace {
@@ -81,11 +82,38 @@ void append(Trajectory& out, const Plant& plant, const Sample& sample, double ti
   const double power_W = plant.robot.power.standby_W +
                          supply_power_W(plant.robot.power, {wheels.left.power_W, wheels.right.power_W});
   out.battery_power_W.push_back(power_W);
-  const std::size_t n = out.time_s.size();
-  const double step_J =
-      n > 1 ? 0.5 * (power_W + out.battery_power_W[n - 2]) * (time_s - out.time_s[n - 2]) : 0.0;
-  out.energy_J.push_back(n > 1 ? out.energy_J.back() + step_J : 0.0);
   out.leg.push_back(static_cast<double>(leg));
+}
+
+/// Joules at the battery's terminals between two instants of a leg, counted from its departure.
+double leg_energy_J(const LegPlan& leg, const Plant& plant, double from_s, double to_s) {
+  double sum_J = 0, begin_s = 0;
+  if (leg.prescribed) {
+    sum_J = prescribed_energy(leg, plant, from_s, std::min(to_s, leg.duration_s)).total_J();
+    begin_s = leg.duration_s;
+  }
+  for (const StretchPlan& stretch : leg.stretches) {
+    const double end_s = begin_s + stretch.profile.duration_s();
+    const double first_s = std::max(from_s, begin_s), last_s = std::min(to_s, end_s);
+    if (last_s > first_s)
+      sum_J +=
+          energy_between(path_motion(stretch.request), stretch.profile, first_s - begin_s, last_s - begin_s)
+              .total_J();
+    begin_s = end_s;
+  }
+  return sum_J + plant.robot.power.standby_W * std::max(0.0, to_s - std::max(from_s, begin_s));
+}
+
+/// Joules between two instants of a plan, over as many legs as lie between.
+double plan_energy_J(const Plan& plan, const Plant& plant, double from_s, double to_s) {
+  double sum_J = 0;
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    const LegPlan& leg = plan.legs[k];
+    const double end_s = leg.start_s + leg.duration_s + leg.dwell_s;
+    const double first_s = std::max(from_s, leg.start_s), last_s = std::min(to_s, end_s);
+    if (last_s > first_s) sum_J += leg_energy_J(leg, plant, first_s - leg.start_s, last_s - leg.start_s);
+  }
+  return sum_J;
 }
 
 }  // namespace
@@ -106,6 +134,8 @@ Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz)
     const LegPlan& leg = plan.legs[index];
     const Sample sample = sample_leg(leg, plant, time_s - leg.start_s);
     const double payload_kg = leg.stretches.empty() ? leg.payload.from_kg : sample.site.payload_kg;
+    out.energy_J.push_back(
+        k == 0 ? 0.0 : out.energy_J.back() + plan_energy_J(plan, plant, out.time_s.back(), time_s));
     append(out, plant, sample, time_s, payload_kg, index);
   }
   return out;

@@ -32,15 +32,19 @@ SampledState sampled_state(const Trajectory& trajectory, double time_s) {
           .curvature_per_m = between(trajectory.curvature_per_m)};
 }
 
-EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant) {
+EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant, double from_s, double to_s) {
   const Trajectory& motion = *leg.prescribed;
+  from_s += motion.time_s.front();
+  to_s += motion.time_s.front();
   constexpr double kNode = 0.7745966692414834;
   constexpr struct { double x, weight; } kGauss[] = {{-kNode, 5.0 / 18}, {0.0, 8.0 / 18}, {kNode, 5.0 / 18}};
   EnergyByCause energy;
   for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
-    const double length_s = motion.time_s[k + 1] - motion.time_s[k];
+    const double begin_s = std::max(from_s, motion.time_s[k]);
+    const double length_s = std::min(to_s, motion.time_s[k + 1]) - begin_s;
+    if (!(length_s > 0)) continue;
     for (const auto& gauss : kGauss) {
-      const double time_s = motion.time_s[k] + 0.5 * (1 + gauss.x) * length_s;
+      const double time_s = begin_s + 0.5 * (1 + gauss.x) * length_s;
       const SampledState state = sampled_state(motion, time_s);
       const Site site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg, state.motion.speed_m_s,
                                 state.motion.yaw_rate_rad_s, time_s);
@@ -70,7 +74,7 @@ LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& st
   if (motion.size() == 0) return planned;
   planned.duration_s = motion.time_s.back() - motion.time_s.front();
   if (!motion.arc_length_m.empty()) planned.distance_m = motion.arc_length_m.back();
-  planned.energy = prescribed_energy(planned, plant);
+  planned.energy = prescribed_energy(planned, plant, 0.0, planned.duration_s);
   planned.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
   return planned;
 }

@@ -13,8 +13,10 @@ struct SampledState {
 };
 [[nodiscard]] SampledState sampled_state(const Trajectory& trajectory, double time_s);
 
-/// Joules by cause of a prescribed leg's motion (without dwell), three Gauss points in every interval.
-[[nodiscard]] EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant);
+/// Joules by cause of a prescribed leg's motion (without dwell) between two instants, counted from its
+/// departure; three Gauss points in every interval of its samples.
+[[nodiscard]] EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant, double from_s,
+                                              double to_s);
 
 /// A leg whose motion is prescribed: nothing is optimized, its energy is accounted for by the same model.
 /// Throws ConfigError at the leg's marks where the prescription makes no sense.

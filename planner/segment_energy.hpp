@@ -11,4 +11,9 @@ namespace joulepath {
 /// the exact path, split where a motor's power changes its sign.
 [[nodiscard]] double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k);
 
+/// Joules by cause between two instants of a profile, waiting at its end included. Intervals that follow on
+/// each other add up to the whole.
+[[nodiscard]] EnergyByCause energy_between(const PathMotion& motion, const Profile& profile, double from_s,
+                                           double to_s);
+
 }  // namespace joulepath

@@ -16,6 +16,9 @@ const std::vector<FileKind>& file_kinds() {
       {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
       {"plan", plan_schema, "result of plan: plan.json"},
       {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
+      {"controller", controller_schema, "result of export --to controller"},
+      {"edges", edges_schema, "result of export --to edges as JSON"},
+      {"loss", loss_schema, "joules lost by the settings of an export"},
   };
   return kinds;
 }

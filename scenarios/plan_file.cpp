@@ -1,5 +1,6 @@
 #include "scenarios/plan_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -16,15 +17,18 @@ constexpr double kJoulesPerWh = 3600.0;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json cause_json(const EnergyByCause& energy) {
+  // What is left of a sum that is zero by physics (kinetic energy from rest to rest) is written as zero.
+  const double noise_J = 1e-9 * std::max(1.0, std::abs(energy.total_J()));
+  const auto joules = [noise_J](double value_J) { return std::abs(value_J) < noise_J ? 0.0 : value_J; };
   Json effects = Json::object();
-  for (const auto& [name, energy_J] : energy.effects_J) effects[name] = energy_J;
-  return {{"copper", energy.copper_J},
-          {"coulomb_friction", energy.coulomb_friction_J},
-          {"viscous_friction", energy.viscous_friction_J},
-          {"kinetic", energy.kinetic_J},
-          {"standby", energy.standby_J},
+  for (const auto& [name, energy_J] : energy.effects_J) effects[name] = joules(energy_J);
+  return {{"copper", joules(energy.copper_J)},
+          {"coulomb_friction", joules(energy.coulomb_friction_J)},
+          {"viscous_friction", joules(energy.viscous_friction_J)},
+          {"kinetic", joules(energy.kinetic_J)},
+          {"standby", joules(energy.standby_J)},
           {"effects", std::move(effects)},
-          {"not_recovered", energy.not_recovered_J}};
+          {"not_recovered", joules(energy.not_recovered_J)}};
 }
 
 /// A baseline beside what the plan takes. `parameters` are the settings on the longest stretch, which
@@ -182,6 +186,7 @@ std::string plan_json_text(const Plan& plan) {
   Json json{
       {"schema", "joulepath/plan/1"}, {"mission", plan.mission}, {"status", solve_status_name(plan.status)}};
   if (!plan.message.empty()) json["message"] = plan.message;
+  if (plan.infeasibility || plan.status == SolveStatus::failed) json["legs"] = Json::array();
   if (plan.infeasibility)
     json["infeasibility"] = infeasibility_json(*plan.infeasibility);
   else if (plan.status != SolveStatus::failed)

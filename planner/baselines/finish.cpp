@@ -71,8 +71,8 @@ BaselineResult finish_baseline(const ProfileRequest& request, std::string name, 
   const Worst worst = worst_use(request, motion, profile);
   result.feasible = worst.ratio <= 1 + kTolerance;
   if (!result.feasible) {
-    std::snprintf(text, sizeof text, "%s at s = %.4g is %.3g times its limit", worst.limit.c_str(), worst.s,
-                  worst.ratio);
+    std::snprintf(text, sizeof text, "%s at s = %.4g is %.3g times its limit", worst.limit.c_str(),
+                  worst.s < 1e-9 ? 0.0 : worst.s, worst.ratio);
     result.reason = text;
   }
   result.profile = std::move(profile);

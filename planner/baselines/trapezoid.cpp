@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/baselines/pattern_search.hpp"
 #include "planner/nlp/forward_backward.hpp"
 #include "planner/nlp/grid.hpp"
 
@@ -218,57 +219,21 @@ BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, dou
   return no_baseline(name, "the plan's time is the least possible: no other profile makes it");
 }
 
-/// Of one share, the settings that cost least, by a coarse scan and a pattern search about its best.
-class Tuner {
- public:
-  Tuner(const TrapezoidFamily& family, double share, double duration_s)
-      : family_(family), share_(share), duration_s_(duration_s) {}
-
-  double energy_J() const { return energy_J_; }
-  TrapezoidSettings settings() const { return *settings_at(up_, down_); }
-
-  void scan() {
-    for (double up = 0; up > -4.0; up -= 0.5)
-      for (double down = 0; down > -4.0; down -= 0.5) look(up, down);
-  }
-
-  void refine() {
-    if (!std::isfinite(energy_J_)) return;
-    for (double step = 0.25; step > 1e-3;) {
-      const double up = up_, down = down_;
-      bool better = false;
-      for (const auto& [du, dd] :
-           {std::pair{1., 0.}, {-1., 0.}, {0., 1.}, {0., -1.}, {1., 1.}, {-1., -1.}, {1., -1.}, {-1., 1.}})
-        better |= look(up + step * du, down + step * dd);
-      if (!better) step /= 2;
-    }
-  }
-
- private:
-  std::optional<TrapezoidSettings> settings_at(double up, double down) const {
-    const double acceleration = family_.most_acceleration() * std::exp(std::min(0.0, up));
-    const double deceleration = family_.most_deceleration() * std::exp(std::min(0.0, down));
-    const auto rate = family_.rate_for(acceleration, deceleration, share_, duration_s_);
+/// Of one share, the settings that cost least; nothing where none keeps the rows.
+std::optional<TrapezoidSettings> tuned(const TrapezoidFamily& family, double share, double duration_s) {
+  const auto settings_at = [&](double up, double down) -> std::optional<TrapezoidSettings> {
+    const double acceleration = family.most_acceleration() * std::exp(up);
+    const double deceleration = family.most_deceleration() * std::exp(down);
+    const auto rate = family.rate_for(acceleration, deceleration, share, duration_s);
     if (!rate) return std::nullopt;
-    return TrapezoidSettings{*rate, acceleration, deceleration, share_};
-  }
-
-  bool look(double up, double down) {
+    return TrapezoidSettings{*rate, acceleration, deceleration, share};
+  };
+  const PatternMinimum best = pattern_search([&](double up, double down) {
     const auto settings = settings_at(up, down);
-    if (!settings) return false;
-    const double energy_J = family_.energy_J(*family_.squares(*settings));
-    if (!(energy_J < energy_J_)) return false;
-    energy_J_ = energy_J;
-    up_ = std::min(0.0, up);
-    down_ = std::min(0.0, down);
-    return true;
-  }
-
-  const TrapezoidFamily& family_;
-  double share_{}, duration_s_{};
-  double energy_J_{kNoLimit};
-  double up_{}, down_{};  // natural logarithms of the shares of the largest accelerations
-};
+    return settings ? family.energy_J(*family.squares(*settings)) : kNoLimit;
+  });
+  return std::isfinite(best.value) ? settings_at(best.x, best.y) : std::nullopt;
+}
 
 }  // namespace
 
@@ -298,11 +263,9 @@ BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double durati
   largest.name = kName;
   if (largest.feasible) best = std::move(largest);
   for (std::size_t i = 0; i < share_count(family); ++i) {
-    Tuner tuner(family, kShares[i], duration_s);
-    tuner.scan();
-    tuner.refine();
-    if (!std::isfinite(tuner.energy_J())) continue;
-    BaselineResult result = finish_trapezoid(request, family, kName, tuner.settings(), duration_s);
+    const auto settings = tuned(family, kShares[i], duration_s);
+    if (!settings) continue;
+    BaselineResult result = finish_trapezoid(request, family, kName, *settings, duration_s);
     const bool better = best && result.feasible && (!best->feasible || result.energy_J < best->energy_J);
     if (!best || better) best = std::move(result);
   }

@@ -37,6 +37,21 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
+/// A place where there is no map at all is told as such.
+RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
+  const OccupancyGrid& map = field.map();
+  if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;
+  const ObstacleField::Extent extent = field.extent_m();
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "the %s (%.3f, %.3f) m lies outside of the map, which covers x from %.2f to %.2f m and y from "
+      "%.2f to %.2f m",
+      which, verdict.x_m, verdict.y_m, extent.x_min_m, extent.x_max_m, extent.y_min_m, extent.y_max_m);
+  verdict.message = text;
+  return verdict;
+}
+
 RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Point2& goal) {
   RouteVerdict verdict{RouteStatus::no_connection,           goal[0], goal[1], 0, false,
                        space.nearest_reachable(start, goal), ""};
@@ -80,9 +95,11 @@ std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteReq
   };
   const Pose goal{request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)};
   if (const auto c = check(request.start, request.start_heading_free))
-    return blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c);
+    return told_of_the_map(blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c),
+                           space.field(), "start");
   if (const auto c = check(goal, !request.goal_heading_rad))
-    return blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c);
+    return told_of_the_map(blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c),
+                           space.field(), "goal");
   return std::nullopt;
 }
 

@@ -64,6 +64,32 @@ TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
   }
 }
 
+TEST(CommandLine, AnUnknownArgumentIsToldBeforeWhatIsMissing) {
+  const ScratchDirectory scratch;
+  const auto result = run_program(scratch, "plan mission.yaml --ouut " + scratch.at("out"));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("unknown argument --ouut (did you mean --out?)"), std::string::npos)
+      << result.err;
+  EXPECT_NE(run_program(scratch, "plan mission.yaml").err.find("--out is required"), std::string::npos);
+}
+
+TEST(CommandLine, ExportWritesAllItsFilesOrNone) {
+  const ScratchDirectory scratch;
+  scratch.write("m.yaml", "robot: " JOULEPATH_SOURCE_DIR
+                          "/scenarios/robots/nomad_super_scout.yaml\n"
+                          "legs: [{path: {bezier_m: [[[0, 0], [1, 0], [2, 0], [3, 0]]]}}]\n");
+  const std::string command =
+      "export " + scratch.at("m.yaml") + " --nodes 40 --to speed_mask --out " + scratch.at("mask.yaml");
+  scratch.write("mask.pgm", "mine");
+  EXPECT_EQ(run_program(scratch, command).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("mask.yaml")));
+  const auto forced = run_program(scratch, command + " --force --json");
+  EXPECT_EQ(forced.code, 0) << forced.err;
+  EXPECT_GT(nlohmann::json::parse(forced.out)["own_time"]["energy_J"].get<double>(), 0);
+  for (const char* name : {"mask.yaml", "mask.pgm", "mask.loss.json"})
+    EXPECT_TRUE(std::filesystem::exists(scratch.at(name))) << name;
+}
+
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   const ScratchDirectory scratch;
   for (const char* file :

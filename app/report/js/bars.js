@@ -45,8 +45,8 @@ jp.stacked_bar = function (causes, full_J, unit = "J") {
 };
 
 /** Counts in equal bins as columns of a bar row chart. */
-jp.histogram = function (values, unit, bins = 12) {
-  const finite = values.filter(jp.is_number);
+jp.histogram = function (values, unit, most_bins = 12) {
+  const finite = values.filter(jp.is_number), bins = Math.min(most_bins, 2 * Math.ceil(Math.sqrt(finite.length)));
   if (!finite.length) return jp.h("p", {class: "soft"}, "No values.");
   const low = finite.reduce((a, b) => Math.min(a, b)), high = finite.reduce((a, b) => Math.max(a, b));
   if (high === low) return jp.h("p", {}, `All ${finite.length}: ${jp.with_unit(low, unit)}`);

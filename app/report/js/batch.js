@@ -8,8 +8,8 @@ jp.draw_batch = function (data) {
   const per_meter = (one) => one.energy_J / one.distance_m;
   const shown = worst.slice(0, 15);
   const histogram = (key, title, unit) => (spread[key] && spread[key].length ? jp.h("div", {}, jp.h("h3", {}, title), jp.histogram(spread[key], unit)) : null);
-  jp.page(jp.header(data.title || "Batch", data.subtitle || `${jp.number(count, 9)} missions`, without ? `${without} without a plan` : "all planned", !without),
-    jp.h("div", {class: "tiles"}, jp.tile("Missions", jp.number(count, 9), Object.entries(status).map(([one, n]) => `${n} ${jp.words(one)}`).join(", ")), jp.tile("Energy", jp.with_unit((total.energy_J || 0) / 3600, "Wh"), jp.with_unit(total.energy_J || 0, "J")),
+  jp.page(jp.header(data.title || "Batch", data.subtitle || `${jp.short(count, 9)} missions`, without ? `${without} without a plan` : "all planned", !without),
+    jp.h("div", {class: "tiles"}, jp.tile("Missions", jp.short(count, 9), Object.entries(status).map(([one, n]) => `${n} ${jp.words(one)}`).join(", ")), jp.tile("Energy", jp.with_unit((total.energy_J || 0) / 3600, "Wh"), jp.with_unit(total.energy_J || 0, "J")),
       jp.tile("Distance", jp.with_unit(total.distance_m || 0, "m")), jp.tile("Time", jp.with_unit(total.duration_s || 0, "s"))),
     jp.section("Distribution", jp.h("div", {class: "columns"}, histogram("energy_J", "Energy of a mission", "J"), histogram("duration_s", "Duration", "s"), histogram("saving_percent", "Saving against the best tuned trapezoid", "%"), histogram("optimality_gap_percent", "Optimality gap", "%"))),
     unsolved.length ? jp.section("Without a plan", unsolved.length < without ? jp.h("p", {class: "soft"}, `The first ${unsolved.length} of ${without}.`) : null, jp.table(["mission", "status", "why"], unsolved.map((one) => [name(one), jp.words(one.status), why(one)]))) : null,

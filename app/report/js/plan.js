@@ -50,7 +50,7 @@ jp.infeasibility_box = function (plan) {
   if (!why) return null;
   const relax = Object.entries(why.relaxation || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
   return jp.h("div", {class: "notice", role: "alert"}, jp.h("b", {}, `No plan: ${jp.words(why.constraint)}`),
-    jp.h("div", {}, why.message || "", ` Leg ${Number(why.leg ?? 0) + 1}, at ${jp.with_unit(why.arc_length_m, "m")} of its path (x ${jp.number(why.x_m)}, y ${jp.number(why.y_m)}), missed by ${jp.with_unit(why.amount, why.unit || "")}.`),
+    jp.h("div", {}, why.message || "", ` Leg ${why.leg ?? 0}, at ${jp.with_unit(why.arc_length_m, "m")} of its path (x ${jp.number(why.x_m)}, y ${jp.number(why.y_m)}), missed by ${jp.with_unit(why.amount, why.unit || "")}.`),
     relax ? jp.h("div", {}, "Smallest change that would do: " + relax + ".") : null);
 };
 
@@ -76,7 +76,7 @@ jp.energy_section = function (plan) {
     jp.h("details", {}, jp.h("summary", {}, "Numbers, in J"), jp.table(["", ...names.map((name) => ({n: jp.words(name)})), {n: "total"}],
       [...legs.map((leg, k) => row_of(jp.leg_name(leg, k), leg.energy_by_cause_J, leg.energy_J)), row_of("mission", plan.energy_by_cause_J, total)])));
 };
-jp.leg_name = (leg, k) => `${k + 1} ${leg.to && leg.to !== "path" && leg.to !== "motion" ? "to " + leg.to : leg.to || "path"}`;
+jp.leg_name = (leg, k) => `${k} ${leg.to && leg.to !== "path" && leg.to !== "motion" ? "to " + leg.to : leg.to || "path"}`;
 
 jp.baseline_section = function (plan) {
   const baselines = (plan.baselines || []).filter((one) => one.name);
@@ -86,7 +86,7 @@ jp.baseline_section = function (plan) {
   return jp.section("Against classic profiles", jp.h("p", {class: "soft"}, "Same path, same time. Savings are of the model's energy; the model's own error is what a diagnosis of measured runs tells."),
     jp.h("h3", {}, "Motion energy, standby left out"),
     jp.bar_rows(rows.filter((one) => one === rows[0] || counted.includes(one)).map((one, k) => ({label: jp.words(one.name), value: one.motion_energy_J, text: jp.with_unit(one.motion_energy_J, "J"), color: k ? "var(--second)" : "var(--plan)"}))),
-    jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, "settings"], rows.map((one) => one.feasible === false
+    jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
       ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
         Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])), jp.settings_details(plan));
@@ -103,8 +103,10 @@ jp.legs_section = function (plan) {
   const legs = plan.legs || [];
   if (!legs.length) return null;
   const payload = (value) => (value && typeof value === "object" ? `${jp.number(value.from)} to ${jp.number(value.to)}` : jp.number(value));
+  const ways = legs.flatMap((leg, k) => (leg.alternatives || []).map((way) => [jp.leg_name(leg, k), jp.words(way.name) + (way.chosen ? " (chosen)" : ""), {n: jp.number(way.energy_J, 5)}, {n: jp.number(way.duration_s)}, {n: jp.number(way.distance_m)}]));
   return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "time s"}, {n: "energy J"}, {n: "a second is worth W"}],
-    legs.map((leg, k) => [jp.leg_name(leg, k), jp.words(leg.status), {n: payload(leg.payload_kg)}, {n: jp.number(leg.distance_m)}, {n: jp.number(leg.duration_s)}, {n: jp.number(leg.energy_J, 5)}, {n: jp.number(leg.price_of_time_W, 3)}])));
+    legs.map((leg, k) => [jp.leg_name(leg, k), jp.words(leg.status), {n: payload(leg.payload_kg)}, {n: jp.number(leg.distance_m)}, {n: jp.number(leg.duration_s)}, {n: jp.number(leg.energy_J, 5)}, {n: jp.number(leg.price_of_time_W, 3)}])),
+    ways.length ? jp.h("details", {}, jp.h("summary", {}, "Ways that were weighed"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], ways)) : null);
 };
 
 jp.battery_section = function (plan) {
@@ -133,7 +135,7 @@ jp.motion_section = function (data) {
   const c = data.trajectory;
   if (!c || !c.time_s || !c.time_s.length) return null;
   const t = c.time_s, s = jp.distance(c), v = c.linear_speed_m_s || [], turns = jp.turns_in_place(c);
-  const describe = (row) => `t ${jp.number(t[row], 4)} s · ${jp.number(s[row], 4)} m · leg ${(c.leg ? c.leg[row] : 0) + 1} · ${jp.number(v[row], 3)} m/s` +
+  const describe = (row) => `t ${jp.number(t[row], 4)} s · ${jp.number(s[row], 4)} m · leg ${c.leg ? c.leg[row] : 0} · ${jp.number(v[row], 3)} m/s` +
     (c.battery_power_W ? ` · ${jp.number(c.battery_power_W[row], 3)} W` : "") + (c.energy_J ? ` · ${jp.number(c.energy_J[row], 4)} J` : "") + (c.payload_kg ? ` · payload ${jp.number(c.payload_kg[row], 3)} kg` : "");
   const cursor = jp.cursor(t.length, describe);
   const limits = data.limits || {}, over = data.overlays || [];
@@ -173,7 +175,7 @@ jp.station_marks = function (data, c, turns) {
   for (let k = 1; k <= x.length; ++k) {
     if (k < x.length && leg[k] === leg[k - 1]) continue;
     const name = (legs[leg[k - 1]] || {}).to;
-    marks.push({x: x[k - 1], y: y[k - 1], kind: "station", text: `${(leg[k - 1] ?? 0) + 1} ${name || ""}`.trim()});
+    marks.push({x: x[k - 1], y: y[k - 1], kind: "station", text: `${leg[k - 1] ?? 0} ${name || ""}`.trim()});
   }
   const why = data.plan.infeasibility;
   if (why && jp.is_number(why.x_m)) marks.push({x: why.x_m, y: why.y_m, kind: "problem", text: jp.words(why.constraint)});

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "planner/path/quintic_fit.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -126,6 +128,30 @@ TEST(Nurbs, ACuspHasNoSpeed) {
   const RationalBezier cusp{{{0, 0, 1}, {1, 1, 1}, {0, 1, 1}, {1, 0, 1}}};
   EXPECT_LT(least_speed(cusp), 1e-9);
   EXPECT_GT(least_speed(bezier_pieces(circle(1, 0, 0)).front()), 0.1);
+}
+
+TEST(QuinticFit, MeetsAClothoidAtItsEndsAndStaysBesideIt) {
+  const LinearCurvature clothoid({1, 2, 0.3}, 2.0, 0, 0.9);
+  const Curve curve({clothoid});
+  constexpr double kTolerance_m = 1e-3;
+  const auto pieces = quintic_fit(curve, 0, 2.0, kTolerance_m);
+  double from_m = 0, length_m = 0;
+  for (const RationalBezier& piece : pieces) length_m += length_of(segment_of(piece));
+  EXPECT_NEAR(length_m, 2.0, kTolerance_m);
+  for (const RationalBezier& piece : pieces) {
+    const CurveSegment segment = segment_of(piece);
+    const double piece_m = 2.0 / static_cast<double>(pieces.size());
+    const PathPoint begin = curve.at(from_m), end = curve.at(from_m + piece_m);
+    EXPECT_NEAR(point_of(segment, 0).curvature_per_m, begin.curvature_per_m, 1e-9);
+    EXPECT_NEAR(point_of(segment, length_of(segment)).curvature_per_m, end.curvature_per_m, 1e-9);
+    EXPECT_NEAR(point_of(segment, 0).pose.heading_rad, begin.pose.heading_rad, 1e-9);
+    for (int i = 0; i <= 37; ++i) {
+      const Pose found = point_of(segment, length_of(segment) * i / 37).pose;
+      const Pose wanted = curve.at(from_m + piece_m * i / 37).pose;
+      EXPECT_LT(std::hypot(found.x_m - wanted.x_m, found.y_m - wanted.y_m), kTolerance_m);
+    }
+    from_m += piece_m;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include "planner/controller/controlled_drive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/baselines/finish.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Shares of the yaw acceleration that a change of curvature may use, fastest first.
+constexpr std::array<double, 5> kCurveShares{1.0, 0.9, 0.75, 0.5, 0.25};
+constexpr double kSameTime = 1e-6;
+
+BaselineResult drive_stretch(const ProfileRequest& request, const TrapezoidFamily& family,
+                             TrapezoidSettings settings) {
+  std::optional<BaselineResult> best;
+  const double first_share = settings.curve_share;
+  for (const double share : kCurveShares) {
+    if (share > first_share) continue;
+    settings.curve_share = share;
+    if (!family.squares(settings)) continue;
+    Profile profile = family.profile(settings);
+    const double duration_s = profile.time_s.back();
+    BaselineResult result =
+        finish_baseline(request, "controller", std::move(profile), duration_s, family.parameters(settings));
+    if (result.feasible) return result;
+    if (!best) best = std::move(result);
+    if (!family.curves()) break;
+  }
+  return best ? std::move(*best) : no_baseline("controller", "cannot keep the speeds at the ends");
+}
+
+/// Least energy of a stretch in a time; what the controller takes where no profile is as fast.
+double optimum_J(const StretchPlan& stretch, double duration_s, double otherwise_J) {
+  ProfileRequest request = stretch.request;
+  request.time = {.mode = TimeMode::fixed_time, .duration_s = duration_s};
+  request.solver = SolverChoice::fast;
+  const ProfileResult result = solve_profile(request);
+  if (!result.profile) return otherwise_J;
+  return energy_by_cause(path_motion(request), *result.profile).total_J();
+}
+
+}  // namespace
+
+void for_each_stretch(const Plan& plan,
+                      const std::function<void(const StretchPlace&, const StretchPlan&)>& visit) {
+  for (std::size_t leg = 0; leg < plan.legs.size(); ++leg) {
+    double from_m = 0;
+    const std::vector<StretchPlan>& stretches = plan.legs[leg].stretches;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+      visit({leg, k, from_m}, stretches[k]);
+      if (!is_turn(stretches[k].request.piece)) from_m += piece_length(stretches[k].request.piece);
+    }
+  }
+}
+
+TrapezoidSettings fastest_settings(const StretchPlace& /*place*/, const StretchPlan& stretch,
+                                   const TrapezoidFamily& family) {
+  const Limits& limits = stretch.request.limits;
+  const double limit = is_turn(stretch.request.piece) ? limits.yaw_rate_rad_s : limits.speed_m_s;
+  return {std::min(limit, TrapezoidFamily::kUnlimited), family.most_acceleration(),
+          family.most_deceleration()};
+}
+
+ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
+                                    const StretchCaps& caps) {
+  // All that is not driven by the controller is as in the plan: dwells, waits, prescribed motions.
+  ControlledDrive drive{.energy_J = plan.energy.total_J(),
+                        .motion_energy_J = plan.energy.motion_J(),
+                        .duration_s = plan.duration_s};
+  for_each_stretch(plan, [&](const StretchPlace& place, const StretchPlan& stretch) {
+    ProfileRequest request = stretch.request;
+    if (caps)
+      for (const SpeedCap& cap : caps(place, stretch)) request.speed_caps.push_back(cap);
+    const TrapezoidFamily family(request);
+    const BaselineResult result = drive_stretch(request, family, settings(place, stretch, family));
+    drive.energy_J += result.energy_J - stretch.energy.total_J();
+    drive.motion_energy_J += result.motion_energy_J - stretch.energy.motion_J();
+    drive.duration_s += result.duration_s - stretch.profile.duration_s();
+    drive.stretch_s.push_back(result.duration_s);
+    if (!result.feasible && drive.broken_limit.empty())
+      drive.broken_limit = "leg " + std::to_string(place.leg) + ": " + result.reason;
+  });
+  return drive;
+}
+
+ControllerLoss loss_of(const Plan& plan, const ControlledDrive& drive) {
+  ControllerLoss loss{.own_time = {drive.duration_s, drive.energy_J, plan.energy.total_J()},
+                      .broken_limit = drive.broken_limit};
+  double standby_W = 0;
+  std::size_t index = 0;
+  for_each_stretch(plan, [&](const StretchPlace&, const StretchPlan& stretch) {
+    standby_W = stretch.request.plant.robot.power.standby_W;
+    const double planned_J = stretch.energy.total_J(), taken_s = drive.stretch_s[index++];
+    const bool same = std::abs(taken_s - stretch.profile.duration_s()) <= kSameTime * taken_s;
+    if (!same) loss.own_time.optimum_J += optimum_J(stretch, taken_s, planned_J) - planned_J;
+  });
+  const double early_s = plan.duration_s - drive.duration_s;
+  if (early_s >= -kSameTime * plan.duration_s)
+    loss.plan_time = {plan.duration_s, drive.energy_J + standby_W * early_s, plan.energy.total_J()};
+  return loss;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/baselines/trapezoid.hpp"
+#include "planner/plan.hpp"
+
+namespace joulepath {
+
+/// A plan's stretch and where it stands.
+struct StretchPlace {
+  std::size_t leg{};
+  std::size_t stretch{};  ///< within the leg
+  double from_m{};        ///< arc length of the leg where it begins
+};
+
+/// Calls visit(place, stretch) for each stretch of a plan, in order.
+void for_each_stretch(const Plan& plan,
+                      const std::function<void(const StretchPlace&, const StretchPlan&)>& visit);
+
+/// How a controller that follows no speed profile drives a plan's path: as fast as its settings and the local
+/// limits allow, trapezoids from stop to stop. Prescribed motions and dwells are as in the plan.
+struct ControlledDrive {
+  double energy_J{};         ///< at the battery's terminals, standby included
+  double motion_energy_J{};  ///< without standby
+  double duration_s{};
+  std::vector<double> stretch_s{};  ///< driving time of each stretch
+  std::string broken_limit{};       ///< the first limit that it would exceed, with its place; empty: none
+};
+
+/// What one stretch is driven with; its curve_share is tried first, then lower ones.
+using StretchSettings =
+    std::function<TrapezoidSettings(const StretchPlace&, const StretchPlan&, const TrapezoidFamily&)>;
+/// Speed caps on one stretch, beside the mission's own.
+using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, const StretchPlan&)>;
+
+/// Drives a valid plan's stretches. Energy by the same model on the exact path.
+[[nodiscard]] ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
+                                                  const StretchCaps& caps = {});
+
+/// As fast as the robot's own limits allow.
+[[nodiscard]] TrapezoidSettings fastest_settings(const StretchPlace& place, const StretchPlan& stretch,
+                                                 const TrapezoidFamily& family);
+
+/// Energy of a controller's drive beside the least that its path takes in the same time.
+struct LossAtTime {
+  double duration_s{};
+  double energy_J{};
+  double optimum_J{};
+  [[nodiscard]] double lost_J() const { return energy_J - optimum_J; }
+};
+
+/// What is lost by a controller that cannot follow the plan's speeds.
+struct ControllerLoss {
+  /// At the controller's own time; the optimum is that of every stretch in the time that it takes there.
+  LossAtTime own_time{};
+  /// At the plan's time, where the controller is not later: it waits at the end, standby counted.
+  std::optional<LossAtTime> plan_time{};
+  std::string broken_limit{};
+};
+
+[[nodiscard]] ControllerLoss loss_of(const Plan& plan, const ControlledDrive& drive);
+
+}  // namespace joulepath

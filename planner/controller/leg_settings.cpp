@@ -1,0 +1,113 @@
+#include "planner/controller/leg_settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/baselines/pattern_search.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr std::array<double, 3> kCurveShares{1.0, 0.75, 0.5};
+
+/// Stretches of one kind that share their settings.
+class Group {
+ public:
+  Group(const LegPlan& leg, bool turns) {
+    for (const StretchPlan& stretch : leg.stretches) {
+      if (is_turn(stretch.request.piece) != turns) continue;
+      families_.emplace_back(stretch.request);
+      duration_s_ += stretch.profile.time_s.back();
+      fastest_ = fastest_settings({}, stretch, families_.back());
+    }
+  }
+
+  bool empty() const { return families_.empty(); }
+  const TrapezoidSettings& fastest() const { return fastest_; }
+
+  /// The cheapest settings that take the plan's time.
+  std::optional<TrapezoidSettings> tuned() const {
+    const bool curves = std::any_of(families_.begin(), families_.end(),
+                                    [](const TrapezoidFamily& family) { return family.curves(); });
+    std::optional<TrapezoidSettings> best;
+    double least_J = kNoLimit;
+    for (const double share : kCurveShares) {
+      const PatternMinimum found =
+          pattern_search([&](double up, double down) { return energy_J(settings_at(up, down, share)); });
+      if (found.value < least_J) {
+        least_J = found.value;
+        best = settings_at(found.x, found.y, share);
+      }
+      if (!curves) break;
+    }
+    return best;
+  }
+
+ private:
+  double duration_s(const TrapezoidSettings& settings) const {
+    double sum_s = 0;
+    for (const TrapezoidFamily& family : families_) {
+      const auto squares = family.squares(settings);
+      sum_s += squares ? family.duration_s(*squares) : kNoLimit;
+    }
+    return sum_s;
+  }
+
+  std::optional<TrapezoidSettings> settings_at(double up, double down, double share) const {
+    TrapezoidSettings settings{fastest_.rate, fastest_.acceleration * std::exp(up),
+                               fastest_.deceleration * std::exp(down), share};
+    if (duration_s(settings) > duration_s_) return std::nullopt;
+    double low = 0, high = fastest_.rate;
+    for (int i = 0; i < 40; ++i) {
+      settings.rate = 0.5 * (low + high);
+      (duration_s(settings) > duration_s_ ? low : high) = settings.rate;
+    }
+    settings.rate = high;
+    return settings;
+  }
+
+  double energy_J(const std::optional<TrapezoidSettings>& settings) const {
+    if (!settings) return kNoLimit;
+    double sum_J = 0;
+    for (const TrapezoidFamily& family : families_) sum_J += family.energy_J(*family.squares(*settings));
+    return sum_J;
+  }
+
+  std::vector<TrapezoidFamily> families_{};
+  double duration_s_{};
+  TrapezoidSettings fastest_{};
+};
+
+/// Up to three decimals, but not above what the robot may do.
+double rounded_up(double value, double most) { return std::min(most, std::ceil(1000 * value - 1e-6) / 1000); }
+
+std::optional<TrapezoidSettings> settings_of(const LegPlan& leg, bool turns) {
+  const Group group(leg, turns);
+  if (group.empty()) return std::nullopt;
+  const TrapezoidSettings& fastest = group.fastest();
+  TrapezoidSettings settings = group.tuned().value_or(fastest);
+  settings.rate = rounded_up(settings.rate, fastest.rate);
+  settings.acceleration = rounded_up(settings.acceleration, fastest.acceleration);
+  settings.deceleration = rounded_up(settings.deceleration, fastest.deceleration);
+  return settings;
+}
+
+}  // namespace
+
+std::vector<LegSettings> leg_settings(const Plan& plan) {
+  std::vector<LegSettings> settings;
+  for (const LegPlan& leg : plan.legs)
+    settings.push_back({.drive = settings_of(leg, false), .turn = settings_of(leg, true)});
+  return settings;
+}
+
+ControlledDrive drive_with(const Plan& plan, const std::vector<LegSettings>& settings) {
+  return drive_by_controller(
+      plan, [&](const StretchPlace& place, const StretchPlan& stretch, const TrapezoidFamily&) {
+        const LegSettings& leg = settings[place.leg];
+        return is_turn(stretch.request.piece) ? *leg.turn : *leg.drive;
+      });
+}
+
+}  // namespace joulepath

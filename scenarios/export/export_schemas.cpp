@@ -1,0 +1,57 @@
+#include "scenarios/output_schemas.hpp"
+
+namespace joulepath {
+namespace {
+
+Schema at_time_schema() {
+  return open(map({required("duration_s", number()), required("energy_J", number()),
+                   required("optimum_J", number(), "least energy of the same path in the same time"),
+                   required("lost_J", number()), required("lost_percent", number())}));
+}
+
+std::vector<Schema::Key> loss_keys() {
+  return {required("own_time", at_time_schema(), "the controller as it drives"),
+          required("plan_time", nullable(at_time_schema()),
+                   "waiting until the plan's end; null where it is later"),
+          required("broken_limit", text(), "the limit that the controller would exceed; empty: none")};
+}
+
+Schema settings_schema() {
+  return open(map({required("leg", integer(kNotNegative), "counted from 0"), required("to", text()),
+                   optional("speed_m_s", number(kPositive)), optional("acceleration_m_s2", number(kPositive)),
+                   optional("deceleration_m_s2", number(kPositive)),
+                   optional("yaw_rate_rad_s", number(kPositive), "of turns in place"),
+                   optional("yaw_acceleration_rad_s2", number(kPositive)),
+                   optional("yaw_deceleration_rad_s2", number(kPositive))}));
+}
+
+Schema edge_schema() {
+  return open(
+      map({required("leg", integer(kNotNegative), "counted from 0"), required("to", text()),
+           required("edge", text(), "of an order; else empty"),
+           required("kind", choice({"drive", "turn", "wait", "dwell", "prescribed"})),
+           required("start_s", number()), required("duration_s", number()), required("distance_m", number()),
+           required("turned_rad", number()), required("payload_kg", number()), required("energy_J", number()),
+           required("motion_energy_J", number(), "without standby")}));
+}
+
+}  // namespace
+
+Schema loss_schema() {
+  std::vector<Schema::Key> keys = loss_keys();
+  keys.insert(keys.begin(), {optional("schema", text(), "joulepath/loss/1"), required("of", text())});
+  return open(map(std::move(keys)));
+}
+
+Schema controller_schema() {
+  return open(map({optional("schema", text(), "joulepath/controller/1"), optional("mission", text()),
+                   required("legs", list(settings_schema())), required("loss", open(map(loss_keys())))}));
+}
+
+Schema edges_schema() {
+  return open(map({optional("schema", text(), "joulepath/edges/1"), optional("mission", text()),
+                   required("energy_J", number(), "of the plan: the sum over the edges"),
+                   required("duration_s", number()), required("edges", list(edge_schema()))}));
+}
+
+}  // namespace joulepath

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/controller/controlled_drive.hpp"
+#include "planner/mission_request.hpp"
+
+namespace joulepath {
+
+/// A valid plan with what it was made from.
+struct ExportInput {
+  const MissionRequest& mission;
+  const MissionWorld& world;
+  const Plan& plan;
+  const Plant& plant;
+  std::string out_file{};           ///< as on the command line
+  std::optional<double> rate_Hz{};  ///< of samples, where the format has any
+};
+
+/// One file of an export.
+struct ExportFile {
+  std::string name{};
+  std::string content{};
+};
+
+/// The files of an export, the one asked for first, and what its settings lose where it has settings.
+struct Export {
+  std::vector<ExportFile> files{};
+  std::optional<ControllerLoss> loss{};
+};
+
+struct ExportFormat {
+  std::string name{};
+  std::string says{};
+  Export (*write)(const ExportInput&){};
+};
+
+/// All formats: one file of this folder each.
+[[nodiscard]] const std::vector<ExportFormat>& export_formats();
+
+[[nodiscard]] Export export_nav2_path(const ExportInput& input);   ///< nav_msgs/Path
+[[nodiscard]] Export export_trajectory(const ExportInput& input);  ///< nav_msgs/Trajectory
+[[nodiscard]] Export export_plotjuggler(const ExportInput& input);
+[[nodiscard]] Export export_edges(const ExportInput& input);  ///< CSV, or JSON by the file's extension
+[[nodiscard]] Export export_controller(const ExportInput& input);
+[[nodiscard]] Export export_vda5050(const ExportInput& input);
+[[nodiscard]] Export export_speed_mask(const ExportInput& input);
+
+/// `loss` of controller.json, and the file that stands beside exports that cannot hold it (schema
+/// joulepath/loss/1).
+[[nodiscard]] std::string loss_json_text(const ControllerLoss& loss, const std::string& what);
+
+}  // namespace joulepath
