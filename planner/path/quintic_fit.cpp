@@ -40,7 +40,7 @@ RationalBezier quintic(const Curve& curve, double from_m, double to_m) {
 
 /// Largest distance between the fit and the curve, at equal shares of their lengths.
 double distance_m(const RationalBezier& fit, const Curve& curve, double from_m, double to_m) {
-  const BezierSegment segment(fit);
+  const BezierSegment segment = BezierSegment::rational(fit);
   double largest_m = 0;
   for (int i = 1; i < kLooks; ++i) {
     const Pose wanted = curve.at(from_m + (to_m - from_m) * i / kLooks).pose;
