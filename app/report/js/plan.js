@@ -118,7 +118,7 @@ jp.battery_section = function (plan) {
       {label: "at the end", value: battery.end_fraction, text: jp.fraction(battery.end_fraction, 5), color: "var(--third)", interval}], {most: 1}),
     jp.h("p", {}, [interval ? `95 % interval of the end: ${jp.fraction(interval[0], 5)} to ${jp.fraction(interval[1], 5)}. ` : "",
       jp.is_number(battery.required_capacity_Wh) ? `Capacity needed: ${jp.with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
-      jp.is_number(battery.missions_per_charge) ? `Missions per charge: ${jp.number(Math.floor(battery.missions_per_charge))}. ` : "",
+      jp.is_number(battery.missions_per_charge) ? `Missions per charge: ${jp.short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
       jp.is_number(plan.battery_loss_J) ? `Lost inside of the battery: ${jp.with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
 };
 
@@ -127,7 +127,7 @@ jp.trust_section = function (plan) {
   if (jp.is_number(plan.optimality_gap_percent)) rows.push(["optimality gap", jp.percent(plan.optimality_gap_percent, 2)]);
   if (plan.replay) rows.push(["energy by the independent replay", jp.with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", jp.number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${jp.words(plan.replay.limit)})` : "")]);
-  if (plan.solver) rows.push(["solver", Object.entries(plan.solver).map(([key, value]) => `${jp.words(key)} ${value}`).join(", ")]);
+  if (plan.solver) rows.push(["solver", `${plan.solver.name}, ${plan.solver.iterations} iterations`]);
   return jp.section("How far to trust it", jp.table(["", ""], rows));
 };
 
