@@ -49,13 +49,14 @@ std::string advice(const Diagnosis& d) {
 }
 
 void print_where(std::ostream& out, const Diagnosis& d) {
-  Table table({"where", "", "share", "95 %"});
-  for (const char* axis : {"phase", "wheel", "payload", "channel", "direction"}) {
+  Table table({"where", "", "share", "95 %", "bias"});
+  for (const char* axis : {"phase", "wheel", "path", "payload", "acceleration", "channel", "direction"}) {
     int rows = 0;
     for (const WhereCell& cell : d.where)
       if (cell.axis == axis && rows++ < 3)
         table.row({axis, cell.value, percent(cell.share_of_gap),
-                   percent(cell.interval_95.first) + " to " + percent(cell.interval_95.second)});
+                   percent(cell.interval_95.first) + " to " + percent(cell.interval_95.second),
+                   cell.bias_percent ? figure(*cell.bias_percent, 3) + " %" : ""});
   }
   table.print(out);
 }
@@ -86,8 +87,11 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
     out << "left over: " << percent(d.leftover_share) << " of what could be explained, "
         << d.leftover_description << '\n';
   if (d.decision_missions > 0)
-    out << "planning with the uncorrected model takes " << figure(d.joules_lost_percent, 2) << " % more on "
-        << d.decision_missions << " standard missions\n";
+    out << "decisions: planning with the uncorrected model takes " << figure(d.joules_lost_percent, 2)
+        << " % more on " << d.decision_missions << " standard missions\n";
+  if (!d.causes.empty())
+    out << "ceiling: any function of the signals shrinks the gap by " << percent(d.ceiling_shrink_fraction)
+        << '\n';
   if (!d.control_effect.empty())
     out << "control: " << d.control_effect << " instead shrinks the gap by "
         << percent(d.control_shrink_fraction) << '\n';

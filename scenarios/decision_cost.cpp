@@ -42,13 +42,18 @@ double energy_on(const Plant& plant, const Plan& plan) {
 }  // namespace
 
 DecisionCost decision_cost(const Robot& nominal, const Robot& corrected) {
-  const Plant plant = make_plant(with_limits(corrected));
+  return decision_cost(nominal, corrected, corrected);
+}
+
+DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const Robot& driven) {
+  const Plant plant = make_plant(with_limits(driven));
   const PlanOptions options{.solver = SolverChoice::fast, .nodes = kNodes, .baselines = false};
   const double half_load_kg = 0.5 * std::min(10.0, with_limits(nominal).limits->max_payload_kg);
   const std::vector<MissionRequest> missions{mission_along(kStraight, 0.0),
                                              mission_along(kStraight, half_load_kg),
                                              mission_along(kTurn, 0.0), mission_along(kTurn, half_load_kg)};
-  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the corrected plant.
+  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the plant that is
+  // driven.
   std::vector<double> energy_J(2 * missions.size());
   parallel_for(energy_J.size(), [&](std::size_t k) {
     const Robot& robot = k % 2 == 0 ? nominal : corrected;

@@ -19,4 +19,8 @@ struct DecisionCost {
 /// Limits come from the robot file; where it gives none, 1 m/s, 0.5 m/s^2 and 1 rad/s^2 are taken.
 [[nodiscard]] DecisionCost decision_cost(const Robot& nominal, const Robot& corrected);
 
+/// The same with both plans driven on a robot of its own: what the correction is worth where the truth is
+/// known (negative: the corrected robot plans worse).
+[[nodiscard]] DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const Robot& driven);
+
 }  // namespace joulepath

@@ -79,7 +79,7 @@ jp.where_section = function (data) {
     return jp.h("div", {}, jp.h("h3", {}, jp.words(axis)), jp.bar_rows(entries.map((entry) => {
       const cell = axis === "floor" ? jp.floor_cell(entry) : null;
       return {label: cell ? `x ${jp.short(cell.x_min_m, 3)}…${jp.short(cell.x_max_m, 3)}, y ${jp.short(cell.y_min_m, 3)}…${jp.short(cell.y_max_m, 3)} m` : axis === "run" ? String(entry.value) : jp.words(entry.value),
-        value: entry.share_of_gap, interval: entry.interval_95, text: (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u202f%" : jp.fraction(entry.share_of_gap, 3)) + (Math.abs(entry.share_of_gap) >= 1e-4 && jp.is_number(entry.energy_J) ? ` · ${jp.with_unit(entry.energy_J, "J", 3)}` : "")};
+        value: entry.share_of_gap, interval: entry.interval_95, text: (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u202f%" : jp.fraction(entry.share_of_gap, 3)) + (Math.abs(entry.share_of_gap) >= 1e-4 && jp.is_number(entry.energy_J) ? ` · ${jp.with_unit(entry.energy_J, "J", 3)}` : "") + (jp.is_number(entry.bias_percent) ? ` · bias ${jp.percent(entry.bias_percent)}` : "")};
     }), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
     every.length > entries.length ? jp.h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
   });
@@ -90,7 +90,7 @@ jp.where_section = function (data) {
     const ramp = jp.h("span", {class: "ramp", style: "background:linear-gradient(90deg, transparent, var(--second))"});
     blocks.push(jp.h("div", {}, jp.h("h3", {}, "on the floor"), map.element, jp.h("div", {class: "scale"}, "0", ramp, jp.fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap")));
   }
-  const section = jp.section("Where it lies", jp.h("p", {class: "soft"}, "Shares of the summed absolute power gap, noise taken off; over one axis they add up to 100 %. Whiskers: 95 % intervals over whole runs."), jp.h("div", {class: "columns"}, blocks));
+  const section = jp.section("Where it lies", jp.h("p", {class: "soft"}, "Shares of the summed absolute power gap, noise taken off; over one axis they add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted less measured, of the cell's own energy."), jp.h("div", {class: "columns"}, blocks));
   section.classList.add("long");
   return {section, ready() { if (map) map.draw(); }};
 };
