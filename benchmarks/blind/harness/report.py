@@ -21,7 +21,8 @@ def load(frozen, name):
     results = done_cases(workspace.sealed_folder(frozen, name) / "diagnosed.jsonl")
     if not results:
         sys.exit("nothing is diagnosed yet")
-    return labels, results
+    usable = {i: label for i, label in labels.items() if "unusable" not in label}
+    return usable, {i: result for i, result in results.items() if i in usable}, sorted(set(labels) - set(usable))
 
 
 def card_table(cases, seconds, labels, results):
@@ -143,7 +144,7 @@ DETECTABLE = """Wilson intervals. "aim": reaches the aim; "ok": between aim and 
 CONTROL_METHODS = """`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing."""
 
 
-def report_files(frozen, name, sealed, prefix, labels, results):
+def report_files(frozen, name, sealed, prefix, labels, results, unusable=()):
     """{path below the results folder: text} of the whole report."""
     cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
     seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
@@ -153,6 +154,8 @@ def report_files(frozen, name, sealed, prefix, labels, results):
     drawn = figures(cases, power, confusion, reliability)
     picture = lambda title, file: f"![{title}]({prefix}/{file})" if file in drawn else ""
     lines = head_lines(frozen, name, sealed, labels, results, prefix)
+    if unusable:
+        lines += [f"Left out, the plant gave no finite numbers: {', '.join(unusable)}.", ""]
     lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results) + ["", DETECTABLE, ""]
     lines += ["## Controls on the same cases", ""] + control_table(labels, results) + ["", CONTROL_METHODS, ""]
     lines += ["## By robot, protocol and level", ""] + split_table(cases) + [""]
@@ -175,11 +178,11 @@ def score(frozen, name, folder, sealed, prefix, partial=False):
     marker = workspace.sealed_folder(frozen, name) / "opened"
     if sealed and marker.exists():
         sys.exit(f"this campaign was opened and scored on {marker.read_text().strip()}: draw a new one")
-    labels, results = load(frozen, name)
+    labels, results, unusable = load(frozen, name)
     missing = len(labels) - len(results)
     if missing and not partial:
         sys.exit(f"{missing} cases are not diagnosed yet: call `diagnose` again, or score --partial (which is the only score there will be)")
-    files = report_files(frozen, name, sealed, prefix, labels, results)
+    files = report_files(frozen, name, sealed, prefix, labels, results, unusable)
     marker.write_text(time.strftime("%Y-%m-%d %H:%M:%S") + "\n")
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
