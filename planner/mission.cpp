@@ -136,7 +136,8 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   if (!asked.visit.empty() && asked.legs.empty()) {
     plan.visit = order_visits(
         {asked, world, need_space(asked, space), plant, options, lowest_price_W(asked.objective)});
-    if (plan.visit->infeasibility) return infeasible(std::move(plan), 0, 0.0, *plan.visit->infeasibility);
+    if (Infeasibility reason = plan.visit->infeasibility.value_or(Infeasibility{}); plan.visit->infeasibility)
+      return infeasible(std::move(plan), 0, 0.0, std::move(reason));
     mission.legs = plan.visit->legs;
   }
   if (mission.legs.empty()) refuse_empty(mission);
