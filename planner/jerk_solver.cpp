@@ -11,9 +11,11 @@
 namespace joulepath {
 namespace {
 
-constexpr int kRounds = 14;        ///< of tightening and refinement
-constexpr int kSharpenings = 4;    ///< of the grid at the switches of least time
-constexpr double kSettled = 7e-7;  ///< relative violation that a plan may have, short of the replay's 1e-6
+constexpr int kRounds = 14;         ///< of tightening and refinement
+constexpr int kSharpenings = 4;     ///< of the grid at the switches of least time
+constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
+constexpr double kMetTime = 1e-7;   ///< relative: a deadline missed by less is met
+constexpr double kSameTime = 1e-4;  ///< a deadline this close to the least time may leave no other motion
 constexpr double kLargestAcceleration_m_s2 = 20;  ///< where nothing limits it
 constexpr double kWorthACut = 0.1;                ///< share of the largest misfit
 
@@ -145,13 +147,17 @@ class JerkSolver {
     if (!result.profile) return false;
     const bool timed = problem_->duration_row != nlp::DurationRow::none;
     const double slower = timed ? problem_->duration_s / result.profile->duration_s() : 1.3;
-    if (slower < 1) {
+    if (slower < 1 - kMetTime) {
       result_.summary.message = "the deadline is before the fastest motion found arrives";
       return false;
     }
     s_ = result.profile->s;
     transcribe();
-    return attempt(slowed(resampled(*result.profile), slower), {});
+    if (attempt(slowed(resampled(*result.profile), slower), {})) return true;
+    if (!timed || slower > 1 + kSameTime) return false;
+    found_.motion = resampled(*result.profile);
+    best_ = result.profile;
+    return true;
   }
 
   /// Rates between the slowest and the fastest, and accelerations, averaged over the time that the jerk

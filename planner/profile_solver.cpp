@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "planner/certification.hpp"
 #include "planner/first_guess.hpp"
 #include "planner/infeasibility_finder.hpp"
 #include "planner/jerk_profile.hpp"
-#include "planner/nlp/certificate.hpp"
 #include "planner/nlp/dense_check.hpp"
 #include "planner/nlp/fast_solver.hpp"
 #include "planner/nlp/forward_backward.hpp"
@@ -21,6 +22,10 @@ using nlp::Problem;
 constexpr int kRounds = 12;         ///< of tightening and refinement
 constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
 constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
+constexpr double kMetTime = 1e-7;   ///< relative: a deadline missed by less is met
+constexpr int kSharpenings = 16;    ///< cuts of the grid for a deadline that it misses by little
+constexpr double kWorthACut = 0.2;  ///< share of the largest excess
+constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
  public:
@@ -33,6 +38,10 @@ class ProfileSolver {
     for (int round = 0; round < kRounds; ++round) {
       const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
       result_.summary.nodes = problem.node_count();
+      if (sharpen(problem, s)) {
+        --round;
+        continue;
+      }
       if (!solve_on(problem)) return std::move(result_);
       if (request_.draft) return sketch();
       const nlp::DenseCheck check = nlp::check_densely(
@@ -52,17 +61,35 @@ class ProfileSolver {
   }
 
  private:
+  /// A grid takes longer than the path needs: the fastest profile bends within its segments. Where that may
+  /// be why a deadline is missed, the grid is cut there; false where it needs no cut.
+  bool sharpen(const Problem& problem, std::vector<double>& s) {
+    if (problem.duration_row == nlp::DurationRow::none || sharpened_ == kSharpenings) return false;
+    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
+    if (envelope.blocked) return false;
+    const double late_s = duration_of(problem, envelope.fastest) - problem.duration_s;
+    if (!(late_s > kMetTime * problem.duration_s)) return false;
+    const std::vector<double> excess_s = nlp::time_excess_s(problem, envelope.fastest);
+    const double sum_s = std::accumulate(excess_s.begin(), excess_s.end(), 0.0);
+    if (2 * sum_s < late_s) return false;
+    const double worth_s = kWorthACut * *std::max_element(excess_s.begin(), excess_s.end());
+    std::vector<bool> cut;
+    for (double each_s : excess_s) cut.push_back(each_s > worth_s);
+    s = nlp::cut_segments(s, cut);
+    return ++sharpened_ > 0;
+  }
+
   /// Fills best_; false when the request is infeasible or the solver failed (result_ then says so).
   bool solve_on(const Problem& problem) {
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
     if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
     const double minimum_s = duration_of(problem, envelope.fastest);
     const bool limited = problem.duration_row != nlp::DurationRow::none;
-    if (std::isnan(problem.duration_s) || (limited && problem.duration_s < minimum_s * (1 - 1e-9)))
+    if (std::isnan(problem.duration_s) || (limited && problem.duration_s < minimum_s * (1 - kMetTime)))
       return give_up(explain_duration(request_, minimum_s));
     const bool no_choice = limited && problem.duration_s <= minimum_s * (1 + kSameTime);
     if (request_.time.mode == TimeMode::minimum_time || no_choice || problem.unknown_count() == 0)
-      return take(problem, envelope.fastest, "forward_backward");
+      return take(problem, envelope.fastest, kFastestSolver);
     if (problem.duration_row == nlp::DurationRow::equal) {
       const double maximum_s = duration_of(problem, blend(envelope, 1e-12));
       if (problem.duration_s > maximum_s) return give_up(explain_duration(request_, maximum_s));
@@ -118,80 +145,19 @@ class ProfileSolver {
     return std::move(result_);
   }
 
-  /// The certificate: dual bound on this grid, and what half of the nodes cost more.
+  /// The certificate, and what it makes of the profile.
   ProfileResult finish(const Problem& problem) {
     SolveSummary& summary = result_.summary;
     summary.status = SolveStatus::feasible;
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    if (summary.solver == "forward_backward")
-      certify_time(problem, envelope);
+    if (summary.solver == kFastestSolver)
+      certify_time(problem, envelope, *best_, summary);
     else
-      certify_energy(problem, envelope);
+      certify_energy(problem, motion_, envelope, solution_, *best_, summary);
     if (summary.gap_percent <= 100 * request_.accuracy && !summary.local)
       summary.status = SolveStatus::optimal;
     result_.profile = std::move(best_);
     return std::move(result_);
-  }
-
-  void certify_energy(const Problem& problem, const nlp::RateEnvelope& envelope) {
-    nlp::Certificate certificate = nlp::certify(problem, solution_, envelope.fastest);
-    if (!certificate.convex) raise_bound(problem, envelope, certificate);
-    set_bound(certificate, coarse_excess(problem) / 3);
-  }
-
-  /// Where the Lagrangian is not convex at the solution's own price of time, another price is a bound too:
-  /// E(b) >= min (E + price T)(b) - price T wherever T(b) <= T, and with a price the problem is convex.
-  void raise_bound(const Problem& problem, const nlp::RateEnvelope& envelope,
-                   nlp::Certificate& certificate) const {
-    if (problem.duration_row == nlp::DurationRow::none) return;
-    for (double price_W : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
-      Problem priced = problem;
-      priced.duration_row = nlp::DurationRow::none;
-      priced.time_weight_W = price_W;
-      if (problem.duration_row == nlp::DurationRow::at_most && price_W < problem.time_weight_W) continue;
-      const nlp::Solution solution = nlp::solve_fast(priced, solution_.b);
-      if (!solution.converged) continue;
-      const nlp::Certificate other = nlp::certify(priced, solution, envelope.fastest);
-      const double bound = other.lower_bound + (problem.time_weight_W - price_W) * problem.duration_s;
-      if (other.convex) certificate.lower_bound = std::max(certificate.lower_bound, bound);
-    }
-    certificate.lower_bound = std::min(certificate.lower_bound, certificate.objective);
-  }
-
-  /// Least time: certified by the dual bound of the same problem with time as its objective.
-  void certify_time(const Problem& problem, const nlp::RateEnvelope& envelope) {
-    Problem timed = problem;
-    timed.channels = 0;
-    timed.energy_weight = 0;
-    timed.time_weight_W = 1;
-    timed.duration_row = nlp::DurationRow::none;
-    if (timed.unknown_count() == 0) return set_bound({best_->duration_s(), best_->duration_s(), true}, 0.0);
-    nlp::Solution fastest = nlp::solve_fast(timed, blend(envelope, 0.95));
-    nlp::Certificate certificate = nlp::certify(timed, fastest, envelope.fastest);
-    certificate.objective = best_->duration_s();
-    certificate.lower_bound = std::min(certificate.lower_bound, certificate.objective);
-    set_bound(certificate, 0.0);
-  }
-
-  void set_bound(const nlp::Certificate& certificate, double discretization) {
-    SolveSummary& summary = result_.summary;
-    const double size = std::max(1e-9, std::abs(certificate.objective));
-    summary.lower_bound_J = certificate.lower_bound - discretization;
-    summary.gap_percent = 100 * (certificate.objective - summary.lower_bound_J) / size;
-    summary.local = !certificate.convex;
-  }
-
-  /// By how much every second node alone costs more; the error of constant accelerations falls with the
-  /// square of the spacing, so a third of it is what this grid still costs too much.
-  double coarse_excess(const Problem& problem) const {
-    std::vector<double> s, b;
-    for (std::size_t k = 0; k < problem.node_count(); k += 2)
-      s.push_back(problem.s[k]), b.push_back(solution_.b[k]);
-    if (problem.node_count() % 2 == 0) s.push_back(problem.s.back()), b.push_back(solution_.b.back());
-    if (s.size() < 4) return 0.0;
-    const Problem coarse = nlp::transcribe(request_, motion_, s, {}, &*best_);
-    const nlp::Solution solution = nlp::solve_fast(coarse, b);
-    return solution.converged ? std::max(0.0, solution.objective - solution_.objective) : 0.0;
   }
 
   const ProfileRequest& request_;
@@ -201,6 +167,7 @@ class ProfileSolver {
   std::optional<Profile> best_{};
   nlp::Solution solution_{};
   double last_ratio_{};
+  int sharpened_{};
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ struct BaselineResult {
   double motion_energy_J{};  ///< without standby
   double duration_s{};
   std::map<std::string, double> parameters{};  ///< settings with their units
+  double worst_use{};                          ///< of any limit; above 1 is a violation
+  std::string worst_limit{};                   ///< which
   std::optional<Profile> profile{};
 };
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
+#include "planner/baselines/clipped.hpp"
 #include "planner/baselines/finish.hpp"
 #include "planner/baselines/shapes.hpp"
 
@@ -14,20 +16,22 @@ std::string unit_key(const ProfileRequest& request, const char* along, const cha
   return is_turn(request.piece) ? turning : along;
 }
 
-BaselineResult triangular(const ProfileRequest& request, double length, double duration_s) {
+using Settings = std::map<std::string, double>;
+
+Profile triangle(double length, double duration_s) {
   const double a = 4 * length / (duration_s * duration_s), half_s = 0.5 * duration_s;
-  Profile profile{.time_s = {0, half_s, duration_s},
-                  .s = {0, length / 2, length},
-                  .rate = {0, a * half_s, 0},
-                  .acceleration = {a, -a},
-                  .jerk = {0, 0}};
-  return finish_baseline(request, "triangular", std::move(profile), duration_s,
-                         {{unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2"), a}});
+  return {.time_s = {0, half_s, duration_s},
+          .s = {0, length / 2, length},
+          .rate = {0, a * half_s, 0},
+          .acceleration = {a, -a},
+          .jerk = {0, 0}};
 }
 
-/// Accelerate for 4 s, cruise, brake for 4 s (shorter ramps where the time is), as [P1]'s protocol has it.
-BaselineResult constant_ramp(const ProfileRequest& request, double length, double duration_s) {
-  const double ramp_s = std::min(4.0, 0.5 * duration_s), rate = length / (duration_s - ramp_s),
+constexpr double kRamp_s = 4.0;  ///< of [P1]'s protocol; shorter where the time is
+
+/// Accelerate for 4 s, cruise, brake for 4 s.
+Profile ramps(double length, double duration_s) {
+  const double ramp_s = std::min(kRamp_s, 0.5 * duration_s), rate = length / (duration_s - ramp_s),
                a = rate / ramp_s;
   const double ramp = 0.5 * rate * ramp_s;
   Profile profile{.time_s = {0, ramp_s}, .s = {0, ramp}, .rate = {0, rate}, .acceleration = {a}, .jerk = {0}};
@@ -43,67 +47,67 @@ BaselineResult constant_ramp(const ProfileRequest& request, double length, doubl
   profile.rate.push_back(0);
   profile.acceleration.push_back(-a);
   profile.jerk.push_back(0);
-  return finish_baseline(request, "constant_ramp", std::move(profile), duration_s,
-                         {{"ramp_s", ramp_s}, {unit_key(request, "speed_m_s", "yaw_rate_rad_s"), rate}});
+  return profile;
 }
 
 /// Parabola of the rate: the cubic of least jerk-free effort, optimal where there is no viscous friction.
-BaselineResult cubic(const ProfileRequest& request, double length, double duration_s) {
+Profile cubic(double length, double duration_s) {
   const double T = duration_s, a = 6 * length / (T * T), j = -2 * a / T;
   Profile profile = jerk_profile({{T / 2, j}, {T / 2, j}}, a);
   profile.s.back() = length;
   profile.rate.back() = 0;
-  return finish_baseline(request, "cubic", std::move(profile), T, {});
+  return profile;
 }
 
-BaselineResult quintic(const ProfileRequest& request, double length, double duration_s) {
-  const TimeShape shape{[](double t) { return t * t * t * (10 + t * (-15 + 6 * t)); },
-                        [](double t) { return 30 * t * t * (1 - t) * (1 - t); }};
-  return finish_baseline(request, "quintic", shaped_profile(shape, length, duration_s), duration_s, {});
+Profile quintic(double length, double duration_s) {
+  return shaped_profile([](double t) { return 60 * t * (1 - t) * (1 - 2 * t); }, length, duration_s);
 }
 
-BaselineResult sinusoidal(const ProfileRequest& request, double length, double duration_s) {
-  const TimeShape shape{[](double t) { return t - std::sin(2 * pi * t) / (2 * pi); },
-                        [](double t) { return 1 - std::cos(2 * pi * t); }};
-  return finish_baseline(request, "sinusoidal", shaped_profile(shape, length, duration_s), duration_s, {});
+Profile sinusoidal(double length, double duration_s) {
+  return shaped_profile([](double t) { return 2 * pi * std::sin(2 * pi * t); }, length, duration_s);
 }
 
-/// Pieces of an S-curve: jerk, constant acceleration, jerk back; cruise; the same mirrored.
-std::vector<JerkPiece> s_curve_pieces(double rate, double a, double j, double cruise_s) {
-  const double full_s = a / j, jerk_s = rate >= a * full_s ? full_s : std::sqrt(rate / j);
-  const double flat_s = rate >= a * full_s ? rate / a - full_s : 0.0;
-  return {{jerk_s, j}, {flat_s, 0}, {jerk_s, -j}, {cruise_s, 0}, {jerk_s, -j}, {flat_s, 0}, {jerk_s, j}};
-}
+struct RampLimits {
+  double a{}, j{};
+};
 
-BaselineResult s_curve(const ProfileRequest& request, double length, double duration_s) {
+RampLimits ramp_limits(const ProfileRequest& request) {
   const bool turn = is_turn(request.piece);
   const Limits& limits = request.limits;
   const double most =
       turn ? limits.yaw_acceleration_rad_s2 : std::min(limits.acceleration_m_s2, limits.deceleration_m_s2);
   const double a = std::isfinite(most) ? most : 1.0;
-  const double j = !turn && std::isfinite(limits.jerk_m_s3) ? limits.jerk_m_s3 : 2 * a;
+  return {a, !turn && std::isfinite(limits.jerk_m_s3) ? limits.jerk_m_s3 : 2 * a};
+}
+
+/// Pieces of an S-curve: jerk, constant acceleration, jerk back; cruise; the same mirrored.
+std::vector<JerkPiece> s_curve_pieces(double rate, RampLimits ramp, double cruise_s) {
+  const auto [a, j] = ramp;
+  const double full_s = a / j, jerk_s = rate >= a * full_s ? full_s : std::sqrt(rate / j);
+  const double flat_s = rate >= a * full_s ? rate / a - full_s : 0.0;
+  return {{jerk_s, j}, {flat_s, 0}, {jerk_s, -j}, {cruise_s, 0}, {jerk_s, -j}, {flat_s, 0}, {jerk_s, j}};
+}
+
+/// The S-curve that takes the time; nothing where even the fastest cruise takes longer.
+std::optional<Profile> s_curve(RampLimits ramp, double length, double duration_s) {
   const auto ramp_s = [&](double rate) {
     double sum_s = 0;
-    for (const JerkPiece& piece : s_curve_pieces(rate, a, j, 0)) sum_s += piece.duration_s;
-    return sum_s;
+    for (const JerkPiece& piece : s_curve_pieces(rate, ramp, 0)) sum_s += piece.duration_s;
+    return 0.5 * sum_s;
   };
   // Ramps are symmetric: they cover half of rate times their time. The slower root makes the time.
-  const auto taken_s = [&](double rate) { return length / rate + 0.5 * ramp_s(rate); };
+  const auto taken_s = [&](double rate) { return length / rate + ramp_s(rate); };
   double low = length / duration_s, high = low;
-  while (high * ramp_s(high) < 2 * length && taken_s(high) > duration_s) high *= 1.02;
-  if (taken_s(high) > duration_s || 0.5 * high * ramp_s(high) > length * (1 + 1e-9))
-    return no_baseline("s_curve", "no cruise speed makes the time with this acceleration and jerk");
+  while (high * ramp_s(high) < length && taken_s(high) > duration_s) high *= 1.02;
+  if (taken_s(high) > duration_s || high * ramp_s(high) > length * (1 + 1e-9)) return std::nullopt;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (taken_s(middle) > duration_s ? low : high) = middle;
   }
-  const double cruise_s = std::max(0.0, length / high - 0.5 * ramp_s(high));
-  Profile profile = jerk_profile(s_curve_pieces(high, a, j, cruise_s));
+  const double cruise_s = std::max(0.0, length / high - ramp_s(high));
+  Profile profile = jerk_profile(s_curve_pieces(high, ramp, cruise_s));
   profile.rate.back() = 0;
-  return finish_baseline(request, "s_curve", std::move(profile), duration_s,
-                         {{unit_key(request, "speed_m_s", "yaw_rate_rad_s"), high},
-                          {unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2"), a},
-                          {unit_key(request, "jerk_m_s3", "yaw_jerk_rad_s3"), j}});
+  return profile;
 }
 
 BaselineResult minimum_time_then_wait(const ProfileRequest& request, double duration_s) {
@@ -116,19 +120,47 @@ BaselineResult minimum_time_then_wait(const ProfileRequest& request, double dura
   return finish_baseline(request, kName, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
 }
 
-/// Never a motion from rest: counted only where the piece is entered and left at that very speed.
+/// Never a motion from rest: it needs a piece that is entered and left at that very speed, and cannot be
+/// clipped.
 BaselineResult constant_speed(const ProfileRequest& request, double length, double duration_s) {
+  constexpr const char* kName = "constant_speed";
+  constexpr double kSame = 1e-6;
   const double rate = length / duration_s;
+  if (std::abs(request.start_rate - rate) > kSame || std::abs(request.end_rate - rate) > kSame)
+    return no_baseline(kName, "needs a jump of speed at the ends");
   Profile profile{
       .time_s = {0, duration_s}, .s = {0, length}, .rate = {rate, rate}, .acceleration = {0}, .jerk = {0}};
-  BaselineResult result = finish_baseline(request, "constant_speed", std::move(profile), duration_s,
-                                          {{unit_key(request, "speed_m_s", "yaw_rate_rad_s"), rate}});
-  constexpr double kSame = 1e-6;
-  if (std::abs(request.start_rate - rate) > kSame || std::abs(request.end_rate - rate) > kSame) {
-    result.feasible = false;
-    if (result.reason.empty()) result.reason = "needs a jump of speed at the ends";
+  return finish_baseline(request, kName, std::move(profile), duration_s,
+                         {{unit_key(request, "speed_m_s", "yaw_rate_rad_s"), rate}});
+}
+
+/// The shapes from rest to rest, with their settings.
+std::vector<BaselineResult> from_rest_to_rest(const ProfileRequest& request, double length, double T) {
+  const auto acceleration = unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2");
+  const RampLimits ramp = ramp_limits(request);
+  struct Shape {
+    const char* name;
+    std::function<std::optional<Profile>(double, double)> profile;
+    Settings settings;
+  };
+  const std::vector<Shape> shapes{
+      {"triangular", triangle, {{acceleration, 4 * length / (T * T)}}},
+      {"constant_ramp", ramps, {{"ramp_s", std::min(kRamp_s, 0.5 * T)}}},
+      {"s_curve",
+       [&](double l, double t) { return s_curve(ramp, l, t); },
+       {{acceleration, ramp.a}, {unit_key(request, "jerk_m_s3", "yaw_jerk_rad_s3"), ramp.j}}},
+      {"cubic", cubic, {}},
+      {"quintic", quintic, {}},
+      {"sinusoidal", sinusoidal, {}}};
+  std::vector<BaselineResult> results;
+  for (const Shape& shape : shapes) {
+    if (request.start_rate != 0 || request.end_rate != 0)
+      results.push_back(no_baseline(shape.name, "runs from rest to rest only"));
+    else
+      results.push_back(clipped_baseline(
+          request, shape.name, [&](double t) { return shape.profile(length, t); }, T, shape.settings));
   }
-  return result;
+  return results;
 }
 
 }  // namespace
@@ -137,14 +169,8 @@ std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double 
   const double length = piece_length(request.piece);
   std::vector<BaselineResult> results{trapezoid_max_acceleration(request, duration_s),
                                       trapezoid_best_tuned(request, duration_s)};
-  using Shape = BaselineResult (*)(const ProfileRequest&, double, double);
-  const std::pair<const char*, Shape> shapes[] = {
-      {"triangular", triangular}, {"constant_ramp", constant_ramp}, {"s_curve", s_curve}, {"cubic", cubic},
-      {"quintic", quintic},       {"sinusoidal", sinusoidal}};
-  const bool from_rest_to_rest = request.start_rate == 0 && request.end_rate == 0;
-  for (const auto& [name, shape] : shapes)
-    results.push_back(from_rest_to_rest ? shape(request, length, duration_s)
-                                        : no_baseline(name, "runs from rest to rest only"));
+  for (BaselineResult& result : from_rest_to_rest(request, length, duration_s))
+    results.push_back(std::move(result));
   results.push_back(minimum_time_then_wait(request, duration_s));
   results.push_back(constant_speed(request, length, duration_s));
   return results;

@@ -17,6 +17,17 @@ struct Worst {
   double s{};
 };
 
+/// Those of the limits that LocalLimits shapes a profile by.
+double* limit_named(Limits& limits, std::string_view name) {
+  if (name == "speed") return &limits.speed_m_s;
+  if (name == "acceleration") return &limits.acceleration_m_s2;
+  if (name == "deceleration") return &limits.deceleration_m_s2;
+  if (name == "lateral_acceleration") return &limits.lateral_acceleration_m_s2;
+  if (name == "yaw_rate") return &limits.yaw_rate_rad_s;
+  if (name == "yaw_acceleration") return &limits.yaw_acceleration_rad_s2;
+  return nullptr;
+}
+
 Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
   constexpr int kLooks = 4;
   Worst worst;
@@ -46,8 +57,7 @@ BaselineResult no_baseline(std::string name, std::string reason) {
 
 BaselineResult finish_baseline(const ProfileRequest& request, std::string name, Profile profile,
                                double duration_s, std::map<std::string, double> parameters) {
-  // A baseline is not to lose for the last digit of rounding or for a corner between two nodes.
-  constexpr double kTolerance = 1e-4, kSameTime = 1e-7;
+  constexpr double kTolerance = 1e-6, kSameTime = 1e-7;  // the replay's tolerance
   const double moving_s = profile.time_s.back();
   BaselineResult result{
       .name = std::move(name), .duration_s = duration_s, .parameters = std::move(parameters)};
@@ -69,13 +79,37 @@ BaselineResult finish_baseline(const ProfileRequest& request, std::string name, 
     result.motion_energy_J += segment_energy_J(motion, profile, k);
   result.energy_J = result.motion_energy_J + duration_s * request.plant.robot.power.standby_W;
   const Worst worst = worst_use(request, motion, profile);
+  result.worst_use = worst.ratio;
+  result.worst_limit = worst.limit;
   result.feasible = worst.ratio <= 1 + kTolerance;
   if (!result.feasible) {
-    std::snprintf(text, sizeof text, "%s at s = %.4g is %.3g times its limit", worst.limit.c_str(),
+    std::snprintf(text, sizeof text, "%s at s = %.4g is %.7g times its limit", worst.limit.c_str(),
                   worst.s < 1e-9 ? 0.0 : worst.s, worst.ratio);
     result.reason = text;
   }
   result.profile = std::move(profile);
+  return result;
+}
+
+bool better(const BaselineResult& result, const BaselineResult& than) {
+  if (result.feasible != than.feasible) return result.feasible;
+  return result.feasible ? result.energy_J < than.energy_J : result.worst_use < than.worst_use;
+}
+
+BaselineResult with_room(const ProfileRequest& request,
+                         const std::function<BaselineResult(const ProfileRequest&)>& make) {
+  constexpr int kTries = 6;
+  constexpr double kNear = 1.02, kMargin = 1e-6;
+  ProfileRequest inner = request;
+  BaselineResult result = make(inner);
+  for (int i = 0; i < kTries && !result.feasible && result.profile && result.worst_use < kNear; ++i) {
+    double* limit = limit_named(inner.limits, result.worst_limit);
+    if (limit == nullptr) break;
+    *limit *= (1 - kMargin) / result.worst_use;
+    BaselineResult again = make(inner);
+    if (!again.profile) break;
+    result = std::move(again);
+  }
   return result;
 }
 

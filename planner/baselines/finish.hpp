@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "planner/baselines/baseline.hpp"
 
 namespace joulepath {
@@ -11,5 +13,13 @@ namespace joulepath {
 
 /// A baseline that does not exist for this request.
 [[nodiscard]] BaselineResult no_baseline(std::string name, std::string reason);
+
+/// Valid before invalid, then cheaper, then less in excess.
+[[nodiscard]] bool better(const BaselineResult& result, const BaselineResult& than);
+
+/// What `make` gives for the request; where corners between its nodes bring a limit slightly above, again
+/// with that limit lowered (in what make() is called with; it judges by the request itself).
+[[nodiscard]] BaselineResult with_room(const ProfileRequest& request,
+                                       const std::function<BaselineResult(const ProfileRequest&)>& make);
 
 }  // namespace joulepath

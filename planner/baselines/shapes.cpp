@@ -4,19 +4,6 @@
 
 namespace joulepath {
 
-Profile shaped_profile(const TimeShape& shape, double length, double duration_s) {
-  constexpr int kNodes = 400;
-  std::vector<double> s, b;
-  for (int i = 0; i <= kNodes; ++i) {
-    const double share = static_cast<double>(i) / kNodes, rate = shape.rate(share) * length / duration_s;
-    s.push_back(i == kNodes ? length : length * shape.distance_share(share));
-    b.push_back(i == 0 || i == kNodes ? 0.0 : rate * rate);
-  }
-  const double taken_s = profile_from_squares(s, b).time_s.back();
-  for (double& square : b) square *= (taken_s / duration_s) * (taken_s / duration_s);
-  return profile_from_squares(s, b);
-}
-
 Profile jerk_profile(const std::vector<JerkPiece>& pieces, double start_acceleration) {
   Profile profile{.time_s = {0.0}, .s = {0.0}, .rate = {0.0}};
   double a = start_acceleration;
@@ -30,6 +17,27 @@ Profile jerk_profile(const std::vector<JerkPiece>& pieces, double start_accelera
     profile.rate.push_back(std::max(0.0, u + t * (a + t * j / 2)));
     a += t * j;
   }
+  return profile;
+}
+
+Profile shaped_profile(const std::function<double(double)>& acceleration, double length, double duration_s) {
+  constexpr int kPieces = 400;
+  constexpr double kShare = 1.0 / kPieces;
+  std::vector<JerkPiece> pieces;
+  for (int i = 0; i < kPieces; ++i) {
+    const double change = acceleration((i + 1) * kShare) - acceleration(i * kShare);
+    pieces.push_back({kShare, change / kShare});
+  }
+  Profile profile = jerk_profile(pieces, acceleration(0));
+  // Sampling misses the unit of distance by some 1e-5; the rest is units.
+  const double scale = length / profile.s.back();
+  for (double& t : profile.time_s) t *= duration_s;
+  for (double& s : profile.s) s *= scale;
+  for (double& u : profile.rate) u *= scale / duration_s;
+  for (double& a : profile.acceleration) a *= scale / (duration_s * duration_s);
+  for (double& j : profile.jerk) j *= scale / (duration_s * duration_s * duration_s);
+  profile.s.back() = length;
+  profile.rate.back() = 0;
   return profile;
 }
 

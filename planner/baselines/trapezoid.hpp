@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "planner/baselines/baseline.hpp"
-#include "planner/nlp/problem.hpp"
+#include "planner/baselines/local_limits.hpp"
 
 namespace joulepath {
 
@@ -16,20 +16,17 @@ struct TrapezoidSettings {
   double curve_share{1.0};
 };
 
-/// Trapezoids over one request, clipped to the local speed limits (speed caps, lateral acceleration, yaw
-/// rate; yaw acceleration, |turn' b| <= share of it), on a fixed grid. Accelerations are clipped to what the
-/// yaw acceleration limit leaves: |turn a + turn' b| <= limit.
+/// Largest accelerations of the path coordinate that the limits name; kUnlimited where there is none.
+inline constexpr double kUnlimited = 20.0;
+[[nodiscard]] double most_acceleration(const ProfileRequest& request);
+[[nodiscard]] double most_deceleration(const ProfileRequest& request);
+
+/// Trapezoids over one request on a fixed grid, clipped to its local limits.
 class TrapezoidFamily {
  public:
   explicit TrapezoidFamily(const ProfileRequest& request);
 
-  /// Whether curvature changes anywhere: else the share makes no difference.
-  bool curves() const;
-  /// Largest accelerations that the limits name; kUnlimited where there is none.
-  static constexpr double kUnlimited = 20.0;
-  double most_acceleration() const { return most_acceleration_; }
-  double most_deceleration() const { return most_deceleration_; }
-
+  const LocalLimits& local() const { return local_; }
   /// Squares of the rate at the grid's nodes; nothing where start or end speed cannot be kept.
   std::optional<std::vector<double>> squares(const TrapezoidSettings& settings) const;
   double duration_s(const std::vector<double>& b) const;
@@ -45,21 +42,10 @@ class TrapezoidFamily {
   std::map<std::string, double> parameters(const TrapezoidSettings& settings) const;
 
  private:
-  /// What holds the rate back on a grid, for one share.
-  struct Clip {
-    std::vector<double> s{};
-    std::vector<double> cap{};           ///< of b, per node
-    std::vector<std::size_t> segment{};  ///< of the problem's grid, per segment of this one
-  };
-  Clip clip(double curve_share) const;
-  /// Largest acceleration (deceleration) in a segment of the grid beside a node with the square b.
-  double steepest(std::size_t segment, double ds, double b, bool accelerates) const;
-  std::vector<double> squares_on(const Clip& clip, const TrapezoidSettings& settings) const;
+  std::vector<double> squares_on(const LocalLimits::Grid& grid, const TrapezoidSettings& settings) const;
 
   const ProfileRequest* request_{};
-  nlp::Problem problem_{};
-  double most_acceleration_{};
-  double most_deceleration_{};
+  LocalLimits local_;
 };
 
 }  // namespace joulepath

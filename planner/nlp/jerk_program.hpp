@@ -31,8 +31,8 @@ struct JerkSolution {
 ///   rows      those of the Problem, and per segment
 ///             u1 = u0 + dt (a0 + a1)/2,   ds = dt (u0 + u1)/2 - dt^2 (a1 - a0)/12     (exact)
 ///             |a1 - a0| <= jerk dt
-///             u0 + dt a0/2 <= mean of the caps at both ends: the rate's middle Bezier point, so that the rate
-///             stays below them between the nodes, too
+///             u0 + dt a0/2 <= mean of the caps at both ends: the rate's middle Bezier point, so that the
+///             rate stays below them between the nodes, too
 ///   bounds    caps on u; linear acceleration on a
 ///
 /// Recovery is counted at each quadrature point: by segment, accelerations that alternate from node to node

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,11 +32,17 @@ inline Jet duration_jet(double ds, const EndRates& r) {
           {q * r.d[0] * r.d[0] + p * r.dd[0], q * r.d[0] * r.d[1], q * r.d[1] * r.d[1] + p * r.dd[1]}};
 }
 
+/// What the power of a wheel needs of its AffineWheel.
+struct AffinePower {
+  Affine voltage_V{};
+  Affine current_A{};
+};
+
 /// Electrical power V i where both are affine, at a time share tau of the segment: written out, since
 /// a = (b1 - b0)/(2 ds) is linear in the squares and u is a sum of functions of one square each.
-inline Jet power_jet(const AffineWheel& wheel, double ds, double a, double tau, const EndRates& r, bool rest0,
+inline Jet power_jet(const AffinePower& power, double ds, double a, double tau, const EndRates& r, bool rest0,
                      bool rest1) {
-  const Affine &V = wheel.voltage_V, &I = wheel.current_A;
+  const Affine &V = power.voltage_V, &I = power.current_A;
   const double u = (1 - tau) * r.u[0] + tau * r.u[1];
   const double v = V.constant + V.of_a * a + (V.of_b * u + V.of_u) * u;
   const double i = I.constant + I.of_a * a + (I.of_b * u + I.of_u) * u;
@@ -59,29 +66,44 @@ struct SegmentJets {
   Jet duration_s{};
 };
 
-inline SegmentJets segment_jets(const Segment& segment, double b0, double b1) {
+inline bool is_affine(const Segment& segment) {
+  return std::all_of(segment.energy_points.begin(), segment.energy_points.end(),
+                     [](const SegmentPoint& point) { return point.affine; });
+}
+
+inline SegmentJets affine_segment_jets(double ds, const std::array<Sided<AffinePower>, kEnergyPoints>& power,
+                                       bool bus, double b0, double b1) {
   SegmentJets jets;
   const EndRates rates(b0, b1);
-  jets.duration_s = duration_jet(segment.ds, rates);
-  bool affine = true;
-  for (const SegmentPoint& point : segment.energy_points) affine = affine && point.affine;
-  if (!affine) {
-    jets.energy_J = Energy::both(jet_interval(segment, b0, b1));
-    return jets;
-  }
-  const double a = (b1 - b0) / (2 * segment.ds);
+  jets.duration_s = duration_jet(ds, rates);
+  const double a = (b1 - b0) / (2 * ds);
   Jet sum_W[2];
   for (std::size_t q = 0; q < kEnergyPoints; ++q) {
-    const Sided<AffineWheel>& wheel = segment.energy_points[q].wheel;
-    sum_W[0] += power_jet(wheel.left, segment.ds, a, kEnergyTimes[q], rates, b0 <= 0, b1 <= 0);
-    sum_W[1] += power_jet(wheel.right, segment.ds, a, kEnergyTimes[q], rates, b0 <= 0, b1 <= 0);
+    sum_W[0] += power_jet(power[q].left, ds, a, kEnergyTimes[q], rates, b0 <= 0, b1 <= 0);
+    sum_W[1] += power_jet(power[q].right, ds, a, kEnergyTimes[q], rates, b0 <= 0, b1 <= 0);
   }
   const Jet half = 0.5 * jets.duration_s;
-  if (segment.plant->robot.power.sharing == PowerSharing::bus)
+  if (bus)
     jets.energy_J = {half * (sum_W[0] + sum_W[1]), Jet(0.0)};
   else
     jets.energy_J = {half * sum_W[0], half * sum_W[1]};
   return jets;
+}
+
+/// Wheels' powers at the energy points of an affine segment.
+inline std::array<Sided<AffinePower>, kEnergyPoints> affine_power(const Segment& segment) {
+  std::array<Sided<AffinePower>, kEnergyPoints> power;
+  for (std::size_t q = 0; q < kEnergyPoints; ++q)
+    power[q] = map_sides(segment.energy_points[q].wheel, [](Side, const AffineWheel& wheel) {
+      return AffinePower{wheel.voltage_V, wheel.current_A};
+    });
+  return power;
+}
+
+inline SegmentJets segment_jets(const Segment& segment, double b0, double b1) {
+  const bool bus = segment.plant->robot.power.sharing == PowerSharing::bus;
+  if (is_affine(segment)) return affine_segment_jets(segment.ds, affine_power(segment), bus, b0, b1);
+  return {Energy::both(jet_interval(segment, b0, b1)), duration_jet(segment.ds, EndRates(b0, b1))};
 }
 
 }  // namespace joulepath::nlp

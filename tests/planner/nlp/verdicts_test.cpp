@@ -307,6 +307,37 @@ TEST(Verdicts, DegenerateButPossibleInputsJustPlan) {
   }
 }
 
+/// The closed form's least time, to the last digit: no grid makes it without nodes where it bends.
+TEST(Verdicts, ADeadlineOfExactlyTheLeastTimeIsPlanned) {
+  for (TimeMode mode : {TimeMode::time_budget, TimeMode::fixed_time, TimeMode::time_price})
+    for (double length_m : {0.7, 10.0, 33.3}) {
+      const ProfileRequest r = straight(length_m);
+      const double v = r.limits.speed_m_s, a = r.limits.acceleration_m_s2, d = r.limits.deceleration_m_s2;
+      const double ramps_m = v * v / (2 * a) + v * v / (2 * d);
+      const double exact_s = length_m > ramps_m ? length_m / v + v / (2 * a) + v / (2 * d)
+                                                : std::sqrt(2 * length_m * (1 / a + 1 / d));
+      const ProfileRequest request = within(r, mode, exact_s);
+      const ProfileResult result = solve_profile(request);
+      ASSERT_TRUE(result.profile.has_value()) << length_m << " m: " << result.summary.message;
+      EXPECT_NEAR(result.profile->duration_s(), exact_s, 2e-7 * exact_s);
+      EXPECT_TRUE(replay(request, *result.profile).valid());
+      EXPECT_FALSE(solve_profile(within(r, mode, exact_s * (1 - 1e-5))).profile.has_value());
+    }
+}
+
+/// On a curve the closed form is unknown: the least time of a finer grid stands in for it.
+TEST(Verdicts, ADeadlineThatOnlyAFinerGridMakesIsPlanned) {
+  ProfileRequest fine = bezier();
+  fine.nodes = 1000;
+  const double least_s = minimum_s(fine);
+  const ProfileRequest request = within(bezier(), TimeMode::time_budget, least_s);
+  EXPECT_GT(minimum_s(bezier()), least_s * (1 + 1e-6));
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
+  EXPECT_LE(result.profile->duration_s(), least_s * (1 + 2e-7));
+  EXPECT_TRUE(replay(request, *result.profile).valid());
+}
+
 TEST(Verdicts, ThePapersOwnCurveIsRegularAndPlans) {
   const BezierChainResult chain =
       bezier_chain({{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}, {}, BezierFrame::start);

@@ -1,0 +1,108 @@
+#include <cmath>
+
+#include "planner/baselines/finish.hpp"
+#include "planner/baselines/pattern_search.hpp"
+#include "planner/baselines/trapezoid.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Makes the executable profile take its time exactly: the corners' nodes changed it a little.
+BaselineResult finish_trapezoid(const ProfileRequest& request, const TrapezoidFamily& family,
+                                const char* name, TrapezoidSettings settings, double duration_s) {
+  const auto excess_s = [&](double rate) {
+    TrapezoidSettings trial = settings;
+    trial.rate = rate;
+    return family.profile(trial).time_s.back() - duration_s;
+  };
+  double low = settings.rate * (1 - 1e-2), high = settings.rate * (1 + 1e-2);
+  if (excess_s(low) > 0 && excess_s(high) < 0) {
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (low + high);
+      (excess_s(middle) > 0 ? low : high) = middle;
+    }
+    settings.rate = high;
+  }
+  return finish_baseline(request, name, family.profile(settings), duration_s, family.parameters(settings));
+}
+
+BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, double duration_s,
+                            const char* otherwise) {
+  constexpr double kNearly = 1e-3;
+  const double least_s = family.least_duration_s();
+  if (!(duration_s <= least_s * (1 + kNearly))) return no_baseline(name, otherwise);
+  return no_baseline(name, "the plan's time is the least possible: no other profile makes it");
+}
+
+/// Of one share, the settings that cost least; nothing where none keeps the rows.
+std::optional<TrapezoidSettings> tuned(const ProfileRequest& request, const TrapezoidFamily& family,
+                                       double share, double duration_s) {
+  const double most_up = most_acceleration(request), most_down = most_deceleration(request);
+  const auto settings_at = [&](double up, double down) -> std::optional<TrapezoidSettings> {
+    const double acceleration = most_up * std::exp(up), deceleration = most_down * std::exp(down);
+    const auto rate = family.rate_for(acceleration, deceleration, share, duration_s);
+    if (!rate) return std::nullopt;
+    return TrapezoidSettings{*rate, acceleration, deceleration, share};
+  };
+  const PatternMinimum best = pattern_search([&](double up, double down) {
+    const auto settings = settings_at(up, down);
+    return settings ? family.energy_J(*family.squares(*settings)) : kNoLimit;
+  });
+  return std::isfinite(best.value) ? settings_at(best.x, best.y) : std::nullopt;
+}
+
+/// The best over the shares of what `settings_of` chooses for one.
+template <class SettingsOf>
+std::optional<BaselineResult> best_share(const ProfileRequest& request, const TrapezoidFamily& family,
+                                         const char* name, double duration_s, SettingsOf&& settings_of) {
+  std::optional<BaselineResult> best;
+  for (double share : family.local().shares()) {
+    const std::optional<TrapezoidSettings> settings = settings_of(share);
+    if (!settings) continue;
+    BaselineResult result = finish_trapezoid(request, family, name, *settings, duration_s);
+    if (!best || better(result, *best)) best = std::move(result);
+  }
+  return best;
+}
+
+BaselineResult of_max_acceleration(const ProfileRequest& request, const ProfileRequest& inner,
+                                   const char* name, double duration_s) {
+  const TrapezoidFamily family(inner);
+  const double up = most_acceleration(inner), down = most_deceleration(inner);
+  auto best = best_share(request, family, name, duration_s, [&](double share) {
+    const auto rate = family.rate_for(up, down, share, duration_s);
+    return rate ? std::optional(TrapezoidSettings{*rate, up, down, share}) : std::nullopt;
+  });
+  if (best) return std::move(*best);
+  return no_trapezoid(name, family, duration_s, "cannot make the time with the local speed limits");
+}
+
+BaselineResult of_best_settings(const ProfileRequest& request, const ProfileRequest& inner, const char* name,
+                                double duration_s) {
+  const TrapezoidFamily family(inner);
+  auto best = best_share(request, family, name, duration_s,
+                         [&](double share) { return tuned(inner, family, share, duration_s); });
+  if (best) return std::move(*best);
+  return no_trapezoid(name, family, duration_s, "no trapezoid makes the time within the limits");
+}
+
+}  // namespace
+
+BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s) {
+  return with_room(request, [&](const ProfileRequest& inner) {
+    return of_max_acceleration(request, inner, "trapezoid_max_acceleration", duration_s);
+  });
+}
+
+BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s) {
+  constexpr const char* kName = "trapezoid_best_tuned";
+  BaselineResult tuned = with_room(request, [&](const ProfileRequest& inner) {
+    return of_best_settings(request, inner, kName, duration_s);
+  });
+  // The largest accelerations are among what is tuned, judged on the exact path as all are at the end.
+  BaselineResult largest = trapezoid_max_acceleration(request, duration_s);
+  largest.name = kName;
+  return largest.profile && (!tuned.profile || better(largest, tuned)) ? largest : tuned;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,137 @@
+// Classic profiles: at the plan's distance and time, within every limit or not at all.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/baselines/baseline.hpp"
+#include "planner/replay.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+ProfileRequest straight(double length_m) {
+  const Robot robot = testing::nomad();
+  return {.piece = straight_piece({}, length_m), .plant = make_plant(robot), .limits = *robot.limits};
+}
+
+/// Straight, a corner of 0.5 m radius through clothoids, straight.
+ProfileRequest corner() {
+  std::vector<CurveSegment> segments{LinearCurvature({}, 3.0)};
+  segments.emplace_back(LinearCurvature({3.0, 0, 0}, 0.75, 0, 2.0 / 0.75));
+  segments.emplace_back(
+      LinearCurvature(std::get<LinearCurvature>(segments.back()).at(0.75).pose, 0.75, 2.0, -2.0 / 0.75));
+  segments.emplace_back(LinearCurvature(std::get<LinearCurvature>(segments.back()).at(0.75).pose, 3.0));
+  ProfileRequest request = straight(1);
+  request.piece = Curve(std::move(segments));
+  return request;
+}
+
+double least_s(ProfileRequest request) {
+  request.time = {.mode = TimeMode::minimum_time};
+  return solve_profile(request).profile->duration_s();
+}
+
+const BaselineResult& named(const std::vector<BaselineResult>& results, const std::string& name) {
+  for (const BaselineResult& result : results)
+    if (result.name == name) return result;
+  ADD_FAILURE() << "no baseline " << name;
+  return results.front();
+}
+
+/// Judged by the replay, which no baseline's own check has a part in.
+void expect_honest(const ProfileRequest& request, const std::vector<BaselineResult>& results, double T) {
+  for (const BaselineResult& result : results) {
+    if (!result.feasible) {
+      EXPECT_FALSE(result.reason.empty()) << result.name;
+      continue;
+    }
+    ASSERT_TRUE(result.profile.has_value()) << result.name;
+    const ReplayResult again = replay(request, *result.profile);
+    EXPECT_TRUE(again.valid(2e-6)) << result.name << ": " << again.limit << " " << again.worst_violation;
+    EXPECT_NEAR(again.duration_s, T, 1e-6 * T) << result.name;
+    EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6) << result.name;
+    EXPECT_NEAR(again.energy_J, result.energy_J, 1e-5 * again.energy_J) << result.name;
+    EXPECT_NEAR(result.profile->rate.front(), request.start_rate, 1e-9) << result.name;
+    EXPECT_NEAR(result.profile->rate.back(), request.end_rate, 1e-9) << result.name;
+  }
+}
+
+TEST(Baselines, EveryShapeIsClippedToTheCornerAndKeepsDistanceAndTime) {
+  ProfileRequest request = corner();
+  const double T = 1.3 * least_s(request);
+  const std::vector<BaselineResult> results = all_baselines(request, T);
+  expect_honest(request, results, T);
+  for (const char* name :
+       {"trapezoid_max_acceleration", "trapezoid_best_tuned", "triangular", "constant_ramp", "s_curve",
+        "cubic", "quintic", "sinusoidal", "minimum_time_then_wait"})
+    EXPECT_TRUE(named(results, name).feasible) << name << ": " << named(results, name).reason;
+  EXPECT_EQ(named(results, "constant_speed").reason, "needs a jump of speed at the ends");
+}
+
+TEST(Baselines, NoneIsCheaperThanThePlan) {
+  ProfileRequest request = corner();
+  const double T = 1.3 * least_s(request);
+  request.time = {.mode = TimeMode::fixed_time, .duration_s = T};
+  const double plan_J = replay(request, *solve_profile(request).profile).energy_J;
+  for (const BaselineResult& result : all_baselines(request, T))
+    if (result.feasible) {
+      EXPECT_GE(result.energy_J, plan_J * (1 - 1e-5)) << result.name;
+    }
+}
+
+TEST(Baselines, UnclippedShapesAreTheTextbooks) {
+  ProfileRequest request = straight(10);
+  const double T = 25;
+  const std::vector<BaselineResult> results = all_baselines(request, T);
+  expect_honest(request, results, T);
+  const auto peak = [&](const char* name) {
+    double most = 0;
+    for (double rate : named(results, name).profile->rate) most = std::max(most, rate);
+    return most * T / 10;
+  };
+  EXPECT_NEAR(peak("triangular"), 2, 1e-3);
+  EXPECT_NEAR(peak("cubic"), 1.5, 1e-4);
+  EXPECT_NEAR(peak("quintic"), 1.875, 1e-4);
+  EXPECT_NEAR(peak("sinusoidal"), 2, 1e-4);
+  EXPECT_NEAR(peak("constant_ramp"), T / (T - 4), 1e-6);
+}
+
+TEST(Baselines, ASpeedZoneClipsThem) {
+  ProfileRequest request = straight(10);
+  request.speed_caps = {{4, 6, 0.4}};
+  const double T = 1.2 * least_s(request);
+  const std::vector<BaselineResult> results = all_baselines(request, T);
+  expect_honest(request, results, T);
+  EXPECT_TRUE(named(results, "quintic").feasible) << named(results, "quintic").reason;
+  EXPECT_NEAR(named(results, "quintic").profile->at_s(5).rate, 0.4, 1e-6);
+}
+
+TEST(Baselines, ATimeThatNoShapeMakesIsSaid) {
+  ProfileRequest request = corner();
+  const std::vector<BaselineResult> results = all_baselines(request, 0.99 * least_s(request));
+  for (const BaselineResult& result : results) EXPECT_FALSE(result.feasible) << result.name;
+  EXPECT_FALSE(named(results, "sinusoidal").feasible);
+  EXPECT_FALSE(named(results, "sinusoidal").reason.empty());
+}
+
+TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
+  ProfileRequest request = straight(10);
+  request.limits.jerk_m_s3 = 0.5;
+  const std::vector<BaselineResult> results = all_baselines(request, 25);
+  expect_honest(request, results, 25);
+  EXPECT_FALSE(named(results, "triangular").feasible);
+  EXPECT_TRUE(named(results, "s_curve").feasible) << named(results, "s_curve").reason;
+}
+
+TEST(Baselines, AtSpeedFromStartToEndConstantSpeedIsOne) {
+  ProfileRequest request = straight(10);
+  request.start_rate = request.end_rate = 0.5;
+  const std::vector<BaselineResult> results = all_baselines(request, 20);
+  expect_honest(request, results, 20);
+  EXPECT_TRUE(named(results, "constant_speed").feasible) << named(results, "constant_speed").reason;
+  EXPECT_EQ(named(results, "triangular").reason, "runs from rest to rest only");
+}
+
+}  // namespace
+}  // namespace joulepath
