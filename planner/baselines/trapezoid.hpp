@@ -26,7 +26,11 @@ class TrapezoidFamily {
  public:
   explicit TrapezoidFamily(const ProfileRequest& request);
 
+  static constexpr double kUnlimited = joulepath::kUnlimited;
+  double most_acceleration() const { return joulepath::most_acceleration(*request_); }
+  double most_deceleration() const { return joulepath::most_deceleration(*request_); }
   const LocalLimits& local() const { return local_; }
+  bool curves() const { return local_.curves(); }
   /// Squares of the rate at the grid's nodes; nothing where start or end speed cannot be kept.
   std::optional<std::vector<double>> squares(const TrapezoidSettings& settings) const;
   double duration_s(const std::vector<double>& b) const;
