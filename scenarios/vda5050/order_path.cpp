@@ -15,6 +15,7 @@ using std::numbers::pi;
 constexpr double kRounding_rad = 0.01;
 constexpr double kSmallestRadius_m = 0.05;  ///< of a blend; a smaller one is no better than a turn
 constexpr double kSharpest_rad = 2.7;
+constexpr double kLongestEdge_m = 1e4;
 
 [[noreturn]] void refuse(const ItemMarks& marks, const std::string& key, const std::string& found,
                          const std::string& accepted) {
@@ -39,8 +40,11 @@ void move_to(RationalBezier::Point& point, const OrderNode& node) {
 std::vector<RationalBezier> pieces_of(const Order& order, std::size_t edge) {
   const OrderNode &from = order.nodes[edge], &to = order.nodes[edge + 1];
   const OrderEdge& asked = order.edges[edge];
+  const double chord_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  if (chord_m > kLongestEdge_m)
+    refuse(asked.marks, "edgeId", "an edge of " + metres(chord_m), "at most " + metres(kLongestEdge_m));
   if (!asked.trajectory) {
-    if (std::hypot(to.x_m - from.x_m, to.y_m - from.y_m) < Curve::kPositionTolerance_m) return {};
+    if (chord_m < Curve::kPositionTolerance_m) return {};
     return {{{{from.x_m, from.y_m, 1}, {to.x_m, to.y_m, 1}}}};
   }
   std::vector<RationalBezier> pieces = bezier_pieces(*asked.trajectory);

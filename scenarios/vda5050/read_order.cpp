@@ -23,6 +23,8 @@ ItemMarks pointed(const Node& node) {
   return marks;
 }
 
+constexpr double kLongestAction_s = 86400;
+
 std::optional<double> duration_of(const Node& action) {
   const auto parameters = action.find("actionParameters");
   if (!parameters) return std::nullopt;
@@ -30,7 +32,8 @@ std::optional<double> duration_of(const Node& action) {
     if (parameter["key"].text() != "duration") continue;
     const Node value = parameter["value"];
     const auto seconds = value.kind() == Value::Kind::scalar ? parse_number(value.text()) : std::nullopt;
-    if (!seconds || *seconds < 0) value.fail("a number of seconds >= 0");
+    if (!seconds || *seconds < 0 || *seconds > kLongestAction_s)
+      value.fail("a number of seconds from 0 to 86400");
     return seconds;
   }
   return std::nullopt;
