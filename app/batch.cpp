@@ -94,6 +94,7 @@ class BatchCommand : public Command {
         ->check(CLI::Range(10, 20000))
         ->capture_default_str();
     app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    app.add_flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
     app.add_flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
     add_common_flags(app, common_, "qjfu");
   }
@@ -172,7 +173,7 @@ class BatchCommand : public Command {
   std::string out_{};
   unsigned jobs_{std::max(1u, std::thread::hardware_concurrency())};
   bool resume_{};
-  PlanOptions options_{};
+  PlanOptions options_{.baselines = false};
   CommonOptions common_{};
   std::vector<std::string> lines_{};
   std::vector<double> seconds_{};

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <thread>
 
-#include "planner/plan_accounts.hpp"
 #include "model/assert.hpp"
+#include "planner/plan_accounts.hpp"
 #include "scenarios/mission_file.hpp"
 
 namespace joulepath {
@@ -90,7 +90,8 @@ std::string BatchPlanner::fingerprint(const BatchItem& item) const {
   mix(item.name);
   mix(text);
   mix(std::to_string(options_.seed) + "/" + std::to_string(options_.nodes) + "/" +
-      std::to_string(options_.accuracy) + "/" + std::to_string(static_cast<int>(options_.solver)));
+      std::to_string(options_.accuracy) + "/" + std::to_string(static_cast<int>(options_.solver)) +
+      (options_.baselines ? "/baselines" : ""));
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
   return digits;

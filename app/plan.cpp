@@ -47,6 +47,10 @@ class PlanCommand : public Command {
         ->check(CLI::Range(1e-7, 1e-1))
         ->capture_default_str();
     app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    app.add_option("--without", without_,
+                   "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
+                   "shortest), stops (turn on the spot there), refinement; or baselines")
+        ->check(CLI::IsMember({"corners", "routes", "stops", "refinement", "baselines"}));
     app.add_option("--robot", robot_, "robot file in place of the mission's");
     app.add_option("--map", map_, "map in place of the mission's");
     add_common_flags(app, common_, "qjfu");
@@ -59,6 +63,7 @@ class PlanCommand : public Command {
     const MissionRequest mission = read_mission_or_order(mission_, robot_, map_, reading);
     const MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
+    for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
     const Plan plan = plan_mission(mission, world, options_);
     const double planning_s = seconds_since(start) - reading_s;
@@ -80,9 +85,18 @@ class PlanCommand : public Command {
   }
 
  private:
+  void leave_out(const std::string& step) {
+    if (step == "corners") options_.steps.corners = false;
+    if (step == "routes") options_.steps.routes = false;
+    if (step == "stops") options_.steps.stops = false;
+    if (step == "refinement") options_.steps.refinement = false;
+    if (step == "baselines") options_.baselines = false;
+  }
+
   std::string mission_{};
   std::string out_{};
   std::string solver_{"ipopt"};
+  std::vector<std::string> without_{};
   std::string robot_{};
   std::string map_{};
   PlanOptions options_{};

@@ -86,6 +86,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
                           .dwell_s = leg.dwell_s,
                           .distance_m = way.path.distance_m(),
                           .turned_rad = way.path.turned_rad(),
+                          .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
                           .alternatives = std::move(way.alternatives),
                           .improvements = std::move(way.improvements)});
     if (!way.path.pieces.empty()) here = way.path.end();

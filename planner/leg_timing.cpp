@@ -24,6 +24,11 @@ const std::vector<ProfileResult>& LegTiming::solve(double price_W, SolverChoice 
   return entry->second;
 }
 
+void LegTiming::solve_roughly(bool roughly) {
+  for (ProfileRequest& request : stretches_) request.draft = roughly;
+  forget();
+}
+
 double LegTiming::duration_s(double price_W, SolverChoice solver) {
   double sum_s = 0.0;
   for (const ProfileResult& result : solve(price_W, solver))

@@ -24,6 +24,9 @@ class LegTiming {
 
   void forget() { solved_.clear(); }
 
+  /// Whether stretches are solved as drafts (ProfileRequest::draft).
+  void solve_roughly(bool roughly);
+
  private:
   std::vector<ProfileRequest> stretches_{};
   std::map<std::pair<double, SolverChoice>, std::vector<ProfileResult>> solved_{};

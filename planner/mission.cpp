@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/battery_account.hpp"
+#include "planner/charging.hpp"
 #include "planner/mission_time.hpp"
 #include "planner/plan_accounts.hpp"
 #include "planner/visit_order.hpp"
@@ -66,20 +67,24 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
   std::vector<double> price_W(mission.legs.size(), floor_W);
   TimedDraft timed;
   const MissionWays ways(mission, world, space, plant, options);
-  const auto time_along = [&](bool refine) {
+  const auto choose = [&](bool refine) {
     timed.draft = draft_legs(mission, world, plant, options, ways.choose(price_W, refine), plan);
-    if (plan.status != SolveStatus::optimal ||
-        !check_each_leg(timed.draft, floor_W, SolverChoice::fast, plan))
-      return false;
+    return plan.status == SolveStatus::optimal;
+  };
+  const auto share = [&](bool roughly) {
+    for (LegTiming& timing : timed.draft.timing) timing.solve_roughly(roughly);
+    if (!check_each_leg(timed.draft, floor_W, SolverChoice::fast, plan)) return false;
     timed.split = share_time(timed.draft, mission, plant, SolverChoice::fast);
     return true;
   };
-  for (int round = 0; round < kRounds; ++round) {
-    if (!time_along(false)) return timed;
-    if (!space || !moved(price_W, timed.split.price_W)) break;
+  for (int round = 0; space && round < kRounds; ++round) {
+    if (!choose(false) || !share(true)) return timed;
+    const bool settled = !moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
+    if (settled) break;
   }
-  if (space && options.steps.refinement) time_along(true);
+  if ((!space || options.steps.refinement) && !choose(true)) return timed;
+  share(false);
   return timed;
 }
 
@@ -99,6 +104,31 @@ std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionReques
     return PlanInfeasibility{too_short(*asked_s, split.duration_s[k], s_m, pose), k, s_m};
   }
   return std::nullopt;
+}
+
+/// Plans the legs as they are, in their order; `plan` brings what is known about the mission already.
+Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                     const RouteSpace* space, const Plant& plant, Plan plan) {
+  TimedDraft timed = time_legs(mission, world, space, plant, options, plan);
+  if (plan.status != SolveStatus::optimal) return plan;
+  if (auto verdict = too_late(timed, mission))
+    return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
+
+  for (std::size_t k = 0; k < timed.draft.legs.size(); ++k) {
+    LegPlan& leg = timed.draft.legs[k];
+    leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.draft.legs[k - 1].dwell_s;
+    settle_leg(leg, timed.draft.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options, plant);
+    if (options.baselines) leg.baselines = leg_baselines(leg);
+  }
+  plan.legs = std::move(timed.draft.legs);
+  sum_up(plan, plant, options.accuracy);
+  plan.battery = battery_account(plan, plant, mission.start.battery_fraction.value_or(1.0),
+                                 mission.charging ? mission.charging->to_fraction : 1.0);
+  if (auto reason = battery_too_small(plan, plant)) {
+    const std::size_t leg = *plan.battery->fails_on_leg;
+    plan = infeasible(std::move(plan), leg, 0.0, std::move(*reason));
+  }
+  return plan;
 }
 
 const RouteSpace* need_space(const MissionRequest& mission, const RouteSpace* space) {
@@ -141,25 +171,10 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     mission.legs = plan.visit->legs;
   }
   if (mission.legs.empty()) refuse_empty(mission);
-  TimedDraft timed = time_legs(mission, world, space, plant, options, plan);
-  if (plan.status != SolveStatus::optimal) return plan;
-  if (auto verdict = too_late(timed, mission))
-    return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
-
-  for (std::size_t k = 0; k < timed.draft.legs.size(); ++k) {
-    LegPlan& leg = timed.draft.legs[k];
-    leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.draft.legs[k - 1].dwell_s;
-    settle_leg(leg, timed.draft.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options, plant);
-    if (options.baselines) leg.baselines = leg_baselines(leg);
-  }
-  plan.legs = std::move(timed.draft.legs);
-  sum_up(plan, plant, options.accuracy);
-  plan.battery = battery_account(plan, plant, mission.start.battery_fraction.value_or(1.0));
-  if (auto reason = battery_too_small(plan, plant)) {
-    const std::size_t leg = *plan.battery->fails_on_leg;
-    plan = infeasible(std::move(plan), leg, 0.0, std::move(*reason));
-  }
-  return plan;
+  const auto plan_legs = [&](const MissionRequest& legs) {
+    return plan_given_legs(legs, world, options, space, plant, plan);
+  };
+  return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
 }
 
 }  // namespace joulepath

@@ -74,6 +74,7 @@ struct LegRequest {
   double end_speed_m_s{};
   std::optional<double> yaw_rate_rad_s{};  ///< cap on this leg, beside the robot's own
   std::vector<PathPart> parts{};           ///< of a path: edges of an order
+  bool charges{};                          ///< put in by the planner: its dwell is at a charger
   ItemMarks marks{};
 };
 
@@ -103,6 +104,13 @@ struct SpeedZone {
   double from_m{};
   double to_m{};
   double speed_m_s{};
+  ItemMarks marks{};
+};
+
+/// Where the planner may put in a stop at a charger, when the battery's reserve would be touched otherwise.
+struct ChargingRequest {
+  std::vector<std::string> stations{};  ///< each with a charger
+  double to_fraction{0.8};              ///< state of charge at which the robot leaves
   ItemMarks marks{};
 };
 
@@ -137,6 +145,7 @@ struct MissionRequest {
   std::vector<VisitRequest> visit{};
   std::vector<SpeedZone> speed_zones{};
   Objective objective{};
+  std::optional<ChargingRequest> charging{};
   std::string order_file{};                           ///< VDA 5050 order instead of legs
   std::map<std::string, double> payload_by_action{};  ///< with an order: kg that an action loads
   std::map<std::string, double> dwell_by_action_s{};  ///< with an order: how long an action takes

@@ -66,7 +66,10 @@ struct LegPlan {
   double distance_m{};
   double turned_rad{};
   double price_of_time_W{};
-  EnergyByCause energy{};  ///< driving and dwell
+  EnergyByCause energy{};   ///< driving and dwell
+  double energy_sigma_J{};  ///< 1-sigma from the robot file's uncertainty
+  double charger_W{};       ///< of the charger at its stop, where it was put in to charge
+  double charged_J{};       ///< taken up there
   std::vector<BaselineTotal> baselines{};
   std::vector<PathAlternative> alternatives{};
   std::vector<WayImprovement> improvements{};
@@ -83,9 +86,10 @@ struct PlanInfeasibility {
 struct VisitOrder {
   std::vector<std::size_t> order{};  ///< indices into MissionRequest::visit
   std::vector<LegRequest> legs{};
-  bool exact{};            ///< false: a beam search, with the bound below
-  double energy_J{};       ///< of the order, from the table of leg energies
-  double lower_bound_J{};  ///< no order takes less: cheapest way into each stop, unloaded
+  bool exact{};                           ///< false: a beam search, with the bound below
+  double energy_J{};                      ///< of the order, from the table of leg energies
+  std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
+  double lower_bound_J{};                 ///< no order takes less: cheapest way into each stop, unloaded
   std::optional<Infeasibility> infeasibility{};
 };
 
@@ -94,7 +98,8 @@ struct BatteryAccount {
   double end_fraction{};
   std::array<double, 2> interval_95{};  ///< of the end fraction, from the robot file's uncertainty
   double loss_J{};                      ///< in the internal resistance
-  double required_capacity_Wh{};        ///< 95 % upper bound of energy and loss
+  double charged_J{};                   ///< at chargers on the way
+  double required_capacity_Wh{};        ///< 95 % upper bound of what is drawn at most between charges
   double missions_per_charge{};
   double lowest_voltage_V{};
   std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the reserve is touched

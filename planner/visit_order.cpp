@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 
 namespace joulepath {
@@ -28,7 +29,15 @@ struct Label {
   double payload_kg{};
   double time_s{};
   double cost_J{};
+  double heaviest_kg{};  ///< carried so far
+  double late_s{};       ///< at the stop whose window is relaxed
   std::vector<std::size_t> order{};
+};
+
+/// What a search may ignore, to find out what stands in the way.
+struct Relaxed {
+  std::optional<std::size_t> window{};  ///< the end of this stop's
+  bool capacity{};
 };
 
 class VisitSearch {
@@ -43,12 +52,24 @@ class VisitSearch {
     fill_table();
   }
 
-  std::optional<Label> best() {
+  std::optional<Label> best(const Relaxed& relaxed = {}) {
+    relaxed_ = relaxed;
     std::vector<Label> layer{{.last = count_}};
     for (std::size_t step = 0; step < count_ && !layer.empty(); ++step) layer = next_layer(layer);
     const auto least = std::min_element(layer.begin(), layer.end(),
                                         [](const Label& a, const Label& b) { return a.cost_J < b.cost_J; });
     return least == layer.end() ? std::nullopt : std::optional(*least);
+  }
+
+  double capacity_kg() const { return capacity_kg_; }
+
+  /// Of the stops in the order in which they are listed; nothing where that breaks a window or the capacity.
+  std::optional<double> given_order_J() {
+    relaxed_ = {};
+    std::optional<Label> label = Label{.last = count_};
+    for (std::size_t k = 0; k < count_ && label; ++k)
+      label = allowed(*label, k) ? extend(*label, k) : std::nullopt;
+    return label ? std::optional(label->cost_J) : std::nullopt;
   }
 
   double lower_bound_J() const {
@@ -91,7 +112,7 @@ class VisitSearch {
   LegCost measure(std::size_t from, std::size_t to) const {
     LegRequest leg{.to = visits_[to].station, .marks = visits_[to].marks};
     const RouteResult route =
-        plan_route(*context_.space, route_request(leg, start_of(from), context_.mission, context_.options));
+        quick_route(route_request(leg, start_of(from), context_.mission, context_.options));
     LegCost result{.reachable = route.found()};
     for (std::size_t k = 0; k < 3 && result.reachable; ++k) {
       const double payload_kg = 0.5 * static_cast<double>(k) * heaviest_kg_;
@@ -102,6 +123,16 @@ class VisitSearch {
       result.duration_s[k] = score.duration_s;
     }
     return result;
+  }
+
+  /// By the lattice alone: energies of the table need percents, and there are many pairs.
+  RouteResult quick_route(const RouteRequest& request) const {
+    const RouteSpace& space = *context_.space;
+    if (auto verdict = no_way(space, request)) return {.verdict = std::move(*verdict)};
+    if (is_there_already(request)) return shape_route(space, request, {});
+    const auto routes = pool_routes(space, request, {.classes = 1, .searches = 0});
+    return routes.empty() ? plan_route(space, request)
+                          : shape_route(space, request, routes.front().polyline_m);
   }
 
   /// A drop waits for the picks listed before it.
@@ -125,7 +156,9 @@ class VisitSearch {
     if (visit.window_s) {
       waiting_s = std::max(0.0, visit.window_s->first - after.time_s);
       after.time_s += waiting_s;
-      if (after.time_s > visit.window_s->second) return std::nullopt;
+      const double late_s = after.time_s - visit.window_s->second;
+      if (late_s > 0 && relaxed_.window != next) return std::nullopt;
+      after.late_s = std::max(after.late_s, late_s);
     }
     after.time_s += visit.dwell_s;
     const double price_W = std::isfinite(context_.price_W) ? context_.price_W : 1e6;
@@ -134,7 +167,9 @@ class VisitSearch {
     if (visit.kind == VisitRequest::Kind::pick) after.payload_kg += visit.payload_kg;
     if (visit.kind == VisitRequest::Kind::drop)
       after.payload_kg = visit.payload_given ? after.payload_kg - visit.payload_kg : 0.0;
-    if (after.payload_kg > capacity_kg_ + 1e-9 || after.payload_kg < -1e-9) return std::nullopt;
+    const bool too_heavy = after.payload_kg > capacity_kg_ + 1e-9 && !relaxed_.capacity;
+    if (too_heavy || after.payload_kg < -1e-9) return std::nullopt;
+    after.heaviest_kg = std::max(after.heaviest_kg, after.payload_kg);
     after.payload_kg = std::max(0.0, after.payload_kg);
     after.visited |= std::uint64_t{1} << next;
     after.last = next;
@@ -177,20 +212,65 @@ class VisitSearch {
   double capacity_kg_{};
   double heaviest_kg_{};
   std::vector<LegCost> table_{};
+  Relaxed relaxed_{};
 };
 
-Infeasibility no_order(const MissionRequest& mission, std::optional<std::size_t> unreachable) {
-  const std::string station = mission.visit[unreachable.value_or(0)].station;
-  const Station& place = mission.stations.at(station);
-  return {
-      .constraint = unreachable ? "path" : "visit_order",
-      .x_m = place.x_m,
-      .y_m = place.y_m,
-      .unit = unreachable ? "m" : "",
-      .message =
-          unreachable
-              ? "'" + station + "' cannot be reached"
-              : "no order of the stops keeps every time window, the capacity and picks before their drops"};
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", value);
+  return text;
+}
+
+/// The verdict of a stop that stands in the way.
+Infeasibility at_stop(const MissionRequest& mission, std::size_t visit, std::string constraint) {
+  const Station& place = mission.stations.at(mission.visit[visit].station);
+  return {.constraint = std::move(constraint), .x_m = place.x_m, .y_m = place.y_m};
+}
+
+Infeasibility window_missed(const MissionRequest& mission, std::size_t visit, double late_s) {
+  const auto& [earliest_s, latest_s] = *mission.visit[visit].window_s;
+  Infeasibility reason = at_stop(mission, visit, "visit_order");
+  reason.amount = late_s;
+  reason.unit = "s";
+  reason.relaxation = {{"window_s", latest_s + late_s}};
+  reason.message = "no order of the stops reaches '" + mission.visit[visit].station + "' (visit[" +
+                   std::to_string(visit) + "]) within its window of " + seconds(earliest_s) + " to " +
+                   seconds(latest_s) + "; the best arrives " + seconds(late_s) + " too late";
+  return reason;
+}
+
+Infeasibility too_heavy(const MissionRequest& mission, double heaviest_kg, double capacity_kg) {
+  Infeasibility reason = at_stop(mission, 0, "visit_order");
+  reason.amount = heaviest_kg - capacity_kg;
+  reason.unit = "kg";
+  reason.relaxation = {{"max_payload_kg", heaviest_kg}};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "in every order the robot carries %.6g kg at once, more than max_payload_kg = %.6g",
+                heaviest_kg, capacity_kg);
+  reason.message = text;
+  return reason;
+}
+
+/// Why there is no order: the first thing without which there would be one.
+Infeasibility no_order(const MissionRequest& mission, VisitSearch& search) {
+  if (const auto stop = search.unreachable()) {
+    Infeasibility reason = at_stop(mission, *stop, "path");
+    reason.unit = "m";
+    reason.message = "'" + mission.visit[*stop].station + "' cannot be reached";
+    return reason;
+  }
+  for (std::size_t k = 0; k < mission.visit.size(); ++k)
+    if (mission.visit[k].window_s)
+      if (const auto label = search.best({.window = k})) return window_missed(mission, k, label->late_s);
+  if (const auto label = search.best({.capacity = true}))
+    return too_heavy(mission, label->heaviest_kg, search.capacity_kg());
+  Infeasibility reason = at_stop(mission, 0, "visit_order");
+  reason.message =
+      "no order of the stops keeps the time windows, the capacity and picks before their drops: more than "
+      "one "
+      "of them stands in the way";
+  return reason;
 }
 
 }  // namespace
@@ -201,11 +281,12 @@ VisitOrder order_visits(const ChoiceContext& context) {
   VisitOrder result{.exact = mission.visit.size() <= kExactStops};
   const std::optional<Label> best = search.best();
   if (!best) {
-    result.infeasibility = no_order(mission, search.unreachable());
+    result.infeasibility = no_order(mission, search);
     return result;
   }
   result.order = best->order;
   result.energy_J = best->cost_J;
+  result.given_order_J = search.given_order_J();
   result.lower_bound_J = search.lower_bound_J();
   double payload_kg = 0.0;
   for (const std::size_t k : best->order) {

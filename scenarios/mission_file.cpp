@@ -122,6 +122,22 @@ std::vector<SpeedZone> read_speed_zones(const Node& node, std::size_t legs) {
   return zones;
 }
 
+ChargingRequest read_charging(const Node& node, const std::map<std::string, Station>& stations) {
+  ChargingRequest charging{.to_fraction = node.number_or("to_fraction", 0.8), .marks = marks_of(node)};
+  if (const auto names = node.find("stations")) {
+    for (const auto& name : names->items()) {
+      charging.stations.push_back(station_named(name, stations));
+      if (stations.at(charging.stations.back()).charger_W <= 0)
+        name.fail("a station with charger_W", "how many watts does the charger there give?");
+    }
+    return charging;
+  }
+  for (const auto& [name, station] : stations)
+    if (station.charger_W > 0) charging.stations.push_back(name);
+  if (charging.stations.empty()) node.fail_found("no station with charger_W", "at least one");
+  return charging;
+}
+
 Objective read_objective(const Node& node) {
   const std::string word = node.text_or("minimize", "energy");
   Objective objective{.deadline_s = node.optional_number("deadline_s"),
@@ -207,6 +223,8 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
     for (SpeedZone& zone : read_speed_zones(*zones, mission.legs.size()))
       mission.speed_zones.push_back(std::move(zone));
   if (const auto objective = root.find("objective")) mission.objective = read_objective(*objective);
+  if (const auto charging = root.find("charging"))
+    mission.charging = read_charging(*charging, mission.stations);
   check_consistency(root, mission);
   return mission;
 }

@@ -42,7 +42,7 @@ Schema visit_schema() {
 Schema stations_schema() {
   return dictionary(map({required("x_m", number()), required("y_m", number()),
                          optional("heading_rad", number(), "absent: any heading will do"),
-                         optional("charger_W", number(kNotNegative))}));
+                         optional("charger_W", number(kNotNegative), "power of a charger here")}));
 }
 
 Schema start_schema() {
@@ -61,6 +61,11 @@ Schema speed_mask_schema() {
   return map({required("file", text()),
               optional("kind", choice({"percent", "absolute"}), "of the robot's limit, or m/s"),
               optional("base", number(), "default 100"), optional("multiplier", number(), "default -1")});
+}
+
+Schema charging_schema() {
+  return map({optional("stations", list(text(), 1), "where to charge; default: all with charger_W"),
+              optional("to_fraction", number(kFraction), "state of charge to leave with; default 0.8")});
 }
 
 Schema objective_schema() {
@@ -90,6 +95,8 @@ Schema mission_schema() {
                 "with an order: kg that an action loads; `drop` unloads its figure, or all"),
        optional("dwell_by_action_s", dictionary(number(kNotNegative)),
                 "with an order: how long an action takes; its own parameter `duration` comes first"),
+       optional("charging", charging_schema(),
+                "allows stops at chargers, put in where the battery's reserve would be touched"),
        optional("objective", objective_schema())});
 }
 

@@ -38,6 +38,8 @@ Schema improvements_schema() {
 Schema leg_schema() {
   return open(
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
+           optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
+           optional("charged_J", result(), "at the charger of a stop that was put in"),
            required("duration_s", result(), "without dwell"), required("distance_m", result()),
            required("payload_kg",
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
@@ -97,6 +99,7 @@ Schema plan_schema() {
   return open(
       map({required("schema", text()), required("status", plan_status()),
            optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
+           optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
            optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
            optional("duration_s", result()), optional("distance_m", result()),

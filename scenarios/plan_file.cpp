@@ -16,6 +16,11 @@ constexpr double kJoulesPerWh = 3600.0;
 /// JSON has no infinity: what is not finite is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Two-sided 95 % of a normal distribution.
+Json interval_95_J(double energy_J, double sigma_J) {
+  return {energy_J - 1.959964 * sigma_J, energy_J + 1.959964 * sigma_J};
+}
+
 Json cause_json(const EnergyByCause& energy) {
   // What is left of a sum that is zero by physics (kinetic energy from rest to rest) is written as zero.
   const double noise_J = 1e-9 * std::max(1.0, std::abs(energy.total_J()));
@@ -104,6 +109,7 @@ Json leg_json(const LegPlan& leg) {
   Json json{{"to", leg.to},
             {"status", solve_status_name(leg.status)},
             {"energy_J", leg.energy.total_J()},
+            {"energy_interval_95_J", interval_95_J(leg.energy.total_J(), leg.energy_sigma_J)},
             {"motion_energy_J", leg.energy.motion_J()},
             {"start_s", leg.start_s},
             {"duration_s", leg.duration_s},
@@ -118,6 +124,7 @@ Json leg_json(const LegPlan& leg) {
             {"alternatives", Json::array()},
             {"improvements", Json::array()},
             {"baselines", Json::array()}};
+  if (leg.charger_W > 0) json["charged_J"] = leg.charged_J;
   for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
   for (const PathAlternative& alternative : leg.alternatives)
     json["alternatives"].push_back(alternative_json(alternative));
@@ -132,6 +139,7 @@ Json battery_json(const BatteryAccount& battery) {
   Json json{{"start_fraction", battery.start_fraction},
             {"end_fraction", battery.end_fraction},
             {"interval_95", battery.interval_95},
+            {"charged_J", battery.charged_J},
             {"required_capacity_Wh", battery.required_capacity_Wh},
             {"missions_per_charge", battery.missions_per_charge},
             {"lowest_voltage_V", number(battery.lowest_voltage_V)},
@@ -157,6 +165,7 @@ void add_results(const Plan& plan, Json& json) {
   json["motion_energy_J"] = plan.energy.motion_J();
   json["energy_Wh"] = plan.energy.total_J() / kJoulesPerWh;
   json["energy_sigma_J"] = plan.energy_sigma_J;
+  json["energy_interval_95_J"] = interval_95_J(plan.energy.total_J(), plan.energy_sigma_J);
   json["battery_loss_J"] = plan.battery ? plan.battery->loss_J : 0.0;
   json["duration_s"] = plan.duration_s;
   json["distance_m"] = plan.distance_m;
@@ -172,6 +181,7 @@ void add_results(const Plan& plan, Json& json) {
     json["visit"] = {{"order", plan.visit->order},
                      {"exact", plan.visit->exact},
                      {"estimated_energy_J", plan.visit->energy_J},
+                     {"given_order_J", number(plan.visit->given_order_J.value_or(kNoLimit))},
                      {"lower_bound_J", plan.visit->lower_bound_J}};
   json["legs"] = Json::array();
   for (const LegPlan& leg : plan.legs) json["legs"].push_back(leg_json(leg));

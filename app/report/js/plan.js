@@ -103,10 +103,22 @@ jp.legs_section = function (plan) {
   const legs = plan.legs || [];
   if (!legs.length) return null;
   const payload = (value) => (value && typeof value === "object" ? `${jp.number(value.from)} to ${jp.number(value.to)}` : jp.number(value));
-  const ways = legs.flatMap((leg, k) => (leg.alternatives || []).map((way) => [jp.leg_name(leg, k), jp.words(way.name) + (way.chosen ? " (chosen)" : ""), {n: jp.number(way.energy_J, 5)}, {n: jp.number(way.duration_s)}, {n: jp.number(way.distance_m)}]));
-  return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "time s"}, {n: "energy J"}, {n: "a second is worth W"}],
-    legs.map((leg, k) => [jp.leg_name(leg, k), jp.words(leg.status), {n: payload(leg.payload_kg)}, {n: jp.number(leg.distance_m)}, {n: jp.number(leg.duration_s)}, {n: jp.number(leg.energy_J, 5)}, {n: jp.number(leg.price_of_time_W, 3)}])),
-    ways.length ? jp.h("details", {}, jp.h("summary", {}, "Ways that were weighed"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], ways)) : null);
+  const weighed = legs.flatMap((leg, k) => (leg.alternatives || []).map((way) => [jp.leg_name(leg, k), jp.words(way.name) + (way.chosen ? " (chosen)" : ""), {n: jp.number(way.energy_J, 5)}, {n: jp.number(way.duration_s)}, {n: jp.number(way.distance_m)}]));
+  const band = (ends) => (ends && jp.is_number(ends[0]) && ends[1] > ends[0] ? `${jp.number(ends[0], 5)} to ${jp.number(ends[1], 5)}` : "");
+  return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "time s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "a second is worth W"}],
+    legs.map((leg, k) => [jp.leg_name(leg, k), jp.words(leg.status), {n: payload(leg.payload_kg)}, {n: jp.number(leg.distance_m)}, {n: jp.number(leg.duration_s)}, {n: jp.number(leg.energy_J, 5)}, {n: band(leg.energy_interval_95_J)}, {n: jp.number(leg.price_of_time_W, 3)}])),
+    weighed.length ? jp.h("details", {}, jp.h("summary", {}, "Ways that were weighed"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
+};
+
+/* The mission after each step of choosing its ways: sums over the legs, at their prices of a second. */
+jp.ways_section = function (plan) {
+  const legs = (plan.legs || []).filter((leg) => (leg.improvements || []).length);
+  if (!legs.length) return null;
+  const says = {shortest_route: "shortest route, stop, turn, go", corners: "arcs at corners", routes: "route by energy", stops: "arcs at stops", refinement: "control points moved"};
+  const sum = (step, key) => legs.reduce((all, leg) => all + ((leg.improvements.find((one) => one.step === step) || {})[key] || 0), 0);
+  const steps = legs[0].improvements.map((one) => one.step);
+  return jp.section("Choice of ways", jp.table(["after", {n: "energy J"}, {n: "time s"}, {n: "energy and time at its price J"}],
+    steps.map((step) => [says[step] || jp.words(step), {n: jp.number(sum(step, "energy_J"), 5)}, {n: jp.number(sum(step, "duration_s"))}, {n: jp.number(sum(step, "cost_J"), 5)}])));
 };
 
 jp.battery_section = function (plan) {
@@ -119,6 +131,7 @@ jp.battery_section = function (plan) {
     jp.h("p", {}, [interval ? `95 % interval of the end: ${jp.fraction(interval[0], 5)} to ${jp.fraction(interval[1], 5)}. ` : "",
       jp.is_number(battery.required_capacity_Wh) ? `Capacity needed: ${jp.with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
       jp.is_number(battery.missions_per_charge) ? `Missions per charge: ${jp.short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
+      battery.charged_J > 0 ? `Charged on the way: ${jp.with_unit(battery.charged_J, "J")}. ` : "",
       jp.is_number(plan.battery_loss_J) ? `Lost inside of the battery: ${jp.with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
 };
 
@@ -188,6 +201,6 @@ jp.draw_plan = function (data) {
   let failed_map = null;
   if (!motion && data.map) failed_map = jp.floor_map({grid: data.map, marks: jp.station_marks(data, {}, []), whole: true, label: "Map with the place of the problem"});
   jp.page(jp.header(data.title || "Plan", data.subtitle || "Energy-optimal plan", plan.status, good), jp.infeasibility_box(plan), good ? jp.plan_tiles(plan) : null,
-    motion ? motion.section : null, failed_map ? failed_map.element : null, jp.energy_section(plan), jp.baseline_section(plan), jp.legs_section(plan), jp.battery_section(plan), jp.trust_section(plan));
+    motion ? motion.section : null, failed_map ? failed_map.element : null, jp.energy_section(plan), jp.baseline_section(plan), jp.legs_section(plan), jp.ways_section(plan), jp.battery_section(plan), jp.trust_section(plan));
   if (motion) motion.ready();
 };

@@ -1,0 +1,190 @@
+#include "benchmarks/missions/case.hpp"
+
+#include <cmath>
+#include <ctime>
+
+#include "planner/baselines/baseline.hpp"
+#include "planner/plan_trajectory.hpp"
+
+namespace joulepath::bench {
+namespace {
+
+constexpr double kDwell_s = 5.0;
+constexpr double kEulerStep_s = 0.5;
+constexpr WaySteps kPlain{.corners = false, .routes = false, .stops = false, .refinement = false};
+
+bool drives(const Plan& plan) {
+  return plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
+}
+
+/// mass |a| v + rolling force v in half-second Euler steps; the rolling force is the robot's own friction.
+double simple_fleet_model_J(const Trajectory& motion, const Robot& robot) {
+  const double mass_kg = robot.inertia.chassis_mass_kg + 2 * robot.inertia.wheel_mass_kg;
+  const double force_N = robot.motor.left.friction_torque_Nm / robot.geometry.wheel_radius_m.left +
+                         robot.motor.right.friction_torque_Nm / robot.geometry.wheel_radius_m.right;
+  double sum_J = 0.0, due_s = 0.0;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    if (motion.time_s[k] < due_s - 1e-9) continue;
+    due_s += kEulerStep_s;
+    const double force =
+        (mass_kg + motion.payload_kg[k]) * std::abs(motion.linear_acceleration_m_s2[k]) + force_N;
+    sum_J += kEulerStep_s * force * std::abs(motion.linear_speed_m_s[k]);
+  }
+  return sum_J;
+}
+
+/// Plans one mission in several ways.
+class CasePlanner {
+ public:
+  CasePlanner(const Floor& floor, std::mt19937& random) : floor_(floor) {
+    base_.name = "random";
+    base_.stations["dock"] = random_place(floor, random, nullptr);
+    const Station& dock = base_.stations["dock"];
+    base_.start = {.station = "dock", .pose = {dock.x_m, dock.y_m, 0.0}, .heading_given = false};
+    std::uniform_int_distribution<int> payload_kg(1, 4);
+    for (int k = 1; k <= 3; ++k) {
+      const std::string name = "stop_" + std::to_string(k);
+      base_.stations[name] = random_place(floor, random, &dock);
+      visit_.push_back({.kind = VisitRequest::Kind::pick,
+                        .station = name,
+                        .payload_kg = static_cast<double>(payload_kg(random)),
+                        .payload_given = true,
+                        .dwell_s = kDwell_s});
+    }
+    visit_.push_back({.kind = VisitRequest::Kind::drop, .station = "dock"});
+  }
+
+  std::optional<Case> run() {
+    const std::vector<LegRequest> given = legs_in({0, 1, 2, 3});
+    const std::optional<Plan> reference = split_by_length(given);
+    if (!reference) return std::nullopt;
+    total_s_ = reference->duration_s;
+    const std::optional<Joules> trapezoid = trapezoid_joules(*reference);
+    if (!trapezoid) return std::nullopt;
+    result_.joules = {{"reference", *trapezoid}, {"profile", joules(*reference)}};
+
+    MissionRequest visits = base_;
+    visits.visit = visit_;
+    const double begin_s = cpu_s();
+    const std::optional<Plan> together = in_time(visits, {});
+    if (!together) return std::nullopt;
+    result_.together_cpu_s = cpu_s() - begin_s;
+    result_.joules["together"] = joules(*together);
+    result_.order_changed = together->visit->order != std::vector<std::size_t>{0, 1, 2, 3};
+    compare_fleet_model(*together);
+
+    const bool all = add("time", with(given), kPlain) &&
+                     add("arcs", with(given), {.routes = false, .refinement = false}) &&
+                     add("routes", with(given), {.corners = false, .stops = false, .refinement = false}) &&
+                     add("refinement", with(given), {.routes = false}) &&
+                     add("order", with(legs_in(together->visit->order)), kPlain);
+    return all ? std::optional(result_) : std::nullopt;
+  }
+
+ private:
+  /// The visits as legs in an order, payload growing from pick to pick.
+  std::vector<LegRequest> legs_in(const std::vector<std::size_t>& order) const {
+    std::vector<LegRequest> legs;
+    double payload_kg = 0.0;
+    for (const std::size_t k : order) {
+      legs.push_back(
+          {.to = visit_[k].station, .payload = {payload_kg, payload_kg}, .dwell_s = visit_[k].dwell_s});
+      payload_kg += visit_[k].payload_kg;
+    }
+    return legs;
+  }
+  MissionRequest with(const std::vector<LegRequest>& legs) const {
+    MissionRequest mission = base_;
+    mission.legs = legs;
+    return mission;
+  }
+  std::optional<Plan> plan(const MissionRequest& mission, const WaySteps& steps) const {
+    const PlanOptions options{.solver = SolverChoice::fast, .steps = steps, .baselines = false};
+    Plan plan = plan_mission(mission, floor_.world, options, &floor_.space);
+    return drives(plan) ? std::optional(std::move(plan)) : std::nullopt;
+  }
+  std::optional<Plan> in_time(MissionRequest mission, const WaySteps& steps) const {
+    mission.objective.deadline_s = total_s_ * (1 + 1e-9);
+    return plan(mission, steps);
+  }
+  bool add(const std::string& name, const MissionRequest& mission, const WaySteps& steps) {
+    const std::optional<Plan> planned = in_time(mission, steps);
+    if (planned) result_.joules[name] = joules(*planned);
+    return planned.has_value();
+  }
+
+  /// The plain mission with its time split over the legs by length: as much as it takes by itself, more where
+  /// a leg needs it.
+  std::optional<Plan> split_by_length(std::vector<LegRequest> legs) const {
+    const std::optional<Plan> free = plan(with(legs), kPlain);
+    if (!free) return std::nullopt;
+    double driving_s = 0.0;
+    for (const LegPlan& leg : free->legs) driving_s += leg.duration_s;
+    for (const double factor : {1.0, 1.1, 1.2, 1.35, 1.5, 2.0}) {
+      for (std::size_t k = 0; k < legs.size(); ++k)
+        legs[k].duration_s = factor * driving_s * free->legs[k].distance_m / free->distance_m;
+      if (auto planned = plan(with(legs), kPlain)) return planned;
+    }
+    return std::nullopt;
+  }
+
+  Joules joules(const Plan& plan) const {
+    const double waiting_s = std::max(0.0, total_s_ - plan.duration_s);
+    return {plan.energy.total_J() + floor_.world.robot.power.standby_W * waiting_s, plan.energy.motion_J()};
+  }
+  std::optional<Joules> trapezoid_joules(const Plan& plan) const {
+    Joules sum;
+    for (const LegPlan& leg : plan.legs) {
+      sum.with_standby += floor_.world.robot.power.standby_W * leg.dwell_s;
+      for (const StretchPlan& stretch : leg.stretches) {
+        const BaselineResult result =
+            trapezoid_max_acceleration(stretch.request, stretch.profile.duration_s());
+        if (!result.feasible) return std::nullopt;
+        sum.with_standby += result.energy_J;
+        sum.motion += result.motion_energy_J;
+      }
+    }
+    return sum;
+  }
+  void compare_fleet_model(const Plan& plan) {
+    const Robot& robot = floor_.world.robot;
+    const double simple_J = simple_fleet_model_J(plan_trajectory(plan, make_plant(robot)), robot);
+    const double motion_J = plan.energy.motion_J();
+    result_.fleet_motion_percent = 100 * (simple_J / motion_J - 1);
+    result_.fleet_percent = 100 * (simple_J - motion_J) / plan.energy.total_J();
+  }
+
+  const Floor& floor_;
+  MissionRequest base_{};
+  std::vector<VisitRequest> visit_{};
+  double total_s_{};
+  Case result_{};
+};
+
+}  // namespace
+
+double cpu_s() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+Station random_place(const Floor& floor, std::mt19937& random, const Station* other) {
+  std::uniform_real_distribution<double> x(floor.box.x_min_m, floor.box.x_max_m),
+      y(floor.box.y_min_m, floor.box.y_max_m);
+  for (;;) {
+    const Station place{.x_m = x(random), .y_m = y(random)};
+    RouteRequest request;
+    request.start = {place.x_m, place.y_m, 0.0};
+    request.start_heading_free = true;
+    request.goal_x_m = other ? other->x_m : place.x_m;
+    request.goal_y_m = other ? other->y_m : place.y_m;
+    if (!no_way(floor.space, request)) return place;
+  }
+}
+
+std::optional<Case> random_case(const Floor& floor, std::mt19937& random) {
+  return CasePlanner(floor, random).run();
+}
+
+}  // namespace joulepath::bench

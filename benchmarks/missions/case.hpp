@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <random>
+#include <string>
+
+#include "planner/mission.hpp"
+
+namespace joulepath::bench {
+
+/// A floor that missions are drawn on, prepared once.
+struct Floor {
+  std::string name{};
+  MissionWorld world{};
+  RouteSpace space;
+  ObstacleField::Extent box{};  ///< that stations are drawn from
+};
+
+/// Joules of one plan in the case's total time; waiting at the end counts as standby.
+struct Joules {
+  double with_standby{};
+  double motion{};
+};
+
+/// One mission planned step by step, every plan in the same total time.
+struct Case {
+  std::map<std::string, Joules> joules{};  ///< by plan: reference, profile, time, arcs, ...
+  bool order_changed{};
+  double fleet_motion_percent{};  ///< error of the simple fleet model: of the motion's energy
+  double fleet_percent{};         ///< of the energy with standby
+  double together_cpu_s{};
+};
+
+[[nodiscard]] double cpu_s();
+
+/// A place on the floor where the robot fits and from which `other` can be reached.
+[[nodiscard]] Station random_place(const Floor& floor, std::mt19937& random, const Station* other);
+
+/// Three picks and a drop at random places; nothing where one of its plans cannot be driven.
+[[nodiscard]] std::optional<Case> random_case(const Floor& floor, std::mt19937& random);
+
+}  // namespace joulepath::bench

@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/mission.hpp"
+#include "planner/ways/way_chain.hpp"
+#include "tests/planner/path/grids.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A floor of 24 m x 24 m with walls around and a rack in the middle.
+OccupancyGrid floor_with_rack() {
+  OccupancyGrid grid = free_grid(240, 240, 0.1);
+  const auto fill = [&](int column0, int row0, int column1, int row1) {
+    for (int row = row0; row < row1; ++row)
+      for (int column = column0; column < column1; ++column)
+        grid.occupancy_percent[static_cast<std::size_t>(row * 240 + column)] = 100;
+  };
+  fill(0, 0, 240, 1);
+  fill(0, 239, 240, 240);
+  fill(0, 0, 1, 240);
+  fill(239, 0, 240, 240);
+  fill(80, 60, 160, 100);
+  return grid;
+}
+
+/// Round the rack by three stops; only the dock names a heading.
+MissionRequest round_of_three() {
+  MissionRequest mission{.name = "round", .clearance_m = 0.05};
+  mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0, .charger_W = 200}},
+                      {"east", {.x_m = 20, .y_m = 6}},
+                      {"north", {.x_m = 10, .y_m = 18}}};
+  mission.start = {.station = "dock", .pose = {2, 2, 0}};
+  mission.legs = {{.to = "east"}, {.to = "north", .payload = {5, 5}}, {.to = "dock", .payload = {5, 5}}};
+  return mission;
+}
+
+Plan plan_of(const MissionRequest& mission, const PlanOptions& options,
+             const Robot& robot = testing::nomad()) {
+  return plan_mission(mission, {.robot = robot, .map = floor_with_rack()}, options);
+}
+
+const PlanOptions kQuick{.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3, .baselines = false};
+
+TEST(Ways, TheChosenWayIsTheCheapestOfAllThatWereScored) {
+  PlanOptions options = kQuick;
+  options.steps.refinement = false;
+  const Plan plan = plan_of(round_of_three(), options);
+  ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
+  for (const LegPlan& leg : plan.legs) {
+    ASSERT_FALSE(leg.alternatives.empty());
+    const auto chosen = std::find_if(leg.alternatives.begin(), leg.alternatives.end(),
+                                     [](const PathAlternative& a) { return a.chosen; });
+    ASSERT_NE(chosen, leg.alternatives.end());
+    for (const PathAlternative& other : leg.alternatives)
+      EXPECT_LE(chosen->energy_J, other.energy_J * (1 + 1e-12)) << other.name;
+  }
+}
+
+TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
+  const Plan plan = plan_of(round_of_three(), kQuick);
+  ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
+  std::vector<double> cost_J(5, 0.0);
+  for (const LegPlan& leg : plan.legs) {
+    ASSERT_EQ(leg.improvements.size(), cost_J.size());
+    for (std::size_t i = 0; i < cost_J.size(); ++i) cost_J[i] += leg.improvements[i].cost_J;
+  }
+  for (std::size_t i = 1; i < cost_J.size(); ++i) EXPECT_LE(cost_J[i], cost_J[i - 1] * (1 + 1e-12)) << i;
+  EXPECT_LT(cost_J.back(), 0.98 * cost_J.front());
+  // No deadline: a second has no price beside standby, so the last step's cost is the plan's energy.
+  EXPECT_NEAR(plan.energy.total_J(), cost_J.back(), 0.01 * cost_J.back());
+}
+
+TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
+  PlanOptions turning = kQuick;
+  turning.steps.stops = false;
+  const Plan turned = plan_of(round_of_three(), turning), bent = plan_of(round_of_three(), kQuick);
+  double turned_rad = 0.0, bent_rad = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    turned_rad += turned.legs[k].turned_rad, bent_rad += bent.legs[k].turned_rad;
+  EXPECT_LT(bent_rad, turned_rad);
+  EXPECT_LT(bent.energy.total_J(), turned.energy.total_J());
+  const PathPiece& last = bent.legs.back().stretches.back().request.piece;
+  EXPECT_NEAR(wrapped_angle_rad(piece_point(last, piece_length(last)).pose.heading_rad), 0.0, 1e-9);
+}
+
+TEST(Ways, TheSameSeedGivesTheSamePlanAndAnotherSeedNearlyThatEnergy) {
+  PlanOptions other = kQuick;
+  other.seed = 7;
+  const double energy_J = plan_of(round_of_three(), kQuick).energy.total_J();
+  EXPECT_EQ(plan_of(round_of_three(), kQuick).energy.total_J(), energy_J);
+  EXPECT_NEAR(plan_of(round_of_three(), other).energy.total_J(), energy_J, 0.005 * energy_J);
+}
+
+TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
+  const Robot robot = testing::nomad();
+  const Plant plant = make_plant(robot);
+  const MissionRequest mission = round_of_three();
+  const MissionWorld world{.robot = robot};
+  const ChoiceContext context{mission, world, nullptr, plant, kQuick, 2.0};
+  TurnScores turns(context);
+  std::vector<std::vector<Way>> ways(3);
+  for (std::size_t leg = 0; leg < 3; ++leg)
+    for (std::size_t k = 0; k < 3; ++k)
+      ways[leg].push_back({.leaves_rad = 1.1 * static_cast<double>(k) - 0.3 * static_cast<double>(leg),
+                           .arrives_rad = 2.0 - 0.9 * static_cast<double>(k * leg),
+                           .score = {50.0 + 4.0 * static_cast<double>(k), 20.0, true}});
+  ChainRequest request{.start = {0, 0, 0}};
+  for (std::size_t leg = 0; leg < 3; ++leg)
+    request.legs.push_back(
+        {.ways = &ways[leg], .price_W = 2.0, .goal_payload_kg = 5.0 * (leg == 1), .turns = &turns});
+  request.legs.back().goal_heading_rad = 0.5;
+  const auto cost_J = [&](const std::vector<ChainChoice>& chain) {
+    double sum_J = 0.0;
+    for (const ChainChoice& choice : chain) sum_J += choice.score.cost_J(2.0);
+    return sum_J;
+  };
+  const auto any = [](std::size_t, const Way&) { return true; };
+  const double best_J = cost_J(cheapest_chain(request, any));
+  double least_J = kNoLimit;
+  for (std::size_t code = 0; code < 27; ++code) {
+    const auto only = [&](std::size_t leg, const Way& way) {
+      const std::size_t digit = leg == 0 ? code % 3 : leg == 1 ? code / 3 % 3 : code / 9;
+      return &way == &ways[leg][digit];
+    };
+    least_J = std::min(least_J, cost_J(cheapest_chain(request, only)));
+  }
+  EXPECT_NEAR(best_J, least_J, 1e-9 * least_J);
+}
+
+TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
+  MissionRequest mission = round_of_three();
+  mission.legs.push_back({.to = "east"});
+  mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
+  Robot robot = testing::nomad();
+  robot.battery.capacity_Wh = 1.0;
+  mission.start.battery_fraction = 1.0;
+  const Plan enough = plan_of(mission, kQuick, robot);
+  ASSERT_FALSE(enough.infeasibility) << enough.message;
+  EXPECT_EQ(enough.legs.size(), 4u);
+  robot.battery.capacity_Wh = 0.38;
+  const Plan charged = plan_of(mission, kQuick, robot);
+  ASSERT_FALSE(charged.infeasibility) << charged.message;
+  ASSERT_EQ(charged.legs.size(), 5u);
+  EXPECT_GT(charged.battery->charged_J, 0.0);
+  double drawn_J = 0.0;
+  for (const LegPlan& leg : charged.legs) {
+    EXPECT_EQ(leg.charger_W > 0, leg.charged_J > 0);
+    drawn_J += leg.energy.total_J() - (leg.charger_W > 0 ? robot.power.standby_W * leg.dwell_s : 0.0);
+  }
+  for (const double fraction : charged.battery->fraction_after_leg)
+    EXPECT_GE(fraction, robot.battery.reserve_fraction);
+  // What is left is what was there, less what was drawn and lost, plus what was taken up (its own loss
+  // aside).
+  const double balance =
+      1.0 - (drawn_J + charged.battery->loss_J - charged.battery->charged_J) / (0.38 * 3600);
+  EXPECT_NEAR(charged.battery->end_fraction, balance, 0.02);
+  mission.charging.reset();
+  EXPECT_EQ(plan_of(mission, kQuick, robot).infeasibility->reason.constraint, "battery_reserve");
+}
+
+TEST(EnergyBand, LegsErrTogetherAndNoUncertaintyMeansNoBand) {
+  Robot robot = testing::nomad();
+  EXPECT_EQ(plan_of(round_of_three(), kQuick, robot).energy_sigma_J, 0.0);
+  robot.uncertainty["standby_W"] = 0.1;
+  const Plan plan = plan_of(round_of_three(), kQuick, robot);
+  EXPECT_NEAR(plan.energy_sigma_J, 0.1 * robot.power.standby_W * plan.duration_s, 1e-6 * plan.energy_sigma_J);
+  double sum_J = 0.0;
+  for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J;
+  EXPECT_NEAR(sum_J, plan.energy_sigma_J, 1e-9 * sum_J);
+}
+
+TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
+  MissionRequest mission = round_of_three();
+  mission.stations["east"].x_m = 25.0;
+  const Plan plan = plan_of(mission, kQuick);
+  ASSERT_TRUE(plan.infeasibility);
+  EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
+  EXPECT_NE(plan.message.find("outside of the map"), std::string::npos) << plan.message;
+}
+
+}  // namespace
+}  // namespace joulepath
