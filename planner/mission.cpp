@@ -67,8 +67,8 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
   std::vector<double> price_W(mission.legs.size(), floor_W);
   TimedDraft timed;
   const MissionWays ways(mission, world, space, plant, options);
-  const auto choose = [&](bool refine) {
-    timed.draft = draft_legs(mission, world, plant, options, ways.choose(price_W, refine), plan);
+  const auto choose = [&](bool quick) {
+    timed.draft = draft_legs(mission, world, plant, options, ways.choose(price_W, quick), plan);
     return plan.status == SolveStatus::optimal;
   };
   const auto share = [&](bool roughly) {
@@ -78,13 +78,12 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
     return true;
   };
   for (int round = 0; space && round < kRounds; ++round) {
-    if (!choose(false) || !share(true)) return timed;
+    if (!choose(true) || !share(true)) return timed;
     const bool settled = !moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
     if (settled) break;
   }
-  if ((!space || options.steps.refinement) && !choose(true)) return timed;
-  share(false);
+  if (choose(false)) share(false);
   return timed;
 }
 

@@ -139,8 +139,10 @@ class ProfileSolver {
     return false;
   }
 
+  /// The objective stands where a plan has its lower bound.
   ProfileResult sketch() {
     result_.summary.status = SolveStatus::feasible;
+    result_.summary.lower_bound_J = solution_.objective;
     result_.profile = std::move(best_);
     return std::move(result_);
   }

@@ -96,8 +96,9 @@ int main(int argc, char** argv) {
       "The plain reference drives the shortest route with stop, turn, go, a trapezoid at maximum "
       "acceleration, time split over "
       "the legs by length, stops in the order drawn. All plans of a mission take the same total time, that "
-      "of the reference; who "
-      "is done earlier waits at 10 W. Steps are taken alone, all but the first with energy-optimal profiles: "
+      "of the reference: "
+      "standby is the same for each and left out of the choices. Steps are taken alone, all but the first "
+      "with energy-optimal profiles: "
       "the time split on "
       "the plain mission, the others on the plain mission with its time split, control points after turn or "
       "arc. Figures are "
@@ -123,7 +124,7 @@ int main(int argc, char** argv) {
   spread_of(&Case::fleet_percent, 1);
   std::printf(
       " %% of the energy with standby.\n\n## Speed\n\nCPU time of one thread, floors prepared before, fast "
-      "solver.\n\n- A mission of the table with its order of four stops: ");
+      "solver.\n\n- A mission of the table, four legs under a deadline: ");
   spread_of(&Case::together_cpu_s, 2);
   std::vector<double> ten_s;
   for (int k = 0; k < 5; ++k) ten_s.push_back(ten_legs_s(all.back(), random));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "planner/path/polyline.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -113,25 +115,39 @@ void add_bent(const WayMaker& maker, const Way& natural, const std::vector<doubl
 
 }  // namespace
 
+std::size_t shortest_route(const LegRoutes& routes) {
+  const auto shortest = std::min_element(
+      routes.routes.begin(), routes.routes.end(), [](const PooledRoute& a, const PooledRoute& b) {
+        return polyline_length_m(a.polyline_m) < polyline_length_m(b.polyline_m);
+      });
+  return static_cast<std::size_t>(shortest - routes.routes.begin());
+}
+
 std::vector<Way> natural_ways(const LegRoutes& routes, const LegRequest& leg, std::size_t leg_index,
-                              const ChoiceContext& context) {
+                              const ChoiceContext& context, const Variety& variety) {
   const WayMaker maker(leg, leg_index, context);
   std::vector<Way> ways;
+  const auto wanted = [&](std::size_t index) { return !variety.route || *variety.route == index; };
   const auto add = [&](std::size_t index, bool wide, const CornerPolicy& policy, const std::string& corners) {
     if (auto way = maker.natural(routes.routes[index], index, wide, policy, corners))
       ways.push_back(std::move(*way));
   };
   for (std::size_t k = 0; k < routes.routes.size(); ++k) {
+    if (!wanted(k) || !(variety.blends || routes.routes[k].polyline_m.size() < 3)) continue;
     add(k, false, {}, "largest_blend");
     if (!routes.routes[k].wide_m.empty()) add(k, true, {}, "largest_blend");
   }
   sort_by_cost(ways, maker);
-  std::vector<std::size_t> varied{0};  // the plain reference is the cheapest polyline
+  std::vector<std::size_t> varied{shortest_route(routes)};  // the plain reference
   for (const Way& way : ways)
-    if (varied.size() < kVariedRoutes && way.route != 0) varied.push_back(way.route);
+    if (varied.size() < kVariedRoutes && way.route != varied.front()) varied.push_back(way.route);
+  if (!variety.blends)
+    for (std::size_t k = 0; k < routes.routes.size(); ++k)
+      if (k != varied.front()) varied.push_back(k);
   for (const std::size_t index : varied) {
-    if (index >= routes.routes.size() || routes.routes[index].polyline_m.size() < 3) continue;
-    add(index, false, {.kind = CornerPolicy::Kind::stop_turn_go}, "stop_turn_go");
+    if (!wanted(index) || routes.routes[index].polyline_m.size() < 3) continue;
+    if (variety.stop_turn_go) add(index, false, {.kind = CornerPolicy::Kind::stop_turn_go}, "stop_turn_go");
+    if (!variety.radii) continue;
     for (const double radius_m : kBlendRadii_m)
       add(index, false, {.kind = CornerPolicy::Kind::blend_radius, .radius_m = radius_m},
           radius_name(radius_m));

@@ -30,11 +30,23 @@ struct LegRoutes {
   std::vector<PooledRoute> routes{};
 };
 
+/// Index of the route with the shortest polyline.
+[[nodiscard]] std::size_t shortest_route(const LegRoutes& routes);
+
+/// What natural_ways() makes.
+struct Variety {
+  bool stop_turn_go{true};
+  bool blends{true};                   ///< the largest that are free
+  bool radii{true};                    ///< and smaller ones
+  std::optional<std::size_t> route{};  ///< along this one alone
+};
+
 /// Ways that go straight from stop to stop in the headings that the routes have there: of each route the
 /// largest blends that are free; of the best kVariedRoutes also stop-turn-go and blends of several radii.
 /// All pass the collision check. Sorted by cost.
 [[nodiscard]] std::vector<Way> natural_ways(const LegRoutes& routes, const LegRequest& leg,
-                                            std::size_t leg_index, const ChoiceContext& context);
+                                            std::size_t leg_index, const ChoiceContext& context,
+                                            const Variety& variety);
 
 /// Ways that leave the start in one of the headings, reach the goal in one, or both, along the routes of the
 /// best natural ways.

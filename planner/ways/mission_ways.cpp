@@ -32,11 +32,11 @@ LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
   return {.source = "motion"};
 }
 
-std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, bool refine) const {
+std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, bool quick) const {
   std::vector<LegPath> paths;
   LegStart here{.pose = mission_.start.pose, .heading_free = !mission_.start.heading_given};
   while (paths.size() < mission_.legs.size()) {
-    WayRun run{.first = paths.size(), .start = here};
+    WayRun run{.first = paths.size(), .start = here, .quick = quick};
     LegStart there = here;
     for (std::size_t leg = paths.size(); leg < mission_.legs.size(); ++leg) {
       auto routes = routes_of(leg, there, price_W[leg]);
@@ -46,7 +46,7 @@ std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, boo
       const Station& stop = mission_.stations.at(mission_.legs[leg].to);
       there = {{stop.x_m, stop.y_m, stop.heading_rad.value_or(0.0)}, !stop.heading_rad};
     }
-    std::vector<LegPath> chosen = choose_run(run, refine);
+    std::vector<LegPath> chosen = choose_run(run);
     if (chosen.empty()) chosen.push_back(settled(paths.size(), here));
     for (LegPath& path : chosen) {
       const std::size_t leg = paths.size();

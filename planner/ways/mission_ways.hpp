@@ -16,9 +16,9 @@ class MissionWays {
       : mission_(mission), world_(world), space_(space), plant_(plant), options_(options) {}
 
   /// Paths of all legs, up to the first one that has none (its `infeasibility` says why). Consecutive legs
-  /// between stations are chosen together; a prescribed motion has an empty path. With `refine`, control
-  /// points are moved afterwards. Throws ConfigError as leg_path() does.
-  [[nodiscard]] std::vector<LegPath> choose(const std::vector<double>& price_W, bool refine) const;
+  /// between stations are chosen together; a prescribed motion has an empty path. A quick choice
+  /// (WayRun::quick) is for learning prices. Throws ConfigError as leg_path() does.
+  [[nodiscard]] std::vector<LegPath> choose(const std::vector<double>& price_W, bool quick) const;
 
  private:
   ChoiceContext context(double price_W) const {

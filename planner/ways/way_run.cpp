@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 
-#include "planner/path/polyline.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_refinement.hpp"
 
@@ -46,7 +45,7 @@ class RunChoice {
       const double price_W = context(k).finite_price_W();
       auto& turns = turns_[price_W];
       if (!turns) turns = std::make_unique<TurnScores>(context(k));
-      ways_.push_back(natural_ways(run.routes[k], leg(k), run.first + k, context(k)));
+      ways_.push_back(natural_ways(run.routes[k], leg(k), run.first + k, context(k), variety(k)));
       const LegRequest& asked = leg(k);
       const Station& stop = station(k);
       request_.legs.push_back({.price_W = price_W,
@@ -64,7 +63,7 @@ class RunChoice {
     link();
   }
 
-  std::vector<LegPath> choose(bool refine);
+  std::vector<LegPath> choose();
 
  private:
   std::size_t size() const { return run_.routes.size(); }
@@ -74,11 +73,18 @@ class RunChoice {
   const Way& way(std::size_t k, const std::vector<ChainChoice>& chain) const {
     return ways_[k][chain[k].way];
   }
+  /// Ways that no step asks for are not made; a quick choice looks at the largest blends alone.
+  Variety variety(std::size_t k) const {
+    Variety variety{.stop_turn_go = !run_.quick || !steps_.corners,
+                    .blends = steps_.corners,
+                    .radii = steps_.corners && !run_.quick};
+    if (!steps_.routes) variety.route = shortest_route(run_.routes[k]);
+    return variety;
+  }
   void link() {
     for (std::size_t k = 0; k < size(); ++k) request_.legs[k].ways = &ways_[k];
   }
 
-  std::size_t shortest_route(std::size_t k) const;
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -91,15 +97,6 @@ class RunChoice {
   ChainRequest request_{};
   std::vector<std::vector<WayImprovement>> improvements_{};
 };
-
-std::size_t RunChoice::shortest_route(std::size_t k) const {
-  const std::vector<PooledRoute>& routes = run_.routes[k].routes;
-  const auto shortest =
-      std::min_element(routes.begin(), routes.end(), [](const PooledRoute& a, const PooledRoute& b) {
-        return polyline_length_m(a.polyline_m) < polyline_length_m(b.polyline_m);
-      });
-  return static_cast<std::size_t>(shortest - routes.begin());
-}
 
 /// Headings at the stops that could spare a turn: those that stations name, those in which the neighboring
 /// legs come and go, and the middle between them.
@@ -150,9 +147,9 @@ std::vector<PathAlternative> RunChoice::alternatives(std::size_t k,
   return all;
 }
 
-std::vector<LegPath> RunChoice::choose(bool refine) {
+std::vector<LegPath> RunChoice::choose() {
   std::vector<std::size_t> shortest;
-  for (std::size_t k = 0; k < size(); ++k) shortest.push_back(shortest_route(k));
+  for (std::size_t k = 0; k < size(); ++k) shortest.push_back(shortest_route(run_.routes[k]));
   const auto plain = [&](std::size_t k, const Way& w) {
     return w.route == shortest[k] && (w.stops_at_corners || w.shape.corners.empty());
   };
@@ -163,13 +160,15 @@ std::vector<LegPath> RunChoice::choose(bool refine) {
     return corners && (steps_.routes || w.route == shortest[k]);
   };
 
-  note("shortest_route", cheapest_chain(request_, plain));
-  note("corners", cheapest_chain(request_, with_corners));
+  if (!run_.quick) {
+    note("shortest_route", cheapest_chain(request_, plain));
+    note("corners", cheapest_chain(request_, with_corners));
+  }
   std::vector<ChainChoice> chain = cheapest_chain(request_, allowed);
   note("routes", chain);
   if (chain.empty()) chain = cheapest_chain(request_, any);
   if (chain.empty()) return {};
-  if (steps_.stops) {
+  if (steps_.stops && !run_.quick) {
     add_bent_ways(chain);
     const auto bent_too = [&](std::size_t k, const Way& w) {
       return w.bends_at_ends ? steps_.routes || w.route == shortest[k] : allowed(k, w);
@@ -179,7 +178,7 @@ std::vector<LegPath> RunChoice::choose(bool refine) {
   note("stops", chain);
 
   RefinedRun refined(request_, chain, run_);
-  if (refine && steps_.refinement) refined.refine();
+  if (!run_.quick && steps_.refinement) refined.refine();
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {
     paths[k].source = run_.routes[k].routes[way(k, chain).route].searched_by;
@@ -192,9 +191,9 @@ std::vector<LegPath> RunChoice::choose(bool refine) {
 
 }  // namespace
 
-std::vector<LegPath> choose_run(const WayRun& run, bool refine) {
+std::vector<LegPath> choose_run(const WayRun& run) {
   if (run.routes.empty()) return {};
-  return RunChoice(run).choose(refine);
+  return RunChoice(run).choose();
 }
 
 }  // namespace joulepath

@@ -21,8 +21,12 @@ PathScore score_stretches(std::vector<ProfileRequest> stretches, double price_W)
   PathScore score{.drivable = true};
   for (std::size_t k = 0; k < results.size(); ++k) {
     if (!results[k].profile) return {};
-    score.energy_J += energy_by_cause(path_motion(timing.stretches()[k]), *results[k].profile).total_J();
-    score.duration_s += results[k].profile->duration_s();
+    const double duration_s = results[k].profile->duration_s();
+    const bool optimized = results[k].summary.solver != "forward_backward";
+    score.energy_J +=
+        optimized ? results[k].summary.lower_bound_J - price_W * duration_s
+                  : energy_by_cause(path_motion(timing.stretches()[k]), *results[k].profile).total_J();
+    score.duration_s += duration_s;
   }
   return score;
 }
@@ -48,9 +52,11 @@ PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_in
                      const ChoiceContext& context) {
   PlanOptions options = context.options;
   options.nodes = std::min(options.nodes, kScoringNodes);
-  return score_stretches(
-      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, options),
-      context.price_W);
+  std::vector<ProfileRequest> stretches =
+      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, options);
+  for (ProfileRequest& request : stretches)
+    if (is_turn(request.piece)) request.nodes = std::min(request.nodes, kTurnNodes);
+  return score_stretches(std::move(stretches), context.price_W);
 }
 
 const TurnScores::Table& TurnScores::table(double payload_kg) {
