@@ -57,10 +57,15 @@ void print_legs(std::ostream& stream, const Plan& plan) {
   table.print(stream);
 }
 
+std::string baseline_name(const BaselineTotal& baseline) {
+  if (!baseline.feasible || baseline.later_s < 1e-3) return baseline.name;
+  return baseline.name + ", " + figure(baseline.later_s, 2) + " s later";
+}
+
 void print_baselines(std::ostream& stream, const Plan& plan) {
   Table table({"same path, same time", "total J", "saved", "motion J", "saved of motion"});
   for (const BaselineTotal& baseline : plan.baselines)
-    table.row({baseline.name, baseline.feasible ? figure(baseline.energy_J, 5) : "-",
+    table.row({baseline_name(baseline), baseline.feasible ? figure(baseline.energy_J, 5) : "-",
                saving_cell(baseline, plan.energy, false),
                baseline.feasible ? figure(baseline.motion_energy_J, 5) : "-",
                saving_cell(baseline, plan.energy, true)});

@@ -23,7 +23,8 @@ struct StretchPlan {
   EnergyByCause energy{};  ///< while driving
 };
 
-/// A baseline over several stretches: same path, same distance, same time.
+/// A baseline over several stretches: same path, same distance, same time; later where no such profile keeps
+/// the plan's time.
 struct BaselineTotal {
   std::string name{};
   bool feasible{true};
@@ -31,6 +32,7 @@ struct BaselineTotal {
   double energy_J{};
   double motion_energy_J{};
   double duration_s{};
+  double later_s{};  ///< beyond the plan's time
   std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
 };
 

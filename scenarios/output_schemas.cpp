@@ -19,6 +19,7 @@ Schema baselines_schema() {
   return list(
       open(map({required("name", text()), optional("feasible", boolean()), optional("energy_J", result()),
                 optional("motion_energy_J", result()), optional("duration_s", result()),
+                optional("later_s", result(), "beyond the plan's time, which no such profile keeps"),
                 optional("saving_percent", result()), optional("motion_saving_percent", result()),
                 optional("parameters", dictionary(result()))})));
 }

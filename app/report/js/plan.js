@@ -89,7 +89,7 @@ jp.baseline_section = function (plan) {
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
       ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
-        Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])), jp.settings_details(plan));
+        (one.later_s ? jp.number(one.later_s, 2) + " s later than the plan, whose time none keeps; " : "") + Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])), jp.settings_details(plan));
 };
 
 /** Settings of the baselines for controllers that follow nothing else: per leg and stretch. */
