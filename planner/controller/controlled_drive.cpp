@@ -74,8 +74,10 @@ ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& set
     ProfileRequest request = stretch.request;
     if (caps)
       for (const SpeedCap& cap : caps(place, stretch)) request.speed_caps.push_back(cap);
-    const TrapezoidFamily family(request);
-    const BaselineResult result = drive_stretch(request, family, settings(place, stretch, family));
+    const BaselineResult result = with_room(request, [&](const ProfileRequest& inner) {
+      const TrapezoidFamily family(inner);
+      return drive_stretch(request, family, settings(place, stretch, family));
+    });
     drive.energy_J += result.energy_J - stretch.energy.total_J();
     drive.motion_energy_J += result.motion_energy_J - stretch.energy.motion_J();
     drive.duration_s += result.duration_s - stretch.profile.duration_s();
