@@ -83,13 +83,13 @@ jp.baseline_section = function (plan) {
   if (!baselines.length) return null;
   const counted = baselines.filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
   const rows = [{name: "this plan", energy_J: plan.energy_J, motion_energy_J: plan.motion_energy_J, duration_s: plan.duration_s}, ...baselines];
-  return jp.section("Against classic profiles", jp.h("p", {class: "soft"}, "Same path, same time. Savings are of the model's energy; the model's own error is what a diagnosis of measured runs tells."),
+  return jp.section("Against classic profiles", jp.h("p", {class: "soft"}, "Same path, same time (or as soon as such a profile can be there). Savings are of the model's energy; the model's own error is what a diagnosis of measured runs tells."),
     jp.h("h3", {}, "Motion energy, standby left out"),
     jp.bar_rows(rows.filter((one) => one === rows[0] || counted.includes(one)).map((one, k) => ({label: jp.words(one.name), value: one.motion_energy_J, text: jp.with_unit(one.motion_energy_J, "J"), color: k ? "var(--second)" : "var(--plan)"}))),
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
       ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
-        (one.later_s ? jp.number(one.later_s, 2) + " s later than the plan, whose time none keeps; " : "") + Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value)).join(", ")])), jp.settings_details(plan));
+        [one.later_s ? jp.number(one.later_s, 2) + " s later than the plan, whose time none keeps" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
 };
 
 /** Settings of the baselines for controllers that follow nothing else: per leg and stretch. */
