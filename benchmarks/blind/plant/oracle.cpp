@@ -150,7 +150,7 @@ double profiled_ratio(const Case& c, const Scene& null, const std::vector<Vector
       sum[k + 1][0] -= nu[k];
     }
     const double here = marginalized(sum, kNuisances, 1.0)[0][0];
-    if (round > 0 && here > value) break;
+    if (round > 0 && !(here <= value)) break;  // no step, or one to where the model has no answer
     value = here;
     for (std::size_t k = 0; k < kNuisances; ++k) {  // the step of nuisance k: eliminate all others first
       Matrix order = sum;
