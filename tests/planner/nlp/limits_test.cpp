@@ -1,0 +1,84 @@
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wstringop-overflow"  // GCC 12 is wrong about copies of a std::variant
+#endif
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "planner/path/bezier_chain.hpp"
+#include "planner/replay.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+ProfileRequest fastest_drive() {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  return {.piece = Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})}),
+          .plant = make_plant(robot),
+          .limits = *robot.limits,
+          .time = {TimeMode::minimum_time},
+          .nodes = 80,
+          .solver = SolverChoice::fast};
+}
+
+struct Tightened {
+  std::string limit;
+  std::function<void(ProfileRequest&)> tighten;
+
+  friend std::ostream& operator<<(std::ostream& stream, const Tightened& one) { return stream << one.limit; }
+};
+
+Tightened limit(const std::string& name, double Limits::*member, double value) {
+  return {name, [=](ProfileRequest& request) { request.limits.*member = value; }};
+}
+
+Tightened rating(const std::string& name, double Motor::*member, double value) {
+  return {name, [=](ProfileRequest& request) {
+            request.plant.robot.motor.left.*member = request.plant.robot.motor.right.*member = value;
+          }};
+}
+
+class EveryLimit : public ::testing::TestWithParam<Tightened> {};
+
+TEST_P(EveryLimit, CostsTimeAndHoldsBetweenTheNodes) {
+  const ProfileResult free = solve_profile(fastest_drive());
+  ProfileRequest request = fastest_drive();
+  GetParam().tighten(request);
+
+  const ReplayResult ignored = replay(request, *free.profile);  // the limit is exceeded where it is ignored
+  EXPECT_EQ(ignored.limit, GetParam().limit);
+  EXPECT_GT(ignored.worst_violation, 0.01);
+
+  for (const SolverChoice solver : {SolverChoice::fast, SolverChoice::ipopt}) {
+    request.solver = solver;
+    const ProfileResult kept = solve_profile(request);
+    ASSERT_TRUE(kept.profile) << kept.summary.message
+                              << (kept.infeasibility ? kept.infeasibility->message : "");
+    EXPECT_GT(kept.profile->duration_s(), 1.005 * free.profile->duration_s());
+    EXPECT_TRUE(replay(request, *kept.profile).valid()) << replay(request, *kept.profile).worst_violation;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit,
+                         ::testing::Values(limit("speed", &Limits::speed_m_s, 0.5),
+                                           limit("acceleration", &Limits::acceleration_m_s2, 0.2),
+                                           limit("deceleration", &Limits::deceleration_m_s2, 0.2),
+                                           limit("lateral_acceleration", &Limits::lateral_acceleration_m_s2,
+                                                 0.1),
+                                           limit("yaw_rate", &Limits::yaw_rate_rad_s, 0.3),
+                                           limit("yaw_acceleration", &Limits::yaw_acceleration_rad_s2, 0.1),
+                                           limit("wheel_acceleration", &Limits::wheel_acceleration_rad_s2, 2),
+                                           limit("traction", &Limits::traction_coefficient, 0.04),
+                                           limit("motor_power", &Limits::motor_power_W, 5),
+                                           limit("battery_power", &Limits::battery_power_W, 20),
+                                           rating("motor_current", &Motor::max_current_A, 0.5),
+                                           rating("motor_voltage", &Motor::max_voltage_V, 10)),
+                         [](const auto& one) { return one.param.limit; });
+
+}  // namespace
+}  // namespace joulepath
