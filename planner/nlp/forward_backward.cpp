@@ -9,6 +9,7 @@ namespace {
 constexpr double kLargest = 1e6;       ///< square of a rate that nothing reaches
 constexpr double kStandstill = 1e-15;  ///< a square of the rate that is rounding
 constexpr int kSweeps = 12;
+constexpr int kSlowings = 8;  ///< halvings of the rate
 
 /// alpha b0 + beta b1 <= gamma.
 struct HalfPlane {
@@ -152,6 +153,20 @@ bool bends(const Problem& problem) {
   });
 }
 
+/// The tangent of a row that bends, taken at a speed that the row forbids, may leave nothing at all (a
+/// voltage is concave in the square of the rate). Where the first sweep is blocked it is tried at slower and
+/// slower profiles before that counts.
+RateEnvelope first_sweep(const Problem& problem, std::vector<double>& at) {
+  RateEnvelope envelope = sweep(problem, at);
+  if (!bends(problem)) return envelope;
+  for (int i = 0; i < kSlowings && envelope.blocked; ++i) {
+    for (std::size_t k = 1; k + 1 < at.size(); ++k) at[k] *= 0.25;
+    RateEnvelope slower = sweep(problem, at);
+    if (!slower.blocked) envelope = std::move(slower);
+  }
+  return envelope;
+}
+
 }  // namespace
 
 RateEnvelope rate_envelope(const Problem& problem) {
@@ -162,7 +177,7 @@ RateEnvelope rate_envelope(const Problem& problem) {
     at[k] = k == 0 || k + 1 == at.size() ? capped(problem, k)
                                          : std::min({capped(problem, k), from_start, from_end, 4.0});
   }
-  RateEnvelope envelope = sweep(problem, at);
+  RateEnvelope envelope = first_sweep(problem, at);
   if (!bends(problem)) return envelope;
   for (int i = 0; i < kSweeps && !envelope.blocked; ++i) {
     double change = 0;

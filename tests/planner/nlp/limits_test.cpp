@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit,
                                            limit("motor_power", &Limits::motor_power_W, 5),
                                            limit("battery_power", &Limits::battery_power_W, 20),
                                            rating("motor_current", &Motor::max_current_A, 0.5),
-                                           rating("motor_voltage", &Motor::max_voltage_V, 10)),
+                                           rating("motor_voltage", &Motor::max_voltage_V, 6)),
                          [](const auto& one) { return one.param.limit; });
 
 }  // namespace
