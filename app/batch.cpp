@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
 #include "app/progress.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
@@ -90,10 +91,7 @@ class BatchCommand : public Command {
     app.add_option("-j,--jobs", jobs_, "missions planned at once")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    app.add_option("--nodes", options_.nodes, "nodes of the first grid on each stretch")
-        ->check(CLI::Range(10, 20000))
-        ->capture_default_str();
-    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    add_plan_options(app, options_);
     app.add_flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
     app.add_flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
     add_common_flags(app, common_, "qjfu");

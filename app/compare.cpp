@@ -5,6 +5,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
 #include "app/profile_columns.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
@@ -66,10 +67,7 @@ class CompareCommand : public Command {
   void declare(CLI::App& app) override {
     app.add_option("mission", mission_, "mission file (YAML)")->required();
     app.add_option("--out", out_, "directory for compare.json and report.html");
-    app.add_option("--nodes", options_.nodes, "nodes of the first grid on each stretch")
-        ->check(CLI::Range(10, 20000))
-        ->capture_default_str();
-    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    add_plan_options(app, options_);
     add_common_flags(app, common_, "qjfu");
   }
 
@@ -81,6 +79,7 @@ class CompareCommand : public Command {
     const ReadOptions reading{.untrusted = common_.untrusted};
     const MissionRequest mission = read_mission(mission_, reading);
     options_.solver = SolverChoice::fast;
+    options_.baselines = false;  // nothing here reads the plan's own
     const Plan plan = plan_mission(mission, read_world(mission, reading), options_);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to compare with: " << solve_status_name(plan.status) << ": " << plan.message

@@ -5,6 +5,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
 #include "app/terminal.hpp"
 #include "planner/mission.hpp"
 #include "scenarios/export/exports.hpp"
@@ -57,10 +58,7 @@ class ExportCommand : public Command {
     app.add_option("--map", map_, "map in place of the mission's");
     app.add_option("--rate", rate_Hz_, "samples per second, where the format has any")
         ->check(CLI::Range(0.1, 1000.0));
-    app.add_option("--nodes", options_.nodes, "nodes of the first grid on each stretch")
-        ->check(CLI::Range(10, 20000))
-        ->capture_default_str();
-    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    add_plan_options(app, options_);
     add_common_flags(app, common_, "qjfu");
   }
 
@@ -70,6 +68,7 @@ class ExportCommand : public Command {
     const MissionRequest mission = read_mission_or_order(mission_, robot_, map_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
+    options_.baselines = false;  // nothing here reads the plan's own
     const Plan plan = plan_mission(mission, world, options_);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to export: " << solve_status_name(plan.status) << ": " << plan.message << "\n";

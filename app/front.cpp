@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/mission.hpp"
@@ -44,10 +45,7 @@ class FrontCommand : public Command {
         ->check(CLI::Range(2, 2000))
         ->capture_default_str();
     app.add_option("--out", out_, "directory for front.json and report.html");
-    app.add_option("--nodes", options_.nodes, "nodes on each stretch")
-        ->check(CLI::Range(10, 20000))
-        ->capture_default_str();
-    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
+    add_plan_options(app, options_, "nodes on each stretch");
     add_common_flags(app, common_, "qjfu");
   }
 
@@ -65,6 +63,7 @@ class FrontCommand : public Command {
       leg.duration_s.reset();
     }
     options_.solver = SolverChoice::fast;
+    options_.baselines = false;  // nothing here reads the plan's own
     const Plan plan = plan_mission(mission, world, options_);
     std::vector<ProfileRequest> stretches;
     for (const LegPlan& leg : plan.legs)

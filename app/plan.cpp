@@ -5,6 +5,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
 #include "app/plan_summary.hpp"
 #include "app/report/plan_report.hpp"
 #include "planner/mission.hpp"
@@ -40,13 +41,10 @@ class PlanCommand : public Command {
     app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
         ->check(CLI::IsMember({"ipopt", "fast"}))
         ->capture_default_str();
-    app.add_option("--nodes", options_.nodes, "nodes of the first grid on each stretch")
-        ->check(CLI::Range(10, 20000))
-        ->capture_default_str();
+    add_plan_options(app, options_);
     app.add_option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
         ->check(CLI::Range(1e-7, 1e-1))
         ->capture_default_str();
-    app.add_option("--seed", options_.seed, "seed of the path search")->capture_default_str();
     app.add_option("--without", without_,
                    "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
                    "shortest), stops (turn on the spot there), refinement; or baselines")

@@ -58,7 +58,7 @@ void print_legs(std::ostream& stream, const Plan& plan) {
 }
 
 std::string baseline_name(const BaselineTotal& baseline) {
-  if (!baseline.feasible || baseline.later_s < 1e-3) return baseline.name;
+  if (!baseline.feasible || !baseline.late()) return baseline.name;
   return baseline.name + ", " + figure(baseline.later_s, 2) + " s later";
 }
 

@@ -13,9 +13,6 @@
 namespace joulepath {
 namespace {
 
-/// With fewer runs noise and scatter are known too little to name what hardly matters.
-constexpr std::size_t kRunsForSmallEffects = 8;
-
 /// The fit of everything takes much of few runs' noise with it: what it leaves is too small by about this.
 constexpr double kFewRunsDispersion = 2.0;
 

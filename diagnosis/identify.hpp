@@ -8,6 +8,10 @@
 
 namespace joulepath {
 
+/// With fewer diagnosis runs noise and scatter are known too little to name what hardly matters, or to be
+/// sure.
+inline constexpr std::size_t kRunsForSmallEffects = 8;
+
 /// What the diagnosis runs say about the cause: the converged state, and every explanation that was
 /// weighed about it.
 struct Identification {

@@ -33,6 +33,7 @@ struct BaselineTotal {
   double motion_energy_J{};
   double duration_s{};
   double later_s{};  ///< beyond the plan's time
+  bool late() const { return later_s > 1e-3; }
   std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
 };
 

@@ -36,8 +36,6 @@ Json cause_json(const EnergyByCause& energy) {
           {"not_recovered", joules(energy.not_recovered_J)}};
 }
 
-constexpr double kSameTime_s = 1e-3;
-
 /// A baseline beside what the plan takes. `parameters` are the settings on the longest stretch, which
 /// `stretches` repeats for every one.
 Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, std::size_t longest) {
@@ -49,7 +47,7 @@ Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, 
   json["energy_J"] = baseline.energy_J;
   json["motion_energy_J"] = baseline.motion_energy_J;
   json["duration_s"] = baseline.duration_s;
-  if (baseline.later_s > kSameTime_s) json["later_s"] = baseline.later_s;
+  if (baseline.late()) json["later_s"] = baseline.later_s;
   json["saving_percent"] = saving_percent(planned.total_J(), baseline.energy_J);
   json["motion_saving_percent"] = saving_percent(planned.motion_J(), baseline.motion_energy_J);
   if (longest < baseline.settings.size()) {

@@ -22,12 +22,11 @@ const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 /// Below this evidence, a wrong law is no more than scatter that looks like one.
 constexpr double kLeastEvidence = 20.0;
 constexpr double kLeastEvidenceOfFewRuns = 100.0;
-constexpr std::size_t kFewRuns = 8;
 
 void withdraw(Examination& x, const std::string& note, const std::string& depends_on) {
   x.report.notes.push_back(note);
   x.named.clear();
-  const double least = x.diagnosis.runs.size() < kFewRuns ? kLeastEvidenceOfFewRuns : kLeastEvidence;
+  const double least = x.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
   if (x.id.explanations.front().score < least && !x.report.leftover_significant) {
     x.report.verdict = Verdict::no_gap;
     return;

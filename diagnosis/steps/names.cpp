@@ -20,7 +20,6 @@ constexpr double kLeastProbability = 0.15;
 /// (`./dev bench diagnosis_coverage`).
 constexpr double kSurest = 0.97;
 constexpr double kSurestOfFewRuns = 0.85;
-constexpr std::size_t kFewRuns = 8;
 constexpr std::size_t kRanked = 12;
 
 /// Share of the best set's gain in loss that is lost when one of its effects is left out.
@@ -78,7 +77,7 @@ void share_probabilities(Examination& x) {
 
 double Examination::probability_of(const ActiveEffect& effect) const {
   const auto found = probabilities.find(effect.candidate.label());
-  const double surest = diagnosis.runs.size() < kFewRuns ? kSurestOfFewRuns : kSurest;
+  const double surest = diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(surest, found->second);
 }
 

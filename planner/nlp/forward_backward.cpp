@@ -158,7 +158,6 @@ bool bends(const Problem& problem) {
 /// slower profiles before that counts.
 RateEnvelope first_sweep(const Problem& problem, std::vector<double>& at) {
   RateEnvelope envelope = sweep(problem, at);
-  if (!bends(problem)) return envelope;
   for (int i = 0; i < kSlowings && envelope.blocked; ++i) {
     for (std::size_t k = 1; k + 1 < at.size(); ++k) at[k] *= 0.25;
     RateEnvelope slower = sweep(problem, at);
@@ -177,8 +176,8 @@ RateEnvelope rate_envelope(const Problem& problem) {
     at[k] = k == 0 || k + 1 == at.size() ? capped(problem, k)
                                          : std::min({capped(problem, k), from_start, from_end, 4.0});
   }
+  if (!bends(problem)) return sweep(problem, at);
   RateEnvelope envelope = first_sweep(problem, at);
-  if (!bends(problem)) return envelope;
   for (int i = 0; i < kSweeps && !envelope.blocked; ++i) {
     double change = 0;
     for (std::size_t k = 1; k + 1 < at.size(); ++k) {

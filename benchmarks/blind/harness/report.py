@@ -155,7 +155,7 @@ def report_files(frozen, name, sealed, prefix, labels, results, unusable=()):
     picture = lambda title, file: f"![{title}]({prefix}/{file})" if file in drawn else ""
     lines = head_lines(frozen, name, sealed, labels, results, prefix)
     if unusable:
-        lines += [f"Left out, the plant gave no finite numbers: {', '.join(unusable)}.", ""]
+        lines += [f"Left out, their labels hold no finite numbers: {', '.join(unusable)}.", ""]
     lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results) + ["", DETECTABLE, ""]
     lines += ["## Controls on the same cases", ""] + control_table(labels, results) + ["", CONTROL_METHODS, ""]
     lines += ["## By robot, protocol and level", ""] + split_table(cases) + [""]

@@ -26,7 +26,7 @@ def label_of(case):
             text = file.read()
     try:
         label = json.loads(text)
-    except ValueError:  # nan or inf: the plant's integration failed, the case can say nothing
+    except ValueError:  # nan or inf: what the oracle could not compute cannot be scored
         return {"id": case["id"], "bin": case["bin"], "unusable": text}
     return {"id": case["id"], "bin": case["bin"], **label}
 
