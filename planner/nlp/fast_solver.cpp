@@ -93,7 +93,7 @@ class FastSolver {
     const double ratio = pairs_ > 0 ? after / static_cast<double>(pairs_) / mu_ : 0.0;
     const double least =
         0.1 * tolerance_ * std::max(1e-9, std::abs(total_)) / static_cast<double>(pairs_ + 1);
-    const double target = std::max(least, mu_ * std::max(1e-4, ratio * ratio * ratio));
+    const double target = std::max(least, mu_ * std::max(1e-4, ratio * ratio));
     const double trust = std::min(affine.primal, affine.dual);
     state_.for_each_pair([&](Pair& pair) {
       const double second = trust * trust * pair.ds * pair.dy, most = 10 * target + pair.s * pair.y;

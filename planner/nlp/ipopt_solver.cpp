@@ -18,6 +18,12 @@ void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetIntegerValue("mumps_pivot_order", 6);
   ipopt.SetNumericValue("bound_relax_factor", 0.0);
   ipopt.SetStringValue("honor_original_bounds", "yes");
+  // MUMPS takes most of the time: as few solves as accuracy allows, and barrier problems that are solved
+  // no better than the next one needs.
+  ipopt.SetStringValue("fast_step_computation", "yes");
+  ipopt.SetIntegerValue("min_refinement_steps", 0);
+  ipopt.SetNumericValue("barrier_tol_factor", 300.0);
+  ipopt.SetNumericValue("mu_superlinear_decrease_power", 1.8);
   if (!options.warm) return;
   ipopt.SetNumericValue("mu_init", 1e-6);
   for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})
