@@ -21,7 +21,7 @@ class Check : public Command {
 
   void declare(CLI::App& app) override {
     app.add_option("FILE", files_,
-                   "robot, map, mission, dataset, fleet, run log, route graph, plan or diagnosis")
+                   "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
         ->required();
     app.add_option("--kind", kind_, "what the files are; default: as their schema line, name and keys tell");
     add_common_flags(app, options_, "qju");

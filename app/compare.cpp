@@ -4,10 +4,10 @@
 
 #include "app/command.hpp"
 #include "app/commands.hpp"
-#include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/profile_columns.hpp"
 #include "app/report/report.hpp"
+#include "app/study.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission.hpp"
@@ -57,30 +57,24 @@ class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
   std::string says() const override {
-    return "a mission's plan against every classic profile, at equal distance and time";
+    return "the plan of a mission or a path against every classic profile, at equal distance and time";
   }
   std::string examples() const override {
     return "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
-           "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n";
+           "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
+           "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n";
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("mission", mission_, "mission file (YAML)")->required();
-    app.add_option("--out", out_, "directory for compare.json and report.html");
-    add_plan_options(app, options_);
-    add_common_flags(app, common_, "qjfu");
+    add_study_options(app, study_, kResult);
+    add_plan_options(app, study_.plan);
   }
 
   int run() override {
-    OutputDirectory out(
-        out_.empty() ? "." : out_,
-        out_.empty() ? std::vector<std::string>{} : std::vector<std::string>{"compare.json", "report.html"},
-        common_.force);
-    const ReadOptions reading{.untrusted = common_.untrusted};
-    const MissionRequest mission = read_mission(mission_, reading);
-    options_.solver = SolverChoice::fast;
-    options_.baselines = false;  // nothing here reads the plan's own
-    const Plan plan = plan_mission(mission, read_world(mission, reading), options_);
+    OutputDirectory out = study_output(study_, kResult);
+    const ReadOptions reading{.untrusted = study_.common.untrusted};
+    const MissionRequest mission = read_mission_source(study_.source, reading);
+    const Plan plan = plan_mission(mission, read_world(mission, reading), study_.plan);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to compare with: " << solve_status_name(plan.status) << ": " << plan.message
                 << "\n";
@@ -90,15 +84,10 @@ class CompareCommand : public Command {
     json result = {{"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", json::array()}};
     result["profiles"].push_back(profile_json(total_of(plan)));
     for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
-    if (!out_.empty()) {
-      out.write("compare.json", result.dump(2) + "\n");
-      out.write("report.html", report::compare_report_html(result, motions(plan, compared), plan.mission));
-      out.commit();
-    }
-    if (common_.json)
-      std::cout << result.dump(2) << "\n";
-    else if (!common_.quiet)
-      print_table(plan, compared);
+    if (study_writes(study_))
+      write_study(out, kResult, result,
+                  report::compare_report_html(result, motions(plan, compared), plan.mission));
+    if (study_prints(study_, result)) print_table(plan, compared);
     return kDone;
   }
 
@@ -119,10 +108,8 @@ class CompareCommand : public Command {
     return columns;
   }
 
-  std::string mission_{};
-  std::string out_{};
-  PlanOptions options_{};
-  CommonOptions common_{};
+  static constexpr const char* kResult = "compare.json";
+  StudyOptions study_{};
 };
 
 }  // namespace

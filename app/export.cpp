@@ -40,6 +40,8 @@ class ExportCommand : public Command {
   std::string examples() const override {
     std::string text =
         "  joulepath export mission.yaml --to nav2_path --out path.json\n"
+        "  joulepath export path.csv --robot robot.yaml --time 30 --to nav2_trajectory --out "
+        "trajectory.json\n"
         "  joulepath export mission.yaml --to controller --out controller.json\n"
         "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
     for (const ExportFormat& format : export_formats())
@@ -50,12 +52,9 @@ class ExportCommand : public Command {
   void declare(CLI::App& app) override {
     std::vector<std::string> names;
     for (const ExportFormat& format : export_formats()) names.push_back(format.name);
-    app.add_option("mission", mission_, "mission file (YAML), or a VDA 5050 order (JSON) with --robot")
-        ->required();
+    add_mission_source(app, source_);
     app.add_option("--to", format_, "format")->required()->check(CLI::IsMember(names));
     app.add_option("--out", out_, "file to write; further files take its name")->required();
-    app.add_option("--robot", robot_, "robot file in place of the mission's");
-    app.add_option("--map", map_, "map in place of the mission's");
     app.add_option("--rate", rate_Hz_, "samples per second, where the format has any")
         ->check(CLI::Range(0.1, 1000.0));
     add_plan_options(app, options_);
@@ -65,7 +64,7 @@ class ExportCommand : public Command {
   int run() override {
     const ReadOptions reading{.untrusted = common_.untrusted};
     const ExportFormat& format = format_named(format_);
-    const MissionRequest mission = read_mission_or_order(mission_, robot_, map_, reading);
+    const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
     options_.baselines = false;  // nothing here reads the plan's own
@@ -101,11 +100,9 @@ class ExportCommand : public Command {
     std::cout << "written: " << names << "\n";
   }
 
-  std::string mission_{};
+  MissionSource source_{};
   std::string format_{};
   std::string out_{};
-  std::string robot_{};
-  std::string map_{};
   std::optional<double> rate_Hz_{};
   PlanOptions options_{};
   CommonOptions common_{};

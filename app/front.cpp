@@ -7,9 +7,9 @@
 
 #include "app/command.hpp"
 #include "app/commands.hpp"
-#include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/report/report.hpp"
+#include "app/study.hpp"
 #include "app/terminal.hpp"
 #include "planner/mission.hpp"
 #include "scenarios/mission_file.hpp"
@@ -32,39 +32,34 @@ json point_json(const FrontPoint& point) {
 class FrontCommand : public Command {
  public:
   std::string name() const override { return "front"; }
-  std::string says() const override { return "the whole energy-time front of a mission, with exact slopes"; }
+  std::string says() const override {
+    return "the whole energy-time front of a mission or a path, with exact slopes";
+  }
   std::string examples() const override {
     return "  joulepath front scenarios/missions/warehouse_pick.yaml --points 30\n"
-           "  joulepath front mission.yaml --out out/front   # front.json and report.html\n";
+           "  joulepath front mission.yaml --out out/front   # front.json and report.html\n"
+           "  joulepath front path.csv --robot robot.yaml --payload 5\n";
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("mission", mission_, "mission file (YAML); its deadlines and durations are left aside")
-        ->required();
-    app.add_option("--points", points_, "points of the front")
+    add_study_options(app, study_, kResult, false);
+    app.add_option("--points", points_, "points of the front; deadlines and durations are left aside")
         ->check(CLI::Range(2, 2000))
         ->capture_default_str();
-    app.add_option("--out", out_, "directory for front.json and report.html");
-    add_plan_options(app, options_, "nodes on each stretch");
-    add_common_flags(app, common_, "qjfu");
+    add_plan_options(app, study_.plan, "nodes on each stretch");
   }
 
   int run() override {
-    OutputDirectory out(
-        out_.empty() ? "." : out_,
-        out_.empty() ? std::vector<std::string>{} : std::vector<std::string>{"front.json", "report.html"},
-        common_.force);
-    const ReadOptions reading{.untrusted = common_.untrusted};
-    MissionRequest mission = read_mission(mission_, reading);
+    OutputDirectory out = study_output(study_, kResult);
+    const ReadOptions reading{.untrusted = study_.common.untrusted};
+    MissionRequest mission = read_mission_source(study_.source, reading);
     const MissionWorld world = read_world(mission, reading);
     mission.objective = {};
     for (LegRequest& leg : mission.legs) {
       leg.deadline_s.reset();
       leg.duration_s.reset();
     }
-    options_.solver = SolverChoice::fast;
-    options_.baselines = false;  // nothing here reads the plan's own
-    const Plan plan = plan_mission(mission, world, options_);
+    const Plan plan = plan_mission(mission, world, study_.plan);
     std::vector<ProfileRequest> stretches;
     for (const LegPlan& leg : plan.legs)
       for (const StretchPlan& stretch : leg.stretches) stretches.push_back(stretch.request);
@@ -108,22 +103,13 @@ class FrontCommand : public Command {
       table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
                  std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-"});
     }
-    if (!out_.empty()) {
-      out.write("front.json", result.dump(2) + "\n");
-      out.write("report.html", report::front_report_html(result, {}, title));
-      out.commit();
-    }
-    if (common_.json)
-      std::cout << result.dump(2) << "\n";
-    else if (!common_.quiet)
-      table.print(std::cout);
+    if (study_writes(study_)) write_study(out, kResult, result, report::front_report_html(result, {}, title));
+    if (study_prints(study_, result)) table.print(std::cout);
   }
 
-  std::string mission_{};
-  std::string out_{};
+  static constexpr const char* kResult = "front.json";
+  StudyOptions study_{};
   std::size_t points_{30};
-  PlanOptions options_{};
-  CommonOptions common_{};
 };
 
 }  // namespace

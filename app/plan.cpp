@@ -30,12 +30,12 @@ class PlanCommand : public Command {
   std::string examples() const override {
     return "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
            "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
-           "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n";
+           "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n"
+           "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("mission", mission_, "mission file (YAML), or a VDA 5050 order (JSON) with --robot")
-        ->required();
+    add_mission_source(app, source_);
     app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
         ->required();
     app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
@@ -49,8 +49,6 @@ class PlanCommand : public Command {
                    "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
                    "shortest), stops (turn on the spot there), refinement; or baselines")
         ->check(CLI::IsMember({"corners", "routes", "stops", "refinement", "baselines"}));
-    app.add_option("--robot", robot_, "robot file in place of the mission's");
-    app.add_option("--map", map_, "map in place of the mission's");
     add_common_flags(app, common_, "qjfu");
   }
 
@@ -58,7 +56,7 @@ class PlanCommand : public Command {
     const Clock::time_point start = Clock::now();
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "timing.json", "report.html"}, common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
-    const MissionRequest mission = read_mission_or_order(mission_, robot_, map_, reading);
+    const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);
@@ -91,12 +89,10 @@ class PlanCommand : public Command {
     if (step == "baselines") options_.baselines = false;
   }
 
-  std::string mission_{};
+  MissionSource source_{};
   std::string out_{};
   std::string solver_{"ipopt"};
   std::vector<std::string> without_{};
-  std::string robot_{};
-  std::string map_{};
   PlanOptions options_{};
   CommonOptions common_{};
 };

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "planner/stretch.hpp"
+#include "scenarios/mission_source.hpp"
 
 namespace CLI {
 class App;
@@ -13,5 +14,8 @@ namespace joulepath {
 /// Adds --nodes and --seed, which every command that plans a mission takes.
 void add_plan_options(CLI::App& app, PlanOptions& options,
                       const std::string& nodes_say = "nodes of the first grid on each stretch");
+
+/// Adds what is planned: the file, --robot, --map, and beside a path --payload and (`with_time`) --time.
+void add_mission_source(CLI::App& app, MissionSource& source, bool with_time = true);
 
 }  // namespace joulepath

@@ -5,10 +5,12 @@
 namespace joulepath {
 namespace {
 
-TimeGoal goal_for(double price_W) {
+TimeGoal goal_for(double price_W, double given_s) {
   if (std::isinf(price_W)) return {.mode = TimeMode::minimum_time};
   if (price_W == 0.0) return {.mode = TimeMode::free_time};
-  return {.mode = TimeMode::time_price, .price_W = price_W};
+  constexpr double kRounding = 1e-6;
+  const double most_s = price_W < 0 ? given_s * (1 + kRounding) : kNoLimit;
+  return {.mode = TimeMode::time_price, .duration_s = most_s, .price_W = price_W};
 }
 
 }  // namespace
@@ -17,7 +19,7 @@ const std::vector<ProfileResult>& LegTiming::solve(double price_W, SolverChoice 
   auto [entry, fresh] = solved_.try_emplace({price_W, solver});
   if (fresh)
     for (ProfileRequest request : stretches_) {
-      request.time = goal_for(price_W);
+      request.time = goal_for(price_W, given_s_);
       request.solver = solver;
       entry->second.push_back(solve_profile(request));
     }

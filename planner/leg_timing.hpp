@@ -22,6 +22,13 @@ class LegTiming {
   /// Profiles of all stretches at a price; a result without a profile says why.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 
+  /// The time that the leg is given (s). At a negative price of a second no stretch takes longer: what is saved
+  /// beyond it would be of no use, and need not be ruled out by a lower bound.
+  void give(double duration_s) {
+    given_s_ = duration_s;
+    forget();
+  }
+
   void forget() { solved_.clear(); }
 
   /// Whether stretches are solved as drafts (ProfileRequest::draft).
@@ -29,6 +36,7 @@ class LegTiming {
 
  private:
   std::vector<ProfileRequest> stretches_{};
+  double given_s_{kNoLimit};
   std::map<std::pair<double, SolverChoice>, std::vector<ProfileResult>> solved_{};
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Price at which a leg alone takes a given time; a long time has a negative price, down to where
-/// standby is paid back in full and the robot rather waits.
+/// Price at which a leg alone takes a given time; a long time has a negative price, down to where standby is
+/// paid back (nearly: seconds without any price have no end) and the robot rather waits.
 double price_for_duration(LegTiming& leg, double duration_s, double standby_W, SolverChoice solver) {
   const TimeSplit split =
       split_time({.legs = 1,
@@ -17,7 +17,8 @@ double price_for_duration(LegTiming& leg, double duration_s, double standby_W, S
                   .latest_arrival_s = {duration_s},
                   .earliest_arrival_s = {0.0},
                   .dwell_s = {0.0},
-                  .lowest_price_W = -0.99 * standby_W});
+                  .lowest_price_W = -0.9999 * standby_W});
+  leg.give(duration_s);
   return split.late ? kInfinite : split.price_W.front();
 }
 

@@ -62,11 +62,11 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
-/// Gap in joules (or, of a minimum-time stretch, none: its value is a time).
+/// Gap in joules, of energy and the price of its time (of a minimum-time stretch none: its value is a time).
 double gap_J(const StretchPlan& stretch) {
-  return 0.01 * stretch.summary.gap_percent *
-         (stretch.energy.total_J() +
-          std::abs(stretch.summary.price_of_time_W) * stretch.profile.duration_s());
+  const double cost_J =
+      stretch.energy.total_J() + stretch.summary.price_of_time_W * stretch.profile.duration_s();
+  return 0.01 * stretch.summary.gap_percent * std::abs(cost_J);
 }
 
 std::string seconds(double value) {

@@ -1,12 +1,14 @@
 #include "scenarios/any_file.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/path_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
@@ -103,6 +105,14 @@ FileSummary summary_of_order(const std::string& file) {
   return summary;
 }
 
+FileSummary summary_of_path(const Path& path) {
+  char length[32];
+  std::snprintf(length, sizeof length, "%.4g m", path.distance_m());
+  const auto curves = std::count_if(path.pieces.begin(), path.pieces.end(),
+                                    [](const PathPiece& piece) { return !is_turn(piece); });
+  return {"path", std::string(length) + " in " + counted(static_cast<std::size_t>(curves), "piece"), {}};
+}
+
 FileSummary summary_of_output(const Document& document, const FileKind& kind) {
   check_document(document, kind.name, kind.schema());
   return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
@@ -127,6 +137,7 @@ std::string kind_of(const Document& document) {
                                   {"legs", "mission"},
                                   {"visit", "mission"},
                                   {"order", "mission"},
+                                  {"bezier_m", "path"},
                                   {"features", "route graph"},
                                   {"geometry", "robot"},
                                   {"motor", "robot"},
@@ -140,6 +151,8 @@ std::string kind_of(const Document& document) {
 FileSummary read_any_file(const std::string& file, const std::string& given_kind,
                           const ReadOptions& options) {
   const std::string extension = std::filesystem::path(file).extension().string();
+  if (is_waypoint_file(file) && (given_kind == "path" || (given_kind.empty() && has_waypoints(file))))
+    return summary_of_path(read_waypoints(file));
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
   const Document document = Document::load(file);
@@ -149,18 +162,20 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options);
+  if (kind == "path") return summary_of_path(path_from(document));
   if (kind == "fleet") return summary_of_fleet(file, options);
   if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};
   for (const auto& known : file_kinds())
     if (known.name == kind) return summary_of_output(document, known);
   const bool empty = document.root().kind() == Value::Kind::null;
-  throw ConfigError({{file, 1, 1},
-                     "",
-                     empty                ? "an empty file"
-                     : given_kind.empty() ? "a file of no known kind"
-                                          : "kind " + given_kind,
-                     "robot, map, mission, order, dataset, fleet, run log, route graph, plan or diagnosis",
-                     "a first line like `schema: joulepath/robot/1` tells the kind"});
+  throw ConfigError(
+      {{file, 1, 1},
+       "",
+       empty                ? "an empty file"
+       : given_kind.empty() ? "a file of no known kind"
+                            : "kind " + given_kind,
+       "robot, map, mission, order, path, dataset, fleet, run log, route graph, plan or diagnosis",
+       "a first line like `schema: joulepath/robot/1` tells the kind"});
 }
 
 }  // namespace joulepath

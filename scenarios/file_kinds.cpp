@@ -3,6 +3,7 @@
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/output_schemas.hpp"
+#include "scenarios/path_file.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -13,6 +14,7 @@ const std::vector<FileKind>& file_kinds() {
       {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
       {"dataset", dataset_schema, "run logs, what they were measured with, and how to read their columns"},
       {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
+      {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
       {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
       {"plan", plan_schema, "result of plan: plan.json"},
       {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},

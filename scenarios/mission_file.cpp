@@ -240,27 +240,6 @@ MissionRequest read_mission(const std::string& file, const ReadOptions& options)
   return mission_from(document, options);
 }
 
-MissionRequest read_mission_or_order(const std::string& file, const std::string& robot_file,
-                                     const std::string& map_file, const ReadOptions& options) {
-  const Document document = Document::load(file);
-  MissionRequest mission{.file = file, .name = std::filesystem::path(file).stem().string()};
-  if (!is_order(document)) {
-    mission = mission_from(document, options);
-  } else {
-    if (robot_file.empty())
-      throw ConfigError({{file, 1, 1},
-                         "",
-                         "a VDA 5050 order, which names no robot",
-                         "--robot and the name of a robot file",
-                         ""});
-    mission.order_file = file;
-    follow_order(mission);
-  }
-  if (!robot_file.empty()) mission.robot_file = robot_file;
-  if (!map_file.empty()) mission.map_file = map_file;
-  return mission;
-}
-
 namespace {
 
 /// A payload that the robot may not carry is a mistake of the mission, told at the leg.

@@ -13,12 +13,6 @@ namespace joulepath {
 /// read.
 [[nodiscard]] MissionRequest read_mission(const std::string& file, const ReadOptions& options = {});
 
-/// Reads a mission file, or a VDA 5050 order with a robot file beside it. A robot or map that is given takes
-/// the place of the mission's own.
-[[nodiscard]] MissionRequest read_mission_or_order(const std::string& file, const std::string& robot_file,
-                                                   const std::string& map_file,
-                                                   const ReadOptions& options = {});
-
 /// The mission of a parsed document; a line of JSON lines becomes a document with its own first line.
 [[nodiscard]] MissionRequest mission_from(const Document& document, const ReadOptions& options = {});
 

@@ -12,6 +12,8 @@ namespace {
 double clothoid_length(double angle) { return 2 * BlendShape::kClothoidShare * angle; }
 double arc_length(double angle) { return (1 - 2 * BlendShape::kClothoidShare) * angle; }
 
+double heading_rad(const Point2& a, const Point2& b) { return std::atan2(b[1] - a[1], b[0] - a[0]); }
+
 }  // namespace
 
 BlendShape blend_shape(double angle_rad) {
@@ -36,6 +38,44 @@ std::vector<CurveSegment> blend_segments(const Point2& corner_m, double heading_
   const LinearCurvature arc(rise.at(clothoid_m).pose, arc_m, peak);
   const LinearCurvature fall(arc.at(arc_m).pose, clothoid_m, peak, -slope);
   return {rise, arc, fall};
+}
+
+double corner_angle_rad(const std::vector<Point2>& polyline_m, std::size_t i) {
+  if (i == 0 || i + 1 >= polyline_m.size()) return 0;
+  return wrapped_angle_rad(heading_rad(polyline_m[i], polyline_m[i + 1]) -
+                           heading_rad(polyline_m[i - 1], polyline_m[i]));
+}
+
+Path blended_polyline(const std::vector<Point2>& polyline_m, const std::vector<double>& radius_m) {
+  constexpr double kNoStraight_m = 1e-9;  // blends that touch
+  Path path;
+  std::vector<CurveSegment> open;
+  const auto close = [&] {
+    if (!open.empty()) path.pieces.push_back(Curve(std::move(open)));
+    open.clear();
+  };
+  double from_m = 0;  // where the straight part of the line begins
+  for (std::size_t i = 0; i + 1 < polyline_m.size(); ++i) {
+    const Point2 &here = polyline_m[i], &next = polyline_m[i + 1];
+    const double h = heading_rad(here, next), angle = corner_angle_rad(polyline_m, i + 1);
+    const bool corner = std::abs(angle) > kNoCorner_rad, blended = corner && radius_m[i + 1] > 0;
+    const BlendShape shape = blended ? blend_shape(angle) : BlendShape{};
+    const double back_m = radius_m[i + 1] * shape.tangent;
+    const double straight_m = std::hypot(next[0] - here[0], next[1] - here[1]) - from_m - back_m;
+    if (straight_m > kNoStraight_m)
+      open.push_back(
+          LinearCurvature({here[0] + from_m * std::cos(h), here[1] + from_m * std::sin(h), h}, straight_m));
+    from_m = back_m;
+    if (blended) {
+      for (CurveSegment& segment : blend_segments(next, h, shape, radius_m[i + 1]))
+        open.push_back(std::move(segment));
+    } else if (corner) {
+      close();
+      append_turn_to(path, {}, heading_rad(next, polyline_m[i + 2]));
+    }
+  }
+  close();
+  return path;
 }
 
 }  // namespace joulepath

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/path/curve.hpp"
+#include "planner/path/path.hpp"
 #include "planner/path/polygon_distance.hpp"
 
 namespace joulepath {
@@ -27,5 +27,18 @@ struct BlendShape {
 /// The blend's segments around a corner that is reached with a heading.
 [[nodiscard]] std::vector<CurveSegment> blend_segments(const Point2& corner_m, double heading_in_rad,
                                                        const BlendShape& shape, double radius_m);
+
+/// Corners that turn by less are none.
+inline constexpr double kNoCorner_rad = 1e-9;
+/// Corners that turn by more are too sharp for a blend.
+inline constexpr double kSharpestBlend_rad = 2.7;
+
+/// By how much a polyline turns at its point i, 0 at its ends.
+[[nodiscard]] double corner_angle_rad(const std::vector<Point2>& polyline_m, std::size_t i);
+
+/// The polyline with a blend of smallest radius radius_m[i] at point i; 0: a turn in place there. The blends
+/// must fit between each other.
+[[nodiscard]] Path blended_polyline(const std::vector<Point2>& polyline_m,
+                                    const std::vector<double>& radius_m);
 
 }  // namespace joulepath

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kLadderRatio = 0.75;
 constexpr double kSmallestRadius_m = 0.03;
-constexpr double kSharpestBlend_rad = 2.7;  // sharper corners are turned in place
-constexpr double kNoCorner_rad = 1e-9;
 constexpr double kShortestStraight_m = 0.01;  // left between blends
 constexpr std::array<double, 3> kOutwardShares{0.0, 0.5, 1.0};
 
@@ -27,12 +25,10 @@ class BlendedPolyline {
       : original_(polyline_m), points_(polyline_m), radius_m_(polyline_m.size(), 0.0), checker_(checker) {}
 
   std::size_t size() const { return points_.size(); }
-  double angle_rad(std::size_t i) const {
-    if (i == 0 || i + 1 >= points_.size()) return 0;
-    return wrapped_angle_rad(heading_rad(points_[i], points_[i + 1]) -
-                             heading_rad(points_[i - 1], points_[i]));
-  }
+  double angle_rad(std::size_t i) const { return corner_angle_rad(points_, i); }
   double radius_m(std::size_t i) const { return radius_m_[i]; }
+  const std::vector<Point2>& points_m() const { return points_; }
+  const std::vector<double>& radii_m() const { return radius_m_; }
   const Point2& point_m(std::size_t i) const { return points_[i]; }
 
   /// Gives corner i a radius if that is free, with the vertex moved outwards as little as needed; its blend
@@ -131,30 +127,6 @@ void grow_blends(BlendedPolyline& line, double largest_m) {
         if (line.try_radius(i, radius_m, share)) break;
 }
 
-Path assemble(const BlendedPolyline& line) {
-  Path path;
-  std::vector<CurveSegment> open;
-  const auto close = [&] {
-    if (!open.empty()) path.pieces.push_back(Curve(std::move(open)));
-    open.clear();
-  };
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double h = heading_rad(line.point_m(i), line.point_m(i + 1)), from_m = line.tangent_m(i);
-    const Pose begin{line.point_m(i)[0] + from_m * std::cos(h), line.point_m(i)[1] + from_m * std::sin(h), h};
-    open.push_back(LinearCurvature(begin, line.straight_m(i)));
-    const std::size_t corner = i + 1;
-    if (corner + 1 >= line.size()) break;
-    if (line.radius_m(corner) > 0) {
-      for (CurveSegment& segment : line.blend(corner)) open.push_back(std::move(segment));
-    } else if (std::abs(line.angle_rad(corner)) > kNoCorner_rad) {
-      close();
-      append_turn_to(path, {}, heading_rad(line.point_m(corner), line.point_m(corner + 1)));
-    }
-  }
-  close();
-  return path;
-}
-
 }  // namespace
 
 SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
@@ -164,7 +136,7 @@ SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m, const Footprin
   BlendedPolyline line(polyline_m, checker);
   if (policy.kind == CornerPolicy::Kind::largest_blend) grow_blends(line, CornerPolicy::kLargestRadius_m);
   if (policy.kind == CornerPolicy::Kind::blend_radius) grow_blends(line, policy.radius_m);
-  result.path = assemble(line);
+  result.path = blended_polyline(line.points_m(), line.radii_m());
   result.polyline_m = polyline_m;
   for (std::size_t i = 1; i + 1 < line.size(); ++i)
     result.corners.push_back({line.point_m(i)[0], line.point_m(i)[1], line.angle_rad(i), line.radius_m(i)});

@@ -90,6 +90,87 @@ TEST(CommandLine, ExportWritesAllItsFilesOrNone) {
     EXPECT_TRUE(std::filesystem::exists(scratch.at(name))) << name;
 }
 
+const std::string kRobot = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
+
+TEST(CommandLine, APathIsComparedAtItsTimeWithItsPayload) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n");
+  const auto compared = [&](const std::string& options) {
+    const auto result =
+        run_program(scratch, "compare " + path + " --nodes 40 --json --robot " + kRobot + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["profiles"];
+  };
+  const auto profiles = compared(" --time 12 --payload 5");
+  const auto& plan = profiles[0];
+  EXPECT_EQ(plan["name"], "plan");
+  std::size_t counted = 0;
+  for (const auto& profile : profiles) {
+    if (!profile["feasible"].get<bool>()) continue;
+    ++counted;
+    EXPECT_NEAR(profile["duration_s"].get<double>(), 12.0, 1e-6) << profile["name"];
+    EXPECT_NEAR(profile["energy_J"].get<double>() - profile["motion_energy_J"].get<double>(), 12.0 * 10.0,
+                1e-3)
+        << "standby of this robot: 10 W";
+    EXPECT_GE(profile["energy_J"].get<double>(), plan["energy_J"].get<double>() * (1 - 1e-4))
+        << profile["name"];
+  }
+  EXPECT_GE(counted, 8u);
+  EXPECT_LT(compared(" --time 12")[0]["energy_J"].get<double>(), plan["energy_J"].get<double>());
+  EXPECT_LE(compared(" --payload 5")[0]["energy_J"].get<double>(), plan["energy_J"].get<double>());
+}
+
+TEST(CommandLine, AMissionOfTheSamePathHasTheSamePlan) {
+  const ScratchDirectory scratch;
+  const std::string curve = "bezier_m: [[[0, 0], [2.7, 0], [2.7, 0], [2.7, 2.7]]]";
+  const std::string path = scratch.write("path.yaml", curve + "\n");
+  const std::string mission = scratch.write("mission.yaml", "robot: " + kRobot + "\nlegs: [{path: {" + curve +
+                                                                "}, payload_kg: 3, duration_s: 15}]\n");
+  const auto energy_J = [&](const std::string& arguments) {
+    const auto result = run_program(scratch, arguments + " --nodes 40 --json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["profiles"][0]["energy_J"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(energy_J("compare " + path + " --robot " + kRobot + " --payload 3 --time 15"),
+                   energy_J("compare " + mission));
+}
+
+TEST(CommandLine, WhatAPathLacksOrAMissionHasIsSaidInOneLine) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n"),
+                    mission = kBroken + "good/mission.yaml", out = " --out " + scratch.at("out");
+  const auto refused = [&](const std::string& arguments, const std::string& says, int code = 2) {
+    const auto result = run_program(scratch, arguments + out);
+    EXPECT_EQ(result.code, code) << arguments;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("out"))) << arguments;
+  };
+  refused("compare " + path, "path.csv:1:1: found a path, which names no robot, accepted: --robot");
+  refused("front " + path, "--robot");
+  refused("compare " + path + " --robot " + kRobot + " --payload 50", "at most 12");
+  refused("compare " + mission + " --payload 5", "--payload: found a value beside a mission");
+  refused("compare " + mission + " --time 5", "--time: found a value beside a mission");
+  refused("front " + kBroken + "path/empty_cell.csv --robot " + kRobot,
+          "empty_cell.csv:3:1: y_m: found an empty cell");
+  refused("compare " + kBroken + "good/run.csv --robot " + kRobot, "no column x_m");
+  refused("compare " + path + " --time 1 --robot " + kRobot, "the fastest drive takes", 1);
+}
+
+TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");
+  const auto result = run_program(
+      scratch, "front " + path + " --nodes 40 --points 4 --json --robot " + kRobot + " --payload 5");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto points = nlohmann::json::parse(result.out)["points"];
+  ASSERT_EQ(points.size(), 4u);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    EXPECT_GT(points[k]["duration_s"], points[k - 1]["duration_s"]);
+    EXPECT_LT(points[k]["energy_J"], points[k - 1]["energy_J"]);
+  }
+}
+
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   const ScratchDirectory scratch;
   for (const char* file :

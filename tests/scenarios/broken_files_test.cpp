@@ -45,8 +45,9 @@ TEST(BrokenFiles, EachGivesItsOwnMessage) {
 }
 
 TEST(BrokenFiles, TheFilesThatTheyWereMadeFromAreRight) {
-  for (const char* file : {"robot.yaml", "mission.yaml", "visit.yaml", "map.yaml", "dataset.yaml",
-                           "fleet.yaml", "run.csv", "graph.geojson", "order.json"})
+  for (const char* file :
+       {"robot.yaml", "mission.yaml", "visit.yaml", "map.yaml", "dataset.yaml", "fleet.yaml", "run.csv",
+        "graph.geojson", "order.json", "path.yaml", "waypoints.csv", "corners.csv"})
     EXPECT_NO_THROW(static_cast<void>(read_any_file(kBroken + "good/" + file))) << file;
 }
 

@@ -131,7 +131,7 @@ TEST(JsonSchema, AgreesWithTheReadersOnGoodAndBrokenFiles) {
           << entry.path();
       (accepted ? kinds_accepted : kinds_refused).insert(kind->name);
     }
-  for (const char* kind : {"robot", "mission", "dataset", "fleet", "plan", "diagnosis"}) {
+  for (const char* kind : {"robot", "mission", "path", "dataset", "fleet", "plan", "diagnosis"}) {
     EXPECT_TRUE(kinds_accepted.contains(kind)) << kind;
     EXPECT_TRUE(kinds_refused.contains(kind)) << kind;
   }

@@ -5,6 +5,7 @@
 
 #include "planner/mission.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/mission_source.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
 #include "scenarios/vda5050/order_path.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
@@ -184,8 +185,8 @@ TEST(Order, HorizonIsNotPlanned) {
 /// The shipped order, planned: every limit of its edges holds everywhere.
 TEST(Order, PlanKeepsTheLimitsOfTheEdges) {
   MissionRequest mission =
-      read_mission_or_order(JOULEPATH_SOURCE_DIR "/scenarios/orders/warehouse_v3.json",
-                            JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml", "");
+      read_mission_source({.file = JOULEPATH_SOURCE_DIR "/scenarios/orders/warehouse_v3.json",
+                           .robot_file = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml"});
   const MissionWorld world = read_world(mission);
   const Plan plan =
       plan_mission(mission, world, {.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-2});

@@ -1,0 +1,34 @@
+#include "app/study.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace joulepath {
+
+void add_study_options(CLI::App& app, StudyOptions& options, const std::string& result_file, bool with_time) {
+  add_mission_source(app, options.source, with_time);
+  app.add_option("--out", options.out, "directory for " + result_file + " and report.html");
+  add_common_flags(app, options.common, "qjfu");
+}
+
+bool study_writes(const StudyOptions& options) { return !options.out.empty(); }
+
+OutputDirectory study_output(const StudyOptions& options, const std::string& result_file) {
+  if (!study_writes(options)) return {".", {}, options.common.force};
+  return {options.out, {result_file, "report.html"}, options.common.force};
+}
+
+void write_study(OutputDirectory& out, const std::string& result_file, const nlohmann::json& result,
+                 std::string report_html) {
+  out.write(result_file, result.dump(2) + "\n");
+  out.write("report.html", std::move(report_html));
+  out.commit();
+}
+
+bool study_prints(const StudyOptions& options, const nlohmann::json& result) {
+  if (options.common.json) std::cout << result.dump(2) << "\n";
+  return !options.common.json && !options.common.quiet;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/mission_request.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// What a command is given to plan: a mission, a VDA 5050 order or a path, and what stands beside it.
+struct MissionSource {
+  std::string file{};
+  std::string robot_file{};            ///< takes the place of a mission's; orders and paths name none
+  std::string map_file{};              ///< takes the place of a mission's
+  std::optional<double> payload_kg{};  ///< paths only
+  std::optional<double> duration_s{};  ///< paths only; none: the most economical
+};
+
+/// The mission of a source; of a path it is one leg along it, from rest to rest.
+[[nodiscard]] MissionRequest read_mission_source(const MissionSource& source,
+                                                 const ReadOptions& options = {});
+
+}  // namespace joulepath

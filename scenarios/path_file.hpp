@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "planner/path/path.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+/// `schema: joulepath/path/1`: a chain of cubic Bezier curves in the map frame.
+[[nodiscard]] Schema path_schema();
+
+/// Whether a document is a path: by its schema line, or by `bezier_m` at its top.
+[[nodiscard]] bool is_path(const Document& document);
+
+/// Whether a file is read as waypoints: by its extension, `.csv`.
+[[nodiscard]] bool is_waypoint_file(const std::string& file);
+
+/// Whether a CSV file holds waypoints, not a run log: by its column x_m.
+[[nodiscard]] bool has_waypoints(const std::string& file);
+
+/// The path of a document. It begins looking along its first curve; where the heading breaks the robot turns.
+/// Throws ConfigError at a curve that cannot be driven.
+[[nodiscard]] Path path_from(const Document& document);
+
+/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature through all of them, or, with a
+/// column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
+/// turned on the spot). Throws ConfigError at a row that cannot be driven.
+[[nodiscard]] Path read_waypoints(const std::string& file);
+
+}  // namespace joulepath

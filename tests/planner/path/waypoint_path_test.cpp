@@ -1,0 +1,87 @@
+#include "planner/path/waypoint_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/planner/path/curve_laws.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A bent track with uneven spacing.
+const std::vector<Point2> kTrack{{0, 0}, {0.4, 0.1}, {2, 0.5}, {2.5, 1.5}, {1.5, 3}, {1.45, 3.2}, {3, 5}};
+
+double distance_m(const PathPiece& piece, const Point2& point_m) {
+  double least_m = 1e9;
+  constexpr int kSamples = 20000;
+  for (int k = 0; k <= kSamples; ++k) {
+    const Pose pose = piece_point(piece, piece_length(piece) * k / kSamples).pose;
+    least_m = std::min(least_m, std::hypot(pose.x_m - point_m[0], pose.y_m - point_m[1]));
+  }
+  return least_m;
+}
+
+TEST(WaypointPath, ACurvePassesAllWaypointsInOnePieceWithContinuousCurvature) {
+  const WaypointPath along = curve_through(kTrack);
+  ASSERT_FALSE(along.defect);
+  ASSERT_EQ(along.path.pieces.size(), 1u) << "no stop";
+  const PathPiece& piece = along.path.pieces.front();
+  for (const Point2& point : kTrack) EXPECT_LT(distance_m(piece, point), 5e-4);
+  const CurveBreach breach = curve_breach(piece);
+  EXPECT_LT(breach.position_m, 1e-9);
+  EXPECT_LT(breach.curvature_per_m, 1e-6);
+  EXPECT_LT(breach.curvature_step_per_m, 1e-6);
+  EXPECT_NEAR(piece_point(piece, 0).curvature_per_m, 0, 1e-9) << "natural at its ends";
+  EXPECT_NEAR(piece_point(piece, piece_length(piece)).curvature_per_m, 0, 1e-9);
+}
+
+TEST(WaypointPath, WaypointsOfACircleGiveItsCurvature) {
+  std::vector<Point2> circle_m;
+  for (int k = 0; k <= 40; ++k) circle_m.push_back({2 * std::cos(0.05 * k), 2 * std::sin(0.05 * k)});
+  const WaypointPath along = curve_through(circle_m);
+  ASSERT_FALSE(along.defect);
+  const PathPiece& piece = along.path.pieces.front();
+  EXPECT_NEAR(piece_point(piece, 0.5 * piece_length(piece)).curvature_per_m, 0.5, 2e-4);
+}
+
+TEST(WaypointPath, CornersKeepTheirRadiusAndWithoutOneTheRobotTurns) {
+  const WaypointPath along = lines_between({{0, 0}, {3, 0}, {3, 3}, {6, 3}}, {0, 0.5, 0, 0});
+  ASSERT_FALSE(along.defect);
+  ASSERT_EQ(along.path.pieces.size(), 3u);
+  EXPECT_TRUE(is_turn(along.path.pieces[1]));
+  const PathPiece& bend = along.path.pieces.front();
+  double most_per_m = 0;
+  for (int k = 0; k <= 2000; ++k)
+    most_per_m =
+        std::max(most_per_m, std::abs(piece_point(bend, piece_length(bend) * k / 2000).curvature_per_m));
+  EXPECT_NEAR(most_per_m, 1 / 0.5, 1e-6);
+  EXPECT_LT(curve_breach(bend).curvature_step_per_m, 1e-9);
+  EXPECT_NEAR(along.path.end().x_m, 6, 1e-9);
+  EXPECT_NEAR(along.path.end().y_m, 3, 1e-9);
+}
+
+TEST(WaypointPath, TheLargestRadiusThatItAcceptsFitsAndNoLargerOne) {
+  const std::vector<Point2> corner_m{{0, 0}, {3, 0}, {3, 2}};
+  const WaypointPath wide = lines_between(corner_m, {0, 5, 0});
+  ASSERT_TRUE(wide.defect);
+  EXPECT_EQ(wide.defect->waypoint, 1u);
+  const double most_m = std::stod(wide.defect->accepted.substr(std::string("at most ").size()));
+  EXPECT_FALSE(lines_between(corner_m, {0, 0.999 * most_m, 0}).defect) << wide.defect->accepted;
+  EXPECT_TRUE(lines_between(corner_m, {0, 1.001 * most_m, 0}).defect);
+}
+
+TEST(WaypointPath, WaypointsThatNoRobotCanFollowAreNamed) {
+  const auto waypoint_of = [](const WaypointPath& along) {
+    return along.defect ? static_cast<int>(along.defect->waypoint) : -1;
+  };
+  EXPECT_EQ(waypoint_of(curve_through({{1, 1}})), 0);
+  EXPECT_EQ(waypoint_of(curve_through({{0, 0}, {1, 0}, {1, 0}, {2, 0}})), 2);
+  EXPECT_EQ(waypoint_of(curve_through({{0, 0}, {1, 0}, {0.5, 0}, {2, 0}})), 1) << "turns back";
+  EXPECT_EQ(waypoint_of(lines_between({{0, 0}, {1, 0}, {0, 0}}, {0, 0.1, 0})), 1);
+  EXPECT_EQ(waypoint_of(lines_between({{0, 0}, {1, 0}, {0, 0}}, {0, 0, 0})), -1) << "half a turn on the spot";
+}
+
+}  // namespace
+}  // namespace joulepath
