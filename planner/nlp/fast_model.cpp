@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace joulepath::nlp {
-namespace {
-
-/// The three accelerations come first in Rows and are linear in b.
-constexpr std::size_t kLastLinearTerm = 2;
-static_assert(std::is_same_v<std::tuple_element_t<kLastLinearTerm, Rows>, WheelAcceleration>);
-
-}  // namespace
 
 FastModel::FastModel(const Problem& problem)
     : p_(problem),

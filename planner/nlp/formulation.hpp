@@ -22,6 +22,10 @@ namespace joulepath::nlp {
 ///   subject to  every row of Rows within its bounds, z >= 0, E + z >= 0,  sum dt <= or = duration
 using Rows = std::tuple<Acceleration, YawAcceleration, WheelAcceleration, MotorCurrent, MotorVoltage,
                         MotorPower, Traction, BatteryPower>;
+/// The three accelerations come first and are linear in b.
+inline constexpr std::size_t kYawTerm = 1, kLastLinearTerm = 2;
+static_assert(std::is_same_v<std::tuple_element_t<kYawTerm, Rows>, YawAcceleration> &&
+              std::is_same_v<std::tuple_element_t<kLastLinearTerm, Rows>, WheelAcceleration>);
 using Energy = WheelEnergy;
 using Time = Duration;
 
