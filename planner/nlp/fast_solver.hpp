@@ -12,8 +12,9 @@ struct FastOptions {
 
 /// A primal-dual interior-point method made for this structure: the Hessian is tridiagonal, every row and
 /// every recovery variable belongs to one segment and is eliminated there, the duration row borders the
-/// system. Predictor-corrector steps; one iteration costs O(N). Where it stalls, `converged` is false and
-/// `message` says why. `b_guess`: all nodes, inside of the bounds.
+/// system. Predictor-corrector steps; one iteration costs O(N). On a fine grid the start is solved for on a
+/// coarser one, whose iterations are not counted. Where it stalls, `converged` is false and `message` says
+/// why. `b_guess`: all nodes, inside of the bounds.
 [[nodiscard]] Solution solve_fast(const Problem& problem, const std::vector<double>& b_guess,
                                   const FastOptions& options = {});
 

@@ -6,10 +6,6 @@
 namespace joulepath::nlp {
 namespace {
 
-/// Complementarity of every pair at the start, as a share of a segment's part of the objective. Where it is
-/// smaller, the first steps are short, and more iterations go by than it saves.
-constexpr double kFirstGap = 0.3;
-
 void add_bounds(FastState& state, const Problem& problem, double mu) {
   for (std::size_t k = 0; k < problem.unknown_count(); ++k) {
     const double b = state.b[k + 1], room = problem.cap[k + 1].squared - b;
@@ -38,28 +34,29 @@ void add_rows(FastState& state, const FastModel& model, double mu) {
 
 void add_recoveries(FastState& state, const FastModel& model, double mu) {
   const Problem& problem = model.problem();
-  const double weight = problem.recovery_weight, half = 0.5 * weight;
+  const double weight = problem.recovery_weight;
   for (std::size_t k = 0; k < problem.segment_count(); ++k)
     for (std::size_t c = 0; c < problem.channels; ++c) {
       const double E = model.jets(k).energy_J[c].value;
-      const double z = std::max(0.0, -E) + 0.1 * std::abs(E) + mu / half;
-      const double y = std::clamp(mu / z, 0.05 * half, half);
+      // On the central path: z y = (E + z) (weight - y) = mu.
+      const double z = (2 * mu - weight * E + std::hypot(weight * E, 2 * mu)) / (2 * weight);
+      const double y = mu / z;
       state.recoveries.push_back({.z = {.s = z, .y = y}, .sum = {.s = E + z, .y = weight - y}});
     }
 }
 
 }  // namespace
 
-FastState starting_state(FastModel& model, const std::vector<double>& b_guess) {
+FastState starting_state(FastModel& model, const FastStart& start) {
   const Problem& problem = model.problem();
-  FastState state{.b = b_guess, .duration_row = problem.duration_row};
+  FastState state{.b = start.b, .duration_row = problem.duration_row};
   for (std::size_t k = 1; k + 1 < state.b.size(); ++k) {
     const double cap = problem.cap[k].squared;
-    state.b[k] = std::clamp(state.b[k], std::min(1e-12, 1e-3 * cap), cap * (1 - 1e-6));
+    state.b[k] = std::clamp(state.b[k], std::min(1e-12, 1e-3 * cap), cap * (1 - start.room));
   }
   model.evaluate(state.b);
   const double size = std::max(1e-6, std::abs(model.objective()));
-  const double mu = kFirstGap * size / static_cast<double>(problem.segment_count());
+  const double mu = start.gap * size / static_cast<double>(problem.segment_count());
   add_bounds(state, problem, mu);
   add_rows(state, model, mu);
   add_recoveries(state, model, mu);

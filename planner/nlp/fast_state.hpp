@@ -69,7 +69,14 @@ struct FastState {
   }
 };
 
-/// A strictly positive state near a guess (all nodes); evaluates the model there.
-[[nodiscard]] FastState starting_state(FastModel& model, const std::vector<double>& b_guess);
+/// Where a solve starts: squares of the rate at all nodes, and how far from the optimum they are.
+struct FastStart {
+  const std::vector<double>& b;
+  double gap{};   ///< complementarity of every pair, as a share of a segment's part of the objective
+  double room{};  ///< least share of a cap that is left below it
+};
+
+/// A strictly positive state near a start; evaluates the model there.
+[[nodiscard]] FastState starting_state(FastModel& model, const FastStart& start);
 
 }  // namespace joulepath::nlp

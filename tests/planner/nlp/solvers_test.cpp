@@ -38,5 +38,26 @@ TEST(FastSolver, FindsTheOptimumOfIpopt) {
   }
 }
 
+/// On a fine grid the fast solver starts from a coarser one of its own.
+TEST(FastSolver, FindsTheOptimumOfIpoptOnAFineGrid) {
+  joulepath::testing::RandomProfiles random(77);
+  for (int i = 0; i < 8; ++i) {
+    ProfileRequest request = random.next(joulepath::testing::kPathClasses[i % 4]);
+    const PathMotion motion = path_motion(request);
+    const std::vector<double> grid = make_grid(motion, request, 1000);
+    const RateEnvelope envelope = rate_envelope(transcribe(request, motion, grid, {}, nullptr));
+    ASSERT_FALSE(envelope.blocked.has_value()) << i;
+    const Problem free = transcribe(request, motion, grid, {}, nullptr);
+    if (i % 3 != 0) request.time = {TimeMode::time_budget, 1.3 * duration_of(free, envelope.fastest)};
+    const Problem problem = transcribe(request, motion, grid, {}, nullptr);
+    std::vector<double> guess = envelope.fastest;
+    for (std::size_t k = 1; k + 1 < guess.size(); ++k) guess[k] /= 1.6;
+    const Solution fast = solve_fast(problem, guess), reference = solve_with_ipopt(problem, guess);
+    ASSERT_TRUE(reference.converged) << i << " " << reference.message;
+    ASSERT_TRUE(fast.converged) << i << " " << fast.message;
+    EXPECT_NEAR(fast.objective, reference.objective, 1e-6 * std::abs(reference.objective)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace joulepath::nlp
