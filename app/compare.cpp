@@ -5,6 +5,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/plan_options.hpp"
+#include "app/plan_summary.hpp"
 #include "app/profile_columns.hpp"
 #include "app/report/report.hpp"
 #include "app/study.hpp"
@@ -20,13 +21,9 @@ namespace {
 using nlohmann::json;
 
 json profile_json(const BaselineTotal& total) {
-  return {{"name", total.name},
-          {"feasible", total.feasible},
-          {"reason", total.reason},
-          {"energy_J", total.energy_J},
-          {"motion_energy_J", total.motion_energy_J},
-          {"duration_s", total.duration_s},
-          {"parameters", total.settings}};
+  json profile = baseline_json(total);
+  profile["parameters"] = total.settings;
+  return profile;
 }
 
 BaselineTotal total_of(const Plan& plan) {
@@ -41,7 +38,7 @@ void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared)
   const auto row = [&](const BaselineTotal& total) {
     const bool counted = total.feasible;
     table.row(
-        {total.name, counted ? figure(total.energy_J, 5) : "-",
+        {baseline_name(total), counted ? figure(total.energy_J, 5) : "-",
          counted ? figure(saving_percent(plan.energy.total_J(), total.energy_J), 3) + " %" : "-",
          counted ? figure(total.motion_energy_J, 5) : "-",
          counted ? figure(saving_percent(plan.energy.motion_J(), total.motion_energy_J), 3) + " %" : "-",

@@ -57,11 +57,6 @@ void print_legs(std::ostream& stream, const Plan& plan) {
   table.print(stream);
 }
 
-std::string baseline_name(const BaselineTotal& baseline) {
-  if (!baseline.feasible || !baseline.late()) return baseline.name;
-  return baseline.name + ", " + figure(baseline.later_s, 2) + " s later";
-}
-
 void print_baselines(std::ostream& stream, const Plan& plan) {
   Table table({"same path, same time", "total J", "saved", "motion J", "saved of motion"});
   for (const BaselineTotal& baseline : plan.baselines)
@@ -92,6 +87,11 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
 }
 
 }  // namespace
+
+std::string baseline_name(const BaselineTotal& baseline) {
+  if (!baseline.feasible || !baseline.late()) return baseline.name;
+  return baseline.name + ", " + figure(baseline.later_s, 2) + " s later";
+}
 
 void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {
   if (plan.infeasibility) {

@@ -11,4 +11,7 @@ namespace joulepath {
 /// are.
 void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory);
 
+/// A baseline's name for a table; with the seconds by which it is later than the plan.
+[[nodiscard]] std::string baseline_name(const BaselineTotal& baseline);
+
 }  // namespace joulepath

@@ -26,6 +26,17 @@ void write_study(OutputDirectory& out, const std::string& result_file, const nlo
   out.commit();
 }
 
+nlohmann::json baseline_json(const BaselineTotal& total) {
+  nlohmann::json json{{"name", total.name},
+                      {"feasible", total.feasible},
+                      {"reason", total.reason},
+                      {"energy_J", total.energy_J},
+                      {"motion_energy_J", total.motion_energy_J},
+                      {"duration_s", total.duration_s}};
+  if (total.feasible && total.late()) json["later_s"] = total.later_s;
+  return json;
+}
+
 bool study_prints(const StudyOptions& options, const nlohmann::json& result) {
   if (options.common.json) std::cout << result.dump(2) << "\n";
   return !options.common.json && !options.common.quiet;

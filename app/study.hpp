@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
+#include "planner/plan.hpp"
 
 namespace joulepath {
 
@@ -32,5 +33,8 @@ void write_study(OutputDirectory& out, const std::string& result_file, const nlo
 
 /// Prints the result under --json. True where it is the table that is to be printed.
 [[nodiscard]] bool study_prints(const StudyOptions& options, const nlohmann::json& result);
+
+/// {name, feasible, reason, energy_J, motion_energy_J, duration_s, later_s}; the last where it is late.
+[[nodiscard]] nlohmann::json baseline_json(const BaselineTotal& total);
 
 }  // namespace joulepath

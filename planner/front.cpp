@@ -126,6 +126,7 @@ Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_
       const std::optional<Sum> sum = part->at_price(price_W);
       if (!sum) return std::nullopt;
       point.duration_s += sum->duration_s;
+      point.stretch_s.push_back(sum->duration_s);
       point.motion_energy_J += sum->motion_energy_J;
     }
     point.energy_J = point.motion_energy_J + standby_W * point.duration_s;

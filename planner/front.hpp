@@ -14,6 +14,7 @@ struct FrontPoint {
   double motion_energy_J{};
   double price_of_time_W{};  ///< exact slope -dE/dT: the price at which this point is the best
   SolveStatus status{SolveStatus::failed};
+  std::vector<double> stretch_s{};  ///< duration of each stretch
 };
 
 struct Front {

@@ -8,7 +8,7 @@ namespace {
 TimeGoal goal_for(double price_W, double given_s) {
   if (std::isinf(price_W)) return {.mode = TimeMode::minimum_time};
   if (price_W == 0.0) return {.mode = TimeMode::free_time};
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = 1e-9;
   const double most_s = price_W < 0 ? given_s * (1 + kRounding) : kNoLimit;
   return {.mode = TimeMode::time_price, .duration_s = most_s, .price_W = price_W};
 }

@@ -22,8 +22,7 @@ class LegTiming {
   /// Profiles of all stretches at a price; a result without a profile says why.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 
-  /// The time that the leg is given (s). At a negative price of a second no stretch takes longer: what is saved
-  /// beyond it would be of no use, and need not be ruled out by a lower bound.
+  /// The time that the leg is given (s): at a negative price of a second no stretch takes longer.
   void give(double duration_s) {
     given_s_ = duration_s;
     forget();

@@ -19,6 +19,9 @@ constexpr int kRounds = 3;  ///< of choosing ways at the prices that the last ro
 void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration_s,
                 const PlanOptions& options, const Plant& plant) {
   if (leg.prescribed) return;
+  constexpr double kNoWait = 1e-6;  ///< relative
+  // A duration longer than any use: the certificate is to know that there is no more of it.
+  if (timing.duration_s(price_W, options.solver) < duration_s * (1 - kNoWait)) timing.give(duration_s);
   const std::vector<ProfileResult>& results = timing.solve(price_W, options.solver);
   leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;
@@ -35,8 +38,8 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
     leg.energy += stretch.energy;
     leg.stretches.push_back(std::move(stretch));
   }
-  const double wait_s = std::max(0.0, duration_s - leg.duration_s);  // a duration longer than any use
-  if (wait_s > 1e-6 * duration_s && !leg.stretches.empty()) {
+  const double wait_s = std::max(0.0, duration_s - leg.duration_s);
+  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
     leg.stretches.back().profile.wait_s += wait_s;
     leg.duration_s += wait_s;
     leg.energy.standby_J += plant.robot.power.standby_W * wait_s;

@@ -18,7 +18,6 @@ double price_for_duration(LegTiming& leg, double duration_s, double standby_W, S
                   .earliest_arrival_s = {0.0},
                   .dwell_s = {0.0},
                   .lowest_price_W = -0.9999 * standby_W});
-  leg.give(duration_s);
   return split.late ? kInfinite : split.price_W.front();
 }
 

@@ -1,26 +1,11 @@
 #include "planner/plan_accounts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
 namespace joulepath {
 namespace {
-
-/// No trapezoid keeps a very tight time on a curved stretch: there the first of these that one keeps.
-constexpr std::array<double, 8> kLaterBy{1.0, 1.01, 1.02, 1.04, 1.07, 1.1, 1.2, 1.4};
-
-using Baseline = BaselineResult (*)(const ProfileRequest& request, double duration_s);
-
-BaselineResult soonest(Baseline baseline, const StretchPlan& stretch) {
-  BaselineResult result;
-  for (double factor : kLaterBy) {
-    result = baseline(stretch.request, factor * stretch.profile.duration_s());
-    if (result.feasible) break;
-  }
-  return result;
-}
 
 void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s) {
   total.name = result.name;
@@ -86,8 +71,8 @@ std::vector<BaselineTotal> leg_baselines(const LegPlan& leg) {
   BaselineTotal tuned{.name = "trapezoid_best_tuned"};
   for (const StretchPlan& stretch : leg.stretches) {
     const double planned_s = stretch.profile.duration_s();
-    add_stretch(maximum, soonest(trapezoid_max_acceleration, stretch), planned_s);
-    add_stretch(tuned, soonest(trapezoid_best_tuned, stretch), planned_s);
+    add_stretch(maximum, soonest(trapezoid_max_acceleration, stretch.request, planned_s), planned_s);
+    add_stretch(tuned, soonest(trapezoid_best_tuned, stretch.request, planned_s), planned_s);
   }
   if (leg.prescribed)  // every way of planning drives it the same
     for (BaselineTotal* baseline : {&maximum, &tuned}) {

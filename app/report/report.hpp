@@ -54,7 +54,7 @@ struct DiagnosisExtras {
                                               const std::string& title = {});
 
 /// `front`: {"points": [{duration_s, energy_J, motion_energy_J, price_of_time_W, status}],
-/// "baselines": [{name, duration_s, energy_J, motion_energy_J}]}.
+/// "baselines": [{name, feasible, duration_s, energy_J, motion_energy_J, later_s, optimum_J}]}.
 [[nodiscard]] std::string front_report_html(const nlohmann::json& front,
                                             const std::vector<NamedColumns>& profiles,
                                             const std::string& title = {});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,7 +28,16 @@ struct BaselineResult {
 [[nodiscard]] BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s);
 [[nodiscard]] BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s);
 
-/// All of them, for `joulepath compare`.
+/// A family of classic profiles: its member for a request that takes a time.
+using Baseline = std::function<BaselineResult(const ProfileRequest& request, double duration_s)>;
+
+/// All of them, in the order of reports.
+[[nodiscard]] const std::vector<Baseline>& baselines();
 [[nodiscard]] std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double duration_s);
+
+/// A baseline at a time, or the soonest of a few later ones where none makes that: no shape keeps a very
+/// tight time on a curved piece.
+[[nodiscard]] BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request,
+                                     double duration_s);
 
 }  // namespace joulepath

@@ -122,10 +122,10 @@ BaselineResult minimum_time_then_wait(const ProfileRequest& request, double dura
 
 /// Never a motion from rest: it needs a piece that is entered and left at that very speed, and cannot be
 /// clipped.
-BaselineResult constant_speed(const ProfileRequest& request, double length, double duration_s) {
+BaselineResult constant_speed(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "constant_speed";
   constexpr double kSame = 1e-6;
-  const double rate = length / duration_s;
+  const double length = piece_length(request.piece), rate = length / duration_s;
   if (std::abs(request.start_rate - rate) > kSame || std::abs(request.end_rate - rate) > kSame)
     return no_baseline(kName, "needs a jump of speed at the ends");
   Profile profile{
@@ -134,46 +134,76 @@ BaselineResult constant_speed(const ProfileRequest& request, double length, doub
                          {{unit_key(request, "speed_m_s", "yaw_rate_rad_s"), rate}});
 }
 
-/// The shapes from rest to rest, with their settings.
-std::vector<BaselineResult> from_rest_to_rest(const ProfileRequest& request, double length, double T) {
-  const auto acceleration = unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2");
-  const RampLimits ramp = ramp_limits(request);
-  struct Shape {
-    const char* name;
-    std::function<std::optional<Profile>(double, double)> profile;
-    Settings settings;
-  };
-  const std::vector<Shape> shapes{
-      {"triangular", triangle, {{acceleration, 4 * length / (T * T)}}},
-      {"constant_ramp", ramps, {{"ramp_s", std::min(kRamp_s, 0.5 * T)}}},
-      {"s_curve",
-       [&](double l, double t) { return s_curve(ramp, l, t); },
-       {{acceleration, ramp.a}, {unit_key(request, "jerk_m_s3", "yaw_jerk_rad_s3"), ramp.j}}},
-      {"cubic", cubic, {}},
-      {"quintic", quintic, {}},
-      {"sinusoidal", sinusoidal, {}}};
-  std::vector<BaselineResult> results;
-  for (const Shape& shape : shapes) {
+/// A shape from rest to rest over a length in a time; nothing where there is none so fast.
+using Shape = std::optional<Profile> (*)(const ProfileRequest& request, double length, double duration_s);
+using SettingsOf = Settings (*)(const ProfileRequest& request, double length, double duration_s);
+
+Baseline from_rest_to_rest(const char* name, Shape shape, SettingsOf settings) {
+  return [=](const ProfileRequest& request, double duration_s) {
     if (request.start_rate != 0 || request.end_rate != 0)
-      results.push_back(no_baseline(shape.name, "runs from rest to rest only"));
-    else
-      results.push_back(clipped_baseline(
-          request, shape.name, [&](double t) { return shape.profile(length, t); }, T, shape.settings));
-  }
-  return results;
+      return no_baseline(name, "runs from rest to rest only");
+    const double length = piece_length(request.piece);
+    return clipped_baseline(
+        request, name, [&](double t) { return shape(request, length, t); }, duration_s,
+        settings(request, length, duration_s));
+  };
+}
+
+Settings no_settings(const ProfileRequest&, double, double) { return {}; }
+
+Settings peak_acceleration(const ProfileRequest& request, double length, double T) {
+  return {{unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2"), 4 * length / (T * T)}};
+}
+
+Settings ramp_time(const ProfileRequest&, double, double T) {
+  return {{"ramp_s", std::min(kRamp_s, 0.5 * T)}};
+}
+
+Settings s_curve_settings(const ProfileRequest& request, double, double) {
+  const RampLimits ramp = ramp_limits(request);
+  return {{unit_key(request, "acceleration_m_s2", "yaw_acceleration_rad_s2"), ramp.a},
+          {unit_key(request, "jerk_m_s3", "yaw_jerk_rad_s3"), ramp.j}};
+}
+
+template <Profile (*shape)(double, double)>
+std::optional<Profile> plain(const ProfileRequest&, double length, double T) {
+  return shape(length, T);
+}
+
+std::optional<Profile> limited_s_curve(const ProfileRequest& request, double length, double T) {
+  return s_curve(ramp_limits(request), length, T);
 }
 
 }  // namespace
 
+const std::vector<Baseline>& baselines() {
+  static const std::vector<Baseline> all{trapezoid_max_acceleration,
+                                         trapezoid_best_tuned,
+                                         from_rest_to_rest("triangular", plain<triangle>, peak_acceleration),
+                                         from_rest_to_rest("constant_ramp", plain<ramps>, ramp_time),
+                                         from_rest_to_rest("s_curve", limited_s_curve, s_curve_settings),
+                                         from_rest_to_rest("cubic", plain<cubic>, no_settings),
+                                         from_rest_to_rest("quintic", plain<quintic>, no_settings),
+                                         from_rest_to_rest("sinusoidal", plain<sinusoidal>, no_settings),
+                                         minimum_time_then_wait,
+                                         constant_speed};
+  return all;
+}
+
 std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double duration_s) {
-  const double length = piece_length(request.piece);
-  std::vector<BaselineResult> results{trapezoid_max_acceleration(request, duration_s),
-                                      trapezoid_best_tuned(request, duration_s)};
-  for (BaselineResult& result : from_rest_to_rest(request, length, duration_s))
-    results.push_back(std::move(result));
-  results.push_back(minimum_time_then_wait(request, duration_s));
-  results.push_back(constant_speed(request, length, duration_s));
+  std::vector<BaselineResult> results;
+  for (const Baseline& baseline : baselines()) results.push_back(baseline(request, duration_s));
   return results;
+}
+
+BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request, double duration_s) {
+  BaselineResult in_time = baseline(request, duration_s);
+  if (in_time.feasible) return in_time;
+  for (double factor : {1.01, 1.02, 1.04, 1.07, 1.1, 1.2, 1.4}) {
+    BaselineResult later = baseline(request, factor * duration_s);
+    if (later.feasible) return later;
+  }
+  return in_time;
 }
 
 }  // namespace joulepath

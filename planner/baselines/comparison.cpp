@@ -1,9 +1,11 @@
 #include "planner/baselines/comparison.hpp"
 
+#include <algorithm>
+
 namespace joulepath {
 namespace {
 
-void add(ComparedProfile& sum, BaselineResult result) {
+void add(ComparedProfile& sum, BaselineResult result, double planned_s) {
   BaselineTotal& total = sum.total;
   total.name = result.name;
   if (!result.feasible && total.feasible) {
@@ -13,24 +15,32 @@ void add(ComparedProfile& sum, BaselineResult result) {
   total.energy_J += result.energy_J;
   total.motion_energy_J += result.motion_energy_J;
   total.duration_s += result.duration_s;
+  total.later_s += std::max(0.0, result.duration_s - planned_s);
   total.settings.push_back(std::move(result.parameters));
   if (result.profile) sum.profiles.push_back(std::move(*result.profile));
 }
 
 }  // namespace
 
+std::vector<ComparedProfile> compare_baselines(const std::vector<TimedStretch>& stretches) {
+  std::vector<ComparedProfile> compared(stretches.empty() ? 0 : baselines().size());
+  for (const auto& [request, duration_s] : stretches)
+    for (std::size_t i = 0; i < compared.size(); ++i)
+      add(compared[i], soonest(baselines()[i], *request, duration_s), duration_s);
+  return compared;
+}
+
 std::vector<ComparedProfile> compare_baselines(const Plan& plan) {
-  std::vector<ComparedProfile> compared;
+  std::vector<TimedStretch> stretches;
   EnergyByCause driven;
   double driving_s = 0;
   for (const LegPlan& leg : plan.legs)
     for (const StretchPlan& stretch : leg.stretches) {
+      stretches.push_back({&stretch.request, stretch.profile.duration_s()});
       driven += stretch.energy;
       driving_s += stretch.profile.duration_s();
-      std::vector<BaselineResult> results = all_baselines(stretch.request, stretch.profile.duration_s());
-      compared.resize(results.size());
-      for (std::size_t i = 0; i < results.size(); ++i) add(compared[i], std::move(results[i]));
     }
+  std::vector<ComparedProfile> compared = compare_baselines(stretches);
   for (ComparedProfile& profile : compared) {
     profile.total.energy_J += plan.energy.total_J() - driven.total_J();
     profile.total.motion_energy_J += plan.energy.motion_J() - driven.motion_J();

@@ -163,12 +163,22 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
   const auto result = run_program(
       scratch, "front " + path + " --nodes 40 --points 4 --json --robot " + kRobot + " --payload 5");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto points = nlohmann::json::parse(result.out)["points"];
+  const auto front = nlohmann::json::parse(result.out);
+  const auto& points = front["points"];
   ASSERT_EQ(points.size(), 4u);
   for (std::size_t k = 1; k < points.size(); ++k) {
     EXPECT_GT(points[k]["duration_s"], points[k - 1]["duration_s"]);
     EXPECT_LT(points[k]["energy_J"], points[k - 1]["energy_J"]);
   }
+  std::size_t beside = 0;
+  for (const auto& profile : front["baselines"]) {
+    if (!profile["feasible"].get<bool>()) continue;
+    ++beside;
+    const double optimum_J = profile["optimum_J"], energy_J = profile["energy_J"];
+    EXPECT_GE(energy_J, optimum_J * (1 - 1e-4)) << profile;
+    EXPECT_GE(profile["duration_s"].get<double>(), points[0]["duration_s"].get<double>() * (1 - 1e-6));
+  }
+  EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
 }
 
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {

@@ -3,6 +3,9 @@
 const kSeriesColors = ["plan", "second", "third", "fourth", "fifth", "sixth"];
 const kDashes = [null, [6, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 4]];
 
+/** A profile's name, with the seconds by which it is later than what it stands beside. */
+jp.profile_name = (one) => jp.words(one.name) + (one.later_s ? `, ${jp.number(one.later_s, 2)} s later` : "");
+
 /** Profiles {name, columns} over time or over distance: speed, power, energy. */
 jp.overlaid_profiles = function (profiles) {
   const drawn = profiles.filter((one) => one.columns && one.columns.time_s && one.columns.time_s.length);
@@ -39,12 +42,12 @@ jp.draw_compare = function (data) {
   const counted = listed.filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
   const least = counted.reduce((least, one) => Math.min(least, one.energy_J), Infinity);
   const over = jp.overlaid_profiles(data.profiles || []);
-  const bars = (key) => jp.bar_rows(counted.filter((one) => jp.is_number(one[key])).map((one, k) => ({label: jp.words(one.name), value: one[key], text: jp.with_unit(one[key], "J"), color: k ? "var(--second)" : "var(--plan)"})));
+  const bars = (key) => jp.bar_rows(counted.filter((one) => jp.is_number(one[key])).map((one, k) => ({label: jp.profile_name(one), value: one[key], text: jp.with_unit(one[key], "J"), color: k ? "var(--second)" : "var(--plan)"})));
   jp.page(jp.header(data.title || "Comparison", data.subtitle || "Same path, same time.", null, true),
     jp.section("Energy", jp.h("div", {class: "columns"}, jp.h("div", {}, jp.h("h3", {}, "Motion, standby left out"), bars("motion_energy_J")), jp.h("div", {}, jp.h("h3", {}, "At the battery, standby included"), bars("energy_J"))),
       jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least"}, "settings"], listed.map((one) => one.feasible === false
         ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
-        : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
+        : [jp.profile_name(one), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
     over ? over.section : null);
   if (over) over.ready();
 };
@@ -52,23 +55,26 @@ jp.draw_compare = function (data) {
 jp.draw_front = function (data) {
   const points = (data.front.points || []).filter((one) => jp.is_number(one.duration_s) && jp.is_number(one.energy_J)).sort((a, b) => a.duration_s - b.duration_s);
   const others = (data.front.baselines || []).filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
-  const names = [...new Set(others.map((one) => one.name))];
-  const x = [...new Set([...points, ...others].map((one) => one.duration_s))].sort((a, b) => a - b);
+  const span_s = points.length ? points[points.length - 1].duration_s - points[0].duration_s : 0;
+  const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones stand in the table alone
+  const names = [...new Set(near.map((one) => one.name))];
+  const x = [...new Set([...points, ...near].map((one) => one.duration_s))].sort((a, b) => a - b);
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && jp.is_number(one[key]) ? one[key] : null; });
   const cursor = jp.cursor(x.length, (row) => {
     const one = points.find((entry) => entry.duration_s === x[row]);
     return `${jp.number(x[row])} s` + (one ? ` · ${jp.with_unit(one.energy_J, "J")}` + (jp.is_number(one.price_of_time_W) ? ` · a second is worth ${jp.with_unit(one.price_of_time_W, "W")}` : "") : "");
   });
   const make = (title, key) => jp.plot({title, unit: "J", x, x_label: "duration, s", cursor, tall: true, series: [{name: "optimal", values: find(points, key), color: "plan", points: 3},
-    ...names.map((name, k) => ({name: jp.words(name), values: find(others.filter((one) => one.name === name), key), color: kSeriesColors[1 + k % 5], dash: kDashes[1 + k % 5], points: 2}))]});
+    ...names.map((name, k) => ({name: jp.words(name), values: find(near.filter((one) => one.name === name), key), color: kSeriesColors[1 + k % 5], dash: kDashes[1 + k % 5], points: 2}))]});
   const plots = [make("Energy at the battery, standby included", "energy_J")];
   if (points.some((one) => jp.is_number(one.motion_energy_J))) plots.push(make("Motion energy, standby left out", "motion_energy_J"));
   const over = jp.overlaid_profiles(data.profiles || []);
+  const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, same time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "more than the optimum"}], others.map((one) => [jp.profile_name(one), {n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.percent(100 * (one.energy_J / one.optimum_J - 1), 3)}]))) : null;
   const least = points.reduce((best, one) => (one.energy_J < best.energy_J ? one : best), points[0]);
   jp.page(jp.header(data.title || "Energy against time", data.subtitle || "What a second costs: each point is the least energy for its duration.", null, true),
     points.length ? jp.h("div", {class: "tiles"}, jp.tile("Least energy", jp.with_unit(least.energy_J, "J"), `at ${jp.with_unit(least.duration_s, "s")}`), jp.tile("Fastest", jp.with_unit(points[0].duration_s, "s"), jp.with_unit(points[0].energy_J, "J")), jp.tile("Points", String(points.length))) : null,
     jp.section("The front", cursor.element, plots.map((plot) => plot.element)), over ? over.section : null,
-    jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "a second is worth W"}, "status"], points.map((one) => [{n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.price_of_time_W, 4)}, jp.words(one.status || "")]))));
+    jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "a second is worth W"}, "status"], points.map((one) => [{n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.price_of_time_W, 4)}, jp.words(one.status || "")]))), beside);
   jp.draw_plots(plots);
   if (over) over.ready();
 };
