@@ -26,14 +26,17 @@ FastModel::FastModel(const Problem& problem)
 
 void FastModel::evaluate(const std::vector<double>& b) {
   objective_ = duration_s_ = 0;
+  NodeRate before(b.front());
   for (std::size_t k = 0; k < coefficients_.size(); ++k) {
     const Coefficients& c = coefficients_[k];
-    jets_[k] = c.affine ? affine_segment_jets(c.ds, c.power, c.bus, b[k], b[k + 1])
+    const NodeRate behind(b[k + 1]);
+    jets_[k] = c.affine ? affine_segment_jets(c.ds, c.power, c.bus, before, behind)
                         : segment_jets(p_.segments[k], b[k], b[k + 1]);
     objective_ += p_.energy_weight * (jets_[k].energy_J[0].value + jets_[k].energy_J[1].value) +
                   p_.time_weight_W * jets_[k].duration_s.value;
     duration_s_ += jets_[k].duration_s.value;
     evaluate_rows(k, b[k], b[k + 1]);
+    before = behind;
   }
   rows_known_ = true;
 }

@@ -64,7 +64,9 @@ bool NewtonStep::factor() {
   std::fill(hessian_.below.begin(), hessian_.below.end(), 0.0);
   add_segments();
   add_rows();
-  return factor_shifted();
+  if (!factor_shifted()) return false;
+  factor_border();
+  return true;
 }
 
 void NewtonStep::add_segments() {
@@ -149,23 +151,27 @@ void NewtonStep::right_side() {
   for (std::size_t k = 0; k < step_.size(); ++k) step_[k] = -gradient_[k];
 }
 
-/// The duration row: one more unknown, its multiplier.
-void NewtonStep::border() {
-  new_lambda_ = 0;
+/// The duration row's part of the system, the same for every right side.
+void NewtonStep::factor_border() {
   if (!state_.has_duration()) return;
   std::fill(time_gradient_.begin(), time_gradient_.end(), 0.0);
   for (std::size_t k = 0; k < p_.segment_count(); ++k)
     add_gradient(k, model_.jets(k).duration_s.d[0], model_.jets(k).duration_s.d[1], time_gradient_);
   time_solved_ = time_gradient_;
   hessian_.solve(time_solved_);
+  border_pivot_ = state_.has_budget() ? state_.time.s / state_.time.y : 0.0;
+  for (std::size_t k = 0; k < step_.size(); ++k) border_pivot_ += time_gradient_[k] * time_solved_[k];
+}
+
+/// The duration row: one more unknown, its multiplier.
+void NewtonStep::border() {
+  new_lambda_ = 0;
+  if (!state_.has_duration()) return;
   const Pair& time = state_.time;
-  double curvature = state_.has_budget() ? time.s / time.y : 0.0, along = 0;
-  for (std::size_t k = 0; k < step_.size(); ++k) {
-    curvature += time_gradient_[k] * time_solved_[k];
-    along += time_gradient_[k] * step_[k];
-  }
+  double along = 0;
+  for (std::size_t k = 0; k < step_.size(); ++k) along += time_gradient_[k] * step_[k];
   const double centering = state_.has_budget() ? time.corrected / time.y : 0.0;
-  new_lambda_ = (along + centering - state_.time_residual) / curvature;
+  new_lambda_ = (along + centering - state_.time_residual) / border_pivot_;
   for (std::size_t k = 0; k < step_.size(); ++k) step_[k] -= new_lambda_ * time_solved_[k];
 }
 

@@ -33,13 +33,14 @@ class NewtonStep {
   void add_rows();
   bool factor_shifted();
   void right_side();
+  void factor_border();
   void border();
   StepSizes expand();
 
   const FastModel& model_;
   const Problem& p_;
   FastState& state_;
-  double new_lambda_{};
+  double new_lambda_{}, border_pivot_{};
   std::vector<double> gradient_{}, step_{}, time_gradient_{}, time_solved_{};
   Tridiagonal hessian_{}, original_{};
 };
