@@ -20,6 +20,7 @@ class IpoptNlp : public Ipopt::TNLP {
   static constexpr std::size_t kLocal = Program::kLocal;
   using Real = JetOf<kLocal>;
   static constexpr Number kInfinity = 2e19;
+  static constexpr double kFirstMu = 0.1;  ///< Ipopt's own mu_init
 
  public:
   IpoptNlp(const Program& program, ProgramSolution& solution)
@@ -68,7 +69,9 @@ class IpoptNlp : public Ipopt::TNLP {
     std::copy(start_.begin(), start_.end(), x);
     update(x, true);
     for_channels([&](std::size_t k, std::size_t c, Index i) {
-      x[unknowns_ + i] = std::max(0.0, -values_[k].energy_J[c].value) + 1e-2;
+      // On the central path of Ipopt's first barrier problem: mu/z + mu/(E + z) = weight.
+      const double E = values_[k].energy_J[c].value, width = 2 * kFirstMu / p_.recovery_weight;
+      x[unknowns_ + i] = 0.5 * (width - E + std::hypot(E, width));
     });
     return true;
   }
