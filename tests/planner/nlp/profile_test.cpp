@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
@@ -100,6 +101,23 @@ TEST(Profile, TurnsInPlaceWithHeadingAsThePath) {
   ASSERT_TRUE(result.profile.has_value()) << result.summary.message;
   EXPECT_TRUE(replay(request, *result.profile).valid());
   EXPECT_LE(result.profile->duration_s(), 4.0 * (1 + 1e-9));
+}
+
+TEST(Profile, APlanThatKnowsOfDragIsAnotherOneAndCheaper) {
+  const Robot robot = testing::nomad();
+  ProfileRequest nominal = straight_request(8.0, robot), knowing = nominal;
+  knowing.plant =
+      make_plant(robot, {{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 20}}}});
+  nominal.time = knowing.time = {TimeMode::fixed_time, 12.0};
+  const Profile with = *solve_profile(knowing).profile, without = *solve_profile(nominal).profile;
+  const double top = *std::max_element(with.rate.begin(), with.rate.end()),
+               nominal_top = *std::max_element(without.rate.begin(), without.rate.end());
+  EXPECT_LT(top, 0.98 * nominal_top) << "drag asks for an even speed";
+  const auto motion_J = [](const ProfileRequest& request, const Profile& profile) {
+    return replay(request, profile).motion_energy_J;
+  };
+  EXPECT_LT(motion_J(knowing, with), 0.999 * motion_J(knowing, without));
+  EXPECT_LT(motion_J(nominal, without), 0.999 * motion_J(nominal, with)) << "and each is the best at home";
 }
 
 TEST(Profile, MissedDeadlineSaysByHowMuch) {
