@@ -1,5 +1,6 @@
 #include "diagnosis/attribution.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,8 +9,16 @@ namespace joulepath {
 namespace {
 
 /// Effects smaller than this share of what matters are not named, whatever speaks for them.
-constexpr double kLeastSize = 0.08;
+constexpr double kLeastSize = 0.03;
+/// Small effects that make up for what the others lack: how the laws of turning pass through zero is not
+/// known, and a patch is laid wherever it fits.
+const std::set<std::string> kPliable{"yaw_inertia_error", "caster_swivel", "turning_scrub", "floor_patch"};
+/// Those of them that stand in for anything.
+const std::set<std::string> kStopgaps{"yaw_inertia_error", "floor_patch"};
 constexpr double kShareOfFormError = 0.05;
+/// Overlap with the other effects from which on all of an effect may be their inexact form.
+constexpr double kFullOverlap = 0.25;
+constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
 constexpr std::size_t kMostReconsidered = 300;
 
 /// Physics' signs, and sizes worth a name.
@@ -61,9 +70,14 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
   return explanation;
 }
 
+double evidence_needed(const Candidate& candidate, double size, const SearchOptions& options) {
+  if (kPliable.contains(candidate.shape.name)) return options.small_pliable_evidence / std::sqrt(size);
+  return options.small_effect_evidence;
+}
+
 /// Whether the data insist on every effect below the materiality floor: each alone must bring much
-/// evidence, the more the smaller it is, and not a small share of the whole, as inexact forms of a great
-/// effect do.
+/// evidence, and not a small share of the whole, as inexact forms of a great effect do. What the others
+/// cannot draw is none of their forms.
 bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
                   const SearchOptions& options, double empty_evidence) {
   for (std::size_t k = 0; k < explanation.candidates.size(); ++k) {
@@ -72,8 +86,11 @@ bool beyond_doubt(const LinearProblem& problem, const Equations& equations, cons
     std::vector<int> others = explanation.candidates;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     const double without = evaluate(problem, equations, std::move(others), options, empty_evidence).score;
-    const double needed = options.small_effect_evidence / std::sqrt(explanation.size[k]) +
-                          kShareOfFormError * std::max(0.0, explanation.score);
+    const int c = explanation.candidates[k];
+    const double needed =
+        evidence_needed(equations.candidates[static_cast<std::size_t>(c)], explanation.size[k], options) +
+        ghost_share(problem, equations, explanation, c) * kShareOfFormError *
+            std::max(0.0, explanation.score);
     if (explanation.score - without < needed) return false;
   }
   return true;
@@ -88,6 +105,33 @@ bool has_name(const Equations& equations, const std::vector<int>& set, int candi
 }
 
 }  // namespace
+
+double ghost_share(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                   int candidate) {
+  if (kStopgaps.contains(equations.candidates[static_cast<std::size_t>(candidate)].shape.name)) return 1.0;
+  std::vector<int> others;
+  for (int k : explanation.columns)
+    if (equations.columns[static_cast<std::size_t>(k)].owner != candidate) others.push_back(k);
+  if (others.empty()) return 0.0;
+  const auto n = static_cast<Eigen::Index>(others.size());
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    scale[i] = 1 / std::sqrt(std::max(1e-300, problem.gram(others[std::size_t(i)], others[std::size_t(i)])));
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      gram(i, j) = scale[i] * scale[j] * problem.gram(others[std::size_t(i)], others[std::size_t(j)]);
+  gram.diagonal().array() += kDrawnRidge;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
+  double most = 0;
+  for (int column : equations.columns_of_candidate(candidate, false)) {
+    Eigen::VectorXd shared(n);
+    for (Eigen::Index i = 0; i < n; ++i) shared[i] = scale[i] * problem.gram(others[std::size_t(i)], column);
+    const double own = problem.gram(column, column);
+    if (own > 0) most = std::max(most, shared.dot(factor.solve(shared)) / own);
+  }
+  return std::clamp(most / kFullOverlap, 0.0, 1.0);
+}
 
 LinearProblem without_calibration(const Equations& equations, const std::vector<std::size_t>& runs,
                                   double dispersion) {

@@ -29,10 +29,18 @@ struct SearchOptions {
   double dispersion{1.0};
   std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
-  /// Evidence for an effect of just material size that makes it be named below that size too; grows as
-  /// 1/sqrt(size). Infinite: smaller ones are passed over.
+  /// Evidence that makes an effect below the materiality floor be named all the same. Infinite: smaller
+  /// ones are passed over.
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
+  /// The same for pliable effects (of turning, and patches) at just material size; grows as 1/sqrt(size).
+  double small_pliable_evidence{std::numeric_limits<double>::infinity()};
 };
+
+/// How far an effect of an explanation may be the others' inexact form, 0 to 1: what they can draw of its
+/// signature, their strengths free to vary as their forms allow. Near 0 where they act on other channels
+/// or at other times.
+[[nodiscard]] double ghost_share(const LinearProblem& problem, const Equations& equations,
+                                 const Explanation& explanation, int candidate);
 
 /// Forward beam search over sets of candidates with the calibration projected out; every set met is
 /// kept once, best first. The empty set is among them with score 0.

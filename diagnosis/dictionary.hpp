@@ -12,7 +12,7 @@ namespace joulepath {
 /// tell how much of a gap anything at all could explain, and what it goes with.
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
-  std::string channel{};  ///< "current", "voltage" or "motion"
+  std::string channel{};  ///< "current", "voltage", "battery power", "battery voltage" or "motion"
 };
 
 /// Ranges over a whole dataset that the dictionary's hats are laid out in.

@@ -50,6 +50,7 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
     for (const Candidate& candidate : catalog_candidates(robot, options.without))
       if (candidate.shape.name == "time_misalignment") result.state.effects.push_back({candidate, {delay_s}});
   result.signals = read_signals(logs, channel_delay_s(result.state));
+  const bool few = runs.size() < kRunsForSmallEffects;
   std::map<std::string, double> known;
   NoiseModel noise;
   for (int round = 0;; ++round) {
@@ -61,7 +62,7 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
                         {.first_noise = round > 0 ? &noise : nullptr, .without = options.without});
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
-                        (runs.size() < kRunsForSmallEffects ? kFewRunsDispersion : 1.0);
+                        (few ? kFewRunsDispersion : 1.0);
     const LinearProblem problem = without_calibration(result.equations, runs, result.dispersion);
     result.explanations = search_explanations(
         problem, result.equations,
@@ -72,9 +73,10 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
          .allowed = {},
          .least_amplitude = least_amplitudes(result.signals, robot, result.nuisances, result.state,
                                              result.equations.candidates, known),
-         .small_effect_evidence = runs.size() >= kRunsForSmallEffects
-                                      ? options.small_effect_evidence
-                                      : std::numeric_limits<double>::infinity()});
+         .small_effect_evidence =
+             few ? options.small_effect_evidence_of_few_runs : options.small_effect_evidence,
+         .small_pliable_evidence =
+             few ? std::numeric_limits<double>::infinity() : options.small_pliable_evidence});
     std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
     const Explanation& best = result.explanations.front();
     if ((round > 0 || best.candidates.empty()) &&

@@ -8,8 +8,8 @@
 
 namespace joulepath {
 
-/// With fewer diagnosis runs noise and scatter are known too little to name what hardly matters, or to be
-/// sure.
+/// With fewer diagnosis runs noise and scatter are known too little to be sure, and what hardly matters
+/// needs more evidence.
 inline constexpr std::size_t kRunsForSmallEffects = 8;
 
 /// What the diagnosis runs say about the cause: the converged state, and every explanation that was
@@ -26,7 +26,9 @@ struct Identification {
 struct IdentifyOptions {
   double effect_cost{6.0};
   double further_effect_cost{14.0};
-  double small_effect_evidence{13.0};
+  double small_effect_evidence{10.0};              ///< names what hardly matters, and
+  double small_effect_evidence_of_few_runs{20.0};  ///< the same from fewer than kRunsForSmallEffects
+  double small_pliable_evidence{13.0};             ///< as SearchOptions has it; never from few runs
   int most_effects{4};
   int rounds{4};
   std::set<std::string> without{};  ///< effects that the catalog is taken to lack

@@ -37,6 +37,13 @@ class DictionaryCollector {
       });
     }
   }
+  /// A torque on each wheel by itself, whichever way it turns.
+  template <class Function>
+  void torque(const std::string& family, Side side, Function&& size_Nm) {
+    entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      entry_rows(j, column(kCurrentLeft, side)) = size_Nm(j) / robot_->motor[side].torque_per_ampere_Nm_A();
+    });
+  }
   /// A force along the heading.
   template <class Function>
   void force(const std::string& family, Function&& size_N) {
@@ -66,6 +73,18 @@ class DictionaryCollector {
           entry_rows(j, column(kWindingLeft, side)) = size_V(j, side) * (side == Side::right ? sign : 1);
       });
     }
+  }
+  /// Power that the supply gives beside the motors'.
+  template <class Function>
+  void battery_power(const std::string& family, Function&& size_W) {
+    entry(family, "battery power",
+          [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) { entry_rows(j, kDriverPower) = size_W(j); });
+  }
+  /// A voltage in the battery's equation.
+  template <class Function>
+  void battery_voltage(const std::string& family, Function&& size_V) {
+    entry(family, "battery voltage",
+          [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) { entry_rows(j, kSupplyVoltage) = size_V(j); });
   }
   /// Speed along the heading and yaw rate that the wheels do not show.
   template <class Along, class Yaw>
@@ -113,6 +132,9 @@ void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, con
 /// What a winding's voltage may depend on.
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                   const Prediction* p);
+/// What the supply's power and voltage may depend on.
+void add_supply(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                const Prediction* p);
 /// What the motion may show that the wheels do not.
 void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Robot* robot);

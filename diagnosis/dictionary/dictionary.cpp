@@ -6,6 +6,7 @@ std::vector<DictionaryEntry> dictionary_entries(const DictionaryLayout& layout) 
   DictionaryCollector collector(nullptr, nullptr);
   add_mechanics(collector, layout, nullptr, nullptr);
   add_windings(collector, layout, nullptr, nullptr);
+  add_supply(collector, layout, nullptr, nullptr);
   add_motion(collector, layout, nullptr, nullptr);
   return collector.entries;
 }
@@ -15,6 +16,7 @@ std::vector<Eigen::MatrixXd> dictionary_rows(const DictionaryLayout& layout, con
   DictionaryCollector collector(&signals, &robot);
   add_mechanics(collector, layout, &signals, &robot);
   add_windings(collector, layout, &signals, &prediction);
+  add_supply(collector, layout, &signals, &prediction);
   add_motion(collector, layout, &signals, &robot);
   return collector.rows;
 }

@@ -29,12 +29,14 @@ void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, con
   out.friction("payload", false, [&](Eigen::Index j, Side side) {
     return load(j) * s->wheel_speed_rad_s[side][j] * (s->wheel_speed_rad_s[side][j] > 0 ? 1 : -1);
   });
-  for (int h : {1, 2})
-    for (int phase : {0, 1})
-      out.friction("wheel angle", true, [&](Eigen::Index j, Side side) {
-        const double angle = h * s->wheel_angle_rad[side][j];
-        return phase ? std::sin(angle) : std::cos(angle);
-      });
+  constexpr int kWheelHarmonics = 6;
+  for (Side side : kSides)
+    for (int h = 1; h <= kWheelHarmonics; ++h)
+      for (int phase : {0, 1})
+        out.torque("wheel angle", side, [&](Eigen::Index j) {
+          const double angle = h * s->wheel_angle_rad[side][j];
+          return phase ? std::sin(angle) : std::cos(angle);
+        });
   out.friction("distance since start", false, [&](Eigen::Index j, Side side) {
     return std::exp(-std::abs(s->wheel_angle_rad[side][j]) / 2.0);
   });

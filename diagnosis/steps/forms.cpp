@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/signatures.hpp"
+#include "diagnosis/steps/names.hpp"
 
 namespace joulepath {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 constexpr double kAnotherLaw = 16.0;
 constexpr double kInexactLaw = 10.0;
 
+/// Share of the evidence below which a doubtful effect is dropped alone.
+constexpr double kMinorGain = 0.05;
+
 const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "stribeck_friction",
                                        "quadratic_drag"};
 /// Their strength at small yaw rates depends on how the law passes through zero, which logs do not show:
@@ -20,13 +24,14 @@ const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "
 const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 
 /// Below this evidence, a wrong law is no more than scatter that looks like one.
-constexpr double kLeastEvidence = 20.0;
+constexpr double kLeastEvidence = 25.0;
 constexpr double kLeastEvidenceOfFewRuns = 100.0;
 
 void withdraw(Examination& x, const std::string& note, const std::string& depends_on) {
   x.report.notes.push_back(note);
   x.named.clear();
-  const double least = x.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
+  const double least =
+      x.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
   if (x.id.explanations.front().score < least && !x.report.leftover_significant) {
     x.report.verdict = Verdict::no_gap;
     return;
@@ -74,6 +79,12 @@ void judge_forms(Examination& x) {
     if (doubt.chi_squared < kInexactLaw) continue;
     const std::string text = effect.candidate.label() + " fits only with a strength that depends on " +
                              doubt.depends_on + ", as the catalog's law does not";
+    if (x.named.size() > 1 && gain_share_of(x, effect.candidate.label()) < kMinorGain) {
+      x.report.notes.push_back(text + ": not named beside a greater effect");
+      std::erase_if(x.named,
+                    [&](const ActiveEffect& e) { return e.candidate.label() == effect.candidate.label(); });
+      continue;
+    }
     if (doubt.chi_squared > kAnotherLaw && !kTurningLaws.contains(effect.candidate.shape.name)) {
       withdraw(x, text, "depends on " + doubt.depends_on);
       return;

@@ -14,6 +14,8 @@ namespace {
 /// how likely it is there all the same is anyone's guess.
 constexpr double kFormErrorEnergy = 0.02;
 constexpr double kFormErrorGain = 0.05;
+/// What the greater effects cannot draw is none of their forms.
+constexpr double kGhost = 0.4;
 constexpr double kFormErrorProbability = 0.3;
 constexpr double kLeastProbability = 0.15;
 /// Share of names said to be sure that were right on development cases, with many runs and with few
@@ -22,19 +24,15 @@ constexpr double kSurest = 0.97;
 constexpr double kSurestOfFewRuns = 0.85;
 constexpr std::size_t kRanked = 12;
 
-/// Share of the best set's gain in loss that is lost when one of its effects is left out.
-double gain_share_of(const Examination& x, const std::string& label) {
+/// How far a named effect may be the others' inexact form.
+double ghost_share_of(const Examination& x, const std::string& label) {
   const Identification& id = x.id;
-  const Explanation& best = id.explanations.front();
   const LinearProblem problem =
       without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
-  std::vector<int> columns;
-  for (int c : best.candidates)
-    if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
-      for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
-  const double nothing = solve(problem, {}, id.dispersion).loss,
-               others = solve(problem, columns, id.dispersion).loss;
-  return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
+  for (int c : id.explanations.front().candidates)
+    if (id.equations.candidates[static_cast<std::size_t>(c)].label() == label)
+      return ghost_share(problem, id.equations, id.explanations.front(), c);
+  return 1.0;
 }
 
 /// A further effect of the mechanics with little energy and little of the evidence.
@@ -48,7 +46,8 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
   if (materiality(impact) >= 1) return false;
   const EnergyShare energy = energy_of_effect(x.id.signals, x.dataset.robot, x.id.nuisances, state, e);
   if (energy.effect_J > kFormErrorEnergy * energy.total_J) return false;
-  return gain_share_of(x, state.effects[e].candidate.label()) < kFormErrorGain;
+  const std::string label = state.effects[e].candidate.label();
+  return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kFormErrorGain;
 }
 
 /// Effects that the data cannot tell apart share their probability by what the data say, not by which
@@ -74,6 +73,20 @@ void share_probabilities(Examination& x) {
 }
 
 }  // namespace
+
+double gain_share_of(const Examination& x, const std::string& label) {
+  const Identification& id = x.id;
+  const Explanation& best = id.explanations.front();
+  const LinearProblem problem =
+      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
+  std::vector<int> columns;
+  for (int c : best.candidates)
+    if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
+      for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
+  const double nothing = solve(problem, {}, id.dispersion).loss,
+               others = solve(problem, columns, id.dispersion).loss;
+  return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
+}
 
 double Examination::probability_of(const ActiveEffect& effect) const {
   const auto found = probabilities.find(effect.candidate.label());
