@@ -1,6 +1,7 @@
 #include "diagnosis/gap.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,38 @@ double shrink(const std::vector<RunEnergy>& before, const std::vector<RunEnergy>
   double old_J = 0, new_J = 0;
   for (std::size_t r : runs) old_J += std::abs(before[r].gap_J()), new_J += std::abs(after[r].gap_J());
   return old_J > 0 ? 1 - new_J / old_J : 0.0;
+}
+
+constexpr std::size_t kFewHeldOut = 3;
+/// Part of the noise floor by which another day's scatter moves what is left; from development cases.
+constexpr double kAnotherDay = 0.7;
+
+/// How much wider than a bootstrap's percentiles an interval from `runs` runs is: Student's t, and the
+/// variance that resampling few takes off.
+double small_sample_factor(std::size_t runs) {
+  const auto n = static_cast<double>(runs);
+  if (runs < 2) return 1.0;
+  return boost::math::quantile(boost::math::students_t(n - 1), 0.975) / 1.96 * std::sqrt(n / (n - 1));
+}
+
+/// 95 % interval of the shrink on another day's runs: runs resampled about the shrink that is said.
+Range95 shrink_interval(const GapInput& input, std::vector<RunEnergy> before, std::vector<RunEnergy> after,
+                        const EnergyGap& energy) {
+  const std::size_t held_out = before.size();
+  if (held_out == 0 || input.bootstrap == 0 || energy.before_J <= 0) return {};
+  if (held_out < kFewHeldOut) {
+    for (const RunEnergy& run : run_energies(input.fitted_signals, input.before)) before.push_back(run);
+    for (const RunEnergy& run : run_energies(input.fitted_signals, input.after)) after.push_back(run);
+  }
+  const auto [low, high] =
+      bootstrap_interval(before.size(), input.bootstrap, [&](std::vector<std::size_t> runs) {
+        runs.resize(held_out);
+        return shrink(before, after, runs);
+      });
+  const double said = energy.shrink_fraction, wider = small_sample_factor(before.size()),
+               day = kAnotherDay * input.noise_floor_percent / energy.before_percent;
+  return {said - wider * std::max(0.0, said - low) - day,
+          std::min(1.0, said + wider * std::max(0.0, high - said) + day)};
 }
 
 double bias_percent(const std::vector<RunEnergy>& runs) {
@@ -150,9 +183,7 @@ GapReport measure_gap(const GapInput& input) {
   energy.before_J = absolute_gap_J(before);
   energy.after_J = absolute_gap_J(after);
   energy.shrink_fraction = energy.before_J > 0 ? 1 - energy.after_J / energy.before_J : 0.0;
-  energy.shrink_interval_95 =
-      bootstrap_interval(before.size(), input.bootstrap,
-                         [&](const std::vector<std::size_t>& runs) { return shrink(before, after, runs); });
+  energy.shrink_interval_95 = shrink_interval(input, before, after, energy);
   const Squares a = squares_of(input.before_signals, input.before),
                 b = squares_of(input.after_signals, input.after);
   report.current_A = signal_gap(a.current, b.current);

@@ -34,6 +34,9 @@ struct GapInput {
   ModelPoint after{};
   double noise_floor_percent{};
   std::size_t bootstrap{};
+  /// Runs that the correction was fitted to, at its delay: where few were held out, they tell how much
+  /// the shrink differs from run to run.
+  const std::vector<RunSignals>& fitted_signals;
 };
 
 /// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run

@@ -179,7 +179,9 @@ void report_gap(Examination& x, const Correction& correction) {
                               .before = x.nominal,
                               .after = correct_it ? x.point_of(correction.state) : x.nominal,
                               .noise_floor_percent = finite_or_zero(noise_floor_percent(x, correction)),
-                              .bootstrap = x.options.bootstrap});
+                              .bootstrap = x.options.bootstrap,
+                              .fitted_signals = correction.fitted.signals});
+  if (!correct_it) x.report.gap.energy.shrink_interval_95 = {};  // nothing is claimed
   fill_floors(x.id.equations.noise, x.report.gap);
 }
 
