@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/left_out_gain.hpp"
+#include "tests/support/blind_day.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr int kRows = 200;
+
+/// Eight runs with one nuisance and two entries of a dictionary: "steady" has the same part in every run's
+/// gap, "restless" one that changes sign from run to run.
+Identification two_families() {
+  Identification id;
+  id.nuisances = {{"resistance_ohm", std::nullopt, 0.05}};
+  id.equations.columns = {{Column::Kind::nuisance, 0, 0, 0.05, 0.0},
+                          {Column::Kind::dictionary, 0, 0, 10.0, 0.0},
+                          {Column::Kind::dictionary, 1, 0, 10.0, 0.0}};
+  id.equations.dictionary = {{"steady", "current"}, {"restless", "current"}};
+  id.equations.prior_sd = Eigen::Vector3d(0.05, 10.0, 10.0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 8; ++run) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::NullaryExpr(kRows, 4, [&] { return normal(random); });
+    rows.col(3) += 0.5 * rows.col(1) + (run % 2 ? 0.5 : -0.5) * rows.col(2);
+    id.equations.runs.push_back({rows.transpose() * rows});
+  }
+  return id;
+}
+
+TEST(LeftOutGain, CountsWhatRepeatsItselfFromRunToRunOnly) {
+  const Identification id = two_families();
+  const auto gains = left_out_gains(id, {}, dictionary_families(id.equations));
+  const LeftOutGain steady = gains.at("steady (current)"), restless = gains.at("restless (current)");
+  EXPECT_NEAR(steady.gain, 8 * kRows * 0.25, 0.25 * 8 * kRows * 0.25);
+  EXPECT_GT(steady.over_scatter, 5);
+  EXPECT_LT(restless.gain, 40);
+}
+
+/// Two candidates, one column each, whose signatures have this cosine.
+Equations pair_with_cosine(double cosine, LinearProblem& problem) {
+  Equations equations;
+  equations.candidates = {Candidate{.shape = {.name = "viscous_friction"}},
+                          Candidate{.shape = {.name = "quadratic_drag"}}};
+  equations.columns = {{Column::Kind::amplitude, 0, 0, 1.0, 0.0}, {Column::Kind::amplitude, 1, 0, 1.0, 0.0}};
+  problem.gram = Eigen::MatrixXd::Identity(2, 2) * 9;
+  problem.gram(0, 1) = problem.gram(1, 0) = 9 * cosine;
+  return equations;
+}
+
+TEST(GhostShare, IsWhatOthersCanDrawOfASignature) {
+  const Explanation both{.candidates = {0, 1}, .columns = {0, 1}};
+  LinearProblem problem;
+  const Equations apart = pair_with_cosine(0.0, problem);
+  EXPECT_NEAR(ghost_share(problem, apart, both, 1), 0.0, 1e-12);
+  const Equations near = pair_with_cosine(0.25, problem);
+  EXPECT_NEAR(ghost_share(problem, near, both, 1), 0.25 * 0.25 / 0.25, 1e-3);
+  const Equations alike = pair_with_cosine(0.9, problem);
+  EXPECT_EQ(ghost_share(problem, alike, both, 1), 1.0);
+  const Explanation alone{.candidates = {1}, .columns = {1}};
+  EXPECT_EQ(ghost_share(problem, alike, alone, 1), 0.0);
+}
+
+/// A true effect taken out of the catalog, and a word of what the answer says instead.
+struct TakenOut {
+  std::string effect{};
+  double size{};
+  std::string word{};
+};
+
+class EffectTakenOut : public ::testing::TestWithParam<TakenOut> {};
+
+TEST_P(EffectTakenOut, IsCalledUnexplainedAndTellsWhatItGoesWith) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const TakenOut& c = GetParam();
+  const Diagnosis d =
+      diagnose(testing::blind_day(c.effect, c.size, 0, 12, 31), {.bootstrap = 20, .without = {c.effect}});
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_NE(d.leftover_description.find(c.word), std::string::npos) << d.leftover_description;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, EffectTakenOut,
+                         ::testing::Values(TakenOut{"standby_power_error", 1.5, "depends on"},
+                                           TakenOut{"supply_sag", 0.5, "battery voltage"},
+                                           TakenOut{"wheel_radius_error", 0.05, "goes with wheel_radius_m"}),
+                         [](const auto& taken) { return taken.param.effect; });
+
+TEST(ShrinkInterval, FromOneHeldOutRunIsNotAPoint) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d = diagnose(testing::blind_day("rolling_resistance", 0.01, 0, 6, 31), {.bootstrap = 200});
+  ASSERT_FALSE(d.causes.empty()) << verdict_name(d.verdict);
+  const EnergyGap& energy = d.gap.energy;
+  EXPECT_LT(energy.shrink_interval_95.first, energy.shrink_fraction - 0.005);
+  EXPECT_LE(energy.shrink_interval_95.second, 1.0);
+  EXPECT_GE(energy.shrink_interval_95.second, energy.shrink_fraction);
+}
+
+}  // namespace
+}  // namespace joulepath
