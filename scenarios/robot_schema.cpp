@@ -53,8 +53,10 @@ std::vector<Schema::Key> limit_schema_keys() {
 Schema limits_schema() {
   std::vector<Schema::Key> keys = limit_schema_keys(), row = limit_schema_keys();
   row.insert(row.begin(), required("payload_kg", number(kNotNegative), "these limits hold at this payload"));
-  keys.push_back(optional("by_payload", list(map(row), 1),
-                          "limits that depend on payload: interpolated between rows, overrides"));
+  keys.push_back(optional(
+      "by_payload", list(map(row), 1),
+      "limits that depend on payload: interpolated between rows, overrides; beyond the rows the nearest "
+      "one holds"));
   return map(std::move(keys));
 }
 

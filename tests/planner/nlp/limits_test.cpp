@@ -15,10 +15,13 @@
 namespace joulepath {
 namespace {
 
-ProfileRequest fastest_drive() {
+const PathPiece kCurve = Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})});
+const PathPiece kTurn = TurnInPlace{{}, -2.5};
+
+ProfileRequest fastest_drive(const PathPiece& piece) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 10;
-  return {.piece = Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})}),
+  return {.piece = piece,
           .plant = make_plant(robot),
           .limits = *robot.limits,
           .time = {TimeMode::minimum_time},
@@ -43,15 +46,14 @@ Tightened rating(const std::string& name, double Motor::*member, double value) {
           }};
 }
 
-class EveryLimit : public ::testing::TestWithParam<Tightened> {};
-
-TEST_P(EveryLimit, CostsTimeAndHoldsBetweenTheNodes) {
-  const ProfileResult free = solve_profile(fastest_drive());
-  ProfileRequest request = fastest_drive();
-  GetParam().tighten(request);
+/// The fastest drive without and with the limit, by both solvers, and what a dense look says.
+void expect_costs_time_and_holds(const PathPiece& piece, const Tightened& one) {
+  const ProfileResult free = solve_profile(fastest_drive(piece));
+  ProfileRequest request = fastest_drive(piece);
+  one.tighten(request);
 
   const ReplayResult ignored = replay(request, *free.profile);  // the limit is exceeded where it is ignored
-  EXPECT_EQ(ignored.limit, GetParam().limit);
+  EXPECT_EQ(ignored.limit, one.limit);
   EXPECT_GT(ignored.worst_violation, 0.01);
 
   for (const SolverChoice solver : {SolverChoice::fast, SolverChoice::ipopt}) {
@@ -62,6 +64,14 @@ TEST_P(EveryLimit, CostsTimeAndHoldsBetweenTheNodes) {
     EXPECT_GT(kept.profile->duration_s(), 1.005 * free.profile->duration_s());
     EXPECT_TRUE(replay(request, *kept.profile).valid()) << replay(request, *kept.profile).worst_violation;
   }
+}
+
+class EveryLimit : public ::testing::TestWithParam<Tightened> {};
+class EveryLimitOfATurn : public ::testing::TestWithParam<Tightened> {};
+
+TEST_P(EveryLimit, CostsTimeAndHoldsBetweenTheNodes) { expect_costs_time_and_holds(kCurve, GetParam()); }
+TEST_P(EveryLimitOfATurn, CostsTimeAndHoldsBetweenTheNodes) {
+  expect_costs_time_and_holds(kTurn, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit,
@@ -78,6 +88,17 @@ INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit,
                                            limit("battery_power", &Limits::battery_power_W, 20),
                                            rating("motor_current", &Motor::max_current_A, 0.5),
                                            rating("motor_voltage", &Motor::max_voltage_V, 6)),
+                         [](const auto& one) { return one.param.limit; });
+
+INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn,
+                         ::testing::Values(limit("yaw_rate", &Limits::yaw_rate_rad_s, 0.8),
+                                           limit("yaw_acceleration", &Limits::yaw_acceleration_rad_s2, 0.7),
+                                           limit("wheel_acceleration", &Limits::wheel_acceleration_rad_s2, 2),
+                                           limit("traction", &Limits::traction_coefficient, 0.02),
+                                           limit("motor_power", &Limits::motor_power_W, 1.2),
+                                           limit("battery_power", &Limits::battery_power_W, 12),
+                                           rating("motor_current", &Motor::max_current_A, 0.35),
+                                           rating("motor_voltage", &Motor::max_voltage_V, 3)),
                          [](const auto& one) { return one.param.limit; });
 
 }  // namespace
