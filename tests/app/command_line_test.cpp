@@ -175,7 +175,9 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
     if (!profile["feasible"].get<bool>()) continue;
     ++beside;
     const double optimum_J = profile["optimum_J"], energy_J = profile["energy_J"];
-    EXPECT_GE(energy_J, optimum_J * (1 - 1e-4)) << profile;
+    if (!profile.contains("later_s")) {  // later is another point of the front
+      EXPECT_GE(energy_J, optimum_J * (1 - 1e-4)) << profile;
+    }
     EXPECT_GE(profile["duration_s"].get<double>(), points[0]["duration_s"].get<double>() * (1 - 1e-6));
   }
   EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
