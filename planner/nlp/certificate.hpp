@@ -19,6 +19,9 @@ struct Certificate {
 /// holds where every l_k is convex on the box 0 <= b <= fastest; that is sampled on a grid of (b_k, b_{k+1})
 /// within the acceleration limits. Where a sampled eigenvalue is negative, the bound is lowered by what
 /// that curvature can bring over the box, and `convex` is false.
+///
+/// Copper loss has a part c (sqrt(b_{k+1}) - sqrt(b_k)), which is not convex but telescopes: where it is in
+/// the way it is taken off every l_k, with one c for all, and added as the constant that it sums up to.
 [[nodiscard]] Certificate certify(const Problem& problem, const Solution& solution,
                                   const std::vector<double>& fastest);
 
