@@ -39,6 +39,20 @@ std::vector<std::string> labels_of(const ModelState& state) {
   return labels;
 }
 
+SearchOptions search_options(const IdentifyOptions& options, double dispersion, bool few,
+                             std::vector<double> least_amplitude) {
+  return {.effect_cost = options.effect_cost,
+          .further_effect_cost = options.further_effect_cost,
+          .most_effects = options.most_effects,
+          .dispersion = dispersion,
+          .allowed = {},
+          .least_amplitude = std::move(least_amplitude),
+          .small_effect_evidence =
+              few ? options.small_effect_evidence_of_few_runs : options.small_effect_evidence,
+          .small_pliable_evidence =
+              few ? std::numeric_limits<double>::infinity() : options.small_pliable_evidence};
+}
+
 }  // namespace
 
 Identification identify(const LogSet& logs, const IdentifyOptions& options) {
@@ -66,17 +80,9 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
     const LinearProblem problem = without_calibration(result.equations, runs, result.dispersion);
     result.explanations = search_explanations(
         problem, result.equations,
-        {.effect_cost = options.effect_cost,
-         .further_effect_cost = options.further_effect_cost,
-         .most_effects = options.most_effects,
-         .dispersion = result.dispersion,
-         .allowed = {},
-         .least_amplitude = least_amplitudes(result.signals, robot, result.nuisances, result.state,
-                                             result.equations.candidates, known),
-         .small_effect_evidence =
-             few ? options.small_effect_evidence_of_few_runs : options.small_effect_evidence,
-         .small_pliable_evidence =
-             few ? std::numeric_limits<double>::infinity() : options.small_pliable_evidence});
+        search_options(options, result.dispersion, few,
+                       least_amplitudes(result.signals, robot, result.nuisances, result.state,
+                                        result.equations.candidates, known)));
     std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
     const Explanation& best = result.explanations.front();
     if ((round > 0 || best.candidates.empty()) &&

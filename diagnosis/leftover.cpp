@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -113,7 +114,9 @@ Leftover find_leftover(const Identification& id, const std::vector<int>& columns
   const double explained = solve(problem, columns, id.dispersion).loss;
   const DictionaryFamilies families = dictionary_families(equations);
   std::vector<int> all = columns;
-  for (const auto& [name, family] : families) all.insert(all.end(), family.begin(), family.end());
+  for (const auto& [name, family] : families)
+    std::copy_if(family.begin(), family.end(), std::back_inserter(all),
+                 [&](int k) { return problem.gram(k, k) > 0; });  // what no run shows costs nothing
   Leftover leftover;
   leftover.evidence =
       explained - solve(problem, all, id.dispersion).loss - by_chance(all.size() - columns.size());
