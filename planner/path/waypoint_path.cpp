@@ -18,6 +18,14 @@ std::string metres(double value_m) {
   return text;
 }
 
+/// Rounded down to the four digits of metres(): what a message proposes has to fit.
+double proposed_m(double most_m) {
+  constexpr double kClear = 1 - 1e-12;  // of the rounding of what is compared
+  if (!(most_m > 0)) return 0;
+  const double step_m = std::pow(10.0, std::floor(std::log10(most_m)) - 3);
+  return step_m * std::floor(kClear * most_m / step_m);
+}
+
 std::vector<double> chords_m(const std::vector<Point2>& points_m) {
   std::vector<double> chords;
   for (std::size_t i = 0; i + 1 < points_m.size(); ++i)
@@ -90,7 +98,7 @@ std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
   if (widest == 0) return std::nullopt;
   const double most_m = std::max(0.0, room_m) * radius_m[widest] / tangent[widest];
   return WaypointDefect{widest, true, metres(radius_m[widest]),
-                        "at most " + metres(most_m) + " between its neighbors"};
+                        "at most " + metres(proposed_m(most_m)) + " between its neighbors"};
 }
 
 }  // namespace

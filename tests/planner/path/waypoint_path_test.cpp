@@ -72,6 +72,16 @@ TEST(WaypointPath, TheLargestRadiusThatItAcceptsFitsAndNoLargerOne) {
   EXPECT_TRUE(lines_between(corner_m, {0, 1.001 * most_m, 0}).defect);
 }
 
+TEST(WaypointPath, TheRadiusThatAMessageProposesIsAccepted) {
+  for (double chord_m : {2.0, 3.0, 5.0, 7.3}) {
+    const std::vector<Point2> corner_m{{0, 0}, {chord_m, 0}, {chord_m, chord_m}};
+    const WaypointPath wide = lines_between(corner_m, {0, 20, 0});
+    ASSERT_TRUE(wide.defect);
+    const double most_m = std::stod(wide.defect->accepted.substr(std::string("at most ").size()));
+    EXPECT_FALSE(lines_between(corner_m, {0, most_m, 0}).defect) << chord_m << ": " << wide.defect->accepted;
+  }
+}
+
 TEST(WaypointPath, WaypointsThatNoRobotCanFollowAreNamed) {
   const auto waypoint_of = [](const WaypointPath& along) {
     return along.defect ? static_cast<int>(along.defect->waypoint) : -1;
