@@ -113,6 +113,13 @@ FileSummary summary_of_path(const Path& path) {
   return {"path", std::string(length) + " in " + counted(static_cast<std::size_t>(curves), "piece"), {}};
 }
 
+FileSummary summary_of_chain(const Document& document) {
+  std::vector<std::string> notes;
+  FileSummary summary = summary_of_path(path_from(document, &notes));
+  summary.notes = std::move(notes);
+  return summary;
+}
+
 FileSummary summary_of_output(const Document& document, const FileKind& kind) {
   check_document(document, kind.name, kind.schema());
   return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
@@ -162,7 +169,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options);
-  if (kind == "path") return summary_of_path(path_from(document));
+  if (kind == "path") return summary_of_chain(document);
   if (kind == "fleet") return summary_of_fleet(file, options);
   if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};
   for (const auto& known : file_kinds())

@@ -1,5 +1,6 @@
 #include "scenarios/path_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -74,10 +75,12 @@ bool is_path(const Document& document) {
 bool is_waypoint_file(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
 
 bool has_waypoints(const std::string& file) {
-  return read_csv(file, [](const std::string& name) { return name == "x_m"; }).find("x_m") != nullptr;
+  const CsvTable table = read_csv(file, [](const std::string&) { return false; });
+  const auto has = [&](const char* name) { return std::ranges::count(table.header, name) > 0; };
+  return has("x_m") && !has("time_s");
 }
 
-Path path_from(const Document& document) {
+Path path_from(const Document& document, std::vector<std::string>* notes) {
   check_document(document, "path", path_schema());
   const Node curves = document.root()["bezier_m"];
   const std::vector<BezierPoints> bezier_m = read_bezier(curves);
@@ -87,6 +90,8 @@ Path path_from(const Document& document) {
     curves.items()[defect.curve].fail_found(defect.message,
                                             "a cubic Bezier curve without cusps, at least 1 mm long");
   }
+  if (notes != nullptr)
+    for (const BezierFinding& note : chain.notes) notes->push_back(note.message);
   return std::move(chain.path);
 }
 

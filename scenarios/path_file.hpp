@@ -16,12 +16,12 @@ namespace joulepath {
 /// Whether a file is read as waypoints: by its extension, `.csv`.
 [[nodiscard]] bool is_waypoint_file(const std::string& file);
 
-/// Whether a CSV file holds waypoints, not a run log: by its column x_m.
+/// Whether a CSV file holds waypoints, not a run log: by its column x_m and no time_s.
 [[nodiscard]] bool has_waypoints(const std::string& file);
 
 /// The path of a document. It begins looking along its first curve; where the heading breaks the robot turns.
-/// Throws ConfigError at a curve that cannot be driven.
-[[nodiscard]] Path path_from(const Document& document);
+/// `notes` gets the joints at which it stops or turns. Throws ConfigError at a curve that cannot be driven.
+[[nodiscard]] Path path_from(const Document& document, std::vector<std::string>* notes = nullptr);
 
 /// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature through all of them, or, with a
 /// column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:

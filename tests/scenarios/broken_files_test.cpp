@@ -51,6 +51,33 @@ TEST(BrokenFiles, TheFilesThatTheyWereMadeFromAreRight) {
     EXPECT_NO_THROW(static_cast<void>(read_any_file(kBroken + "good/" + file))) << file;
 }
 
+TEST(AnyFile, ALogWithPlacesIsALogAndNoPath) {
+  const ScratchDirectory scratch;
+  const auto kind_of = [&](const std::string& name, const std::string& text) {
+    return read_any_file(scratch.write(name, text)).kind;
+  };
+  const std::string wheels = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s";
+  EXPECT_EQ(kind_of("both.csv", wheels + ",x_m,y_m\n0,1,1,0,0\n0.1,1,1,0.1,0\n0.2,1,1,0.2,0\n"), "run log");
+  EXPECT_EQ(kind_of("one.csv", wheels + ",x_m\n0,1,1,0\n0.1,1,1,0.1\n0.2,1,1,0.2\n"), "run log");
+  EXPECT_EQ(kind_of("words.csv", wheels + ",x_m\n0,1,1,?\n0.1,1,1,?\n0.2,1,1,?\n"), "run log");
+  EXPECT_EQ(kind_of("path.csv", "x_m,y_m\n0,0\n0.1,0\n0.2,0\n"), "path");
+}
+
+TEST(AnyFile, WhereAPathStopsOrTurnsIsNoted) {
+  const ScratchDirectory scratch;
+  const auto notes_of = [&](const std::string& curves) {
+    return read_any_file(scratch.write("path.yaml", "bezier_m: [" + curves + "]\n")).notes;
+  };
+  const std::string straight = "[[0, 0], [1, 0], [2, 0], [3, 0]]";
+  const auto stop = notes_of(straight + ", [[3, 0], [4, 0], [5, 1], [5, 2]]");
+  ASSERT_EQ(stop.size(), 1u);
+  EXPECT_EQ(stop.front(), "curve 1 at (3, 0) m: curvature jumps by 0.6667 1/m, stop");
+  const auto turn = notes_of(straight + ", [[3, 0], [3, 1], [3, 2], [3, 3]]");
+  ASSERT_EQ(turn.size(), 1u);
+  EXPECT_EQ(turn.front(), "curve 1 at (3, 0) m: heading breaks by 1.571 rad, turn in place");
+  EXPECT_TRUE(notes_of(straight + ", [[3, 0], [4, 0], [5, 0], [6, 0]]").empty());
+}
+
 TEST(BrokenFiles, EveryFileOfTheCorpusIsExpected) {
   const auto messages = expected_messages();
   const std::set<std::string> parts{"map/truncated.pgm", "map/truncated_text.pgm", "map/above_white.pgm",
