@@ -6,7 +6,7 @@
 
 #include "planner/nlp/affine_fit.hpp"
 #include "planner/nlp/grid.hpp"
-#include "planner/nlp/reach.hpp"
+#include "planner/nlp/row_selection.hpp"
 
 namespace joulepath::nlp {
 namespace {
@@ -134,70 +134,6 @@ void lower_caps(const ProfileRequest& request, const PathMotion& motion, const S
   lower(cap1, dip1);
 }
 
-/// The rows of one segment that its motion can bring to their bounds.
-class RowSelection {
- public:
-  RowSelection(Problem& problem, const std::vector<Tightening>& tightenings)
-      : problem_(problem),
-        tightenings_(tightenings),
-        squares_(reachable_squares(problem)),
-        steady_(!std::isfinite(problem.request->limits.jerk_m_s3) || is_turn(problem.request->piece)) {}
-
-  void add_segment(std::size_t k) {
-    add_all(k, std::make_index_sequence<std::tuple_size_v<Rows>>());
-    problem_.first_row.push_back(problem_.rows.size());
-  }
-
- private:
-  /// In a turn in place the limit of yaw acceleration is that of the path's rate.
-  static bool along(const Segment& segment) { return segment.limit_points[0].rates.along != 0; }
-
-  template <std::size_t... I>
-  void add_all(std::size_t k, std::index_sequence<I...>) {
-    const Segment& segment = problem_.segments[k];
-    Reach by_bounds = reach_of(problem_, squares_, k);
-    // Under a jerk limit the square of the rate is not straight in between.
-    if (!steady_) by_bounds.b0 = by_bounds.b1 = {0.0, std::max(by_bounds.b0.high, by_bounds.b1.high)};
-    const Reach by_yaw =
-        steady_ && along(segment)
-            ? within_yaw_limit(by_bounds, segment, problem_.request->limits.yaw_acceleration_rad_s2)
-            : by_bounds;
-    const bool mean = steady_ && middle_is_mean(segment);
-    (add<I>(k, I <= kYawTerm ? by_bounds : by_yaw, mean), ...);
-  }
-
-  template <std::size_t Index>
-  void add(std::size_t k, const Reach& reach, bool middle_is_mean) {
-    const auto& term = std::get<Index>(problem_.terms);
-    using Term = std::decay_t<decltype(term)>;
-    const Segment& segment = problem_.segments[k];
-    const Interval<Range> interval{segment,        reach.b0, reach.b1, sqrt(reach.b0),
-                                   sqrt(reach.b1), reach.a,  Range()};
-    const double factor = factor_for(tightenings_, Term::name, segment.s0, segment.s0 + segment.ds);
-    for (std::size_t row = 0; row < Term::rows; ++row) {
-      if (Index <= kLastLinearTerm && middle_is_mean && Term::rows > 1 && is_middle<Term>(row)) continue;
-      const Bounds bounds = term.bounds(segment, row);
-      if (!std::isfinite(bounds.low) && !std::isfinite(bounds.high)) continue;
-      const Range values = term(interval, row);
-      const Bounds tight{bounds.low * factor, bounds.high * factor};
-      // The reach itself is made of the first two terms, so they are not judged by it.
-      const bool makes_reach = Index == 0 || (Index == kYawTerm && !along(segment));
-      if (!makes_reach && values.low >= tight.low && values.high <= tight.high) continue;
-      problem_.rows.push_back({k, Index, row, tight, Term::name});
-    }
-  }
-
-  template <class Term>
-  static bool is_middle(std::size_t row) {
-    return row * kLimitPoints / Term::rows == kLimitPoints / 2;
-  }
-
-  Problem& problem_;
-  const std::vector<Tightening>& tightenings_;
-  std::vector<double> squares_;
-  bool steady_;  ///< acceleration is constant within a segment
-};
-
 void set_objective(Problem& problem) {
   const ProfileRequest& request = *problem.request;
   const PowerSupply& supply = request.plant.robot.power;
@@ -237,9 +173,7 @@ Problem transcribe(const ProfileRequest& request, const PathMotion& motion, cons
     problem.segments.push_back(transcriber.segment(s[k], s[k + 1]));
   for (std::size_t k = 0; k + 1 < s.size(); ++k)
     lower_caps(request, motion, problem.segments[k], tightenings, problem.cap[k], problem.cap[k + 1]);
-  problem.first_row.push_back(0);
-  RowSelection rows(problem, tightenings);
-  for (std::size_t k = 0; k < problem.segment_count(); ++k) rows.add_segment(k);
+  select_rows(problem, tightenings);
   set_objective(problem);
   return problem;
 }

@@ -41,6 +41,18 @@ Reach reach_of(const Problem& problem, const std::vector<double>& squares, std::
       {0.0, b0}, {0.0, b1}, intersection(acceleration_limits(problem, k), {-b0 / (2 * ds), b1 / (2 * ds)})};
 }
 
+Reach reach_with_jerk(const Problem& problem, const std::vector<double>& squares, std::size_t k) {
+  const double b0 = squares[k], b1 = squares[k + 1], ds = problem.segments[k].ds;
+  const Range a = acceleration_limits(problem, k);
+  // Up from b0 and down to b1 as steeply as the acceleration may: where the two meet.
+  const double apex = (a.high * b1 - a.low * b0 - 2 * a.high * a.low * ds) / (a.high - a.low);
+  const double middle_rate =
+      0.5 * (std::sqrt(problem.cap[k].squared) + std::sqrt(problem.cap[k + 1].squared));
+  const double inside = std::fmin(apex, middle_rate * middle_rate);  // no number where nothing limits a
+  const Range b{0.0, std::max({b0, b1, inside})};
+  return {b, b, a};
+}
+
 Reach within_yaw_limit(Reach reach, const Segment& segment, double yaw_acceleration_rad_s2) {
   if (!std::isfinite(yaw_acceleration_rad_s2)) return reach;
   Range a = reach.a;
