@@ -110,14 +110,15 @@ std::optional<Profile> s_curve(RampLimits ramp, double length, double duration_s
   return profile;
 }
 
+constexpr const char* kFastest = "minimum_time_then_wait";
+
 BaselineResult minimum_time_then_wait(const ProfileRequest& request, double duration_s) {
-  constexpr const char* kName = "minimum_time_then_wait";
   ProfileRequest fastest = request;
   fastest.time = {.mode = TimeMode::minimum_time};
   ProfileResult result = solve_profile(fastest);
-  if (!result.profile) return no_baseline(kName, result.summary.message);
+  if (!result.profile) return no_baseline(kFastest, result.summary.message);
   const double moving_s = result.profile->duration_s();
-  return finish_baseline(request, kName, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
+  return finish_baseline(request, kFastest, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
 }
 
 /// Never a motion from rest: it needs a piece that is entered and left at that very speed, and cannot be
@@ -199,6 +200,11 @@ std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double 
 BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request, double duration_s) {
   BaselineResult in_time = baseline(request, duration_s);
   if (in_time.feasible) return in_time;
+  if (in_time.name == kFastest) {  // one drive whatever the time, dear to find: late by its own time or never
+    const auto moving_s = in_time.parameters.find("moving_s");
+    const bool late = moving_s != in_time.parameters.end() && moving_s->second > duration_s;
+    return late ? baseline(request, moving_s->second) : in_time;
+  }
   for (double factor : {1.01, 1.02, 1.04, 1.07, 1.1, 1.2, 1.4}) {
     BaselineResult later = baseline(request, factor * duration_s);
     if (later.feasible) return later;

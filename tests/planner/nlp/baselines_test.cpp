@@ -115,6 +115,19 @@ TEST(Baselines, ATimeThatNoShapeMakesIsSaid) {
   EXPECT_FALSE(named(results, "sinusoidal").reason.empty());
 }
 
+TEST(Baselines, TheFastestDriveTooSlowForATimeIsComparedAtItsOwn) {
+  const ProfileRequest request = corner();
+  const double fastest_s = least_s(request), T = 0.97 * fastest_s;
+  for (const Baseline& baseline : baselines()) {
+    const BaselineResult late = soonest(baseline, request, T);
+    if (late.name != "minimum_time_then_wait") continue;
+    ASSERT_TRUE(late.feasible) << late.reason;
+    EXPECT_NEAR(late.duration_s, fastest_s, 1e-6 * fastest_s);
+    return;
+  }
+  FAIL() << "no such baseline";
+}
+
 TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
   ProfileRequest request = straight(10);
   request.limits.jerk_m_s3 = 0.5;
