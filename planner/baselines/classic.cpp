@@ -175,6 +175,20 @@ std::optional<Profile> limited_s_curve(const ProfileRequest& request, double len
   return s_curve(ramp_limits(request), length, T);
 }
 
+/// Bisects between a factor of the time that fails and one that `works`, to a thousandth of the time.
+BaselineResult between(const Baseline& baseline, const ProfileRequest& request, double duration_s,
+                       std::pair<double, double> factors, BaselineResult works) {
+  constexpr double kClose = 1e-3;
+  auto [low, high] = factors;
+  while (high - low > kClose) {
+    const double middle = 0.5 * (low + high);
+    BaselineResult trial = baseline(request, middle * duration_s);
+    (trial.feasible ? high : low) = middle;
+    if (trial.feasible) works = std::move(trial);
+  }
+  return works;
+}
+
 }  // namespace
 
 const std::vector<Baseline>& baselines() {
@@ -205,9 +219,11 @@ BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request, 
     const bool late = moving_s != in_time.parameters.end() && moving_s->second > duration_s;
     return late ? baseline(request, moving_s->second) : in_time;
   }
+  double fails = 1;
   for (double factor : {1.01, 1.02, 1.04, 1.07, 1.1, 1.2, 1.4}) {
     BaselineResult later = baseline(request, factor * duration_s);
-    if (later.feasible) return later;
+    if (later.feasible) return between(baseline, request, duration_s, {fails, factor}, std::move(later));
+    fails = factor;
   }
   return in_time;
 }

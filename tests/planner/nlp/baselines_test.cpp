@@ -128,6 +128,20 @@ TEST(Baselines, TheFastestDriveTooSlowForATimeIsComparedAtItsOwn) {
   FAIL() << "no such baseline";
 }
 
+TEST(Baselines, NoneOfAKindIsMuchSoonerThanTheLaterOneThatIsFound) {
+  const ProfileRequest request = corner();
+  const double T = 0.97 * least_s(request);
+  int found = 0;
+  for (const Baseline& baseline : baselines()) {
+    const BaselineResult late = soonest(baseline, request, T);
+    if (!late.feasible || late.duration_s <= T * (1 + 1e-9) || late.name == "minimum_time_then_wait")
+      continue;
+    ++found;
+    EXPECT_FALSE(baseline(request, late.duration_s - 2e-3 * T).feasible) << late.name;
+  }
+  EXPECT_GE(found, 3) << "no profile keeps this time";
+}
+
 TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
   ProfileRequest request = straight(10);
   request.limits.jerk_m_s3 = 0.5;
