@@ -20,13 +20,14 @@ class IpoptNlp : public Ipopt::TNLP {
   static constexpr std::size_t kLocal = Program::kLocal;
   using Real = JetOf<kLocal>;
   static constexpr Number kInfinity = 2e19;
-  static constexpr double kFirstMu = 0.1;  ///< Ipopt's own mu_init
 
  public:
-  IpoptNlp(const Program& program, ProgramSolution& solution)
+  /// `first_mu`: the barrier parameter that Ipopt begins with (mu_init).
+  IpoptNlp(const Program& program, ProgramSolution& solution, double first_mu)
       : program_(program),
         p_(program.problem()),
         solution_(solution),
+        first_mu_(first_mu),
         values_(p_.segment_count()),
         recovered_(p_.channels * Program::kParts),
         unknowns_(static_cast<Index>(program.unknown_count())),
@@ -70,7 +71,7 @@ class IpoptNlp : public Ipopt::TNLP {
     update(x, true);
     for_channels([&](std::size_t k, std::size_t c, Index i) {
       // On the central path of Ipopt's first barrier problem: mu/z + mu/(E + z) = weight.
-      const double E = values_[k].energy_J[c].value, width = 2 * kFirstMu / p_.recovery_weight;
+      const double E = values_[k].energy_J[c].value, width = 2 * first_mu_ / p_.recovery_weight;
       x[unknowns_ + i] = 0.5 * (width - E + std::hypot(E, width));
     });
     return true;
@@ -230,6 +231,7 @@ class IpoptNlp : public Ipopt::TNLP {
   const Program& program_;
   const Problem& p_;
   ProgramSolution& solution_;
+  double first_mu_;
   std::vector<SegmentValues<kLocal>> values_;  ///< of the last point
   std::vector<double> start_{};
   std::vector<Index> first_row_{};  ///< per segment, and one past the last

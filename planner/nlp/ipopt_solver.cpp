@@ -10,6 +10,10 @@
 namespace joulepath::nlp {
 namespace {
 
+constexpr double kColdMu = 0.1, kWarmMu = 1e-6;  ///< first barrier parameter
+
+double first_mu(const IpoptOptions& options) { return options.warm ? kWarmMu : kColdMu; }
+
 void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetIntegerValue("print_level", 0);
   ipopt.SetStringValue("sb", "yes");
@@ -24,8 +28,8 @@ void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetIntegerValue("min_refinement_steps", 0);
   ipopt.SetNumericValue("barrier_tol_factor", 300.0);
   ipopt.SetNumericValue("mu_superlinear_decrease_power", 1.8);
+  ipopt.SetNumericValue("mu_init", first_mu(options));
   if (!options.warm) return;
-  ipopt.SetNumericValue("mu_init", 1e-6);
   for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})
     ipopt.SetNumericValue(push, 1e-8);
 }
@@ -39,7 +43,7 @@ ProgramSolution solve(const Program& program, const IpoptOptions& options) {
     solution.message = "ipopt does not start";
     return solution;
   }
-  Ipopt::SmartPtr<Ipopt::TNLP> nlp = new IpoptNlp<Program>(program, solution);
+  Ipopt::SmartPtr<Ipopt::TNLP> nlp = new IpoptNlp<Program>(program, solution, first_mu(options));
   static std::mutex one_at_a_time;  // MUMPS keeps state of its own between calls
   const std::lock_guard lock(one_at_a_time);
   const Ipopt::ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
