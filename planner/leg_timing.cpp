@@ -7,9 +7,9 @@ namespace {
 
 TimeGoal goal_for(double price_W, double given_s) {
   if (std::isinf(price_W)) return {.mode = TimeMode::minimum_time};
-  if (price_W == 0.0) return {.mode = TimeMode::free_time};
+  if (price_W == 0.0 && std::isinf(given_s)) return {.mode = TimeMode::free_time};
   constexpr double kRounding = 1e-9;
-  const double most_s = price_W < 0 ? given_s * (1 + kRounding) : kNoLimit;
+  const double most_s = price_W <= 0 ? given_s * (1 + kRounding) : kNoLimit;
   return {.mode = TimeMode::time_price, .duration_s = most_s, .price_W = price_W};
 }
 

@@ -22,7 +22,7 @@ class LegTiming {
   /// Profiles of all stretches at a price; a result without a profile says why.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 
-  /// The time that the leg is given (s): at a negative price of a second no stretch takes longer.
+  /// The time that the leg is given (s): at no price of a second or less no stretch takes longer.
   void give(double duration_s) {
     given_s_ = duration_s;
     forget();

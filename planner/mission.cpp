@@ -20,8 +20,10 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
                 const PlanOptions& options, const Plant& plant) {
   if (leg.prescribed) return;
   constexpr double kNoWait = 1e-6;  ///< relative
-  // A duration longer than any use: the certificate is to know that there is no more of it.
-  if (timing.duration_s(price_W, options.solver) < duration_s * (1 - kNoWait)) timing.give(duration_s);
+  // A duration longer than any use: the certificate is to know that there is no more of it. The times that
+  // were shared are the fast solver's, so Ipopt has not been asked yet.
+  if (price_W <= 0 && timing.duration_s(price_W, SolverChoice::fast) < duration_s * (1 - kNoWait))
+    timing.give(duration_s);
   const std::vector<ProfileResult>& results = timing.solve(price_W, options.solver);
   leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "planner/leg_timing.hpp"
 #include "planner/plan_trajectory.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -144,6 +145,39 @@ TEST(Mission, DurationOfALegIsKeptShortOrLong) {
     const Plan plan = plan_of(mission);
     ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
     EXPECT_NEAR(plan.legs[0].duration_s, factor * free_s, 1e-4 * free_s) << factor;
+  }
+}
+
+/// Without standby a second costs nothing, and the price at which the robot waits is zero.
+TEST(Mission, ALegThatWaitsWithoutStandbyIsCertifiedAtNoPrice) {
+  Robot robot = patient_nomad();
+  robot.power.standby_W = 0.0;
+  MissionRequest mission = two_legs();
+  mission.legs[0].duration_s = 100.0;
+  for (SolverChoice solver : {SolverChoice::fast, SolverChoice::ipopt}) {
+    const Plan plan = plan_mission(mission, {.robot = robot}, {.solver = solver, .nodes = 60});
+    ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+    EXPECT_NEAR(plan.legs[0].duration_s, 100.0, 1e-9);
+    EXPECT_GT(plan.legs[0].stretches.back().profile.wait_s, 50.0);
+    EXPECT_EQ(plan.legs[0].price_of_time_W, 0.0);
+    EXPECT_EQ(plan.legs[0].status, SolveStatus::optimal);
+  }
+}
+
+TEST(LegTiming, KeepsTheTimeThatItIsGivenAtNoPriceOfASecondOrLess) {
+  for (double standby_W : {0.0, 1.0}) {
+    Robot robot = patient_nomad();
+    robot.power.standby_W = standby_W;
+    LegTiming timing({{.piece = straight_piece({}, 6.0),
+                       .plant = make_plant(robot),
+                       .limits = *robot.limits,
+                       .nodes = 60}});
+    for (double price_W : {0.0, -0.5 * standby_W}) {
+      timing.give(kNoLimit);
+      const double given_s = 0.9 * timing.duration_s(price_W, SolverChoice::fast);
+      timing.give(given_s);
+      EXPECT_NEAR(timing.duration_s(price_W, SolverChoice::fast), given_s, 1e-6 * given_s) << price_W;
+    }
   }
 }
 
