@@ -1,6 +1,7 @@
 #include "diagnosis/equations.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 
 #include "diagnosis/indices.hpp"
@@ -41,6 +42,26 @@ void make_absolute(const std::vector<Column>& columns, RunRows& rows) {
     if (columns[k].current != 0) rows.residual.value += columns[k].current * rows.columns[k];
 }
 
+/// all' all, channel by channel: in most channels most columns are zero and take no part.
+Eigen::MatrixXd products_by_channel(const Eigen::MatrixXd& all, const std::vector<int>& channel_of_entry) {
+  std::array<std::vector<Eigen::Index>, kChannelCount> entries{};
+  for (std::size_t e = 0; e < channel_of_entry.size(); ++e)
+    entries[static_cast<std::size_t>(channel_of_entry[e])].push_back(static_cast<Eigen::Index>(e));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(all.cols(), all.cols());
+  for (const std::vector<Eigen::Index>& of_channel : entries) {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index c = 0; c < all.cols(); ++c)
+      if ((all.col(c)(of_channel).array() != 0).any()) columns.push_back(c);
+    if (columns.empty()) continue;
+    const Eigen::MatrixXd part = all(of_channel, columns);
+    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(part.cols(), part.cols());
+    product.selfadjointView<Eigen::Lower>().rankUpdate(part.transpose());
+    product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+    sum(columns, columns) += product;
+  }
+  return sum;
+}
+
 RawRunEquations compress(const RunRows& rows, const NoiseModel& noise) {
   const Whitener whiten(noise, rows.residual.present);
   const auto p = static_cast<Eigen::Index>(rows.columns.size()),
@@ -49,11 +70,7 @@ RawRunEquations compress(const RunRows& rows, const NoiseModel& noise) {
   for (Eigen::Index c = 0; c < p; ++c) all.col(c) = whiten(rows.columns[static_cast<std::size_t>(c)]);
   for (Eigen::Index c = 0; c < k; ++c) all.col(p + c) = whiten(rows.own[static_cast<std::size_t>(c)]);
   all.col(p + k) = whiten(rows.residual.value);
-  RawRunEquations raw{.gram = Eigen::MatrixXd::Zero(p + k + 1, p + k + 1), .columns = p, .own_columns = k};
-  if (all.rows() == 0) return raw;  // a run at rest throughout says nothing; Eigen divides by its zero rows
-  raw.gram.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
-  raw.gram.triangularView<Eigen::StrictlyUpper>() = raw.gram.transpose();
-  return raw;
+  return {.gram = products_by_channel(all, whiten.channel_of_entry()), .columns = p, .own_columns = k};
 }
 
 std::vector<RawRunEquations> compress_all(const std::vector<RunRows>& rows, const NoiseModel& noise) {

@@ -172,21 +172,24 @@ Whitener::Whitener(const NoiseModel& noise, const Presence& present)
 }
 
 Eigen::VectorXd Whitener::operator()(const Eigen::MatrixXd& rows) const {
-  Eigen::VectorXd result(entries_);
-  Eigen::Index next = 0;
-  std::array<double, kChannelCount> fresh{};
+  std::array<bool, kChannelCount> touched{};  // most columns touch one or two channels
+  for (Eigen::Index c = 0; c < rows.cols(); ++c)
+    touched[static_cast<std::size_t>(c)] = (rows.col(c).array() != 0).any();
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(entries_);
+  Eigen::Index first = 0;
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
     const Pattern& pattern =
         patterns_[static_cast<std::size_t>(pattern_of_sample_[static_cast<std::size_t>(t)])];
-    const std::size_t m = pattern.channels.size();
-    for (std::size_t i = 0; i < m; ++i) fresh[i] = innovation(noise_, rows, history_, t, pattern.channels[i]);
-    for (std::size_t i = 0; i < m; ++i) {
-      double value = 0;
-      for (std::size_t j = 0; j <= i; ++j)
-        value +=
-            pattern.inverse_factor(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * fresh[j];
-      result[next++] = value;
+    const auto m = static_cast<Eigen::Index>(pattern.channels.size());
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const int channel = pattern.channels[static_cast<std::size_t>(j)];
+      if (!touched[static_cast<std::size_t>(channel)]) continue;
+      const double fresh = innovation(noise_, rows, history_, t, channel);
+      if (fresh == 0) continue;
+      const double* const factor = pattern.inverse_factor.data() + j * m;
+      for (Eigen::Index i = j; i < m; ++i) result[first + i] += fresh * factor[i];
     }
+    first += m;
   }
   return result;
 }
