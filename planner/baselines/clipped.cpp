@@ -49,22 +49,6 @@ class ClippedShape {
   const ShapeOfDuration& shape_;
 };
 
-/// The cheapest over the shares, shaped by the limits of `inner` and judged by those of `request`.
-BaselineResult best_clipped(const ProfileRequest& request, const ProfileRequest& inner, const char* name,
-                            const ShapeOfDuration& shape, double duration_s,
-                            const std::map<std::string, double>& parameters) {
-  const LocalLimits local(inner);
-  std::optional<BaselineResult> best;
-  for (double share : local.shares()) {
-    std::optional<Profile> profile = ClippedShape(inner, local, share, shape).profile(duration_s);
-    if (!profile) continue;
-    BaselineResult result = finish_baseline(request, name, std::move(*profile), duration_s, parameters);
-    if (!best || better(result, *best)) best = std::move(result);
-  }
-  if (best) return std::move(*best);
-  return no_baseline(name, "cannot make the time within the local limits of the path");
-}
-
 }  // namespace
 
 BaselineResult clipped_baseline(const ProfileRequest& request, const char* name, const ShapeOfDuration& shape,
@@ -74,9 +58,13 @@ BaselineResult clipped_baseline(const ProfileRequest& request, const char* name,
     whole = finish_baseline(request, name, std::move(*profile), duration_s, parameters);
   if (whole.feasible) return whole;
   parameters["clipped"] = 1;
-  BaselineResult clipped = with_room(request, [&](const ProfileRequest& inner) {
-    return best_clipped(request, inner, name, shape, duration_s, parameters);
-  });
+  BaselineResult clipped =
+      best_share(request, LocalLimits(request).shares(), [&](const ProfileRequest& inner, double share) {
+        const LocalLimits local(inner);
+        std::optional<Profile> profile = ClippedShape(inner, local, share, shape).profile(duration_s);
+        if (!profile) return no_baseline(name, "cannot make the time within the local limits of the path");
+        return finish_baseline(request, name, std::move(*profile), duration_s, parameters);
+      });
   if (!clipped.feasible && !clipped.profile && whole.profile)
     clipped.reason += "; unclipped, " + whole.reason;
   return clipped;

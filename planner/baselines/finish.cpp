@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "planner/limit_check.hpp"
 #include "planner/nlp/grid.hpp"
@@ -111,6 +112,18 @@ BaselineResult with_room(const ProfileRequest& request,
     result = std::move(again);
   }
   return result;
+}
+
+BaselineResult best_share(
+    const ProfileRequest& request, const std::vector<double>& shares,
+    const std::function<BaselineResult(const ProfileRequest& inner, double share)>& make) {
+  std::optional<BaselineResult> best;
+  for (double share : shares) {
+    BaselineResult result =
+        with_room(request, [&](const ProfileRequest& inner) { return make(inner, share); });
+    if (!best || better(result, *best)) best = std::move(result);
+  }
+  return std::move(*best);
 }
 
 }  // namespace joulepath

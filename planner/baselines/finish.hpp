@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "planner/baselines/baseline.hpp"
 
@@ -21,5 +22,11 @@ namespace joulepath {
 /// with that limit lowered (in what make() is called with; it judges by the request itself).
 [[nodiscard]] BaselineResult with_room(const ProfileRequest& request,
                                        const std::function<BaselineResult(const ProfileRequest&)>& make);
+
+/// The best over shares of the yaw acceleration of what `make` gives for each with room of its own: a share
+/// that needs room must not lose against a more timid one that does not. `shares` holds one at least.
+[[nodiscard]] BaselineResult best_share(
+    const ProfileRequest& request, const std::vector<double>& shares,
+    const std::function<BaselineResult(const ProfileRequest& inner, double share)>& make);
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/baselines/local_limits.hpp"
 #include "planner/baselines/pattern_search.hpp"
 #include "planner/baselines/trapezoid.hpp"
 
@@ -51,58 +52,41 @@ std::optional<TrapezoidSettings> tuned(const ProfileRequest& request, const Trap
   return std::isfinite(best.value) ? settings_at(best.x, best.y) : std::nullopt;
 }
 
-/// The best over the shares of what `settings_of` chooses for one.
+/// The trapezoid of one share whose settings `settings_of` chooses, shaped by the limits of `inner`.
 template <class SettingsOf>
-std::optional<BaselineResult> best_share(const ProfileRequest& request, const TrapezoidFamily& family,
-                                         const char* name, double duration_s, SettingsOf&& settings_of) {
-  std::optional<BaselineResult> best;
-  for (double share : family.local().shares()) {
-    const std::optional<TrapezoidSettings> settings = settings_of(share);
-    if (!settings) continue;
-    BaselineResult result = finish_trapezoid(request, family, name, *settings, duration_s);
-    if (!best || better(result, *best)) best = std::move(result);
-  }
-  return best;
-}
-
-BaselineResult of_max_acceleration(const ProfileRequest& request, const ProfileRequest& inner,
-                                   const char* name, double duration_s) {
+BaselineResult of_share(const ProfileRequest& request, const ProfileRequest& inner, const char* name,
+                        double duration_s, const char* otherwise, SettingsOf&& settings_of) {
   const TrapezoidFamily family(inner);
-  const double up = most_acceleration(inner), down = most_deceleration(inner);
-  auto best = best_share(request, family, name, duration_s, [&](double share) {
-    const auto rate = family.rate_for(up, down, share, duration_s);
-    return rate ? std::optional(TrapezoidSettings{*rate, up, down, share}) : std::nullopt;
-  });
-  if (best) return std::move(*best);
-  return no_trapezoid(name, family, duration_s, "cannot make the time with the local speed limits");
-}
-
-BaselineResult of_best_settings(const ProfileRequest& request, const ProfileRequest& inner, const char* name,
-                                double duration_s) {
-  const TrapezoidFamily family(inner);
-  auto best = best_share(request, family, name, duration_s,
-                         [&](double share) { return tuned(inner, family, share, duration_s); });
-  if (best) return std::move(*best);
-  return no_trapezoid(name, family, duration_s, "no trapezoid makes the time within the limits");
+  const std::optional<TrapezoidSettings> settings = settings_of(family);
+  if (!settings) return no_trapezoid(name, family, duration_s, otherwise);
+  return finish_trapezoid(request, family, name, *settings, duration_s);
 }
 
 }  // namespace
 
 BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s) {
-  return with_room(request, [&](const ProfileRequest& inner) {
-    return of_max_acceleration(request, inner, "trapezoid_max_acceleration", duration_s);
-  });
+  const auto make = [&](const ProfileRequest& inner, double share) {
+    const double up = most_acceleration(inner), down = most_deceleration(inner);
+    return of_share(request, inner, "trapezoid_max_acceleration", duration_s,
+                    "cannot make the time with the local speed limits", [&](const TrapezoidFamily& family) {
+                      const auto rate = family.rate_for(up, down, share, duration_s);
+                      return rate ? std::optional(TrapezoidSettings{*rate, up, down, share}) : std::nullopt;
+                    });
+  };
+  return best_share(request, LocalLimits(request).shares(), make);
 }
 
 BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "trapezoid_best_tuned";
-  BaselineResult tuned = with_room(request, [&](const ProfileRequest& inner) {
-    return of_best_settings(request, inner, kName, duration_s);
-  });
+  const auto make = [&](const ProfileRequest& inner, double share) {
+    return of_share(request, inner, kName, duration_s, "no trapezoid makes the time within the limits",
+                    [&](const TrapezoidFamily& family) { return tuned(inner, family, share, duration_s); });
+  };
+  BaselineResult best = best_share(request, LocalLimits(request).shares(), make);
   // The largest accelerations are among what is tuned, judged on the exact path as all are at the end.
   BaselineResult largest = trapezoid_max_acceleration(request, duration_s);
   largest.name = kName;
-  return largest.profile && (!tuned.profile || better(largest, tuned)) ? largest : tuned;
+  return largest.profile && (!best.profile || better(largest, best)) ? largest : best;
 }
 
 }  // namespace joulepath
