@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/path/waypoint_path.hpp"
 #include "planner/replay.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -140,6 +141,21 @@ TEST(Baselines, NoneOfAKindIsMuchSoonerThanTheLaterOneThatIsFound) {
     EXPECT_FALSE(baseline(request, late.duration_s - 2e-3 * T).feasible) << late.name;
   }
   EXPECT_GE(found, 3) << "no profile keeps this time";
+}
+
+TEST(Baselines, ALittleMoreTimeDoesNotMakeTheBestTrapezoidMuchDearer) {
+  ProfileRequest request = straight(1);
+  request.piece = curve_through({{0, 0}, {2, 0.3}, {4, -0.5}, {6, 1}, {7, 3}}).path.pieces.front();
+  const double least = least_s(request), standby_W = request.plant.robot.power.standby_W;
+  double before_J = 0, before_s = 0;
+  for (double factor : {1.02, 1.024, 1.028, 1.032, 1.036, 1.04}) {
+    const BaselineResult tuned = trapezoid_best_tuned(request, factor * least);
+    ASSERT_TRUE(tuned.feasible) << factor << ": " << tuned.reason;
+    if (before_s > 0) {
+      EXPECT_LT(tuned.energy_J, 1.003 * (before_J + standby_W * (factor * least - before_s))) << factor;
+    }
+    before_J = tuned.energy_J, before_s = factor * least;
+  }
 }
 
 TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
