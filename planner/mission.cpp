@@ -111,6 +111,11 @@ std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionReques
 }
 
 /// Plans the legs as they are, in their order; `plan` brings what is known about the mission already.
+bool has_own_duration(const MissionRequest& mission) {
+  return std::any_of(mission.legs.begin(), mission.legs.end(),
+                     [](const LegRequest& leg) { return leg.duration_s.has_value(); });
+}
+
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, Plan plan) {
   TimedDraft timed = time_legs(mission, world, space, plant, options, plan);
@@ -176,7 +181,14 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   }
   if (mission.legs.empty()) refuse_empty(mission);
   const auto plan_legs = [&](const MissionRequest& legs) {
-    return plan_given_legs(legs, world, options, space, plant, plan);
+    Plan chosen = plan_given_legs(legs, world, options, space, plant, plan);
+    if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
+      return chosen;
+    // Ways are chosen by energy; one that a leg's own duration has no use for must not be the last word.
+    PlanOptions plain = options;
+    plain.steps.corners = false;
+    Plan other = plan_given_legs(legs, world, plain, space, plant, plan);
+    return other.status == SolveStatus::infeasible ? chosen : other;
   };
   return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
 }
