@@ -196,17 +196,22 @@ double run_dispersion(const Equations& equations, const Eigen::VectorXd& paramet
   return count > 0 ? std::max(1.0, ratio_sum / count) : 1.0;
 }
 
+Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
+                               double dispersion, Eigen::MatrixXd* covariance) {
+  const Posterior posterior = solve(problem, columns, dispersion);
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(problem.prior_sd.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    parameters[columns[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
+  if (covariance) *covariance = posterior.covariance;
+  return parameters;
+}
+
 Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
                                const std::vector<int>& columns, double dispersion,
                                Eigen::MatrixXd* covariance) {
   std::vector<int> all = equations.columns_of(Column::Kind::nuisance);
   all.insert(all.end(), columns.begin(), columns.end());
-  const Posterior posterior = solve(sum_runs(equations.runs, runs, equations.prior_sd), all, dispersion);
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equations.columns.size()));
-  for (std::size_t k = 0; k < all.size(); ++k)
-    parameters[all[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
-  if (covariance) *covariance = posterior.covariance;
-  return parameters;
+  return fit_parameters(sum_runs(equations.runs, runs, equations.prior_sd), all, dispersion, covariance);
 }
 
 }  // namespace joulepath

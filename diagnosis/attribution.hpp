@@ -58,6 +58,10 @@ struct SearchOptions {
 /// scores over its expectation, over all candidates.
 [[nodiscard]] double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters);
 
+/// All parameters of a problem, those of the given columns fitted and the others zero.
+[[nodiscard]] Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
+                                             double dispersion, Eigen::MatrixXd* covariance = nullptr);
+
 /// All parameters (nuisances too) fitted with the given candidates on the given runs.
 [[nodiscard]] Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
                                              const std::vector<int>& columns, double dispersion,

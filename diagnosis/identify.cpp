@@ -77,9 +77,9 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
                         (few ? kFewRunsDispersion : 1.0);
-    const LinearProblem problem = without_calibration(result.equations, runs, result.dispersion);
+    result.problem = without_calibration(result.equations, runs, result.dispersion);
     result.explanations = search_explanations(
-        problem, result.equations,
+        result.problem, result.equations,
         search_options(options, result.dispersion, few,
                        least_amplitudes(result.signals, robot, result.nuisances, result.state,
                                         result.equations.candidates, known)));

@@ -19,6 +19,7 @@ struct Identification {
   ModelState state{};                       ///< of the best explanation
   std::vector<RunSignals> signals{};        ///< read at the state's delay
   Equations equations{};                    ///< whole catalog and dictionary, about the state
+  LinearProblem problem{};                  ///< of all runs, with the calibration projected out
   std::vector<Explanation> explanations{};  ///< best first
   double dispersion{1.0};
 };

@@ -8,16 +8,6 @@ namespace {
 
 constexpr std::size_t kFolds = 6;
 
-Eigen::VectorXd fitted(const LinearProblem& problem, std::vector<int> columns,
-                       const std::vector<int>& further, double dispersion) {
-  columns.insert(columns.end(), further.begin(), further.end());
-  const Posterior posterior = solve(problem, columns, dispersion);
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(problem.prior_sd.size());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    parameters[columns[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
-  return parameters;
-}
-
 LeftOutGain summed(const std::vector<double>& gains) {
   const auto n = static_cast<double>(gains.size());
   double sum = 0, square = 0;
@@ -50,9 +40,11 @@ std::map<std::string, LeftOutGain> left_out_gains(const Identification& id, cons
     std::vector<std::size_t> seen, judged;
     for (std::size_t r = 0; r < count; ++r) (r % kFolds == fold ? judged : seen).push_back(r);
     const LinearProblem problem = sum_runs(equations.runs, seen, equations.prior_sd);
-    const Eigen::VectorXd without = fitted(problem, explained, {}, id.dispersion);
+    const Eigen::VectorXd without = fit_parameters(problem, explained, id.dispersion);
     for (const auto& [name, family] : families) {
-      const Eigen::VectorXd with_it = fitted(problem, explained, family, id.dispersion);
+      std::vector<int> more = explained;
+      more.insert(more.end(), family.begin(), family.end());
+      const Eigen::VectorXd with_it = fit_parameters(problem, more, id.dispersion);
       for (std::size_t r : judged)
         gains[name].push_back((run_loss(equations.runs[r], without) - run_loss(equations.runs[r], with_it)) /
                               id.dispersion);

@@ -65,7 +65,7 @@ std::string calibration_name(const Identification& id, int column) {
   const int owner = id.equations.columns[static_cast<std::size_t>(column)].owner;
   const Nuisance& nuisance = id.nuisances[static_cast<std::size_t>(owner)];
   if (!nuisance.side) return nuisance.key;
-  return nuisance.key + (*nuisance.side == Side::left ? " (left)" : " (right)");
+  return nuisance.key + " (" + side_name(*nuisance.side) + ")";
 }
 
 double by_chance(std::size_t count) { return kChancePerColumn * static_cast<double>(count); }
@@ -109,7 +109,7 @@ std::string depends_on(const LinearProblem& problem, const std::vector<int>& col
 
 Leftover find_leftover(const Identification& id, const std::vector<int>& columns) {
   const Equations& equations = id.equations;
-  const LinearProblem problem = without_calibration(equations, every(equations.runs.size()), id.dispersion);
+  const LinearProblem& problem = id.problem;
   const BoxedFit nothing = fit_within_calibration(id);
   const double explained = solve(problem, columns, id.dispersion).loss;
   const DictionaryFamilies families = dictionary_families(equations);

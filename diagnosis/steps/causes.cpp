@@ -6,7 +6,6 @@
 #include "diagnosis/gap.hpp"
 #include "diagnosis/groups.hpp"
 #include "diagnosis/held_out.hpp"
-#include "diagnosis/indices.hpp"
 #include "diagnosis/steps/parameters.hpp"
 
 namespace joulepath {
@@ -22,9 +21,8 @@ void report_stand_ins(Examination& x, const std::string& label, Cause& cause) {
     if (found == x.stand_ins.end()) continue;
     cause.indistinguishable_from = found->second;
     if (!x.report.pinned_combination.empty()) continue;
-    x.report.pinned_combination =
-        pinned_combination(without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion),
-                           id.equations, best, label, cause.indistinguishable_from.front(), id.dispersion);
+    x.report.pinned_combination = pinned_combination(id.problem, id.equations, best, label,
+                                                     cause.indistinguishable_from.front(), id.dispersion);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/groups.hpp"
-#include "diagnosis/indices.hpp"
 #include "diagnosis/materiality.hpp"
 
 namespace joulepath {
@@ -27,11 +26,9 @@ constexpr std::size_t kRanked = 12;
 /// How far a named effect may be the others' inexact form.
 double ghost_share_of(const Examination& x, const std::string& label) {
   const Identification& id = x.id;
-  const LinearProblem problem =
-      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
   for (int c : id.explanations.front().candidates)
     if (id.equations.candidates[static_cast<std::size_t>(c)].label() == label)
-      return ghost_share(problem, id.equations, id.explanations.front(), c);
+      return ghost_share(id.problem, id.equations, id.explanations.front(), c);
   return 1.0;
 }
 
@@ -54,11 +51,10 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
 /// size is usual.
 void share_probabilities(Examination& x) {
   const Identification& id = x.id;
-  const LinearProblem problem =
-      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
-    const std::vector<StandIn> others = stand_ins(problem, id.equations, id.explanations, c, id.dispersion);
+    const std::vector<StandIn> others =
+        stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion);
     double weight = 1, sum = x.probabilities[label];
     for (const StandIn& other : others) {
       x.stand_ins[label].push_back(other.label);
@@ -77,14 +73,12 @@ void share_probabilities(Examination& x) {
 double gain_share_of(const Examination& x, const std::string& label) {
   const Identification& id = x.id;
   const Explanation& best = id.explanations.front();
-  const LinearProblem problem =
-      without_calibration(id.equations, every(x.diagnosis.runs.size()), id.dispersion);
   std::vector<int> columns;
   for (int c : best.candidates)
     if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
       for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
-  const double nothing = solve(problem, {}, id.dispersion).loss,
-               others = solve(problem, columns, id.dispersion).loss;
+  const double nothing = solve(id.problem, {}, id.dispersion).loss,
+               others = solve(id.problem, columns, id.dispersion).loss;
   return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
 }
 
