@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/stretch.hpp"
+#include "planner/legs/stretch.hpp"
 #include "scenarios/mission_source.hpp"
 
 namespace CLI {

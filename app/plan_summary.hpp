@@ -3,7 +3,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "planner/plan.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

@@ -1,5 +1,7 @@
 #include "app/profile_columns.hpp"
 
+#include "planner/motion/path_motion.hpp"
+
 namespace joulepath {
 
 report::Columns profile_columns(const std::vector<const ProfileRequest*>& requests,

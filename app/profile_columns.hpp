@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "app/report/columns.hpp"
-#include "planner/profile.hpp"
+#include "planner/values/profile.hpp"
+#include "planner/values/profile_request.hpp"
 
 namespace joulepath {
 

@@ -6,7 +6,7 @@
 #include "app/command.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
-#include "planner/plan.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

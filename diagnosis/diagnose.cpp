@@ -1,18 +1,18 @@
 #include <algorithm>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/energy/diagnose_energies.hpp"
-#include "diagnosis/energy/energy_run.hpp"
-#include "diagnosis/localize.hpp"
-#include "diagnosis/next_run.hpp"
-#include "diagnosis/split.hpp"
-#include "diagnosis/steps/causes.hpp"
-#include "diagnosis/steps/control.hpp"
-#include "diagnosis/steps/correction.hpp"
-#include "diagnosis/steps/names.hpp"
-#include "diagnosis/steps/validation.hpp"
-#include "diagnosis/steps/verdict.hpp"
-#include "diagnosis/survey.hpp"
+#include "diagnosis/checks/survey.hpp"
+#include "diagnosis/correction/correction.hpp"
+#include "diagnosis/correction/validation.hpp"
+#include "diagnosis/energies_only/diagnose_energies.hpp"
+#include "diagnosis/energies_only/energy_run.hpp"
+#include "diagnosis/next_run/next_run.hpp"
+#include "diagnosis/signals/split.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+#include "diagnosis/verdict/causes.hpp"
+#include "diagnosis/verdict/control.hpp"
+#include "diagnosis/verdict/names.hpp"
+#include "diagnosis/verdict/verdict.hpp"
+#include "diagnosis/where/localize.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/parallel.hpp"
-#include "planner/mission.hpp"
+#include "diagnosis/numerics/parallel.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {

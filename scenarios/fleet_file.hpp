@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/fleet_request.hpp"
+#include "planner/values/fleet_request.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

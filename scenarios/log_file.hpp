@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/log_columns.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/path/occupancy_grid.hpp"
+#include "planner/path/floor/occupancy_grid.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

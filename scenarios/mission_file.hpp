@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/mission_request.hpp"
+#include "planner/values/mission_request.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

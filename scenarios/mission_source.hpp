@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/mission_request.hpp"
+#include "planner/values/mission_request.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "planner/path/bezier_chain.hpp"
-#include "planner/path/waypoint_path.hpp"
+#include "planner/path/shape/bezier_chain.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/path/path.hpp"
+#include "planner/path/geometry/path.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

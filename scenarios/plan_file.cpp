@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "planner/plan_accounts.hpp"
+#include "planner/accounts/plan_accounts.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/plan.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

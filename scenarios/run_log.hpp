@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 #include "model/robot.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/log_columns.hpp"

@@ -5,8 +5,8 @@
 
 #include "model/effects/catalog.hpp"
 #include "model/estimate.hpp"
-#include "planner/mission.hpp"
-#include "planner/plan_trajectory.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"

@@ -6,7 +6,7 @@
 
 #include "model/motions.hpp"
 #include "model/robot.hpp"
-#include "planner/stretch.hpp"
+#include "planner/legs/stretch.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {

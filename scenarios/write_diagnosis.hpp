@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
 

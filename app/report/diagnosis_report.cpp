@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report.hpp"
-#include "diagnosis/prediction.hpp"
+#include "diagnosis/prediction/prediction.hpp"
 
 namespace joulepath::report {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "app/report/columns.hpp"
-#include "planner/profile.hpp"
+#include "planner/motion/limits_for_payload.hpp"
 
 namespace joulepath::report {
 

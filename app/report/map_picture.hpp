@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/path/occupancy_grid.hpp"
+#include "planner/path/floor/occupancy_grid.hpp"
 
 namespace joulepath::report {
 

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report.hpp"
-#include "planner/plan_trajectory.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/baselines/baseline.hpp"
 
 namespace joulepath::report {
 namespace {

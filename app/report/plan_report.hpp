@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "planner/mission_request.hpp"
-#include "planner/plan.hpp"
+#include "planner/values/mission_request.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath::report {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "planner/accounts/plan_trajectory.hpp"
 #include "planner/baselines/baseline.hpp"
-#include "planner/plan_trajectory.hpp"
 
 namespace joulepath::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "planner/mission.hpp"
+#include "planner/mission/mission.hpp"
 
 namespace joulepath::bench {
 

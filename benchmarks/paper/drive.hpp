@@ -4,7 +4,7 @@
 
 #include "benchmarks/paper/protocol.hpp"
 #include "model/plant.hpp"
-#include "planner/path/bezier.hpp"
+#include "planner/path/geometry/bezier.hpp"
 
 namespace joulepath::bench {
 

@@ -1,7 +1,11 @@
 #include <cmath>
 
 #include "benchmarks/paper/sections.hpp"
-#include "planner/profile.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/profile/profile_solver.hpp"
+#include "planner/values/profile_request.hpp"
+#include "planner/values/profile_result.hpp"
 
 namespace joulepath::bench {
 namespace {

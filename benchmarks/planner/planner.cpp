@@ -8,12 +8,14 @@
 #include <fstream>
 #include <string>
 
-#include "planner/front.hpp"
-#include "planner/nlp/fast_solver.hpp"
-#include "planner/nlp/forward_backward.hpp"
-#include "planner/nlp/grid.hpp"
-#include "planner/nlp/ipopt_solver.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/nlp/fast/fast_solver.hpp"
+#include "planner/nlp/ipopt/ipopt_solver.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
+#include "planner/profile/front.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath {

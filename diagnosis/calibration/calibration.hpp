@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 
 namespace joulepath {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/calibration/smoothing.hpp"
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 
 namespace joulepath::calibration {
 

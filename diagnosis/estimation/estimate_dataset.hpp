@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 #include "model/estimate.hpp"
 
 namespace joulepath {

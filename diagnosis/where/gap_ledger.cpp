@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "diagnosis/indices.hpp"
-#include "diagnosis/resample.hpp"
+#include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/numerics/resample.hpp"
 
 namespace joulepath {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "diagnosis/gap.hpp"
-#include "diagnosis/smoothing.hpp"
+#include "diagnosis/numerics/smoothing.hpp"
+#include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/prediction.hpp"
+#include "diagnosis/prediction/prediction.hpp"
 
 namespace joulepath {
 

@@ -6,6 +6,7 @@
 #include "planner/baselines/clipped.hpp"
 #include "planner/baselines/finish.hpp"
 #include "planner/baselines/shapes.hpp"
+#include "planner/profile/profile_solver.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/baselines/baseline.hpp"
+
 namespace joulepath {
 namespace {
 

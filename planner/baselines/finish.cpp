@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <optional>
 
-#include "planner/limit_check.hpp"
-#include "planner/nlp/grid.hpp"
-#include "planner/segment_energy.hpp"
+#include "planner/motion/limit_check.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/nlp/transcription/grid.hpp"
 
 namespace joulepath {
 namespace {

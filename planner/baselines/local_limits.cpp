@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "planner/nlp/grid.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/grid.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/nlp/problem.hpp"
+#include "planner/nlp/transcription/problem.hpp"
 
 namespace joulepath {
 

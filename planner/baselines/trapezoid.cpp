@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "planner/nlp/forward_backward.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
 
 namespace joulepath {
 namespace {

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/profile/profile_solver.hpp"
 
 namespace joulepath {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/baselines/trapezoid.hpp"
-#include "planner/plan.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

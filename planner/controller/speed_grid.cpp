@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/stretch.hpp"
+#include "planner/legs/stretch.hpp"
 
 namespace joulepath {
 namespace {

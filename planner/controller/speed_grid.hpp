@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/controller/controlled_drive.hpp"
-#include "planner/path/occupancy_grid.hpp"
+#include "planner/path/floor/occupancy_grid.hpp"
 
 namespace joulepath {
 

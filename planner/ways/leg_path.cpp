@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "planner/path/bezier_chain.hpp"
+#include "planner/path/shape/bezier_chain.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "planner/mission_request.hpp"
-#include "planner/path/path.hpp"
-#include "planner/path/route.hpp"
-#include "planner/plan.hpp"
-#include "planner/stretch.hpp"
+#include "planner/legs/stretch.hpp"
+#include "planner/path/geometry/path.hpp"
+#include "planner/path/search/route.hpp"
+#include "planner/values/mission_request.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

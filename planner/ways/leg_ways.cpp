@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "planner/path/polyline.hpp"
+#include "planner/path/search/polyline.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/path/end_leads.hpp"
-#include "planner/path/route_pool.hpp"
-#include "planner/path/smoothing.hpp"
+#include "planner/path/search/route_pool.hpp"
+#include "planner/path/shape/end_leads.hpp"
+#include "planner/path/shape/smoothing.hpp"
 #include "planner/ways/way_score.hpp"
 
 namespace joulepath {

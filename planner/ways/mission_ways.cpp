@@ -1,7 +1,7 @@
 #include "planner/ways/mission_ways.hpp"
 
-#include "planner/path/graph_route.hpp"
-#include "planner/prescribed_leg.hpp"
+#include "planner/legs/prescribed_leg.hpp"
+#include "planner/path/search/graph_route.hpp"
 
 namespace joulepath {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/path/refine.hpp"
+#include "planner/path/shape/refine.hpp"
 
 namespace joulepath {
 namespace {

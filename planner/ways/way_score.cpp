@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/leg_timing.hpp"
+#include "planner/legs/leg_timing.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,10 +3,10 @@
 #include <array>
 #include <map>
 
-#include "planner/mission_request.hpp"
-#include "planner/path/route.hpp"
-#include "planner/plan.hpp"
-#include "planner/stretch.hpp"
+#include "planner/legs/stretch.hpp"
+#include "planner/path/search/route.hpp"
+#include "planner/values/mission_request.hpp"
+#include "planner/values/plan.hpp"
 
 namespace joulepath {
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "planner/edge_energy.hpp"
+#include "planner/accounts/edge_energy.hpp"
 #include "scenarios/export/exports.hpp"
 
 namespace joulepath {

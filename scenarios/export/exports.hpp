@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/controller/controlled_drive.hpp"
-#include "planner/mission_request.hpp"
+#include "planner/values/mission_request.hpp"
 
 namespace joulepath {
 

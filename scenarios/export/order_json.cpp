@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "planner/path/quintic_fit.hpp"
+#include "planner/path/geometry/quintic_fit.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {

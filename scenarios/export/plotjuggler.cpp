@@ -1,6 +1,6 @@
 #include <charconv>
 
-#include "planner/plan_trajectory.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
 #include "scenarios/export/exports.hpp"
 
 namespace joulepath {

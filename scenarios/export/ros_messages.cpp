@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "planner/plan_trajectory.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
 #include "scenarios/export/exports.hpp"
 
 namespace joulepath {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/mission_request.hpp"
-#include "planner/path/nurbs.hpp"
+#include "planner/path/geometry/nurbs.hpp"
+#include "planner/values/mission_request.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {

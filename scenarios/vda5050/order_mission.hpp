@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/mission_request.hpp"
+#include "planner/values/mission_request.hpp"
 #include "scenarios/vda5050/order.hpp"
 
 namespace joulepath {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "planner/path/corner_blend.hpp"
+#include "planner/path/shape/corner_blend.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/mission_request.hpp"
+#include "planner/values/mission_request.hpp"
 #include "scenarios/vda5050/order.hpp"
 
 namespace joulepath {

@@ -9,8 +9,8 @@
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
-#include "tests/support/nomad.hpp"
 #include "tests/support/locations.hpp"
+#include "tests/support/nomad.hpp"
 
 namespace joulepath::bench {
 namespace {

@@ -1,5 +1,5 @@
 #include <iostream>
-#include <joulepath/planner/mission.hpp>
+#include <joulepath/planner/mission/mission.hpp>
 #include <joulepath/scenarios/mission_file.hpp>
 
 int main(int argc, char** argv) {

@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/energy/energy_run.hpp"
+#include "diagnosis/energies_only/energy_run.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/write_diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 #include "tests/support/nomad.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/left_out_gain.hpp"
+#include "diagnosis/evidence/left_out_gain.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "tests/support/locations.hpp"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/attribution.hpp"
-#include "diagnosis/indices.hpp"
+#include "diagnosis/evidence/attribution.hpp"
+#include "diagnosis/numerics/indices.hpp"
 
 namespace joulepath {
 namespace {

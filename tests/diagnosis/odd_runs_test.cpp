@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/equations.hpp"
-#include "diagnosis/nuisance.hpp"
-#include "diagnosis/refit.hpp"
-#include "diagnosis/survey.hpp"
+#include "diagnosis/checks/survey.hpp"
+#include "diagnosis/evidence/equations.hpp"
+#include "diagnosis/evidence/refit.hpp"
+#include "diagnosis/prediction/nuisance.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "tests/support/locations.hpp"

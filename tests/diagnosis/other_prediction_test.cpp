@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "tests/support/locations.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/decision_cost.hpp"
 #include "scenarios/write_diagnosis.hpp"

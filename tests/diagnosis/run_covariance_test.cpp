@@ -1,11 +1,11 @@
-#include "diagnosis/run_covariance.hpp"
+#include "diagnosis/evidence/run_covariance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "diagnosis/indices.hpp"
+#include "diagnosis/numerics/indices.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/normal_equations.hpp"
-#include "diagnosis/resample.hpp"
-#include "diagnosis/smoothing.hpp"
-#include "diagnosis/whitening.hpp"
+#include "diagnosis/evidence/whitening.hpp"
+#include "diagnosis/numerics/normal_equations.hpp"
+#include "diagnosis/numerics/resample.hpp"
+#include "diagnosis/numerics/smoothing.hpp"
 
 namespace joulepath {
 namespace {

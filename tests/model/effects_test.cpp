@@ -7,7 +7,7 @@
 #include <set>
 
 #include "model/estimate.hpp"
-#include "model/simulate.hpp"
+#include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

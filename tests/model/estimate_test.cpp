@@ -7,7 +7,7 @@
 
 #include "model/config_error.hpp"
 #include "model/local_fit.hpp"
-#include "model/simulate.hpp"
+#include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

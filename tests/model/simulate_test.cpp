@@ -1,4 +1,4 @@
-#include "model/simulate.hpp"
+#include "model/simulation/simulate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/state_space.hpp"
+#include "tests/support/state_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "planner/mission.hpp"
+#include "planner/mission/mission.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/leg_timing.hpp"
-#include "planner/plan_trajectory.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/legs/leg_timing.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

@@ -1,4 +1,4 @@
-#include "planner/time_split.hpp"
+#include "planner/mission/time_split.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "planner/visit_order.hpp"
+#include "planner/mission/visit_order.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "planner/mission.hpp"
+#include "planner/mission/mission.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

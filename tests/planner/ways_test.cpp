@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/mission.hpp"
+#include "planner/mission/mission.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/nomad.hpp"

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "planner/accounts/edge_energy.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
 #include "planner/controller/leg_settings.hpp"
 #include "planner/controller/planned_speed.hpp"
 #include "planner/controller/speed_grid.hpp"
-#include "planner/edge_energy.hpp"
-#include "planner/mission.hpp"
-#include "planner/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
 #include "scenarios/any_file.hpp"
 #include "scenarios/export/exports.hpp"
 #include "scenarios/map_file.hpp"

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/mission.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/motion/path_motion.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/mission_source.hpp"
 #include "scenarios/vda5050/order_mission.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/mission.hpp"
-#include "planner/path_motion.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/motion/path_motion.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/mission_source.hpp"
 #include "tests/scenarios/scratch_directory.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "planner/profile.hpp"
+#include "planner/values/profile_request.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <random>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/values/dataset.hpp"
 #include "model/operating_point.hpp"
 
 namespace joulepath::testing {

@@ -3,8 +3,8 @@
 #include <concepts>
 #include <string_view>
 
-#include "planner/nlp/jerk_interval.hpp"
-#include "planner/nlp/segment.hpp"
+#include "planner/nlp/interval/jerk_interval.hpp"
+#include "planner/nlp/interval/segment.hpp"
 
 namespace joulepath::nlp {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "planner/motion/path_motion.hpp"
 #include "planner/nlp/terms/term.hpp"
 
 namespace joulepath::nlp {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/simulate.hpp"
+#include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
-#include "planner/path/waypoint_path.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

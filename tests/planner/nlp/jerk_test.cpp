@@ -3,8 +3,11 @@
 
 #include <cmath>
 
-#include "planner/profile.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/profile/profile_solver.hpp"
+#include "planner/values/profile.hpp"
+#include "planner/values/profile_request.hpp"
+#include "planner/values/profile_result.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

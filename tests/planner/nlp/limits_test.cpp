@@ -8,8 +8,9 @@
 #include <ostream>
 #include <string>
 
-#include "planner/path/bezier_chain.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/path/shape/bezier_chain.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
-#include "planner/nlp/dense_check.hpp"
-#include "planner/nlp/problem.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/nlp/transcription/problem.hpp"
+#include "planner/profile/dense_check.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

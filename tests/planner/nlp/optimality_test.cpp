@@ -3,13 +3,16 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
-#include "planner/front.hpp"
-#include "planner/nlp/certificate.hpp"
-#include "planner/nlp/fast_solver.hpp"
-#include "planner/nlp/forward_backward.hpp"
-#include "planner/nlp/grid.hpp"
-#include "planner/nlp/problem.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/nlp/fast/fast_solver.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
+#include "planner/nlp/transcription/problem.hpp"
+#include "planner/profile/certificate.hpp"
+#include "planner/profile/front.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath {

@@ -1,4 +1,5 @@
-#include "planner/profile.hpp"
+
+#include "planner/values/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,12 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/profile/profile_solver.hpp"
+#include "planner/values/profile_request.hpp"
+#include "planner/values/profile_result.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

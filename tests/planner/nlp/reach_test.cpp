@@ -3,14 +3,15 @@
 #endif
 
 // Rows that are left out of the problem: where the kept ones hold, they hold, too.
-#include "planner/nlp/reach.hpp"
+#include "planner/nlp/transcription/reach.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/nlp/forward_backward.hpp"
-#include "planner/nlp/grid.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath::nlp {

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "model/operating_point.hpp"
-#include "planner/replay.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

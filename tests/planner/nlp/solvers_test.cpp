@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "planner/nlp/fast_solver.hpp"
-#include "planner/nlp/forward_backward.hpp"
-#include "planner/nlp/grid.hpp"
-#include "planner/nlp/ipopt_solver.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/fast/fast_solver.hpp"
+#include "planner/nlp/ipopt/ipopt_solver.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath::nlp {

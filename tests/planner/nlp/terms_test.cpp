@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "planner/nlp/grid.hpp"
-#include "planner/nlp/problem.hpp"
-#include "planner/nlp/segment_jets.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/grid.hpp"
+#include "planner/nlp/transcription/problem.hpp"
+#include "planner/nlp/transcription/segment_jets.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath::nlp {

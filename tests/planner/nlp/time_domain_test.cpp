@@ -3,8 +3,10 @@
 #include <cmath>
 #include <nlopt.hpp>
 
-#include "planner/replay.hpp"
-#include "planner/segment_energy.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/path/graph_route.hpp"
-#include "planner/path/homotopy.hpp"
-#include "planner/path/route_pool.hpp"
+#include "planner/path/search/graph_route.hpp"
+#include "planner/path/search/homotopy.hpp"
+#include "planner/path/search/route_pool.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace joulepath {

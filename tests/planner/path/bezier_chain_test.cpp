@@ -1,4 +1,4 @@
-#include "planner/path/bezier_chain.hpp"
+#include "planner/path/shape/bezier_chain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planner/path/path.hpp"
+#include "planner/path/geometry/path.hpp"
 
 namespace joulepath {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/path/occupancy_grid.hpp"
+#include "planner/path/floor/occupancy_grid.hpp"
 
 namespace joulepath {
 

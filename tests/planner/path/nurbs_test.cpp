@@ -1,4 +1,4 @@
-#include "planner/path/nurbs.hpp"
+#include "planner/path/geometry/nurbs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/path/quintic_fit.hpp"
+#include "planner/path/geometry/quintic_fit.hpp"
 
 namespace joulepath {
 namespace {

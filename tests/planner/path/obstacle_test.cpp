@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
-#include "planner/path/distance_transform.hpp"
-#include "planner/path/footprint_checker.hpp"
-#include "planner/path/polygon_distance.hpp"
+#include "planner/path/floor/distance_transform.hpp"
+#include "planner/path/floor/footprint_checker.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace joulepath {

@@ -1,4 +1,4 @@
-#include "planner/path/path.hpp"
+#include "planner/path/geometry/path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "planner/path/refine.hpp"
+#include "planner/path/shape/refine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "planner/path/end_leads.hpp"
-#include "planner/path/route.hpp"
+#include "planner/path/search/route.hpp"
+#include "planner/path/shape/end_leads.hpp"
 #include "tests/planner/path/curve_laws.hpp"
 #include "tests/planner/path/grids.hpp"
 

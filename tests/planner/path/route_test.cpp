@@ -1,4 +1,4 @@
-#include "planner/path/route.hpp"
+#include "planner/path/search/route.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "planner/path/polyline.hpp"
+#include "planner/path/search/polyline.hpp"
 #include "tests/planner/path/curve_laws.hpp"
 #include "tests/planner/path/grids.hpp"
 

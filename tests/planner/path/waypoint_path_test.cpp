@@ -1,4 +1,4 @@
-#include "planner/path/waypoint_path.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,184 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/commands/batch_run.hpp"
+#include "app/interrupt.hpp"
+#include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
+#include "app/progress.hpp"
+#include "app/report/report.hpp"
+#include "app/terminal.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Results as they come, one line each, flushed at once: what survives a kill. A line holds the index, the
+/// fingerprint of its mission, the time it took and the result.
+class Journal {
+ public:
+  Journal(std::string file, bool keep) : file_(std::move(file)) {
+    if (keep) read();
+    stream_.open(file_, keep ? std::ios::app : std::ios::trunc);
+    if (!stream_) throw EnvironmentError("cannot write " + file_);
+  }
+
+  void add(const BatchResult& result, const std::string& fingerprint) {
+    stream_ << Json{{"index", result.index},
+                    {"fingerprint", fingerprint},
+                    {"seconds", result.seconds},
+                    {"result", Json::parse(result.line)}}
+                   .dump()
+            << "\n"
+            << std::flush;
+    if (!stream_) throw EnvironmentError("cannot write " + file_);
+  }
+
+  /// The earlier result of a mission, if it was the same mission.
+  const Json* find(std::size_t index, const std::string& fingerprint) const {
+    const auto found = earlier_.find(index);
+    return found != earlier_.end() && found->second["fingerprint"] == fingerprint ? &found->second : nullptr;
+  }
+
+  void remove() {
+    stream_.close();
+    std::filesystem::remove(file_);
+  }
+
+ private:
+  void read() {
+    std::ifstream in(file_);
+    std::string line, whole;
+    while (std::getline(in, line)) {
+      const Json entry = Json::parse(line, nullptr, false);  // the last line may be cut
+      if (entry.is_discarded() || !entry.contains("index")) continue;
+      earlier_[entry["index"].get<std::size_t>()] = entry;
+      whole += line + "\n";
+    }
+    in.close();
+    std::ofstream(file_, std::ios::trunc) << whole;
+  }
+
+  std::string file_;
+  std::ofstream stream_{};
+  std::map<std::size_t, Json> earlier_{};
+};
+
+class BatchCommand : public Command {
+ public:
+  std::string name() const override { return "batch"; }
+  std::string says() const override { return "plan many missions"; }
+  std::string examples() const override {
+    return "  joulepath batch scenarios/missions --out out/batch -j 2\n"
+           "  joulepath batch missions.jsonl --out out/batch --resume\n\n"
+           "Exit code 0: every mission has its line in results.jsonl, whatever it says; .status tells.\n";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("missions", source_,
+                   "directory of missions (*.yaml), or a file of JSON lines with the mission's keys")
+        ->required()
+        ->check(CLI::ExistingPath);
+    app.add_option("--out", out_, "directory for results.jsonl, timings.jsonl, report.html")->required();
+    app.add_option("-j,--jobs", jobs_, "missions planned at once")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    add_plan_options(app, options_);
+    app.add_flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
+    app.add_flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const std::vector<BatchItem> items = batch_items(source_);
+    OutputDirectory out(out_, {"results.jsonl", "timings.jsonl", "report.html"}, common_.force || resume_);
+    std::filesystem::create_directories(out_);
+    options_.solver = SolverChoice::fast;
+    BatchPlanner planner(options_, {.untrusted = common_.untrusted});
+    Journal journal(out_ + "/results.partial.jsonl", resume_);
+    lines_.resize(items.size());
+    seconds_.resize(items.size());
+    std::vector<std::string> fingerprints;
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      fingerprints.push_back(planner.fingerprint(items[k]));
+      if (const Json* earlier = journal.find(k, fingerprints[k])) {
+        lines_[k] = (*earlier)["result"].dump();
+        seconds_[k] = (*earlier)["seconds"];
+      } else {
+        open.push_back(k);
+      }
+    }
+    const PoliteInterrupt interrupt;
+    {
+      Progress progress("missions", open.size(), common_.quiet);
+      run_batch(
+          open, jobs_, [&](std::size_t k) { return planner.plan(items[k], k); },
+          [&](const BatchResult& result) {
+            journal.add(result, fingerprints[result.index]);
+            lines_[result.index] = result.line;
+            seconds_[result.index] = result.seconds;
+            progress.advance();
+          },
+          [] { return PoliteInterrupt::requested(); });
+    }
+    if (PoliteInterrupt::requested()) {
+      std::cerr << "interrupted; --resume continues\n";
+      return kInterrupted;
+    }
+    finish(out);
+    journal.remove();
+    return kDone;
+  }
+
+ private:
+  void finish(OutputDirectory& out) {
+    std::string results, timings;
+    Json missions = Json::array();
+    std::map<std::string, int> count;
+    double energy_J = 0.0;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      results += lines_[k] + "\n";
+      missions.push_back(Json::parse(lines_[k]));
+      timings += Json{{"index", k}, {"seconds", seconds_[k]}}.dump() + "\n";
+      ++count[missions.back()["status"].get<std::string>()];
+      energy_J += missions.back().value("energy_J", 0.0);
+    }
+    out.write("results.jsonl", results);
+    out.write("timings.jsonl", timings);
+    const std::string title = std::filesystem::path(source_).filename().string();
+    out.write("report.html",
+              report::batch_report_html(nlohmann::json::parse(Json{{"missions", missions}}.dump()), title));
+    out.commit();
+    if (common_.json)
+      std::cout << results;
+    else if (!common_.quiet) {
+      std::cout << lines_.size() << " missions:";
+      for (const auto& [status, number] : count) std::cout << " " << number << " " << status;
+      std::cout << ", " << figure(energy_J, 6) << " J in all\nresults in " << out.path() << "\n";
+    }
+  }
+
+  std::string source_{};
+  std::string out_{};
+  unsigned jobs_{std::max(1u, std::thread::hardware_concurrency())};
+  bool resume_{};
+  PlanOptions options_{.baselines = false};
+  CommonOptions common_{};
+  std::vector<std::string> lines_{};
+  std::vector<double> seconds_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_batch_command() { return std::make_unique<BatchCommand>(); }
+
+}  // namespace joulepath

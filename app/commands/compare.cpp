@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/plan_options.hpp"
+#include "app/plan_summary.hpp"
+#include "app/profile_columns.hpp"
+#include "app/report/report.hpp"
+#include "app/study.hpp"
+#include "app/terminal.hpp"
+#include "planner/accounts/plan_accounts.hpp"
+#include "planner/baselines/comparison.hpp"
+#include "planner/mission/mission.hpp"
+#include "scenarios/mission_file.hpp"
+
+namespace joulepath {
+namespace {
+
+using nlohmann::json;
+
+json profile_json(const BaselineTotal& total) {
+  json profile = baseline_json(total);
+  profile["parameters"] = total.settings;
+  return profile;
+}
+
+BaselineTotal total_of(const Plan& plan) {
+  return {.name = "plan",
+          .energy_J = plan.energy.total_J(),
+          .motion_energy_J = plan.energy.motion_J(),
+          .duration_s = plan.duration_s};
+}
+
+void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared) {
+  Table table({"same path, same time", "total J", "plan saves", "motion J", "plan saves", ""});
+  const auto row = [&](const BaselineTotal& total) {
+    const bool counted = total.feasible;
+    table.row(
+        {baseline_name(total), counted ? figure(total.energy_J, 5) : "-",
+         counted ? figure(saving_percent(plan.energy.total_J(), total.energy_J), 3) + " %" : "-",
+         counted ? figure(total.motion_energy_J, 5) : "-",
+         counted ? figure(saving_percent(plan.energy.motion_J(), total.motion_energy_J), 3) + " %" : "-",
+         total.reason});
+  };
+  row(total_of(plan));
+  table.rule();
+  for (const ComparedProfile& profile : compared) row(profile.total);
+  table.print(std::cout);
+}
+
+class CompareCommand : public Command {
+ public:
+  std::string name() const override { return "compare"; }
+  std::string says() const override {
+    return "the plan of a mission or a path against every classic profile, at equal distance and time";
+  }
+  std::string examples() const override {
+    return "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
+           "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
+           "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n";
+  }
+
+  void declare(CLI::App& app) override {
+    add_study_options(app, study_, kResult);
+    add_plan_options(app, study_.plan);
+  }
+
+  int run() override {
+    OutputDirectory out = study_output(study_, kResult);
+    const ReadOptions reading{.untrusted = study_.common.untrusted};
+    const MissionRequest mission = read_mission_source(study_.source, reading);
+    const Plan plan = plan_mission(mission, read_world(mission, reading), study_.plan);
+    if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
+      std::cerr << "no plan to compare with: " << solve_status_name(plan.status) << ": " << plan.message
+                << "\n";
+      return kInfeasibleOrFailed;
+    }
+    const std::vector<ComparedProfile> compared = compare_baselines(plan);
+    json result = {{"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", json::array()}};
+    result["profiles"].push_back(profile_json(total_of(plan)));
+    for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
+    if (study_writes(study_))
+      write_study(out, kResult, result,
+                  report::compare_report_html(result, motions(plan, compared), plan.mission));
+    if (study_prints(study_, result)) print_table(plan, compared);
+    return kDone;
+  }
+
+ private:
+  static std::vector<report::NamedColumns> motions(const Plan& plan,
+                                                   const std::vector<ComparedProfile>& compared) {
+    std::vector<const ProfileRequest*> requests;
+    std::vector<Profile> own;
+    for (const LegPlan& leg : plan.legs)
+      for (const StretchPlan& stretch : leg.stretches) {
+        requests.push_back(&stretch.request);
+        own.push_back(stretch.profile);
+      }
+    std::vector<report::NamedColumns> columns{{"plan", profile_columns(requests, own)}};
+    for (const ComparedProfile& profile : compared)
+      if (profile.total.feasible && profile.profiles.size() == requests.size())
+        columns.push_back({profile.total.name, profile_columns(requests, profile.profiles)});
+    return columns;
+  }
+
+  static constexpr const char* kResult = "compare.json";
+  StudyOptions study_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_compare_command() { return std::make_unique<CompareCommand>(); }
+
+}  // namespace joulepath

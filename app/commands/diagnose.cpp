@@ -1,0 +1,166 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/left_out_effects.hpp"
+#include "app/output_directory.hpp"
+#include "app/report/diagnosis_report.hpp"
+#include "app/terminal.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+#include "scenarios/corrected_dataset.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/decision_cost.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/write_diagnosis.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string percent(double fraction) { return figure(100 * fraction, 3) + " %"; }
+
+std::string cause_text(const Cause& cause) {
+  std::string text = cause.effect.name;
+  if (cause.effect.side) text += std::string(" (") + side_name(*cause.effect.side) + ")";
+  for (const FoundParameter& p : cause.parameters)
+    text += "  " + p.name + " = " + figure(p.value, 4) + " [" + figure(p.interval_95.first, 3) + ", " +
+            figure(p.interval_95.second, 3) + "]";
+  return text;
+}
+
+/// What the verdict means for the reader, and what to do next.
+std::string advice(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::no_gap:
+      return "Calibration and noise explain the runs: nothing to add to the model.";
+    case Verdict::explained:
+      return "The effects below explain the gap; plan with the corrected files.";
+    case Verdict::partly_explained:
+      return "The effects below are there, and something that the catalog does not hold.";
+    case Verdict::unexplained:
+      return "No effect of the catalog fits; nothing is corrected.";
+    case Verdict::ambiguous:
+      return "These data cannot tell the effects below apart; run the experiment proposed.";
+    case Verdict::too_little_data:
+      return "Too few runs to name a cause: candidates only.";
+  }
+  return {};
+}
+
+void print_where(std::ostream& out, const Diagnosis& d) {
+  Table table({"where", "", "share", "95 %", "bias"});
+  for (const char* axis : {"phase", "wheel", "path", "payload", "acceleration", "channel", "direction"}) {
+    int rows = 0;
+    for (const WhereCell& cell : d.where)
+      if (cell.axis == axis && rows++ < 3)
+        table.row({axis, cell.value, percent(cell.share_of_gap),
+                   percent(cell.interval_95.first) + " to " + percent(cell.interval_95.second),
+                   cell.bias_percent ? figure(*cell.bias_percent, 3) + " %" : ""});
+  }
+  table.print(out);
+}
+
+void print_summary(std::ostream& out, const Diagnosis& d) {
+  for (const std::string& note : d.notes) out << "note: " << note << '\n';
+  for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
+  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << advice(d) << '\n';
+  const EnergyGap& e = d.gap.energy;
+  out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
+      << figure(e.bias_before_percent, 3) << " %)";
+  if (!d.causes.empty())
+    out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
+        << percent(e.shrink_interval_95.first) << ", " << percent(e.shrink_interval_95.second) << "]";
+  out << ", noise floor " << figure(e.noise_floor_percent, 3) << " %\n";
+  for (const Cause& cause : d.causes) {
+    out << "cause: " << cause_text(cause) << "  probability " << figure(cause.probability, 3) << '\n';
+    if (cause.indistinguishable_from.empty()) continue;
+    out << "  could also be:";
+    for (const std::string& other : cause.indistinguishable_from) out << ' ' << other;
+    out << '\n';
+  }
+  if (!d.pinned_combination.empty()) out << "  the data pin: " << d.pinned_combination << '\n';
+  if (d.causes.empty() && d.verdict != Verdict::no_gap)
+    for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
+      out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
+  if (d.leftover_significant)
+    out << "left over: " << percent(d.leftover_share) << " of what could be explained, "
+        << d.leftover_description << '\n';
+  if (d.decision_missions > 0)
+    out << "decisions: planning with the uncorrected model takes " << figure(d.joules_lost_percent, 2)
+        << " % more on " << d.decision_missions << " standard missions\n";
+  if (!d.causes.empty())
+    out << "ceiling: any function of the signals shrinks the gap by " << percent(d.ceiling_shrink_fraction)
+        << '\n';
+  if (!d.control_effect.empty())
+    out << "control: " << d.control_effect << " instead shrinks the gap by "
+        << percent(d.control_shrink_fraction) << '\n';
+  print_where(out, d);
+  if (!d.next.motions.empty())
+    out << "next run: " << d.next.why << " (expected evidence " << figure(d.next.expected_evidence, 3)
+        << "); joulepath experiment writes it\n";
+}
+
+class Diagnose : public Command {
+ public:
+  std::string name() const override { return "diagnose"; }
+  std::string says() const override {
+    return "where a sim-to-real gap lies, what causes it, how far it shrinks";
+  }
+  std::string examples() const override {
+    return "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
+           "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
+    app.add_option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
+        ->required();
+    app.add_option("--robot", robot_, "robot file in place of the dataset's");
+    app.add_option("--without", without_, "effect to take out of the catalog (several: commas, or again)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const std::set<std::string> without = left_out_effects(without_);
+    OutputDirectory out(out_,
+                        {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
+                        common_.force);
+    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
+                                         robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    Diagnosis diagnosis = diagnose(dataset, {.without = without});
+    if (diagnosis.corrected_robot) {
+      const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);
+      diagnosis.decision_missions = cost.missions;
+      diagnosis.joules_lost_percent = cost.joules_lost_percent;
+    }
+    const std::string json = diagnosis_json(diagnosis);
+    out.write("diagnosis.json", json);
+    out.write("report.html", report::diagnosis_report(diagnosis, json, dataset));
+    if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
+    if (!diagnosis.corrected_instruments.empty())
+      out.write("dataset_corrected.yaml",
+                corrected_dataset_text(dataset, diagnosis.corrected_instruments, out_));
+    out.commit();
+    if (common_.json)
+      std::cout << json;
+    else if (!common_.quiet)
+      print_summary(std::cout, diagnosis);
+    return fail_on_gap_ && diagnosis.verdict != Verdict::no_gap ? kInfeasibleOrFailed : kDone;
+  }
+
+ private:
+  std::string dataset_{}, out_{}, robot_{};
+  std::vector<std::string> without_{};
+  bool fail_on_gap_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_diagnose_command() { return std::make_unique<Diagnose>(); }
+
+}  // namespace joulepath

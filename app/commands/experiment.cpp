@@ -1,0 +1,63 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/write_diagnosis.hpp"
+
+namespace joulepath {
+namespace {
+
+class Experiment : public Command {
+ public:
+  std::string name() const override { return "experiment"; }
+  std::string says() const override {
+    return "write the run that would best separate what a diagnosis left open";
+  }
+  std::string examples() const override {
+    return "  joulepath experiment runs/dataset.yaml --out next_run.yaml\n"
+           "  joulepath simulate next_run.yaml --out out/next_run";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
+    app.add_option("--out", out_, "mission file to write")->required();
+    app.add_option("--robot", robot_, "robot file in place of the dataset's");
+    add_common_flags(app, common_, "qfu");
+  }
+
+  int run() override {
+    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
+                                         robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Diagnosis diagnosis = diagnose(dataset);
+    if (diagnosis.next.motions.empty()) {
+      if (!common_.quiet)
+        std::cout << "nothing to separate: the verdict is " << verdict_name(diagnosis.verdict) << '\n';
+      return kDone;
+    }
+    const std::filesystem::path folder = std::filesystem::absolute(out_).parent_path();
+    const std::string robot = robot_.empty() ? dataset.robot_file : robot_;
+    write_output_file(
+        out_,
+        experiment_mission_text(
+            diagnosis.next, std::filesystem::proximate(std::filesystem::absolute(robot), folder).string()),
+        common_.force);
+    if (!common_.quiet)
+      std::cout << out_ << ": " << diagnosis.next.why << " (expected evidence "
+                << diagnosis.next.expected_evidence << ")\n";
+    return kDone;
+  }
+
+ private:
+  std::string dataset_{}, out_{}, robot_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_experiment_command() { return std::make_unique<Experiment>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,115 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
+#include "app/terminal.hpp"
+#include "planner/mission/mission.hpp"
+#include "scenarios/export/exports.hpp"
+#include "scenarios/mission_file.hpp"
+
+namespace joulepath {
+namespace {
+
+void print_loss(const ControllerLoss& loss) {
+  Table table({"", "s", "J", "optimum J", "lost J", "lost"});
+  const auto row = [&](const std::string& name, const LossAtTime& at) {
+    table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
+               figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
+  };
+  row("at its own time", loss.own_time);
+  if (loss.plan_time) row("at the plan's time", *loss.plan_time);
+  table.print(std::cout);
+  if (!loss.plan_time) std::cout << "later than the plan: no comparison at its time\n";
+  if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
+}
+
+const ExportFormat& format_named(const std::string& name) {
+  for (const ExportFormat& format : export_formats())
+    if (format.name == name) return format;
+  throw UsageError("no format '" + name + "'");
+}
+
+class ExportCommand : public Command {
+ public:
+  std::string name() const override { return "export"; }
+  std::string says() const override { return "plan a mission and write it for another program"; }
+  std::string examples() const override {
+    std::string text =
+        "  joulepath export mission.yaml --to nav2_path --out path.json\n"
+        "  joulepath export path.csv --robot robot.yaml --time 30 --to nav2_trajectory --out "
+        "trajectory.json\n"
+        "  joulepath export mission.yaml --to controller --out controller.json\n"
+        "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
+    for (const ExportFormat& format : export_formats())
+      text += "  " + format.name + std::string(13 - format.name.size(), ' ') + format.says + "\n";
+    return text;
+  }
+
+  void declare(CLI::App& app) override {
+    std::vector<std::string> names;
+    for (const ExportFormat& format : export_formats()) names.push_back(format.name);
+    add_mission_source(app, source_);
+    app.add_option("--to", format_, "format")->required()->check(CLI::IsMember(names));
+    app.add_option("--out", out_, "file to write; further files take its name")->required();
+    app.add_option("--rate", rate_Hz_, "samples per second, where the format has any")
+        ->check(CLI::Range(0.1, 1000.0));
+    add_plan_options(app, options_);
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const ReadOptions reading{.untrusted = common_.untrusted};
+    const ExportFormat& format = format_named(format_);
+    const MissionRequest mission = read_mission_source(source_, reading);
+    const MissionWorld world = read_world(mission, reading);
+    options_.solver = SolverChoice::fast;
+    options_.baselines = false;  // nothing here reads the plan's own
+    const Plan plan = plan_mission(mission, world, options_);
+    if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
+      std::cerr << "no plan to export: " << solve_status_name(plan.status) << ": " << plan.message << "\n";
+      return kInfeasibleOrFailed;
+    }
+    const Plant plant = make_plant(world.robot);
+    const Export result = format.write({mission, world, plan, plant, out_, rate_Hz_});
+    write_files(result);
+    if (common_.json && result.loss)
+      std::cout << loss_json_text(*result.loss, format_);
+    else if (!common_.quiet)
+      tell(result);
+    return kDone;
+  }
+
+ private:
+  /// All or none: a name that exists is told before anything is written.
+  void write_files(const Export& result) const {
+    for (const ExportFile& file : result.files)
+      if (!common_.force && std::filesystem::exists(file.name))
+        throw ConfigError(
+            {{file.name, 0, 0}, "", "a file that exists", "a new name", "--force overwrites it"});
+    for (const ExportFile& file : result.files) write_output_file(file.name, file.content, common_.force);
+  }
+
+  static void tell(const Export& result) {
+    if (result.loss) print_loss(*result.loss);
+    std::string names;
+    for (const ExportFile& file : result.files) names += (names.empty() ? "" : ", ") + file.name;
+    std::cout << "written: " << names << "\n";
+  }
+
+  MissionSource source_{};
+  std::string format_{};
+  std::string out_{};
+  std::optional<double> rate_Hz_{};
+  PlanOptions options_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_export_command() { return std::make_unique<ExportCommand>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,198 @@
+#include "planner/profile/front.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/plan_options.hpp"
+#include "app/report/report.hpp"
+#include "app/study.hpp"
+#include "app/terminal.hpp"
+#include "planner/baselines/comparison.hpp"
+#include "planner/mission/mission.hpp"
+#include "scenarios/mission_file.hpp"
+
+namespace joulepath {
+namespace {
+
+using nlohmann::json;
+
+json point_json(const FrontPoint& point) {
+  json result = {{"duration_s", point.duration_s},
+                 {"energy_J", point.energy_J},
+                 {"motion_energy_J", point.motion_energy_J},
+                 {"status", solve_status_name(point.status)}};
+  result["price_of_time_W"] =
+      std::isfinite(point.price_of_time_W) ? json(point.price_of_time_W) : json(nullptr);
+  return result;
+}
+
+class FrontCommand : public Command {
+ public:
+  std::string name() const override { return "front"; }
+  std::string says() const override {
+    return "the whole energy-time front of a mission or a path, with exact slopes";
+  }
+  std::string examples() const override {
+    return "  joulepath front scenarios/missions/warehouse_pick.yaml --points 30\n"
+           "  joulepath front mission.yaml --out out/front   # front.json and report.html\n"
+           "  joulepath front path.csv --robot robot.yaml --payload 5\n";
+  }
+
+  void declare(CLI::App& app) override {
+    add_study_options(app, study_, kResult, false);
+    app.add_option("--points", points_, "points of the front; deadlines and durations are left aside")
+        ->check(CLI::Range(2, 2000))
+        ->capture_default_str();
+    app.add_option("--baselines", baseline_points_, "points beside which the classic profiles stand; 0: none")
+        ->check(CLI::Range(0, 2000))
+        ->capture_default_str();
+    add_plan_options(app, study_.plan, "nodes on each stretch");
+  }
+
+  int run() override {
+    OutputDirectory out = study_output(study_, kResult);
+    const ReadOptions reading{.untrusted = study_.common.untrusted};
+    MissionRequest mission = read_mission_source(study_.source, reading);
+    const MissionWorld world = read_world(mission, reading);
+    mission.objective = {};
+    for (LegRequest& leg : mission.legs) {
+      leg.deadline_s.reset();
+      leg.duration_s.reset();
+    }
+    const Plan plan = plan_mission(mission, world, study_.plan);
+    std::vector<ProfileRequest> stretches;
+    for (const LegPlan& leg : plan.legs)
+      for (const StretchPlan& stretch : leg.stretches) stretches.push_back(stretch.request);
+    Front front = energy_time_front(stretches, points_);
+    if (front.points.empty()) {
+      const std::string& why = plan.message.empty() ? front.summary.message : plan.message;
+      std::cerr << "no front: " << (why.empty() ? "the mission has no stretch to optimize" : why) << "\n";
+      return kInfeasibleOrFailed;
+    }
+    const FrontPoint rest = rest_of(plan);
+    std::vector<Beside> beside;
+    for (std::size_t k : chosen(front.points.size(), baseline_points_))
+      beside.push_back({k, baselines_at(front.points[k], stretches, rest)});
+    for (FrontPoint& point : front.points) point = sum_of(point, rest);
+    show(front, beside, plan.mission, out);
+    return kDone;
+  }
+
+ private:
+  /// Dwell and prescribed motions: the same at every point.
+  static FrontPoint rest_of(const Plan& plan) {
+    FrontPoint rest{.duration_s = plan.duration_s,
+                    .energy_J = plan.energy.total_J(),
+                    .motion_energy_J = plan.energy.motion_J()};
+    for (const LegPlan& leg : plan.legs)
+      for (const StretchPlan& stretch : leg.stretches) {
+        rest.duration_s -= stretch.profile.duration_s();
+        rest.energy_J -= stretch.energy.total_J();
+        rest.motion_energy_J -= stretch.energy.motion_J();
+      }
+    return rest;
+  }
+
+  static FrontPoint sum_of(FrontPoint point, const FrontPoint& rest) {
+    point.duration_s += rest.duration_s;
+    point.energy_J += rest.energy_J;
+    point.motion_energy_J += rest.motion_energy_J;
+    return point;
+  }
+
+  /// The classic profiles beside one point of the front.
+  struct Beside {
+    std::size_t point{};
+    std::vector<BaselineTotal> baselines{};
+  };
+
+  /// So many of the front's points, evenly spaced, the most economical one among them.
+  static std::vector<std::size_t> chosen(std::size_t points, std::size_t count) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = std::min(points, count); i-- > 0;)
+      indices.push_back(points - 1 - i * points / std::min(points, count));
+    return indices;
+  }
+
+  static std::vector<BaselineTotal> baselines_at(const FrontPoint& point,
+                                                 const std::vector<ProfileRequest>& stretches,
+                                                 const FrontPoint& rest) {
+    std::vector<TimedStretch> timed;
+    for (std::size_t k = 0; k < stretches.size(); ++k) timed.push_back({&stretches[k], point.stretch_s[k]});
+    std::vector<BaselineTotal> totals;
+    for (ComparedProfile& profile : compare_baselines(timed)) {
+      totals.push_back(std::move(profile.total));
+      totals.back().energy_J += rest.energy_J;
+      totals.back().motion_energy_J += rest.motion_energy_J;
+      totals.back().duration_s += rest.duration_s;
+    }
+    return totals;
+  }
+
+  void show(const Front& front, const std::vector<Beside>& beside, const std::string& title,
+            OutputDirectory& out) const {
+    json result = {{"schema", "joulepath/front/1"},
+                   {"mission", title},
+                   {"points", json::array()},
+                   {"baselines", json::array()}};
+    for (const FrontPoint& point : front.points) result["points"].push_back(point_json(point));
+    for (const auto& [k, baselines] : beside)
+      for (const BaselineTotal& total : baselines) {
+        result["baselines"].push_back(baseline_json(total));
+        result["baselines"].back()["optimum_J"] = front.points[k].energy_J;
+      }
+    if (study_writes(study_)) write_study(out, kResult, result, report::front_report_html(result, {}, title));
+    if (study_prints(study_, result)) {
+      print_points(front);
+      print_baselines(front, beside);
+    }
+  }
+
+  static void print_points(const Front& front) {
+    Table table({"duration s", "energy J", "without standby J", "price of a second W"});
+    for (const FrontPoint& point : front.points)
+      table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
+                 std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-"});
+    table.print(std::cout);
+  }
+
+  /// A row per profile, a column per point.
+  static void print_baselines(const Front& front, const std::vector<Beside>& beside) {
+    if (beside.empty()) return;
+    std::vector<std::string> header{"energy J in"}, optimum{"optimum"};
+    for (const auto& [k, baselines] : beside) {
+      header.push_back(figure(front.points[k].duration_s, 5) + " s");
+      optimum.push_back(figure(front.points[k].energy_J, 6));
+    }
+    Table table(header);
+    table.row(optimum);
+    for (std::size_t i = 0; i < beside.front().baselines.size(); ++i) {
+      std::vector<std::string> cells{beside.front().baselines[i].name};
+      for (const auto& [k, baselines] : beside) cells.push_back(energy_cell(baselines[i]));
+      table.row(cells);
+    }
+    std::cout << "\n";
+    table.print(std::cout);
+  }
+
+  static std::string energy_cell(const BaselineTotal& total) {
+    if (!total.feasible) return "-";
+    return figure(total.energy_J, 6) + (total.late() ? " (" + figure(total.later_s, 2) + " s later)" : "");
+  }
+
+  static constexpr const char* kResult = "front.json";
+  StudyOptions study_{};
+  std::size_t points_{30};
+  std::size_t baseline_points_{3};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_front_command() { return std::make_unique<FrontCommand>(); }
+
+}  // namespace joulepath

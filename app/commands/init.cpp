@@ -1,0 +1,118 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/starter_files.hpp"
+#include "model/simulation/simulate.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr int kRuns = 8;
+
+/// A room of 12 x 8 m with two rows of shelves, 5 cm per pixel.
+std::string starter_map() {
+  constexpr int width = 240, height = 160;
+  std::string pixels(static_cast<std::size_t>(width * height), static_cast<char>(254));
+  const auto wall = [&](int x0, int x1, int y0, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) pixels[static_cast<std::size_t>((height - 1 - y) * width + x)] = 0;
+  };
+  wall(0, width, 0, 3);
+  wall(0, width, height - 3, height);
+  wall(0, 3, 0, height);
+  wall(width - 3, width, 0, height);
+  wall(50, 190, 45, 60);
+  wall(50, 190, 100, 115);
+  return "P5\n# a room with two rows of shelves\n240 160\n255\n" + pixels;
+}
+
+/// A test day in small: there and back, faster and slower, turning both ways; the payload changes from run to
+/// run.
+std::vector<PrescribedMotion> test_run(int index) {
+  const double speed_m_s = 0.3 + 0.15 * (index % 4);
+  const PrescribedMotion stand{.profile = MotionProfile::stand, .duration_s = 1.0};
+  const PrescribedMotion drive{.profile = MotionProfile::trapezoid,
+                               .acceleration_m_s2 = 0.15 + 0.05 * (index % 3),
+                               .speed_m_s = speed_m_s,
+                               .distance_m = 4.0};
+  const PrescribedMotion turn{.profile = MotionProfile::spin,
+                              .angle_rad = index % 2 == 0 ? std::numbers::pi : -std::numbers::pi,
+                              .yaw_rate_rad_s = 0.8};
+  return {stand, drive, stand, turn, drive, stand};
+}
+
+double payload_kg(int index) { return index % 2 == 0 ? 0.0 : 8.25; }
+
+std::string run_name(int index) { return "run_0" + std::to_string(index + 1) + ".csv"; }
+
+std::string simulated_log(const Robot& robot, int index) {
+  const TimedMotion motion = timed_motion(robot, test_run(index), {.payload_kg = payload_kg(index)});
+  SimulationRequest request{
+      .robot = robot,
+      .effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.008}}}},
+      .reference = motion.trajectory,
+      .payload_kg = payload_kg(index),
+      .sensors = typical_sensors(),
+      .seed = static_cast<std::uint64_t>(index + 1)};
+  return run_log_text(simulate(request).log);
+}
+
+class Init : public Command {
+ public:
+  std::string name() const override { return "init"; }
+  std::string says() const override { return "write a commented starter: robot, map, mission and dataset"; }
+  std::string examples() const override {
+    return "  joulepath init my_robot\n"
+           "  joulepath plan my_robot/mission.yaml --out my_robot/out\n"
+           "  joulepath diagnose my_robot/dataset.yaml --out my_robot/diagnosis";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("DIR", directory_, "directory to write to")->required();
+    add_common_flags(app, options_, "qf");
+  }
+
+  int run() override {
+    std::vector<std::string> names{"robot.yaml", "map.yaml", "map.pgm", "mission.yaml", "dataset.yaml"};
+    for (int i = 0; i < kRuns; ++i) names.push_back(run_name(i));
+    OutputDirectory out(directory_, names, options_.force);
+    const std::string robot_file(embedded::starter_robot);
+    const Robot robot = robot_from(Document::parse(robot_file, "robot.yaml"));
+    out.write("robot.yaml", robot_file);
+    out.write("map.yaml", std::string(embedded::starter_map));
+    out.write("map.pgm", starter_map());
+    out.write("mission.yaml", std::string(embedded::starter_mission));
+    std::string dataset(embedded::starter_dataset);
+    for (int i = 0; i < kRuns; ++i) {
+      const std::string payload = i % 2 == 0 ? "0" : "8.25";
+      dataset += "  - {file: " + run_name(i) + ", payload_kg: " + payload +
+                 ", start_time_s: " + std::to_string(60 * i) + "}\n";
+      out.write(run_name(i), simulated_log(robot, i));
+    }
+    out.write("dataset.yaml", dataset);
+    out.commit();
+    if (!options_.quiet)
+      std::cout << "written to " << out.path() << ": robot.yaml, map.yaml, mission.yaml, dataset.yaml and "
+                << kRuns << " simulated runs\n"
+                << "next:  joulepath plan " << (std::filesystem::path(out.path()) / "mission.yaml").string()
+                << " --out " << (std::filesystem::path(out.path()) / "out").string() << '\n';
+    return kDone;
+  }
+
+ private:
+  std::string directory_{};
+  CommonOptions options_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_init_command() { return std::make_unique<Init>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,104 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/plan_options.hpp"
+#include "app/plan_summary.hpp"
+#include "app/report/plan_report.hpp"
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/plan_file.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class PlanCommand : public Command {
+ public:
+  std::string name() const override { return "plan"; }
+  std::string says() const override { return "plan a mission for the least energy"; }
+  std::string examples() const override {
+    return "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
+           "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
+           "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n"
+           "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
+  }
+
+  void declare(CLI::App& app) override {
+    add_mission_source(app, source_);
+    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
+        ->required();
+    app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
+        ->check(CLI::IsMember({"ipopt", "fast"}))
+        ->capture_default_str();
+    add_plan_options(app, options_);
+    app.add_option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
+        ->check(CLI::Range(1e-7, 1e-1))
+        ->capture_default_str();
+    app.add_option("--without", without_,
+                   "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
+                   "shortest), stops (turn on the spot there), refinement; or baselines")
+        ->check(CLI::IsMember({"corners", "routes", "stops", "refinement", "baselines"}));
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const Clock::time_point start = Clock::now();
+    OutputDirectory out(out_, {"plan.json", "trajectory.csv", "timing.json", "report.html"}, common_.force);
+    const ReadOptions reading{.untrusted = common_.untrusted};
+    const MissionRequest mission = read_mission_source(source_, reading);
+    const MissionWorld world = read_world(mission, reading);
+    const double reading_s = seconds_since(start);
+    for (const std::string& step : without_) leave_out(step);
+    options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
+    const Plan plan = plan_mission(mission, world, options_);
+    const double planning_s = seconds_since(start) - reading_s;
+
+    const std::string json = plan_json_text(plan);
+    out.write("plan.json", json);
+    out.write("timing.json", "{\"reading_s\": " + std::to_string(reading_s) +
+                                 ", \"planning_s\": " + std::to_string(planning_s) + "}\n");
+    const bool valid = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
+    const Trajectory trajectory = valid ? plan_trajectory(plan, make_plant(world.robot)) : Trajectory{};
+    if (valid) out.write("trajectory.csv", run_log_text(trajectory));
+    out.write("report.html", report::plan_report(plan, json, trajectory, mission, world));
+    out.commit();
+    if (common_.json)
+      std::cout << json;
+    else if (!common_.quiet)
+      print_plan_summary(std::cout, plan, out.path());
+    return valid ? kDone : kInfeasibleOrFailed;
+  }
+
+ private:
+  void leave_out(const std::string& step) {
+    if (step == "corners") options_.steps.corners = false;
+    if (step == "routes") options_.steps.routes = false;
+    if (step == "stops") options_.steps.stops = false;
+    if (step == "refinement") options_.steps.refinement = false;
+    if (step == "baselines") options_.baselines = false;
+  }
+
+  MissionSource source_{};
+  std::string out_{};
+  std::string solver_{"ipopt"};
+  std::vector<std::string> without_{};
+  PlanOptions options_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_plan_command() { return std::make_unique<PlanCommand>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,232 @@
+#include "model/simulation/simulate.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/terminal.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
+#include "scenarios/simulation_input.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pose_json(const Pose& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}};
+}
+
+double percent(double value, double of) { return of != 0 ? 100 * (value / of - 1) : 0.0; }
+
+/// What one run says: planned against executed, and where the energy went.
+Json run_json(const std::string& file, const SimulationInput& input, const SimulationResult& result,
+              double standby_W) {
+  const Pose& to = result.planned_pose;
+  const Pose& end = result.final_pose;
+  const EnergyBalance& b = result.balance;
+  const double planned_motion_J =
+      input.planned_energy_J - input.robot.power.standby_W * input.planned_duration_s;
+  const double motion_J = result.energy_J - standby_W * result.duration_s;
+  return {
+      {"file", file},
+      {"input", input.name},
+      {"planned",
+       {{"energy_J", input.planned_energy_J},
+        {"motion_energy_J", planned_motion_J},
+        {"duration_s", input.planned_duration_s},
+        {"end", pose_json(to)}}},
+      {"executed",
+       {{"energy_J", result.energy_J},
+        {"motion_energy_J", motion_J},
+        {"motor_energy_J", {{"left", result.motor_energy_J.left}, {"right", result.motor_energy_J.right}}},
+        {"battery_loss_J", result.battery_loss_J},
+        {"duration_s", result.duration_s},
+        {"came_to_rest", result.came_to_rest},
+        {"end", pose_json(end)}}},
+      {"difference",
+       {{"energy_percent", percent(result.energy_J, input.planned_energy_J)},
+        {"motion_energy_percent", percent(motion_J, planned_motion_J)},
+        {"duration_s", result.duration_s - input.planned_duration_s},
+        {"position_m", std::hypot(end.x_m - to.x_m, end.y_m - to.y_m)},
+        {"heading_rad", end.heading_rad - to.heading_rad}}},
+      {"balance_J",
+       {{"motors", b.motors_J},
+        {"copper", b.copper_J},
+        {"driver", b.driver_J},
+        {"gear", b.gear_J},
+        {"wheel_friction", b.wheel_friction_J},
+        {"body_work", b.body_work_J},
+        {"creep", b.creep_J},
+        {"stored", b.stored_J}}},
+      {"worst_wheel_speed_error_rad_s", result.worst_speed_error_rad_s},
+      {"saturated_fraction", result.saturated_fraction},
+      {"battery_gave_way", result.battery_gave_way}};
+}
+
+Json effects_json(const std::vector<EffectSetting>& effects) {
+  Json list = Json::array();
+  for (const EffectSetting& effect : effects) {
+    Json parameters = Json::object();
+    if (effect.side) parameters["side"] = side_name(*effect.side);
+    for (const auto& [name, value] : effect.parameters) parameters[name] = value;
+    list.push_back({{effect.name, parameters}});
+  }
+  return list;
+}
+
+std::string numbered(const char* stem, std::size_t number) {
+  return std::string(stem) + (number < 10 ? "_0" : "_") + std::to_string(number) + ".csv";
+}
+
+class SimulateCommand : public Command {
+ public:
+  std::string name() const override { return "simulate"; }
+  std::string says() const override { return "drive plans or missions on a simulated robot and log them"; }
+  std::string examples() const override {
+    return "  joulepath simulate out/warehouse_pick --robot scenarios/robots/nomad_super_scout.yaml --out "
+           "out/sim\n"
+           "  joulepath simulate mission.yaml --effect rolling_resistance:coefficient=0.015 "
+           "--effect dragging_wheel:side=left,torque_Nm=0.1 --out out/sim --seed 7\n"
+           "  joulepath diagnose out/sim/dataset.yaml\n";
+  }
+
+  void declare(CLI::App& app) override {
+    app.add_option("input", inputs_,
+                   "plan directories (trajectory.csv, plan.json), trajectories (CSV) or missions (YAML)")
+        ->required();
+    app.add_option("--out", out_, "directory for the logs, dataset.yaml, robot.yaml, simulation.json")
+        ->required();
+    app.add_option("--robot", robot_, "robot file; wins over a mission's");
+    app.add_option("--effect", effects_,
+                   "NAME:PARAMETER=VALUE,... that the controller does not know (repeatable)")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--repeat", repeat_, "runs of each input, with other noise")->check(CLI::Range(1, 1000));
+    app.add_option("--seed", seed_, "seed of the sensors' noise")->capture_default_str();
+    app.add_option("--time-of-day-s", time_of_day_s_, "seconds since the robot was cold, at the first run");
+    app.add_option("--sample-rate-Hz", sensors_.sample_rate_Hz, "rows per second of the log")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    app.add_option("--delay-s", sensors_.electrical_delay_s, "age of the electrical readings")
+        ->check(CLI::Range(0.0, 5.0));
+    app.add_flag("--ideal-sensors", ideal_, "no noise, no quantization");
+    app.add_option("--inductance-H", inductance_H_, "of each armature; 0 neglects it")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--control-period-s", controller_.period_s, "of the wheel-speed loops")
+        ->check(CLI::Range(1e-4, 0.1))
+        ->capture_default_str();
+    app.add_option("--bandwidth-per-s", controller_.bandwidth_per_s, "of the wheel-speed loops")
+        ->check(CLI::Range(0.1, 200.0))
+        ->capture_default_str();
+    app.add_flag("!--no-feed-forward", controller_.feed_forward, "feedback alone");
+    add_common_flags(app, common_, "qjfu");
+  }
+
+  int run() override {
+    const std::size_t count = inputs_.size() * repeat_;
+    std::vector<std::string> names{"dataset.yaml", "robot.yaml", "simulation.json"};
+    for (std::size_t k = 1; k <= count; ++k) {
+      names.push_back(numbered("run", k));
+      names.push_back(numbered("executed", k));
+    }
+    OutputDirectory out(out_, names, common_.force);
+    std::vector<EffectSetting> effects;
+    for (const std::string& text : effects_) effects.push_back(parse_effect(text));
+    Json report{{"schema", "joulepath/simulation/1"},
+                {"seed", seed_},
+                {"effects", effects_json(effects)},
+                {"runs", Json::array()}};
+    std::string dataset = "schema: joulepath/dataset/1\nrobot: robot.yaml\nruns:\n";
+    double hour_s = time_of_day_s_;
+    std::size_t k = 0;
+    for (const std::string& name : inputs_) {
+      const SimulationInput input = read_simulation_input(name, robot_, {.untrusted = common_.untrusted});
+      if (!input.infeasible.empty()) {
+        std::cerr << "joulepath: " << name << ": " << input.infeasible << '\n';
+        return kInfeasibleOrFailed;
+      }
+      if (k == 0) out.write("robot.yaml", robot_text(input.robot));
+      for (std::size_t i = 0; i < repeat_; ++i) {
+        const SimulationRequest request = request_for(input, effects, hour_s, seed_ + k++);
+        const SimulationResult result = simulate(request);
+        const double standby_W = make_plant(request.robot, effects).robot.power.standby_W;
+        out.write(numbered("run", k), run_log_text(result.log));
+        out.write(numbered("executed", k), run_log_text(result.executed));
+        dataset += "  - {file: " + numbered("run", k) + ", start_time_s: " + figure(hour_s, 12) + "}\n";
+        report["runs"].push_back(run_json(numbered("run", k), input, result, standby_W));
+        hour_s += result.duration_s;
+      }
+    }
+    out.write("dataset.yaml", dataset);
+    out.write("simulation.json", report.dump(2) + "\n");
+    out.commit();
+    if (common_.json)
+      std::cout << report.dump(2) << '\n';
+    else if (!common_.quiet)
+      print(report);
+    return kDone;
+  }
+
+ private:
+  SimulationRequest request_for(const SimulationInput& input, const std::vector<EffectSetting>& effects,
+                                double hour_s, std::uint64_t seed) const {
+    SimulationRequest request{.robot = input.robot,
+                              .effects = effects,
+                              .reference = input.reference,
+                              .coasting = input.coasting,
+                              .start = input.start,
+                              .time_of_day_s = hour_s,
+                              .controller = controller_,
+                              .sensors = ideal_ ? SensorSettings{} : typical_sensors(),
+                              .seed = seed};
+    request.sensors.sample_rate_Hz = sensors_.sample_rate_Hz;
+    request.sensors.electrical_delay_s = sensors_.electrical_delay_s;
+    if (inductance_H_)
+      for (Side side : kSides) request.robot.motor[side].inductance_H = *inductance_H_;
+    return request;
+  }
+
+  void print(const Json& report) const {
+    Table table({"run", "planned", "executed", "", "time", "off by", "heading"});
+    for (const Json& run : report["runs"]) {
+      const Json& difference = run["difference"];
+      const double change = difference["energy_percent"];
+      table.row(
+          {run["file"], figure(run["planned"]["energy_J"]) + " J", figure(run["executed"]["energy_J"]) + " J",
+           (change >= 0 ? "+" : "") + figure(change, 3) + " %", figure(run["executed"]["duration_s"]) + " s",
+           figure(difference["position_m"], 3) + " m", figure(difference["heading_rad"], 3) + " rad"});
+      if (run["battery_gave_way"])
+        std::cerr << run["file"] << ": the battery was asked for more power than it has\n";
+      if (const double share = run["saturated_fraction"]; share > 0.001)
+        std::cerr << run["file"] << ": the drivers were at their limit for " << figure(100 * share, 2)
+                  << " % of the time\n";
+    }
+    table.print(std::cout);
+    std::cout << "energy at the battery's terminals, standby included\n" << out_ << "/dataset.yaml\n";
+  }
+
+  std::vector<std::string> inputs_{};
+  std::string out_{};
+  std::string robot_{};
+  std::vector<std::string> effects_{};
+  std::size_t repeat_{1};
+  std::uint64_t seed_{1};
+  double time_of_day_s_{};
+  SensorSettings sensors_{};
+  ControllerSettings controller_{};
+  bool ideal_{};
+  std::optional<double> inductance_H_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_simulate_command() { return std::make_unique<SimulateCommand>(); }
+
+}  // namespace joulepath

@@ -1,0 +1,109 @@
+#include "diagnosis/checks/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+/// Share of the runs in which a channel is there.
+template <class Has>
+double share_of(const std::vector<RunSignals>& signals, Has&& has) {
+  double count = 0;
+  for (const RunSignals& run : signals) count += has(run) ? 1 : 0;
+  return signals.empty() ? 0.0 : count / static_cast<double>(signals.size());
+}
+
+/// Who a finding is about: up to three runs by name, more by their number.
+std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
+  constexpr std::size_t kMostNames = 3;
+  if (runs.size() > kMostNames)
+    return (runs.size() == all ? "all " : "") + std::to_string(runs.size()) + " runs: ";
+  std::string text;
+  for (const std::string& run : runs)
+    if (!run.empty()) text += (text.empty() ? "" : ", ") + run;
+  return text.empty() ? text : text + ": ";
+}
+
+}  // namespace
+
+Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
+  Survey survey;
+  const auto lacks = [&](const std::string& channel, const std::string& consequence, const auto& has) {
+    const double share = share_of(signals, has);
+    if (share >= 1) return;
+    survey.missing_channels.push_back(channel);
+    survey.notes.push_back(std::string(share > 0 ? "some runs have no " : "no ") + channel + ": " +
+                           consequence);
+  };
+  lacks("motor_current", "mechanics show in the voltage alone, where winding and sensors mix in",
+        [](const RunSignals& r) {
+          return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
+        });
+  lacks("motor_voltage",
+        "winding, driver and magnet errors cannot be told from errors of the current sensor; energies are "
+        "those that the currents take by the robot file's winding",
+        [](const RunSignals& r) {
+          return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
+        });
+  lacks("battery", "standby power, regeneration and supply sag cannot be seen",
+        [](const RunSignals& r) { return r.battery_power_W.size() > 0; });
+  lacks("pose", "wheel radius, slip and places on the floor cannot be seen",
+        [](const RunSignals& r) { return r.x_m.size() > 0 && r.heading_measured; });
+  lacks("gyro", "track width is seen through the pose alone",
+        [](const RunSignals& r) { return r.gyro_yaw_rate_rad_s.size() > 0; });
+  lacks("start_time", "effects of warming up cannot be seen",
+        [](const RunSignals& r) { return r.time_of_day_known; });
+  std::set<double> payloads;
+  double turning = 0, reverse = 0, still = 0, total = 0;
+  for (const RunSignals& run : signals) {
+    if (run.size() > 0) payloads.insert(run.payload_kg[0]);
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
+      total += 1;
+      turning +=
+          std::abs(right - left) > 0.2 * (std::abs(left) + std::abs(right)) && std::abs(right - left) > 0.3;
+      reverse += left < -0.3 && right < -0.3;
+      still += std::abs(left) < 0.1 && std::abs(right) < 0.1;
+    }
+  }
+  if (payloads.size() < 2)
+    survey.notes.push_back("one payload only: what grows with the load looks like what does not");
+  if (total > 0 && turning < 0.01 * total)
+    survey.notes.push_back("no turns: scrub, center of mass, yaw inertia and track width cannot be seen");
+  if (total > 0 && reverse < 0.01 * total)
+    survey.notes.push_back("no reversing: direction-dependent friction cannot be seen, and a slope hardly");
+  if (total > 0 && still < 0.005 * total)
+    survey.notes.push_back("no standstill: sensor offsets show less clearly");
+  for (const Run& run : dataset.runs)
+    if (!run.payload_known) {
+      survey.notes.push_back("payload unknown in some runs: 0 kg is taken");
+      break;
+    }
+  return survey;
+}
+
+std::vector<std::string> artifact_texts(const Dataset& dataset) {
+  std::vector<std::string> findings;                          // in the order in which they came
+  std::map<std::string, std::vector<std::string>> runs_with;  // by what was found
+  for (const LogArtifact& artifact : dataset.artifacts) {
+    const std::string finding = artifact.kind + (artifact.channel.empty() ? "" : " in " + artifact.channel) +
+                                (artifact.description.empty() ? "" : ": " + artifact.description);
+    std::vector<std::string>& runs = runs_with[finding];
+    if (runs.empty()) findings.push_back(finding);
+    runs.push_back(artifact.run);
+  }
+  std::vector<std::string> texts;
+  for (const std::string& finding : findings)
+    texts.push_back(runs_text(runs_with[finding], dataset.runs.size()) + finding);
+  for (const Run& run : dataset.runs)
+    if (run.current_sign_from_motion) {
+      texts.push_back("currents are unsigned: their sign is taken from the wheels' motion");
+      break;
+    }
+  return texts;
+}
+
+}  // namespace joulepath

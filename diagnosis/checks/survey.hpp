@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/signals/run_signals.hpp"
+
+namespace joulepath {
+
+/// What a dataset lacks, and what it therefore cannot show: said before anything else.
+struct Survey {
+  std::vector<std::string> missing_channels{};
+  std::vector<std::string> notes{};
+};
+
+[[nodiscard]] Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals);
+
+/// Artifacts as sentences.
+[[nodiscard]] std::vector<std::string> artifact_texts(const Dataset& dataset);
+
+}  // namespace joulepath

@@ -1,0 +1,188 @@
+#include "diagnosis/correction/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/correction/correction.hpp"
+#include "diagnosis/evidence/held_out.hpp"
+#include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/verdict/verdict.hpp"
+#include "diagnosis/where/gap.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kCalibrationBox = 3.0;  ///< sigmas that a calibration may be off
+/// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
+constexpr double kLeastGapLeft_percent = 2.0;
+/// Effects that together come near a foreign cause leave both: a tenth of the gap and many noise floors.
+constexpr double kShareOfWrongForm = 0.1;
+constexpr double kFloorsOfWrongForm = 10.0;
+/// Where nothing is named the bar is higher: the scatter of few rough runs is not well known.
+constexpr double kFloorsUnnamed = 4.0;
+constexpr double kLeastGapUnnamed_percent = 4.0;
+/// What a wrong model leaves is no noise: the floor is at most so many times the scatter between runs.
+constexpr double kScatterFactor = 2.0;
+constexpr double kChanceLoss = 6.0;         ///< that held-out runs may differ by, in units of their noise
+constexpr double kCertainEvidence = 100.0;  ///< of the diagnosis runs alone
+constexpr double kModestEvidence = 30.0;    ///< that a worse held-out energy outweighs
+
+/// Logs without any noise (a simulator's) have no floor to measure.
+double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
+
+/// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
+/// the scatter between runs allows: a wrong model must not pass its own error for noise.
+double noise_floor_percent(const Examination& x, const Correction& correction) {
+  const ModelPoint point = x.point_of(correction.state);
+  const double left = energy_gap_percent(run_energies(correction.fitted.signals, point));
+  return std::min(left,
+                  kScatterFactor * run_scatter_percent(correction.fitted.signals, point,
+                                                       x.id.equations.run_variance, x.id.equations.noise));
+}
+
+/// A constant that is far out is an effect: as the rival of a named one it stays within its box.
+ModelState within_calibration(const Examination& x, ModelState state) {
+  for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
+    const double most = kCalibrationBox * x.id.nuisances[k].sigma;
+    state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
+  }
+  return state;
+}
+
+/// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
+bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
+  const std::vector<double> loss = held_out_losses(x.validation, x.id, corrected);
+  double sum = 0, square = 0;
+  const auto n = static_cast<double>(loss.size());
+  for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
+  for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
+  const double chance = kChanceLoss * x.id.dispersion;
+  if (sum > 0 && (n < 3 || sum * sum > square || sum > chance)) return true;
+  // Held-out runs that hardly show a certain effect (no turn, say) must only not speak against it.
+  return x.id.explanations.front().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
+}
+
+/// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
+/// can tell.
+bool calibration_leaves_a_gap(const Examination& x, const Correction& calibrated) {
+  const double left =
+      energy_gap_percent(run_energies(read_signals(x.validation, 0.0), x.point_of(calibrated.state)));
+  return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
+                            kLeastGapUnnamed_percent));
+}
+
+/// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
+double caution(const Examination& x) { return x.validation.runs.size() < 3 ? 2.0 : 1.0; }
+
+/// Whether the named effects change the motors' energy at all: others are judged by what they do change.
+bool claims_energy(const Examination& x, const Correction& correction) {
+  ModelState without = correction.state;
+  without.effects.clear();
+  const Impact impact =
+      impact_between(correction.fitted.signals, x.point_of(correction.state), x.point_of(without));
+  return impact.motor_power >= MaterialityFloor{}.motor_power;
+}
+
+/// Without voltages, energies rest on the robot file's winding, which is itself under examination.
+bool energies_are_measured(const std::vector<RunSignals>& signals) {
+  return std::any_of(signals.begin(), signals.end(), [](const RunSignals& run) {
+    return run.motor_voltage_V.left.size() > 0 || run.motor_voltage_V.right.size() > 0;
+  });
+}
+
+/// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
+/// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
+double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
+                                const ModelState& calibrated, const Correction& correction) {
+  if (!energies_are_measured(before_signals)) return 0.0;
+  const std::vector<RunSignals> after_signals = read_signals(x.validation, channel_delay_s(correction.state));
+  const double floor = noise_floor_percent(x, correction);
+  const double before = energy_gap_percent(run_energies(before_signals, x.nominal));
+  const double after = energy_gap_percent(run_energies(after_signals, x.point_of(correction.state)));
+  const bool claims = claims_energy(x, correction);
+  if (claims && after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
+  if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
+  const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
+  if (!claims) return after > by_calibration + floor ? 1.0 : 0.0;
+  if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;
+  const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
+  return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;
+}
+
+/// Names nothing any more; calibration alone is fitted.
+void withdraw(Examination& x, Correction& correction, const std::string& why) {
+  x.report.notes.push_back(why);
+  x.named.clear();
+  correction.state = refit_on_diagnosis(x.diagnosis, x.id, {}, &correction.fitted);
+}
+
+/// Constants are moved only where that brings the energy of the runs that it was fitted to nearer: an
+/// effect that takes no energy of the motors needs none of it.
+void keep_constants_that_fit(const Examination& x, Correction& correction) {
+  ModelState nominal = correction.state;
+  std::fill(nominal.nuisance_fraction.begin(), nominal.nuisance_fraction.end(), 0.0);
+  const auto gap = [&](const ModelState& state) {
+    return energy_gap_percent(run_energies(correction.fitted.signals, x.point_of(state)));
+  };
+  if (gap(nominal) < gap(correction.state)) correction.state = nominal;
+}
+
+void fill_floors(const NoiseModel& noise, GapReport& gap) {
+  gap.current_A.noise_floor_rms = noise.channel_sd[kCurrentLeft];
+  gap.voltage_V.noise_floor_rms = noise.channel_sd[kWindingLeft];
+  gap.position_m.noise_floor_rms = noise.channel_sd[kPositionX];
+  gap.heading_rad.noise_floor_rms = noise.channel_sd[kHeading];
+  gap.battery_W.noise_floor_rms = noise.channel_sd[kDriverPower];
+}
+
+}  // namespace
+
+Correction validate(Examination& x) {
+  Diagnosis& report = x.report;
+  for (std::size_t r : x.validation.runs) report.validation_runs.push_back(x.dataset.runs[r].name);
+  report.validation_method =
+      x.few ? "the same runs: too few to hold any out" : "held-out runs, never used to choose or fit";
+  const ModelState calibrated = within_calibration(x, refit_on_diagnosis(x.diagnosis, x.id, {}));
+  Correction correction;
+  correction.state = refit_on_diagnosis(x.diagnosis, x.id, x.named, &correction.fitted, 2);
+  if (!x.named.empty() && !holds(x, held_out_losses(x.validation, x.id, calibrated), correction.state)) {
+    withdraw(x, correction, "the best explanation does not hold on the held-out runs and was withdrawn");
+    report.verdict = report.leftover_significant ? Verdict::unexplained : Verdict::no_gap;
+  }
+  if (!x.named.empty()) {
+    const double share = unexplained_energy_share(x, read_signals(x.validation, 0.0), calibrated, correction);
+    if (share > kUnexplainedShare) {
+      withdraw(x, correction,
+               "the best explanation leaves most of the held-out energy gap and was withdrawn");
+      const bool modest = x.id.explanations.front().score < kModestEvidence && !report.leftover_significant;
+      report.verdict = modest ? Verdict::no_gap : Verdict::unexplained;
+    } else if (share > 0) {
+      report.verdict = Verdict::partly_explained;
+      x.energy_left_share = share;
+    }
+  }
+  if (!x.named.empty()) keep_constants_that_fit(x, correction);
+  if (report.verdict == Verdict::no_gap && calibration_leaves_a_gap(x, correction)) {
+    report.verdict = Verdict::unexplained;
+    report.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
+  }
+  return correction;
+}
+
+void report_gap(Examination& x, const Correction& correction) {
+  const bool correct_it = !x.named.empty();
+  const std::vector<RunSignals> before = read_signals(x.validation, 0.0);
+  const std::vector<RunSignals> after =
+      read_signals(x.validation, correct_it ? channel_delay_s(correction.state) : 0.0);
+  x.report.gap = measure_gap({.before_signals = before,
+                              .after_signals = after,
+                              .before = x.nominal,
+                              .after = correct_it ? x.point_of(correction.state) : x.nominal,
+                              .noise_floor_percent = finite_or_zero(noise_floor_percent(x, correction)),
+                              .bootstrap = x.options.bootstrap,
+                              .fitted_signals = correction.fitted.signals});
+  if (!correct_it) x.report.gap.energy.shrink_interval_95 = {};  // nothing is claimed
+  fill_floors(x.id.equations.noise, x.report.gap);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,217 @@
+#include "diagnosis/evidence/attribution.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+/// Effects smaller than this share of what matters are not named, whatever speaks for them.
+constexpr double kLeastSize = 0.03;
+/// Small effects that make up for what the others lack: how the laws of turning pass through zero is not
+/// known, and a patch is laid wherever it fits.
+const std::set<std::string> kPliable{"yaw_inertia_error", "caster_swivel", "turning_scrub", "floor_patch"};
+/// Those of them that stand in for anything.
+const std::set<std::string> kStopgaps{"yaw_inertia_error", "floor_patch"};
+constexpr double kShareOfFormError = 0.05;
+/// Overlap with the other effects from which on all of an effect may be their inexact form.
+constexpr double kFullOverlap = 0.25;
+constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
+constexpr std::size_t kMostReconsidered = 300;
+
+/// Physics' signs, and sizes worth a name.
+bool sizes_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& column = equations.columns[static_cast<std::size_t>(columns[k])];
+    if (column.kind == Column::Kind::amplitude &&
+        equations.candidates[static_cast<std::size_t>(column.owner)].nonnegative &&
+        mean[static_cast<Eigen::Index>(k)] < 0)
+      return false;
+  }
+  return true;
+}
+
+/// Amplitude of each candidate of an explanation, as a multiple of what just matters.
+std::vector<double> sizes_of(const Equations& equations, const Explanation& explanation,
+                             const Eigen::VectorXd& mean, const std::vector<double>& least_amplitude) {
+  std::vector<double> sizes;
+  for (int c : explanation.candidates) {
+    double square = 0;
+    for (std::size_t k = 0; k < explanation.columns.size(); ++k) {
+      const Column& column = equations.columns[static_cast<std::size_t>(explanation.columns[k])];
+      if (column.owner == c && column.kind == Column::Kind::amplitude)
+        square += mean[static_cast<Eigen::Index>(k)] * mean[static_cast<Eigen::Index>(k)];
+    }
+    sizes.push_back(std::sqrt(square) / least_amplitude[static_cast<std::size_t>(c)]);
+  }
+  return sizes;
+}
+
+Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
+                     const SearchOptions& options, double empty_evidence) {
+  Explanation explanation{.candidates = std::move(candidates)};
+  for (int c : explanation.candidates)
+    for (int k : equations.columns_of_candidate(c, true)) explanation.columns.push_back(k);
+  Posterior posterior = solve(problem, explanation.columns, options.dispersion);
+  const auto effects = static_cast<double>(explanation.candidates.size());
+  const double cost = effects > 0 ? options.effect_cost + (effects - 1) * options.further_effect_cost : 0.0;
+  explanation.score = posterior.log_evidence - empty_evidence - cost;
+  explanation.loss = posterior.loss;
+  if (!options.least_amplitude.empty()) {
+    explanation.size = sizes_of(equations, explanation, posterior.mean, options.least_amplitude);
+    explanation.material =
+        std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
+  }
+  if (!sizes_hold(equations, explanation.columns, posterior.mean)) explanation.score = -1e300;
+  explanation.mean = std::move(posterior.mean);
+  explanation.covariance = std::move(posterior.covariance);
+  return explanation;
+}
+
+double evidence_needed(const Candidate& candidate, double size, const SearchOptions& options) {
+  if (kPliable.contains(candidate.shape.name)) return options.small_pliable_evidence / std::sqrt(size);
+  return options.small_effect_evidence;
+}
+
+/// Whether the data insist on every effect below the materiality floor: each alone must bring much
+/// evidence, and not a small share of the whole, as inexact forms of a great effect do. What the others
+/// cannot draw is none of their forms.
+bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                  const SearchOptions& options, double empty_evidence) {
+  for (std::size_t k = 0; k < explanation.candidates.size(); ++k) {
+    if (explanation.size[k] >= 1) continue;
+    if (explanation.size[k] < kLeastSize) return false;
+    std::vector<int> others = explanation.candidates;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const double without = evaluate(problem, equations, std::move(others), options, empty_evidence).score;
+    const int c = explanation.candidates[k];
+    const double needed =
+        evidence_needed(equations.candidates[static_cast<std::size_t>(c)], explanation.size[k], options) +
+        ghost_share(problem, equations, explanation, c) * kShareOfFormError *
+            std::max(0.0, explanation.score);
+    if (explanation.score - without < needed) return false;
+  }
+  return true;
+}
+
+bool has_name(const Equations& equations, const std::vector<int>& set, int candidate) {
+  for (int member : set)
+    if (equations.candidates[static_cast<std::size_t>(member)].label() ==
+        equations.candidates[static_cast<std::size_t>(candidate)].label())
+      return true;
+  return false;
+}
+
+}  // namespace
+
+double ghost_share(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                   int candidate) {
+  if (kStopgaps.contains(equations.candidates[static_cast<std::size_t>(candidate)].shape.name)) return 1.0;
+  std::vector<int> others;
+  for (int k : explanation.columns)
+    if (equations.columns[static_cast<std::size_t>(k)].owner != candidate) others.push_back(k);
+  if (others.empty()) return 0.0;
+  const auto n = static_cast<Eigen::Index>(others.size());
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    scale[i] = 1 / std::sqrt(std::max(1e-300, problem.gram(others[std::size_t(i)], others[std::size_t(i)])));
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      gram(i, j) = scale[i] * scale[j] * problem.gram(others[std::size_t(i)], others[std::size_t(j)]);
+  gram.diagonal().array() += kDrawnRidge;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
+  double most = 0;
+  for (int column : equations.columns_of_candidate(candidate, false)) {
+    Eigen::VectorXd shared(n);
+    for (Eigen::Index i = 0; i < n; ++i) shared[i] = scale[i] * problem.gram(others[std::size_t(i)], column);
+    const double own = problem.gram(column, column);
+    if (own > 0) most = std::max(most, shared.dot(factor.solve(shared)) / own);
+  }
+  return std::clamp(most / kFullOverlap, 0.0, 1.0);
+}
+
+LinearProblem without_calibration(const Equations& equations, const std::vector<std::size_t>& runs,
+                                  double dispersion) {
+  const LinearProblem all = sum_runs(equations.runs, runs, equations.prior_sd);
+  const std::vector<int> nuisances = equations.columns_of(Column::Kind::nuisance);
+  std::vector<int> every(equations.columns.size());
+  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<int>(k);
+  return project_out(all, nuisances, every, dispersion);
+}
+
+std::vector<Explanation> search_explanations(const LinearProblem& problem, const Equations& equations,
+                                             const SearchOptions& options) {
+  std::vector<int> allowed = options.allowed;
+  if (allowed.empty())
+    for (std::size_t c = 0; c < equations.candidates.size(); ++c) allowed.push_back(static_cast<int>(c));
+  const double empty_evidence = solve(problem, {}, options.dispersion).log_evidence;
+  std::vector<Explanation> met{evaluate(problem, equations, {}, options, empty_evidence)};
+  std::vector<Explanation> beam = met;
+  std::set<std::vector<int>> seen;
+  for (int depth = 0; depth < options.most_effects; ++depth) {
+    std::vector<Explanation> next;
+    for (const Explanation& from : beam)
+      for (int c : allowed) {
+        if (has_name(equations, from.candidates, c)) continue;
+        std::vector<int> set = from.candidates;
+        set.insert(std::upper_bound(set.begin(), set.end(), c), c);
+        if (!seen.insert(set).second) continue;
+        Explanation grown = evaluate(problem, equations, set, options, empty_evidence);
+        if (grown.score > -1e200) next.push_back(std::move(grown));
+      }
+    std::stable_sort(next.begin(), next.end(),
+                     [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
+    beam.assign(next.begin(), next.begin() + std::min<std::ptrdiff_t>(options.beam_width, std::ssize(next)));
+    met.insert(met.end(), next.begin(), next.end());
+  }
+  std::stable_sort(met.begin(), met.end(),
+                   [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
+  if (std::isfinite(options.small_effect_evidence))
+    for (std::size_t k = 0; k < std::min(met.size(), kMostReconsidered); ++k)
+      if (!met[k].material)
+        met[k].material = beyond_doubt(problem, equations, met[k], options, empty_evidence);
+  return met;
+}
+
+double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters) {
+  double ratio_sum = 0, count = 0;
+  const Eigen::Index p = parameters.size();
+  for (std::size_t k = 0; k < equations.columns.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (equations.columns[k].kind == Column::Kind::dictionary) continue;
+    double square = 0, expected = 0, sum = 0;
+    for (const RunEquations& run : equations.runs) {
+      const double score = run.gram(i, p) - run.gram.row(i).head(p).dot(parameters);
+      square += score * score;
+      sum += score;
+      expected += run.gram(i, i);
+    }
+    if (expected <= 0) continue;
+    ratio_sum += (square - sum * sum / static_cast<double>(equations.runs.size())) / expected;
+    count += 1;
+  }
+  return count > 0 ? std::max(1.0, ratio_sum / count) : 1.0;
+}
+
+Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
+                               double dispersion, Eigen::MatrixXd* covariance) {
+  const Posterior posterior = solve(problem, columns, dispersion);
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(problem.prior_sd.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    parameters[columns[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
+  if (covariance) *covariance = posterior.covariance;
+  return parameters;
+}
+
+Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
+                               const std::vector<int>& columns, double dispersion,
+                               Eigen::MatrixXd* covariance) {
+  std::vector<int> all = equations.columns_of(Column::Kind::nuisance);
+  all.insert(all.end(), columns.begin(), columns.end());
+  return fit_parameters(sum_runs(equations.runs, runs, equations.prior_sd), all, dispersion, covariance);
+}
+
+}  // namespace joulepath

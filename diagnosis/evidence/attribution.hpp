@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/equations.hpp"
+
+namespace joulepath {
+
+/// One set of effects as an explanation, with what speaks for it.
+struct Explanation {
+  std::vector<int> candidates{};  ///< of the equations, in order of index
+  std::vector<int> columns{};
+  Eigen::VectorXd mean{};  ///< of `columns`, calibration projected out
+  Eigen::MatrixXd covariance{};
+  double score{};  ///< log evidence and log prior, relative to "nothing"
+  double loss{};
+  std::vector<double> size{};  ///< of each candidate, in amplitudes that just matter
+  bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
+};
+
+struct SearchOptions {
+  double effect_cost{6.0};           ///< log prior odds against a first effect
+  double further_effect_cost{14.0};  ///< against each one more: a law's inexact form breeds ghosts
+  int beam_width{14};
+  int most_effects{4};
+  double dispersion{1.0};
+  std::vector<int> allowed{};             ///< candidates that may enter; empty = all
+  std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
+  /// Evidence that makes an effect below the materiality floor be named all the same. Infinite: smaller
+  /// ones are passed over.
+  double small_effect_evidence{std::numeric_limits<double>::infinity()};
+  /// The same for pliable effects (of turning, and patches) at just material size; grows as 1/sqrt(size).
+  double small_pliable_evidence{std::numeric_limits<double>::infinity()};
+};
+
+/// How far an effect of an explanation may be the others' inexact form, 0 to 1: what they can draw of its
+/// signature, their strengths free to vary as their forms allow. Near 0 where they act on other channels
+/// or at other times.
+[[nodiscard]] double ghost_share(const LinearProblem& problem, const Equations& equations,
+                                 const Explanation& explanation, int candidate);
+
+/// Forward beam search over sets of candidates with the calibration projected out; every set met is
+/// kept once, best first. The empty set is among them with score 0.
+[[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
+                                                           const Equations& equations,
+                                                           const SearchOptions& options);
+
+/// The problem of some runs with the background's columns projected out; the other columns keep their
+/// places.
+[[nodiscard]] LinearProblem without_calibration(const Equations& equations,
+                                                const std::vector<std::size_t>& runs,
+                                                double dispersion = 1.0);
+
+/// How much more runs scatter about the fit than the noise model says (>= 1): the variance of run-wise
+/// scores over its expectation, over all candidates.
+[[nodiscard]] double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters);
+
+/// All parameters of a problem, those of the given columns fitted and the others zero.
+[[nodiscard]] Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
+                                             double dispersion, Eigen::MatrixXd* covariance = nullptr);
+
+/// All parameters (nuisances too) fitted with the given candidates on the given runs.
+[[nodiscard]] Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
+                                             const std::vector<int>& columns, double dispersion,
+                                             Eigen::MatrixXd* covariance = nullptr);
+
+}  // namespace joulepath

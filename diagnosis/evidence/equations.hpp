@@ -1,0 +1,54 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/whitening.hpp"
+#include "diagnosis/numerics/normal_equations.hpp"
+#include "diagnosis/prediction/dictionary.hpp"
+#include "diagnosis/prediction/model_state.hpp"
+
+namespace joulepath {
+
+/// What a column of the linear problem stands for.
+struct Column {
+  enum class Kind { nuisance, amplitude, shape, form, dictionary };
+  Kind kind{};
+  int owner{};  ///< index of nuisance, candidate or dictionary entry
+  int part{};   ///< which amplitude, shape parameter or form of the owner
+  double prior_sd{};
+  double current{};  ///< value at the state: parameters of the problem are absolute; shapes are changes
+};
+
+/// The linear problem about a state of the model, for all runs, with everything that may be asked of it.
+struct Equations {
+  std::vector<Column> columns{};
+  std::vector<Candidate> candidates{};  ///< those of the state first, in its order
+  std::vector<DictionaryEntry> dictionary{};
+  std::vector<RunEquations> runs{};
+  NoiseModel noise{};
+  Eigen::VectorXd run_variance{};  ///< of friction left, right, resistance left, right, gyro, standby
+  Eigen::VectorXd prior_sd{};
+
+  std::vector<int> columns_of(Column::Kind kind) const;
+  /// Amplitudes, and with shapes also what may vary about them: shape parameters and forms.
+  std::vector<int> columns_of_candidate(int candidate, bool with_shapes) const;
+};
+
+struct EquationOptions {
+  bool whole_catalog{true};  ///< false: the state's own effects alone
+  bool dictionary{true};
+  const NoiseModel* noise{};  ///< reuse instead of estimating
+  const Eigen::VectorXd* run_variance{};
+  const NoiseModel* first_noise{};  ///< where the estimate starts; absent: white
+  std::set<std::string> without{};  ///< effects that the catalog is taken to lack
+};
+
+/// Linearizes the model at a state and compresses every run. `extra` are candidates beyond the
+/// catalog's, such as floor patches.
+[[nodiscard]] Equations build_equations(const std::vector<RunSignals>& signals, const Robot& robot,
+                                        const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                        const std::vector<Candidate>& extra, const EquationOptions& options);
+
+}  // namespace joulepath

@@ -1,0 +1,143 @@
+#include "diagnosis/evidence/groups.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace joulepath {
+namespace {
+
+std::multiset<std::string> labels_of(const Equations& equations, const std::vector<int>& candidates) {
+  std::multiset<std::string> labels;
+  for (int c : candidates) labels.insert(equations.candidates[static_cast<std::size_t>(c)].label());
+  return labels;
+}
+
+constexpr std::size_t kMostRivals = 100;
+constexpr double kFreeAmplitude = 30.0;
+
+/// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
+/// alone say.
+double loss_of_laws(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                    double dispersion) {
+  std::vector<int> columns;
+  for (int k : explanation.columns)
+    if (equations.columns[static_cast<std::size_t>(k)].kind != Column::Kind::form) columns.push_back(k);
+  LinearProblem free = problem;
+  for (int k : columns)
+    if (equations.columns[static_cast<std::size_t>(k)].kind == Column::Kind::amplitude)
+      free.prior_sd[k] *= kFreeAmplitude;
+  return solve(free, columns, dispersion).loss;
+}
+
+/// Calls use(explanation, label) for each explanation with one other effect, `label`, in the place of a
+/// candidate of the best one.
+template <class Use>
+void for_each_rival(const Equations& equations, const std::vector<Explanation>& explanations, int candidate,
+                    Use&& use) {
+  if (explanations.empty()) return;
+  const Explanation& best = explanations.front();
+  const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
+  std::multiset<std::string> rest = labels_of(equations, best.candidates);
+  rest.erase(rest.find(label));
+  for (const Explanation& e : explanations) {
+    if (e.candidates.size() != best.candidates.size()) continue;
+    std::multiset<std::string> other = labels_of(equations, e.candidates);
+    if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
+      continue;
+    for (const std::string& kept : rest) other.erase(other.find(kept));
+    if (other.size() == 1) use(e, *other.begin());
+  }
+}
+
+}  // namespace
+
+std::map<std::string, double> effect_probabilities(const Equations& equations,
+                                                   const std::vector<Explanation>& explanations) {
+  std::map<std::multiset<std::string>, double> best_of_set;  // shapes of one effect count once
+  for (const Explanation& e : explanations) {
+    const auto [at, fresh] = best_of_set.try_emplace(labels_of(equations, e.candidates), e.score);
+    if (!fresh) at->second = std::max(at->second, e.score);
+  }
+  const double top = explanations.empty() ? 0.0 : explanations.front().score;
+  double total = 0;
+  std::map<std::string, double> weight;
+  for (const auto& [labels, score] : best_of_set) {
+    const double w = std::exp(kScoreFlattening * (score - top));
+    total += w;
+    for (const std::string& label : std::set<std::string>(labels.begin(), labels.end())) weight[label] += w;
+  }
+  for (auto& [label, value] : weight) value /= total;
+  return weight;
+}
+
+std::vector<std::string> stand_ins_by_score(const Equations& equations,
+                                            const std::vector<Explanation>& explanations, int candidate) {
+  std::vector<std::string> found;
+  for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
+    if (e.score >= explanations.front().score - kStandInLogOdds &&
+        std::find(found.begin(), found.end(), label) == found.end())
+      found.push_back(label);
+  });
+  return found;
+}
+
+std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
+                               const std::vector<Explanation>& explanations, int candidate,
+                               double dispersion) {
+  if (explanations.empty()) return {};
+  const double own_loss = loss_of_laws(problem, equations, explanations.front(), dispersion);
+  std::vector<StandIn> found;
+  std::size_t rivals = 0;
+  for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
+    if (++rivals > kMostRivals) return;
+    const double loss_more = loss_of_laws(problem, equations, e, dispersion) - own_loss;
+    if (loss_more > kStandInLoss) return;
+    const auto known =
+        std::find_if(found.begin(), found.end(), [&](const StandIn& s) { return s.label == label; });
+    if (known == found.end())
+      found.push_back({label, loss_more});
+    else
+      known->loss_more = std::min(known->loss_more, loss_more);
+  });
+  return found;
+}
+
+std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
+                               const Explanation& best, const std::string& label, const std::string& other,
+                               double dispersion) {
+  int other_candidate = -1, own = -1;
+  for (std::size_t c = 0; c < equations.candidates.size() && other_candidate < 0; ++c)
+    if (equations.candidates[c].label() == other) other_candidate = static_cast<int>(c);
+  for (int c : best.candidates)
+    if (equations.candidates[static_cast<std::size_t>(c)].label() == label) own = c;
+  if (other_candidate < 0 || own < 0) return {};
+  std::vector<int> columns = best.columns;
+  const int a = equations.columns_of_candidate(own, false).front();
+  const int b = equations.columns_of_candidate(other_candidate, false).front();
+  columns.push_back(b);
+  const Posterior posterior = solve(problem, columns, dispersion);
+  const auto at = [&](int column) {
+    return std::find(columns.begin(), columns.end(), column) - columns.begin();
+  };
+  const Eigen::Index i = at(a), j = at(b);
+  const double sa = equations.candidates[static_cast<std::size_t>(own)].step[0];
+  const double sb = equations.candidates[static_cast<std::size_t>(other_candidate)].step[0];
+  Eigen::Matrix2d covariance;
+  covariance << posterior.covariance(i, i) / (sa * sa), posterior.covariance(i, j) / (sa * sb),
+      posterior.covariance(i, j) / (sa * sb), posterior.covariance(j, j) / (sb * sb);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+  Eigen::Vector2d direction = solver.eigenvectors().col(0);
+  if (std::abs(direction[0]) < 1e-6) return {};
+  const double k = direction[1] / direction[0] * sa / sb;
+  char text[256];
+  std::snprintf(text, sizeof text, "%s %s %+.4g * %s %s = %.4g", label.c_str(),
+                equations.candidates[static_cast<std::size_t>(own)].amplitude[0].c_str(), k, other.c_str(),
+                equations.candidates[static_cast<std::size_t>(other_candidate)].amplitude[0].c_str(),
+                posterior.mean[i] + k * posterior.mean[j]);
+  return text;
+}
+
+}  // namespace joulepath

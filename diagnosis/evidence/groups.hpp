@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/attribution.hpp"
+
+namespace joulepath {
+
+/// Probability of each effect (by label, side included) of being among the causes, from the scores of all
+/// explanations, flattened as calibration on development cases asks.
+[[nodiscard]] std::map<std::string, double> effect_probabilities(
+    const Equations& equations, const std::vector<Explanation>& explanations);
+
+/// Labels that could stand in for one effect of the best explanation, usual sizes weighed in: all that
+/// energies alone can tell.
+[[nodiscard]] std::vector<std::string> stand_ins_by_score(const Equations& equations,
+                                                          const std::vector<Explanation>& explanations,
+                                                          int candidate);
+
+/// An effect that could stand in for a named one, the rest kept.
+struct StandIn {
+  std::string label{};
+  double loss_more{};  ///< of the data, beyond the named effect's: -2 log of the likelihood ratio
+};
+
+/// Effects that could stand in for one of the best explanation: the data hardly mind, whatever sizes are
+/// usual. Laws are compared without the room that forms give the best one.
+[[nodiscard]] std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
+                                             const std::vector<Explanation>& explanations, int candidate,
+                                             double dispersion);
+
+/// The combination of two candidates' amplitudes that the data pin although neither is: "a + k b = c".
+[[nodiscard]] std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
+                                             const Explanation& best, const std::string& label,
+                                             const std::string& other, double dispersion);
+
+inline constexpr double kStandInLogOdds = 4.0;
+inline constexpr double kStandInLoss = 6.0;      ///< a likelihood ratio of 20 tells two effects apart
+inline constexpr double kScoreFlattening = 0.7;  ///< log evidence of real data is worth less than its face
+
+}  // namespace joulepath

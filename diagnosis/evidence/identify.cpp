@@ -1,0 +1,125 @@
+#include "diagnosis/evidence/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/evidence/delay_search.hpp"
+#include "diagnosis/evidence/floor_patch_search.hpp"
+#include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/numerics/parallel.hpp"
+
+namespace joulepath {
+namespace {
+
+/// The fit of everything takes much of few runs' noise with it: what it leaves is too small by about this.
+constexpr double kFewRunsDispersion = 2.0;
+
+/// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
+Eigen::VectorXd rich_parameters(const Equations& equations) {
+  std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
+  const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
+  columns.insert(columns.end(), dictionary.begin(), dictionary.end());
+  return fit_parameters(equations, every(equations.runs.size()), columns, 1.0);
+}
+
+std::vector<std::string> labels_of(const Equations& equations, const Explanation& explanation) {
+  std::vector<std::string> labels;
+  for (int c : explanation.candidates)
+    labels.push_back(equations.candidates[static_cast<std::size_t>(c)].label());
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+std::vector<std::string> labels_of(const ModelState& state) {
+  std::vector<std::string> labels;
+  for (const ActiveEffect& effect : state.effects) labels.push_back(effect.candidate.label());
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+SearchOptions search_options(const IdentifyOptions& options, double dispersion, bool few,
+                             std::vector<double> least_amplitude) {
+  return {.effect_cost = options.effect_cost,
+          .further_effect_cost = options.further_effect_cost,
+          .most_effects = options.most_effects,
+          .dispersion = dispersion,
+          .allowed = {},
+          .least_amplitude = std::move(least_amplitude),
+          .small_effect_evidence =
+              few ? options.small_effect_evidence_of_few_runs : options.small_effect_evidence,
+          .small_pliable_evidence =
+              few ? std::numeric_limits<double>::infinity() : options.small_pliable_evidence};
+}
+
+}  // namespace
+
+Identification identify(const LogSet& logs, const IdentifyOptions& options) {
+  Identification result{.nuisances = calibration_nuisances(logs.dataset->robot)};
+  const Robot& robot = logs.dataset->robot;
+  const std::vector<std::size_t> runs = every(logs.runs.size());
+  result.state.nuisance_fraction.assign(result.nuisances.size(), 0.0);
+  if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0)
+    for (const Candidate& candidate : catalog_candidates(robot, options.without))
+      if (candidate.shape.name == "time_misalignment") result.state.effects.push_back({candidate, {delay_s}});
+  result.signals = read_signals(logs, channel_delay_s(result.state));
+  const bool few = runs.size() < kRunsForSmallEffects;
+  std::map<std::string, double> known;
+  NoiseModel noise;
+  for (int round = 0;; ++round) {
+    std::vector<Candidate> patches;
+    if (!options.without.contains("floor_patch"))
+      patches = floor_patch_candidates(result.signals, robot, result.nuisances, result.state);
+    result.equations =
+        build_equations(result.signals, robot, result.nuisances, result.state, patches,
+                        {.first_noise = round > 0 ? &noise : nullptr, .without = options.without});
+    noise = result.equations.noise;
+    result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
+                        (few ? kFewRunsDispersion : 1.0);
+    result.problem = without_calibration(result.equations, runs, result.dispersion);
+    result.explanations = search_explanations(
+        result.problem, result.equations,
+        search_options(options, result.dispersion, few,
+                       least_amplitudes(result.signals, robot, result.nuisances, result.state,
+                                        result.equations.candidates, known)));
+    std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
+    const Explanation& best = result.explanations.front();
+    if ((round > 0 || best.candidates.empty()) &&
+        labels_of(result.equations, best) == labels_of(result.state))
+      break;
+    const Eigen::VectorXd parameters =
+        fit_parameters(result.equations, runs, best.columns, result.dispersion);
+    Refit fitted = refit(logs, runs, result.nuisances,
+                         adopt(result.equations, result.nuisances, result.state, best, parameters),
+                         result.equations.noise, result.equations.run_variance, result.dispersion, 2);
+    result.state = fitted.state;
+    result.signals = std::move(fitted.signals);
+    if (round == options.rounds) break;  // did not settle: the last answer stands, refitted
+  }
+  return result;
+}
+
+EnergyShare energy_of_effect(const std::vector<RunSignals>& signals, const Robot& robot,
+                             const std::vector<Nuisance>& nuisances, const ModelState& state,
+                             std::size_t effect) {
+  ModelState without = state;
+  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  std::vector<EnergyShare> shares(signals.size());
+  parallel_for(signals.size(), [&](std::size_t r) {
+    const Prediction with_it = predict(signals[r], model_point(robot, nuisances, state));
+    const Prediction without_it = predict(signals[r], model_point(robot, nuisances, without));
+    for (Side side : kSides) {
+      shares[r].effect_J += signals[r].period_s * (with_it.power_W[side] - without_it.power_W[side]).sum();
+      shares[r].total_J += signals[r].period_s * with_it.power_W[side].sum();
+    }
+  });
+  EnergyShare sum;
+  for (const EnergyShare& share : shares) {
+    sum.effect_J += std::abs(share.effect_J);
+    sum.total_J += std::abs(share.total_J);
+  }
+  return sum;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/equations.hpp"
+
+namespace joulepath {
+
+/// How much an effect changes what a user sees, whatever the statistics say.
+struct Impact {
+  double motor_power{};    ///< sum |change| / sum |power|, over wheels and samples
+  double battery_power{};  ///< the same at the battery's terminals
+  double battery_voltage_V{};
+  double heading_rad{};    ///< greatest change of a run's final heading
+  double position{};       ///< greatest change of a run's final position / distance travelled
+  double delay_samples{};  ///< shift of the electrical channels in samples of the log
+};
+
+/// Below this nothing is called an effect: about 1 % of the energy, or as much of the motion.
+struct MaterialityFloor {
+  double motor_power{0.01};
+  double battery_power{0.01};
+  double battery_voltage_V{0.1};
+  double heading_rad{0.03};
+  double position{0.006};
+  double delay_samples{0.6};
+};
+
+[[nodiscard]] Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& with_effect,
+                                    const ModelPoint& without_effect);
+
+/// Greatest ratio of an impact to the floor: 1 = just material.
+[[nodiscard]] double materiality(const Impact& impact, const MaterialityFloor& floor = {});
+
+/// For each candidate of the equations, the amplitude at which it becomes material. `known` keeps what
+/// was found before.
+[[nodiscard]] std::vector<double> least_amplitudes(const std::vector<RunSignals>& signals, const Robot& robot,
+                                                   const std::vector<Nuisance>& nuisances,
+                                                   const ModelState& state,
+                                                   const std::vector<Candidate>& candidates,
+                                                   std::map<std::string, double>& known);
+
+}  // namespace joulepath

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/evidence/attribution.hpp"
+
+namespace joulepath {
+
+/// Logs of a dataset, read anew where the electrical channels turn out to be late.
+struct LogSet {
+  const Dataset* dataset{};
+  std::vector<std::size_t> runs{};  ///< of the dataset, those with a usable log
+  SignalOptions options{};
+};
+
+[[nodiscard]] std::vector<RunSignals> read_signals(const LogSet& logs, double channel_delay_s);
+
+/// Takes an explanation over into a state: amplitudes, shapes and calibration as the linear fit has them.
+[[nodiscard]] ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisances,
+                               const ModelState& state, const Explanation& explanation,
+                               const Eigen::VectorXd& parameters);
+
+/// A state fitted by Gauss-Newton on full predictions, with its uncertainty.
+struct Refit {
+  ModelState state{};
+  std::vector<RunSignals> signals{};  ///< read at the state's delay
+  Equations equations{};              ///< about the state, its own effects alone
+  Eigen::VectorXd parameters{};       ///< of the equations
+  Eigen::MatrixXd covariance{};       ///< of nuisances, then the effects' columns, by the noise model
+  Eigen::MatrixXd run_covariance{};   ///< the same from how runs differ
+  std::size_t fit_runs{};
+  std::vector<int> columns{};  ///< rows of `covariance`
+};
+
+/// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given.
+[[nodiscard]] Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
+                          const std::vector<Nuisance>& nuisances, ModelState state, const NoiseModel& noise,
+                          const Eigen::VectorXd& run_variance, double dispersion, int iterations = 3);
+
+}  // namespace joulepath

@@ -1,0 +1,275 @@
+#include "diagnosis/evidence/signatures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/kinematics.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Prior width of an amplitude in steps (sizes worth noticing).
+constexpr double kAmplitudePriorSteps = 4.0;
+constexpr double kPatchEdgeSd_m = 0.1;
+
+bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
+  for (index = 0; index < state.effects.size(); ++index)
+    if (state.effects[index].candidate.label() == candidate.label()) return true;
+  return false;
+}
+
+/// The state with one candidate's amplitudes set; replaces the active effect of the same label.
+ModelState with_effect(ModelState state, const Candidate& candidate, const std::vector<double>& amplitude) {
+  std::size_t index;
+  if (is_active(candidate, state, index))
+    state.effects[index] = {candidate, amplitude};
+  else
+    state.effects.push_back({candidate, amplitude});
+  return state;
+}
+
+/// Central difference of predictions along one parameter.
+template <class PredictAt>
+Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
+                           double low, double high, PredictAt&& predict_at) {
+  const Eigen::MatrixXd up = signature_rows(signals, point, base, predict_at(high));
+  if (low == 0) return up / high;
+  return (up - signature_rows(signals, point, base, predict_at(low))) / (high - low);
+}
+
+constexpr int kFormCount = static_cast<int>(kFormVariables.size());
+constexpr double kFormSpread = 0.12;
+
+/// A variable of kFormVariables, scaled to [-1, 1].
+double form_variable(const RunSignals& s, const Geometry& geometry, int form, Eigen::Index j) {
+  const Twist<double> twist =
+      body_twist(geometry, Sided<double>{s.wheel_speed_rad_s.left[j], s.wheel_speed_rad_s.right[j]});
+  const Twist<double> rate = body_twist(
+      geometry, Sided<double>{s.wheel_acceleration_rad_s2.left[j], s.wheel_acceleration_rad_s2.right[j]});
+  const auto scaled = [](double value, double usual) {
+    return 2 * std::abs(value) / (std::abs(value) + usual) - 1;
+  };
+  switch (form) {
+    case 0:
+      return scaled(twist.speed_m_s, 0.3);
+    case 1:
+      return scaled(twist.yaw_rate_rad_s, 0.5);
+    case 2:
+      return scaled(s.payload_kg[j], 5.0);
+    case 3:
+      return scaled(rate.speed_m_s, 0.2);
+    default:
+      return scaled(s.time_of_day_s[j], 200.0);
+  }
+}
+
+/// An edge of a floor patch is known from the scan to a bin; other shapes to a half of their value.
+double shape_prior_sd(const Candidate& candidate, const std::string& parameter) {
+  if (candidate.shape.name == "floor_patch") return kPatchEdgeSd_m;
+  return 0.5 * std::abs(candidate.shape.parameters.at(parameter));
+}
+
+double shape_step(const Candidate& candidate, double value) {
+  return candidate.shape.name == "floor_patch" ? 0.5 * kPatchEdgeSd_m
+                                               : std::max(1e-3, 0.05 * std::abs(value));
+}
+
+/// Least and greatest value that the catalog accepts for a parameter.
+std::pair<double, double> bounds_of(const std::string& effect, const std::string& parameter) {
+  for (const ParameterDescription& known : find_effect(effect)->parameters)
+    if (known.name == parameter) return {known.min, known.max};
+  return {-1e300, 1e300};
+}
+
+class Differencer {
+ public:
+  Differencer(const RunSignals& signals, const Robot& robot, const std::vector<Nuisance>& nuisances,
+              const ModelState& state, const Prediction& base)
+      : signals_(signals),
+        robot_(robot),
+        nuisances_(nuisances),
+        state_(state),
+        base_(base),
+        point_(model_point(robot, nuisances, state)) {}
+
+  Eigen::MatrixXd nuisance(std::size_t k, double step) const {
+    if (nuisances_[k].key == kStampNuisance) return kStampFraction * signals_.log_period_s * delay();
+    return difference(signals_, point_, base_, -step, step, [&](double change) {
+      ModelState changed = state_;
+      changed.nuisance_fraction[k] += change;
+      return at(changed);
+    });
+  }
+
+  Eigen::MatrixXd amplitude(const Candidate& candidate, std::size_t part) const {
+    if (candidate.shape.name == "time_misalignment") return delay();
+    const AmplitudeStep step = amplitude_step(state_, candidate, part);
+    return difference(signals_, point_, base_, step.low, step.high,
+                      [&](double change) { return at(with_change(state_, candidate, step, part, change)); });
+  }
+
+  Eigen::MatrixXd shape(const Candidate& candidate, const std::string& parameter) const {
+    std::size_t index;
+    if (!is_active(candidate, state_, index)) return {};
+    const double value = candidate.shape.parameters.at(parameter);
+    const auto [least, greatest] = bounds_of(candidate.shape.name, parameter);
+    const double step = shape_step(candidate, value), down = std::max(-step, least - value),
+                 up = std::min(step, greatest - value);
+    return difference(signals_, point_, base_, down, up, [&](double change) {
+      Candidate moved = candidate;
+      moved.shape.parameters[parameter] += change;
+      return at(with_effect(state_, moved, state_.effects[index].amplitude));
+    });
+  }
+
+  /// The effect's whole contribution, stronger where the variable is large. Poses are sums over the
+  /// way: there the form is left as it is.
+  Eigen::MatrixXd form(const Candidate& candidate, int variable) const {
+    std::size_t index;
+    if (!is_active(candidate, state_, index)) return {};
+    ModelState without = state_;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(index));
+    Eigen::MatrixXd rows = -signature_rows(signals_, point_, base_, at(without));
+    if (candidate.shape.name == "time_misalignment") rows = state_.effects[index].amplitude[0] * delay();
+    for (Eigen::Index j = 0; j < rows.rows(); ++j)
+      rows.row(j) *= form_variable(signals_, robot_.geometry, variable, j);
+    for (Channel pose : {kHeading, kPositionX, kPositionY}) rows.col(pose).setZero();
+    return rows;
+  }
+
+ private:
+  Prediction at(const ModelState& state) const {
+    return predict(signals_, model_point(robot_, nuisances_, state));
+  }
+
+  /// The signals are read at the state's delay already; what is left shifts the predicted readings.
+  /// Sixth-order difference over whole samples: half a sample would blur the readings, and a lower order
+  /// flattens the steep parts, whose rest then looks like an acceleration.
+  Eigen::MatrixXd delay() const {
+    constexpr std::array<double, 3> kWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
+    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(signals_.size(), kChannelCount);
+    for (std::size_t k = 0; k < kWeight.size(); ++k) {
+      const double shift_s = static_cast<double>(k + 1) * signals_.period_s;
+      slope += kWeight[k] / signals_.period_s *
+               (signature_rows(signals_, point_, base_, shifted(shift_s)) -
+                signature_rows(signals_, point_, base_, shifted(-shift_s)));
+    }
+    return slope;
+  }
+
+  Prediction shifted(double delay_s) const {
+    ModelPoint point = point_;
+    point.effects.push_back({.name = "time_misalignment", .parameters = {{"delay_s", delay_s}}});
+    return predict(signals_, point);
+  }
+
+  const RunSignals& signals_;
+  const Robot& robot_;
+  const std::vector<Nuisance>& nuisances_;
+  const ModelState& state_;
+  const Prediction& base_;
+  ModelPoint point_;
+};
+
+}  // namespace
+
+AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate, std::size_t part) {
+  AmplitudeStep step{.value = std::vector<double>(candidate.amplitude.size(), 0.0)};
+  std::size_t index;
+  if (is_active(candidate, state, index)) step.value = state.effects[index].amplitude;
+  step.high = candidate.step[part] * 0.5;
+  step.low = candidate.nonnegative && step.value[part] < step.high ? 0.0 : -step.high;
+  return step;
+}
+
+ModelState with_change(const ModelState& state, const Candidate& candidate, const AmplitudeStep& step,
+                       std::size_t part, double change) {
+  std::vector<double> moved = step.value;
+  moved[part] += change;
+  return with_effect(state, candidate, moved);
+}
+
+std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
+                                 const ModelState& state, const std::vector<Candidate>& candidates,
+                                 std::size_t dictionary_entries, bool forms) {
+  (void)robot;
+  std::vector<Column> columns;
+  using Kind = Column::Kind;
+  for (std::size_t k = 0; k < nuisances.size(); ++k)
+    columns.push_back(
+        {Kind::nuisance, static_cast<int>(k), 0, nuisances[k].sigma, state.nuisance_fraction[k]});
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    std::size_t index;
+    const bool active = is_active(candidates[c], state, index);
+    for (std::size_t a = 0; a < candidates[c].amplitude.size(); ++a)
+      columns.push_back({Kind::amplitude, static_cast<int>(c), static_cast<int>(a),
+                         kAmplitudePriorSteps * candidates[c].step[a],
+                         active ? state.effects[index].amplitude[a] : 0.0});
+    if (!active) continue;
+    const std::vector<std::string> shapes = shape_parameters(candidates[c].shape.name);
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+      columns.push_back({Kind::shape, static_cast<int>(c), static_cast<int>(s),
+                         shape_prior_sd(candidates[c], shapes[s]), 0.0});
+  }
+  for (std::size_t c = 0; forms && c < candidates.size(); ++c) {
+    std::size_t index;
+    if (!is_active(candidates[c], state, index)) continue;
+    for (int f = 0; f < kFormCount; ++f)
+      columns.push_back({Kind::form, static_cast<int>(c), f, kFormSpread, 0.0});
+  }
+  for (std::size_t d = 0; d < dictionary_entries; ++d)
+    columns.push_back({Kind::dictionary, static_cast<int>(d), 0, 0.0, 0.0});
+  return columns;
+}
+
+std::vector<Eigen::MatrixXd> signatures(const RunSignals& signals, const Robot& robot,
+                                        const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                        const std::vector<Candidate>& candidates,
+                                        const std::vector<Column>& columns, const Prediction& base) {
+  const Differencer differencer(signals, robot, nuisances, state, base);
+  std::vector<Eigen::MatrixXd> result;
+  for (const Column& column : columns) {
+    const auto owner = static_cast<std::size_t>(column.owner), part = static_cast<std::size_t>(column.part);
+    if (column.kind == Column::Kind::nuisance)
+      result.push_back(differencer.nuisance(owner, nuisances[owner].sigma));
+    if (column.kind == Column::Kind::amplitude)
+      result.push_back(differencer.amplitude(candidates[owner], part));
+    if (column.kind == Column::Kind::form) result.push_back(differencer.form(candidates[owner], column.part));
+    if (column.kind == Column::Kind::shape)
+      result.push_back(
+          differencer.shape(candidates[owner], shape_parameters(candidates[owner].shape.name)[part]));
+  }
+  return result;
+}
+
+std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Robot& robot,
+                                            const Prediction& base) {
+  const Eigen::Index n = signals.size();
+  std::vector<Eigen::MatrixXd> own(6, Eigen::MatrixXd::Zero(n, kChannelCount));
+  for (Side side : kSides) {
+    const std::size_t s = side == Side::left ? 0 : 1;
+    const Motor& motor = robot.motor[side];
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double direction = std::clamp(signals.wheel_speed_rad_s[side][j] / 0.2, -1.0, 1.0);
+      own[s](j, kCurrentLeft + static_cast<int>(s)) = direction / motor.torque_per_ampere_Nm_A();
+      own[2 + s](j, kWindingLeft + static_cast<int>(s)) = base.current_A[side][j];
+      if (signals.motor_current_A[side].size() != n)
+        own[s](j, kWindingLeft + static_cast<int>(s)) =
+            motor.resistance_ohm * direction / motor.torque_per_ampere_Nm_A();
+    }
+  }
+  own[4].col(kGyro).setConstant(1.0);
+  own[5].col(kDriverPower).setConstant(1.0);
+  return own;
+}
+
+Eigen::VectorXd run_start_variance(const Robot& robot) {
+  Eigen::VectorXd sd(6);
+  const double torque = 0.02 * (robot.motor.left.friction_torque_Nm + 1e-3),
+               ohm = 0.02 * robot.motor.left.resistance_ohm;
+  sd << torque, torque, ohm, ohm, 1e-3, 0.05;
+  return sd.cwiseAbs2();
+}
+
+}  // namespace joulepath

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "diagnosis/prediction/prediction.hpp"
+
+namespace joulepath {
+
+inline constexpr int kAutoregressionOrder = 2;
+
+/// Noise of the structured rows, estimated from a dataset's own residuals: each channel's memory as an
+/// AR(2) process, and the covariance of what is new in all channels at a sample.
+struct NoiseModel {
+  std::array<std::array<double, kAutoregressionOrder>, kChannelCount> memory{};
+  std::array<double, kChannelCount> stationary_ratio{};  ///< sd of the innovation / sd of the channel
+  std::array<double, kChannelCount> channel_sd{};        ///< of the smoothed channel itself
+  Eigen::Matrix<double, kChannelCount, kChannelCount> innovation_covariance{};
+};
+
+/// Estimates the noise from rows that hold nothing but noise (residuals of a rich fit), one entry per
+/// run. A channel without data gets unit noise; `least_sd` of each channel is added in quadrature.
+[[nodiscard]] NoiseModel estimate_noise(const std::vector<ResidualRows>& rows,
+                                        const std::array<double, kChannelCount>& least_sd = {});
+
+/// The same without memory or shared noise: each channel's size alone.
+[[nodiscard]] NoiseModel white_noise(const std::vector<ResidualRows>& rows,
+                                     const std::array<double, kChannelCount>& least_sd = {});
+
+/// Turns rows into uncorrelated entries of unit variance. The same pattern of presence gives the same
+/// order of entries, so that signatures and residuals of a run match.
+class Whitener {
+ public:
+  Whitener(const NoiseModel& noise, const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& present);
+
+  Eigen::Index entries() const { return entries_; }
+  /// Channel of each entry.
+  const std::vector<int>& channel_of_entry() const { return channel_of_entry_; }
+  Eigen::VectorXd operator()(const Eigen::MatrixXd& rows) const;
+
+ private:
+  struct Pattern {
+    std::vector<int> channels{};
+    Eigen::MatrixXd inverse_factor{};  ///< lower triangular
+  };
+  NoiseModel noise_;
+  Eigen::MatrixXi history_;  ///< samples x channels: how many neighbors before are present, -1 = absent
+  std::vector<Pattern> patterns_{};
+  std::vector<int> pattern_of_sample_{};
+  std::vector<int> channel_of_entry_{};
+  Eigen::Index entries_{};
+};
+
+}  // namespace joulepath

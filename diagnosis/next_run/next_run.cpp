@@ -1,0 +1,171 @@
+#include "diagnosis/next_run/next_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "model/config_error.hpp"
+#include "model/motions.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A safe manoeuvre with the reason to run it.
+struct Manoeuvre {
+  std::string why{};
+  std::vector<PrescribedMotion> motions{};
+  double load{};  ///< of the greatest payload
+};
+
+double usual_speed_m_s(const Robot& robot) {
+  const double limit = robot.limits ? robot.limits->speed_m_s : kNoLimit;
+  return std::isfinite(limit) ? 0.6 * limit : 0.5;
+}
+
+PrescribedMotion straight(double speed_m_s, double distance_m, double acceleration_m_s2, bool reverse) {
+  PrescribedMotion motion{.profile = MotionProfile::trapezoid};
+  motion.speed_m_s = speed_m_s;
+  motion.distance_m = distance_m;
+  motion.acceleration_m_s2 = acceleration_m_s2;
+  motion.reverse = reverse;
+  return motion;
+}
+
+PrescribedMotion spin(double angle_rad, double yaw_rate_rad_s) {
+  PrescribedMotion motion{.profile = MotionProfile::spin};
+  motion.angle_rad = angle_rad;
+  motion.yaw_rate_rad_s = yaw_rate_rad_s;
+  motion.yaw_acceleration_rad_s2 = 1.0;
+  return motion;
+}
+
+PrescribedMotion arc(double radius_m, double angle_rad, double speed_m_s) {
+  PrescribedMotion motion{.profile = MotionProfile::arc};
+  motion.radius_m = radius_m;
+  motion.angle_rad = angle_rad;
+  motion.speed_m_s = speed_m_s;
+  motion.acceleration_m_s2 = 0.25;
+  return motion;
+}
+
+PrescribedMotion stand(double duration_s) {
+  PrescribedMotion motion{.profile = MotionProfile::stand};
+  motion.duration_s = duration_s;
+  return motion;
+}
+
+std::vector<Manoeuvre> library(const Robot& robot) {
+  const double v = usual_speed_m_s(robot), pi = std::numbers::pi;
+  return {
+      {"standing still shows standby power and sensor offsets", {stand(20)}, 0},
+      {"the same lane both ways tells a slope and direction-dependent friction from resistance",
+       {straight(v, 3, 0.25, false), stand(1), straight(v, 3, 0.25, true)},
+       0},
+      {"the same lane with the greatest payload tells what grows with the load",
+       {straight(v, 3, 0.25, false), stand(1), straight(v, 3, 0.25, true)},
+       1},
+      {"spins both ways show scrub, casters and yaw inertia without moving",
+       {spin(2 * pi, 0.8), stand(1), spin(-2 * pi, 0.8)},
+       0},
+      {"spins with the greatest payload tell the center of mass from yaw inertia",
+       {spin(2 * pi, 0.8), stand(1), spin(-2 * pi, 0.8)},
+       1},
+      {"arcs both ways show what grows with speed times yaw rate",
+       {arc(0.8, pi, v), stand(1), arc(0.8, -pi, v)},
+       1},
+      {"a crawl shows friction that falls with speed",
+       {straight(0.1 * v, 0.5, 0.25, false), stand(1), straight(0.25 * v, 1, 0.25, false)},
+       0},
+      {"a fast run tells viscous friction from drag", {straight(1.5 * v, 8, 0.4, false)}, 0},
+      {"hard starts and stops show inertia, payload and time shifts",
+       {straight(v, 1.5, 0.5, false), straight(v, 1.5, 0.5, true), straight(v, 1.5, 0.5, false)},
+       1},
+  };
+}
+
+RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot& robot, double payload_kg,
+                      double time_of_day_s) {
+  const TimedMotion timed = timed_motion(robot, motions, {.payload_kg = payload_kg});
+  Run run{.name = "proposed", .log = timed.trajectory, .payload_known = true, .start_time_s = time_of_day_s};
+  run.log.payload_kg.assign(run.log.size(), payload_kg);
+  // Current and voltage are there: the proposed run will measure them.
+  for (Side side : kSides) {
+    run.log.motor_current_A[side].assign(run.log.size(), 0.0);
+    run.log.motor_voltage_V[side].assign(run.log.size(), 0.0);
+  }
+  return make_run_signals(run, 0, robot);
+}
+
+/// The state with one candidate alone, as the data at hand fit it.
+std::optional<ModelState> fitted_state(const Identification& id, const std::string& label) {
+  for (const Explanation& e : id.explanations) {
+    if (e.candidates.size() != 1) continue;
+    const Candidate& candidate = id.equations.candidates[static_cast<std::size_t>(e.candidates[0])];
+    if (candidate.label() != label) continue;
+    std::vector<std::size_t> runs(id.equations.runs.size());
+    std::iota(runs.begin(), runs.end(), std::size_t{0});
+    const Eigen::VectorXd parameters = fit_parameters(id.equations, runs, e.columns, id.dispersion);
+    return adopt(id.equations, id.nuisances, {.nuisance_fraction = id.state.nuisance_fraction}, e,
+                 parameters);
+  }
+  return std::nullopt;
+}
+
+/// Squared difference of two models' predictions in units of the noise, half of it: log evidence to expect.
+double evidence_between(const Identification& id, const Robot& robot, const RunSignals& signals,
+                        const ModelState& a, const ModelState& b) {
+  const ModelPoint first = model_point(robot, id.nuisances, a), second = model_point(robot, id.nuisances, b);
+  const Prediction p = predict(signals, first), q = predict(signals, second);
+  const ResidualRows rows = residual_rows(signals, first, p);
+  const Whitener whiten(id.equations.noise, rows.present);
+  return 0.5 * whiten(signature_rows(signals, first, p, q)).squaredNorm() / id.dispersion;
+}
+
+}  // namespace
+
+RunSignals ideal_signals(const PrescribedMotion& motion, const Robot& robot, double payload_kg,
+                         double time_of_day_s) {
+  return signals_of({motion}, robot, payload_kg, time_of_day_s);
+}
+
+NextExperiment propose_run(const Identification& id, const Robot& robot, std::vector<std::string> rivals,
+                           const std::vector<RankedEffect>& ranking, Verdict verdict) {
+  NextExperiment next;
+  if (rivals.empty() && (verdict == Verdict::ambiguous || verdict == Verdict::too_little_data))
+    for (const RankedEffect& ranked : ranking)
+      if (rivals.size() < 3) rivals.push_back(ranked.effect);
+  std::vector<ModelState> states;
+  for (const std::string& label : rivals)
+    if (std::optional<ModelState> state = fitted_state(id, label)) {
+      states.push_back(std::move(*state));
+      next.separates.push_back(label);
+    }
+  if (states.size() < 2) {
+    next.separates.clear();
+    return next;
+  }
+  double heaviest_kg =
+      robot.limits && std::isfinite(robot.limits->max_payload_kg) ? robot.limits->max_payload_kg : 0.0;
+  for (const RunSignals& run : id.signals) heaviest_kg = std::max(heaviest_kg, run.payload_kg.maxCoeff());
+  for (const Manoeuvre& manoeuvre : library(robot)) {
+    try {
+      const double payload_kg = manoeuvre.load * heaviest_kg;
+      const RunSignals signals = signals_of(manoeuvre.motions, robot, payload_kg, 0.0);
+      double smallest = 1e300;
+      for (std::size_t a = 0; a < states.size(); ++a)
+        for (std::size_t b = a + 1; b < states.size(); ++b)
+          smallest = std::min(smallest, evidence_between(id, robot, signals, states[a], states[b]));
+      if (smallest <= next.expected_evidence) continue;
+      next.expected_evidence = smallest;
+      next.motions = manoeuvre.motions;
+      next.payload_kg = payload_kg;
+      next.why = manoeuvre.why;
+    } catch (const ConfigError&) {
+      continue;  // this robot's limits do not allow the manoeuvre
+    }
+  }
+  return next;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/prediction/prediction.hpp"
+
+namespace joulepath {
+
+/// One way in which an effect of the catalog may act: its name, its side, its shape parameters fixed.
+/// What is left are one or two amplitudes in which the model is nearly linear; zero means "absent".
+struct Candidate {
+  EffectSetting shape{};                 ///< parameters that are not amplitudes are set
+  std::vector<std::string> amplitude{};  ///< names of the amplitudes; floor_slope has two
+  std::vector<double> step{};            ///< for differencing, and the size worth noticing
+  bool nonnegative{};                    ///< physics allows one sign only
+  std::string label() const;             ///< name and side: what is told apart in a result
+};
+
+/// The setting of a candidate with given amplitudes. Converts where a file's parameter is not the
+/// amplitude itself: compliance for wheel_slip, components for floor_slope, changes for parameters
+/// that replace a value of the robot file.
+EffectSetting setting_of(const Candidate& candidate, const std::vector<double>& amplitudes,
+                         const Robot& robot);
+
+/// Inverse of setting_of() for a setting of the same effect.
+std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& robot);
+
+/// Every effect of the catalog with a grid over its shape parameters; floor_patch is left out, its
+/// region comes from floor_patch_search(). Effects named in `without` are left out too.
+std::vector<Candidate> catalog_candidates(const Robot& robot, const std::set<std::string>& without = {});
+
+/// Names of an effect's shape parameters: all that are no amplitude.
+std::vector<std::string> shape_parameters(const std::string& effect);
+
+}  // namespace joulepath

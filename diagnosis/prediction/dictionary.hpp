@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/prediction/prediction.hpp"
+
+namespace joulepath {
+
+/// What a leftover may depend on. No physics: hats and harmonics of everything that was measured, to
+/// tell how much of a gap anything at all could explain, and what it goes with.
+struct DictionaryEntry {
+  std::string family{};   ///< "wheel speed", "place", "heading", ...
+  std::string channel{};  ///< "current", "voltage", "battery power", "battery voltage" or "motion"
+};
+
+/// Ranges over a whole dataset that the dictionary's hats are laid out in.
+struct DictionaryLayout {
+  double greatest_wheel_speed_rad_s{1};
+  double greatest_yaw_rate_rad_s{1};
+  double greatest_payload_kg{1};
+  double greatest_acceleration_m_s2{1};
+  double greatest_current_A{1};
+  double x_min_m{}, x_max_m{1}, y_min_m{}, y_max_m{1};
+  double day_begin_s{}, day_end_s{1};
+  bool has_place{};
+  bool has_day{};
+};
+
+[[nodiscard]] DictionaryLayout lay_out(const std::vector<RunSignals>& runs, const Robot& robot);
+
+/// Families of the entries, in the order of dictionary_rows(); the same for all runs.
+[[nodiscard]] std::vector<DictionaryEntry> dictionary_entries(const DictionaryLayout& layout);
+
+/// One matrix (samples x kChannelCount) per entry.
+[[nodiscard]] std::vector<Eigen::MatrixXd> dictionary_rows(const DictionaryLayout& layout,
+                                                           const RunSignals& signals, const Robot& robot,
+                                                           const Prediction& prediction);
+
+}  // namespace joulepath

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/prediction/dictionary.hpp"
+#include "model/kinematics.hpp"
+
+namespace joulepath {
+
+/// A hat function: 1 at `center`, 0 a `width` away.
+inline double hat(double x, double center, double width) {
+  return std::max(0.0, 1.0 - std::abs(x - center) / width);
+}
+
+/// Collects entries of the dictionary; either only their names (no signals) or their rows too.
+class DictionaryCollector {
+ public:
+  DictionaryCollector(const RunSignals* signals, const Robot* robot) : signals_(signals), robot_(robot) {}
+
+  /// A resisting torque of both wheels alike (and the left less the right, where `apart`).
+  template <class Function>
+  void friction(const std::string& family, bool apart, Function&& size) {
+    for (int sign : {1, -1}) {
+      if (sign < 0 && !apart) break;
+      entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+        for (Side side : kSides) {
+          const double speed = signals_->wheel_speed_rad_s[side][j];
+          const double direction = std::clamp(speed / 0.2, -1.0, 1.0);
+          const double torque_Nm = direction * size(j, side) * (side == Side::right ? sign : 1);
+          entry_rows(j, column(kCurrentLeft, side)) =
+              torque_Nm / robot_->motor[side].torque_per_ampere_Nm_A();
+        }
+      });
+    }
+  }
+  /// A torque on each wheel by itself, whichever way it turns.
+  template <class Function>
+  void torque(const std::string& family, Side side, Function&& size_Nm) {
+    entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      entry_rows(j, column(kCurrentLeft, side)) = size_Nm(j) / robot_->motor[side].torque_per_ampere_Nm_A();
+    });
+  }
+  /// A force along the heading.
+  template <class Function>
+  void force(const std::string& family, Function&& size_N) {
+    entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      for (Side side : kSides)
+        entry_rows(j, column(kCurrentLeft, side)) = 0.5 * robot_->geometry.wheel_radius_m[side] * size_N(j) /
+                                                    robot_->motor[side].torque_per_ampere_Nm_A();
+    });
+  }
+  /// A yaw moment.
+  template <class Function>
+  void moment(const std::string& family, Function&& size_Nm) {
+    entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      for (Side side : kSides)
+        entry_rows(j, column(kCurrentLeft, side)) = side_sign(side) * robot_->geometry.wheel_radius_m[side] /
+                                                    (2 * robot_->geometry.half_track_m) * size_Nm(j) /
+                                                    robot_->motor[side].torque_per_ampere_Nm_A();
+    });
+  }
+  /// A voltage in the winding's equation.
+  template <class Function>
+  void voltage(const std::string& family, bool apart, Function&& size_V) {
+    for (int sign : {1, -1}) {
+      if (sign < 0 && !apart) break;
+      entry(family, "voltage", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+        for (Side side : kSides)
+          entry_rows(j, column(kWindingLeft, side)) = size_V(j, side) * (side == Side::right ? sign : 1);
+      });
+    }
+  }
+  /// Power that the supply gives beside the motors'.
+  template <class Function>
+  void battery_power(const std::string& family, Function&& size_W) {
+    entry(family, "battery power",
+          [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) { entry_rows(j, kDriverPower) = size_W(j); });
+  }
+  /// A voltage in the battery's equation.
+  template <class Function>
+  void battery_voltage(const std::string& family, Function&& size_V) {
+    entry(family, "battery voltage",
+          [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) { entry_rows(j, kSupplyVoltage) = size_V(j); });
+  }
+  /// Speed along the heading and yaw rate that the wheels do not show.
+  template <class Along, class Yaw>
+  void motion(const std::string& family, Along&& along_m_s, Yaw&& yaw_rad_s) {
+    double x_m = 0, y_m = 0, heading_rad = 0;
+    entry(family, "motion", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      const double along = along_m_s(j), yaw = yaw_rad_s(j), period_s = signals_->period_s;
+      x_m += along * std::cos(signals_->heading_rad[j]) * period_s;
+      y_m += along * std::sin(signals_->heading_rad[j]) * period_s;
+      heading_rad += yaw * period_s;
+      entry_rows(j, kGyro) = yaw;
+      entry_rows(j, kHeading) = heading_rad;
+      entry_rows(j, kPositionX) = x_m;
+      entry_rows(j, kPositionY) = y_m;
+    });
+  }
+
+  std::vector<DictionaryEntry> entries{};
+  std::vector<Eigen::MatrixXd> rows{};
+
+ private:
+  static Eigen::Index column(Channel left, Side side) { return left + (side == Side::left ? 0 : 1); }
+
+  template <class Function>
+  void entry(const std::string& family, const std::string& channel, Function&& fill) {
+    entries.push_back({family, channel});
+    if (!signals_) return;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(signals_->size(), kChannelCount);
+    for (Eigen::Index j = 0; j < signals_->size(); ++j) fill(j, matrix);
+    for (Channel pose : {kHeading, kPositionX, kPositionY}) {
+      const double mean = matrix.rows() > 0 ? matrix.col(pose).mean() : 0.0;
+      matrix.col(pose).array() -= mean;
+    }
+    rows.push_back(std::move(matrix));
+  }
+
+  const RunSignals* signals_;
+  const Robot* robot_;
+};
+
+/// What the wheels' torques, a force or a moment may depend on; entries of the current rows. `s` and
+/// `robot` are null where only names are asked for.
+void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                   const Robot* robot);
+/// What a winding's voltage may depend on.
+void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                  const Prediction* p);
+/// What the supply's power and voltage may depend on.
+void add_supply(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                const Prediction* p);
+/// What the motion may show that the wheels do not.
+void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                const Robot* robot);
+
+}  // namespace joulepath

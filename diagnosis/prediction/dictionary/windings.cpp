@@ -1,0 +1,38 @@
+#include "diagnosis/prediction/dictionary/collector.hpp"
+
+namespace joulepath {
+
+void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
+                  const Prediction* p) {
+  const auto current = [&](Eigen::Index j, Side side) { return p->current_A[side][j]; };
+  const double day_s = std::max(1.0, layout.day_end_s - layout.day_begin_s);
+  out.voltage("constant", true, [&](Eigen::Index, Side) { return 1.0; });
+  out.voltage("current", true, current);
+  out.voltage("current", false,
+              [&](Eigen::Index j, Side side) { return current(j, side) * std::abs(current(j, side)); });
+  out.voltage("current", false, [&](Eigen::Index j, Side side) { return std::pow(current(j, side), 3); });
+  out.voltage("current", false,
+              [&](Eigen::Index j, Side side) { return std::clamp(current(j, side) / 0.03, -1.0, 1.0); });
+  for (double corner : {0.4, 0.6, 0.8})
+    out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
+      const double i = current(j, side), beyond = std::abs(i) - corner * layout.greatest_current_A;
+      return beyond > 0 ? std::copysign(beyond, i) : 0.0;
+    });
+  out.voltage("wheel speed", true, [&](Eigen::Index j, Side side) { return s->wheel_speed_rad_s[side][j]; });
+  out.voltage("wheel speed", false, [&](Eigen::Index j, Side side) {
+    return s->wheel_speed_rad_s[side][j] * std::abs(s->wheel_speed_rad_s[side][j]);
+  });
+  out.voltage("acceleration", false,
+              [&](Eigen::Index j, Side side) { return s->wheel_acceleration_rad_s2[side][j]; });
+  if (!layout.has_day) return;
+  for (int k = 1; k <= 2; ++k) {
+    const auto day = [&, k](Eigen::Index j) {
+      return std::pow((s->time_of_day_s[j] - layout.day_begin_s) / day_s, k);
+    };
+    out.voltage("time of day", k == 1, [&](Eigen::Index j, Side side) { return day(j) * current(j, side); });
+    out.voltage("time of day", k == 1,
+                [&](Eigen::Index j, Side side) { return day(j) * s->wheel_speed_rad_s[side][j]; });
+  }
+}
+
+}  // namespace joulepath

@@ -1,0 +1,45 @@
+#include "diagnosis/prediction/model_state.hpp"
+
+namespace joulepath {
+
+namespace {
+const std::string kDelay = "time_misalignment";
+}
+
+double channel_delay_s(const ModelState& state) {
+  for (const ActiveEffect& effect : state.effects)
+    if (effect.candidate.shape.name == kDelay) return effect.amplitude[0];
+  return 0.0;
+}
+
+ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisances, const ModelState& state) {
+  ModelPoint point{.robot = robot};
+  for (std::size_t k = 0; k < nuisances.size(); ++k) {
+    if (nuisances[k].key == kCreepNuisance)
+      point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * state.nuisance_fraction[k];
+    else if (nuisances[k].key == kStampNuisance)
+      continue;  // a column of the linear problem alone: too small to be read anew
+    else if (is_payload_nuisance(nuisances[k]))
+      point.payload_factor *= 1 + state.nuisance_fraction[k];
+    else
+      apply_nuisance(nuisances[k], state.nuisance_fraction[k], point.robot);
+  }
+  for (const ActiveEffect& effect : state.effects)
+    if (effect.candidate.shape.name != kDelay)
+      point.effects.push_back(setting_of(effect.candidate, effect.amplitude, robot));
+  return point;
+}
+
+std::vector<EffectSetting> settings_of(const Robot& robot, const ModelState& state) {
+  std::vector<EffectSetting> settings;
+  for (const ActiveEffect& effect : state.effects)
+    settings.push_back(setting_of(effect.candidate, effect.amplitude, robot));
+  return settings;
+}
+
+bool is_instrument(const std::string& effect) {
+  const EffectDescription* description = find_effect(effect);
+  return description && description->info.stage == Stage::instrument;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,12 @@
+#include "diagnosis/prediction/nuisance.hpp"
+
+namespace joulepath {
+
+std::vector<Nuisance> calibration_nuisances(const Robot& robot) {
+  std::vector<Nuisance> nuisances = nuisances_of(robot);
+  nuisances.push_back({kCreepNuisance, std::nullopt, 1.0});
+  nuisances.push_back({kStampNuisance, std::nullopt, 1.0});
+  return nuisances;
+}
+
+}  // namespace joulepath

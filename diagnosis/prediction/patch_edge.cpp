@@ -1,0 +1,53 @@
+#include "diagnosis/prediction/patch_edge.hpp"
+
+#include <array>
+#include <cmath>
+#include <variant>
+
+namespace joulepath {
+namespace {
+
+/// Middles of five equally likely parts of a normal kernel, in standard deviations.
+constexpr std::array<double, 5> kParts{-1.2816, -0.5244, 0.0, 0.5244, 1.2816};
+
+Site moved_along(Site site, double distance_m) {
+  site.pose.x_m += distance_m * std::cos(site.pose.heading_rad);
+  site.pose.y_m += distance_m * std::sin(site.pose.heading_rad);
+  return site;
+}
+
+bool edge_within(const Plant& plant, const Site& site, double reach_m) {
+  for (const Effect& effect : plant.effects) {
+    const auto* patch = std::get_if<FloorPatch>(&effect);
+    if (!patch) continue;
+    const auto inside = [&](double distance_m) {
+      const Pose pose = moved_along(site, distance_m).pose;
+      return patch->contains(pose.x_m, pose.y_m);
+    };
+    if (inside(kParts.front() * reach_m) != inside(kParts.back() * reach_m)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Sided<WheelState<double>> operating_point_over_kernel(const Plant& plant, const BodyMotion<double>& motion,
+                                                      const Site& site, double reach_m) {
+  if (!edge_within(plant, site, reach_m)) return operating_point(plant, motion, site);
+  Sided<WheelState<double>> mean{};
+  for (double part : kParts) {
+    const auto wheels = operating_point(plant, motion, moved_along(site, part * reach_m));
+    for (Side side : kSides) {
+      const double weight = 1.0 / kParts.size();
+      mean[side].speed_rad_s += weight * wheels[side].speed_rad_s;
+      mean[side].contact_force_N += weight * wheels[side].contact_force_N;
+      mean[side].torque_Nm += weight * wheels[side].torque_Nm;
+      mean[side].current_A += weight * wheels[side].current_A;
+      mean[side].voltage_V += weight * wheels[side].voltage_V;
+      mean[side].power_W += weight * wheels[side].power_W;
+    }
+  }
+  return mean;
+}
+
+}  // namespace joulepath

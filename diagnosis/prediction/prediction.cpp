@@ -1,0 +1,255 @@
+#include "diagnosis/prediction/prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/prediction/patch_edge.hpp"
+#include "model/operating_point.hpp"
+#include "model/power.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Speeds below which a direction is blurred: measured speeds are never exactly zero.
+constexpr double kStillSpeed_m_s = 0.02;
+constexpr double kStillYawRate_rad_s = 0.12;
+constexpr double kStillWheelSpeed_rad_s = 0.2;
+constexpr double kBlurredCurrent_A = 0.03;
+
+double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
+
+/// Instrument effects and those of the robot apart: the latter make a plant.
+struct SplitModel {
+  Plant plant{};
+  std::vector<Effect> instruments{};
+};
+
+SplitModel split_model(const ModelPoint& point) {
+  SplitModel split{.plant = make_plant(point.robot, point.effects)};
+  split.plant.payload_factor *= point.payload_factor;
+  split.plant.creep_m_s_N += point.contact_creep_m_s_N;
+  const auto collect = [&](const std::vector<EffectSetting>& settings) {
+    for (const EffectSetting& setting : settings) {
+      const EffectDescription* description = find_effect(setting.name);
+      if (description && description->info.stage == Stage::instrument)
+        split.instruments.push_back(make_effect(setting));
+    }
+  };
+  collect(point.robot.effects);
+  collect(point.effects);
+  return split;
+}
+
+Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry, const Twist<double>& twist,
+             const EffectMemory& memory) {
+  const double across_m_s = geometry.half_track_m * twist.yaw_rate_rad_s;
+  const double size_m_s = std::sqrt(twist.speed_m_s * twist.speed_m_s + across_m_s * across_m_s +
+                                    kStillSpeed_m_s * kStillSpeed_m_s);
+  const bool placed = signals.x_m.size() > 0;
+  return {.pose = {placed ? signals.x_m[j] : 0.0, placed ? signals.y_m[j] : 0.0, signals.heading_rad[j]},
+          .time_of_day_s = signals.time_of_day_s[j],
+          .payload_kg = signals.payload_kg[j],
+          .travel_direction = soft_sign(twist.speed_m_s, kStillSpeed_m_s),
+          .turn_direction = std::tanh(twist.yaw_rate_rad_s / kStillYawRate_rad_s),
+          .wheel_direction = {soft_sign(signals.wheel_speed_rad_s.left[j], kStillWheelSpeed_rad_s),
+                              soft_sign(signals.wheel_speed_rad_s.right[j], kStillWheelSpeed_rad_s)},
+          .course = across_m_s / size_m_s,
+          .memory = memory};
+}
+
+/// A driver's drop turns over with the current's sign. At standstill and near zero a predicted sign is a
+/// guess: there the measured current's counts, where there is one.
+void blur_driver_drop(double drop_V, const Eigen::VectorXd& measured_A, Eigen::Index j,
+                      WheelState<double>& wheel) {
+  if (drop_V == 0) return;
+  const double hard = wheel.current_A > 0 ? 1.0 : wheel.current_A < 0 ? -1.0 : 0.0;
+  const double sign_of_A = j < measured_A.size() ? measured_A[j] : wheel.current_A;
+  const double change_V = drop_V * (soft_sign(sign_of_A, kBlurredCurrent_A) - hard);
+  wheel.voltage_V += change_V;
+  wheel.power_W += change_V * wheel.current_A;
+}
+
+struct Resizer {
+  Eigen::Index n;
+  void operator()(Eigen::VectorXd& v) const { v = Eigen::VectorXd::Zero(n); }
+  void operator()(Sided<Eigen::VectorXd>& v) const { (*this)(v.left), (*this)(v.right); }
+};
+
+void distort(const std::vector<Effect>& instruments, const RunSignals& signals, Prediction& prediction) {
+  if (instruments.empty()) return;
+  Trajectory log;
+  const auto copy = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
+  log.time_s = copy(signals.time_s);
+  for (Side side : kSides) {
+    log.motor_current_A[side] = copy(prediction.current_A[side]);
+    log.motor_voltage_V[side] = copy(prediction.voltage_V[side]);
+  }
+  distort_log(instruments, log);
+  for (Side side : kSides)
+    for (Eigen::Index j = 0; j < signals.size(); ++j) {
+      prediction.current_A[side][j] = log.motor_current_A[side][static_cast<std::size_t>(j)];
+      prediction.voltage_V[side][j] = log.motor_voltage_V[side][static_cast<std::size_t>(j)];
+      prediction.power_W[side][j] = prediction.current_A[side][j] * prediction.voltage_V[side][j];
+    }
+}
+
+/// What the motors would take from the supply, going by voltages and currents as the log shows them.
+double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
+  return supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]});
+}
+
+/// Centers a column: a run's pose offset is free.
+void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }
+
+}  // namespace
+
+Prediction predict(const RunSignals& signals, const ModelPoint& point) {
+  const SplitModel split = split_model(point);
+  const Plant& plant = split.plant;
+  const Robot& robot = plant.robot;
+  const Geometry& geometry = robot.geometry;
+  Prediction out;
+  const Resizer resize{signals.size()};
+  resize(out.current_A), resize(out.voltage_V), resize(out.power_W);
+  resize(out.battery_power_W), resize(out.battery_voltage_V), resize(out.yaw_rate_rad_s);
+  resize(out.heading_rad), resize(out.x_m), resize(out.y_m);
+
+  EffectMemory memory{};
+  double heading_slip_rad = 0, x_slip_m = 0, y_slip_m = 0;
+  for (Eigen::Index j = 0; j < signals.size(); ++j) {
+    const Sided<double> wheel{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]};
+    const Sided<double> turn{signals.wheel_acceleration_rad_s2.left[j],
+                             signals.wheel_acceleration_rad_s2.right[j]};
+    Twist<double> twist = body_twist(geometry, wheel);
+    const Twist<double> rate = body_twist(geometry, turn);
+    const Site site = site_at(signals, j, geometry, twist, memory);
+    Sided<WheelState<double>> state;
+    for (int pass = 0; pass < (plant.creep_m_s_N != 0 ? 2 : 1); ++pass) {
+      if (pass == 1) {  // the contact points are slower than the wheels by creep times force
+        const Sided<double> slip_m_s{plant.creep_m_s_N * state.left.contact_force_N,
+                                     plant.creep_m_s_N * state.right.contact_force_N};
+        const double along_m_s = 0.5 * (slip_m_s.left + slip_m_s.right);
+        const double yaw_rad_s = (slip_m_s.right - slip_m_s.left) / (2 * geometry.half_track_m);
+        twist.speed_m_s -= along_m_s;
+        twist.yaw_rate_rad_s -= yaw_rad_s;
+        heading_slip_rad += yaw_rad_s * signals.period_s;
+        x_slip_m += along_m_s * std::cos(site.pose.heading_rad) * signals.period_s;
+        y_slip_m += along_m_s * std::sin(site.pose.heading_rad) * signals.period_s;
+      }
+      state = operating_point_over_kernel(
+          plant,
+          BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s},
+          site, twist.speed_m_s * signals.kernel_sigma_s);
+    }
+    for (Side side : kSides) {
+      blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
+      out.current_A[side][j] = state[side].current_A;
+      out.voltage_V[side][j] = state[side].voltage_V;
+      out.power_W[side][j] = state[side].power_W;
+    }
+    out.battery_power_W[j] =
+        supply_power_W(robot.power, {state.left.power_W, state.right.power_W}) + robot.power.standby_W;
+    if (signals.battery_current_A.size() > 0)
+      out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
+                                 robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
+    out.yaw_rate_rad_s[j] = twist.yaw_rate_rad_s;
+    const Sided<double>& r = geometry.wheel_radius_m;
+    const auto rolled = [&](const Sided<Eigen::VectorXd>& angle) {
+      return 0.5 * (r.left * angle.left[j] + r.right * angle.right[j]);
+    };
+    out.heading_rad[j] =
+        (r.right * signals.wheel_angle_rad.right[j] - r.left * signals.wheel_angle_rad.left[j]) /
+            (2 * geometry.half_track_m) -
+        heading_slip_rad;
+    out.x_m[j] = rolled(signals.wheel_along_x_rad) - x_slip_m;
+    out.y_m[j] = rolled(signals.wheel_along_y_rad) - y_slip_m;
+    const double across_m_s = geometry.half_track_m * twist.yaw_rate_rad_s;
+    advance_memory(plant,
+                   std::sqrt(twist.speed_m_s * twist.speed_m_s + across_m_s * across_m_s) * signals.period_s,
+                   site.course, memory);
+  }
+  distort(split.instruments, signals, out);
+  return out;
+}
+
+ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction) {
+  const Eigen::Index n = signals.size();
+  ResidualRows rows{.value = Eigen::MatrixXd::Zero(n, kChannelCount)};
+  rows.present.setConstant(n, kChannelCount, false);
+  const auto fill = [&](Channel channel, const Eigen::VectorXd& residual) {
+    rows.value.col(channel) = residual;
+    rows.present.col(channel).setConstant(true);
+  };
+  for (Side side : kSides) {
+    const int s = side == Side::left ? 0 : 1;
+    const auto current = static_cast<Channel>(kCurrentLeft + s),
+               winding = static_cast<Channel>(kWindingLeft + s);
+    const bool has_current = signals.motor_current_A[side].size() == n && n > 0;
+    const bool has_voltage = signals.motor_voltage_V[side].size() == n && n > 0;
+    const double resistance_ohm = point.robot.motor[side].resistance_ohm;
+    if (has_current) fill(current, signals.motor_current_A[side] - prediction.current_A[side]);
+    if (has_voltage) {
+      Eigen::VectorXd winding_V = signals.motor_voltage_V[side] - prediction.voltage_V[side];
+      if (has_current) winding_V -= resistance_ohm * rows.value.col(current);
+      fill(winding, winding_V);
+    }
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const bool turning = signals.turning[side][static_cast<std::size_t>(j)];
+      if (!turning) rows.present(j, current) = false;
+      const bool told = has_current ? signals.conducting[side][static_cast<std::size_t>(j)] : turning;
+      if (!told) rows.present(j, winding) = false;
+    }
+  }
+  const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
+                      signals.motor_current_A.left.size() == n;
+  if (signals.battery_power_W.size() == n && n > 0 && motors) {
+    Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Sided<double> measured_W;
+      for (Side side : kSides)
+        measured_W[side] = signals.motor_voltage_V[side][j] * signals.motor_current_A[side][j];
+      driver_W[j] -= supply_power_W(point.robot.power, measured_W) - logged_supply_W(point, prediction, j);
+    }
+    fill(kDriverPower, driver_W);
+  }
+  if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
+      std::isfinite(point.robot.battery.open_circuit_voltage_V))
+    fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V);
+  if (signals.gyro_yaw_rate_rad_s.size() == n && n > 0)
+    fill(kGyro, signals.gyro_yaw_rate_rad_s - prediction.yaw_rate_rad_s);
+  if (signals.heading_measured) fill(kHeading, signals.heading_rad - prediction.heading_rad);
+  if (signals.heading_measured && signals.x_m.size() == n && n > 0) {
+    fill(kPositionX, signals.x_m - prediction.x_m);
+    fill(kPositionY, signals.y_m - prediction.y_m);
+  }
+  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
+  return rows;
+}
+
+Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
+                               const Prediction& changed) {
+  const Eigen::Index n = base.heading_rad.size();
+  Eigen::MatrixXd rows(n, kChannelCount);
+  Eigen::VectorXd driver_W = changed.battery_power_W - base.battery_power_W;
+  for (Eigen::Index j = 0; j < n; ++j)
+    driver_W[j] -= logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
+  for (Side side : kSides) {
+    const int s = side == Side::left ? 0 : 1;
+    const Eigen::VectorXd current = changed.current_A[side] - base.current_A[side];
+    const Eigen::VectorXd voltage = changed.voltage_V[side] - base.voltage_V[side];
+    rows.col(kCurrentLeft + s) = current;
+    rows.col(kWindingLeft + s) = voltage;
+    if (signals.motor_current_A[side].size() == n)
+      rows.col(kWindingLeft + s) -= point.robot.motor[side].resistance_ohm * current;
+  }
+  rows.col(kDriverPower) = driver_W;
+  rows.col(kSupplyVoltage) = changed.battery_voltage_V - base.battery_voltage_V;
+  rows.col(kGyro) = changed.yaw_rate_rad_s - base.yaw_rate_rad_s;
+  rows.col(kHeading) = changed.heading_rad - base.heading_rad;
+  rows.col(kPositionX) = changed.x_m - base.x_m;
+  rows.col(kPositionY) = changed.y_m - base.y_m;
+  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.col(pose));
+  return rows;
+}
+
+}  // namespace joulepath

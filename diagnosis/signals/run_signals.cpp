@@ -1,0 +1,230 @@
+#include "diagnosis/signals/run_signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/numerics/smoothing.hpp"
+#include "model/assert.hpp"
+#include "model/kinematics.hpp"
+#include "model/motor.hpp"
+
+namespace joulepath {
+namespace {
+
+using Samples = std::vector<double>;
+
+/// The log on a uniform grid: as it is when its period is steady, else by interpolation.
+struct UniformLog {
+  Samples time_s{};
+  double period_s{};
+  bool resampled{};
+};
+
+UniformLog uniform_grid(const Samples& time_s) {
+  Samples steps(time_s.size() - 1);
+  for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  UniformLog grid{.time_s = time_s, .period_s = *middle, .resampled = false};
+  for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
+    grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > 0.05 * grid.period_s;
+  if (!grid.resampled) return grid;
+  grid.time_s.clear();
+  for (double t = time_s.front(); t <= time_s.back() + 1e-9; t += grid.period_s) grid.time_s.push_back(t);
+  return grid;
+}
+
+class Thinner {
+ public:
+  Thinner(const Trajectory& log, const SignalOptions& options) : log_(log), grid_(uniform_grid(log.time_s)) {
+    sigma_s_ = std::max(options.kernel_sigma_s, 1.2 * grid_.period_s);
+    kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
+    stride_ =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options.period_s / grid_.period_s)));
+    const std::size_t margin = kernel_.half_width();
+    for (std::size_t c = margin; c + margin < grid_.time_s.size(); c += stride_) centers_.push_back(c);
+  }
+
+  const Samples& grid_time_s() const { return grid_.time_s; }
+  double sigma_s() const { return sigma_s_; }
+  double grid_period_s() const { return grid_.period_s; }
+  double period_s() const { return grid_.period_s * static_cast<double>(stride_); }
+  const std::vector<std::size_t>& centers() const { return centers_; }
+  std::size_t half_width() const { return kernel_.half_width(); }
+
+  /// The channel on the uniform grid, read `delay_s` later.
+  Samples on_grid(const Samples& channel, double delay_s = 0) const {
+    if (channel.empty()) return {};
+    if (!grid_.resampled && delay_s == 0) return channel;
+    Samples at_s = grid_.time_s;
+    for (double& t : at_s) t += delay_s;
+    return interpolate(log_.time_s, channel, at_s);
+  }
+
+  Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
+  Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
+
+ private:
+  Eigen::VectorXd thin(const Samples& on_grid, const Samples& weights) const {
+    if (on_grid.empty()) return {};
+    Eigen::VectorXd result(static_cast<Eigen::Index>(centers_.size()));
+    for (std::size_t j = 0; j < centers_.size(); ++j)
+      result[static_cast<Eigen::Index>(j)] = convolve_at(on_grid, weights, centers_[j]);
+    return result;
+  }
+
+  const Trajectory& log_;
+  UniformLog grid_;
+  double sigma_s_{};
+  SmoothingKernel kernel_{};
+  std::size_t stride_{1};
+  std::vector<std::size_t> centers_{};
+};
+
+/// Means over a sample's period belong to its middle, poses to its end: the pose at the middle.
+Samples at_sample_middle(Samples pose) {
+  for (std::size_t i = pose.size(); i-- > 1;) pose[i] = 0.5 * (pose[i] + pose[i - 1]);
+  return pose;
+}
+
+/// Integral up to the middle of each sample of rates that are means over the sample.
+Samples integrate_to_middle(const Samples& rate, double period_s) {
+  Samples result(rate.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    result[i] = sum + 0.5 * rate[i] * period_s;
+    sum += rate[i] * period_s;
+  }
+  return result;
+}
+
+Sided<Samples> wheel_speeds(const Trajectory& log, const Robot& robot) {
+  if (!log.wheel_speed_rad_s.left.empty()) return log.wheel_speed_rad_s;
+  Sided<Samples> wheels;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const Sided<double> speed =
+        wheel_speeds_rad_s(robot.geometry, log.linear_speed_m_s[i], log.angular_speed_rad_s[i]);
+    wheels.left.push_back(speed.left);
+    wheels.right.push_back(speed.right);
+  }
+  return wheels;
+}
+
+Samples heading_from_wheels(const Sided<Samples>& wheels, const Robot& robot, double period_s) {
+  Samples rate(wheels.left.size());
+  for (std::size_t i = 0; i < rate.size(); ++i)
+    rate[i] = body_twist(robot.geometry, Sided<double>{wheels.left[i], wheels.right[i]}).yaw_rate_rad_s;
+  return integrate_to_middle(rate, period_s);
+}
+
+Samples product(const Samples& a, const Samples& b) {
+  if (a.empty() || b.empty()) return {};
+  Samples result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] * b[i];
+  return result;
+}
+
+/// What a measured current takes where no voltage is logged: (R i + Kv n q') i, by the robot file's winding.
+Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const Samples& current_A) {
+  Samples power(current_A.size());
+  for (std::size_t k = 0; k < power.size(); ++k)
+    power[k] = motor_voltage_V(motor, current_A[k], speed_rad_s[k]) * current_A[k];
+  return power;
+}
+
+void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
+                 const Samples& heading, double least_speed_rad_s) {
+  for (Side side : kSides) {
+    const Samples& speed = wheels[side];
+    signals.wheel_speed_rad_s[side] = thinner.smooth(speed);
+    signals.wheel_acceleration_rad_s2[side] = thinner.slope(speed);
+    signals.wheel_angle_rad[side] = thinner.smooth(integrate_to_middle(speed, thinner.grid_period_s()));
+    Samples along_x(speed.size()), along_y(speed.size());
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+      along_x[i] = speed[i] * std::cos(heading[i]);
+      along_y[i] = speed[i] * std::sin(heading[i]);
+    }
+    signals.wheel_along_x_rad[side] = thinner.smooth(integrate_to_middle(along_x, thinner.grid_period_s()));
+    signals.wheel_along_y_rad[side] = thinner.smooth(integrate_to_middle(along_y, thinner.grid_period_s()));
+    const Eigen::VectorXd& smooth = signals.wheel_speed_rad_s[side];
+    const double reach_s = static_cast<double>(thinner.half_width()) * thinner.grid_period_s();
+    signals.turning[side].resize(static_cast<std::size_t>(smooth.size()));
+    for (Eigen::Index j = 0; j < smooth.size(); ++j) {
+      const double change = reach_s * std::abs(signals.wheel_acceleration_rad_s2[side][j]);
+      signals.turning[side][static_cast<std::size_t>(j)] = std::abs(smooth[j]) - change > least_speed_rad_s;
+    }
+  }
+}
+
+constexpr double kDeadBand_A = 0.1;
+
+/// Currents below which a driver's dead band hides the winding: less than friction takes.
+double dead_band_A(const Motor& motor) {
+  return std::min(kDeadBand_A, 0.5 * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A());
+}
+
+std::vector<bool> beyond(const Eigen::VectorXd& values, double least) {
+  std::vector<bool> result(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j)
+    result[static_cast<std::size_t>(j)] = std::abs(values[j]) >= least;
+  return result;
+}
+
+}  // namespace
+
+bool has_usable_log(const Run& run) {
+  const bool wheels = !run.log.wheel_speed_rad_s.left.empty() && !run.log.wheel_speed_rad_s.right.empty();
+  const bool body = !run.log.linear_speed_m_s.empty() && !run.log.angular_speed_rad_s.empty();
+  return run.log.size() >= kLeastSamples && (wheels || body);
+}
+
+RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
+                            const SignalOptions& options) {
+  JOULEPATH_ASSERT(has_usable_log(run), "a run without wheel speeds cannot be smoothed");
+  const Trajectory& log = run.log;
+  const Thinner thinner(log, options);
+  RunSignals signals{.name = run.name,
+                     .run_index = run_index,
+                     .period_s = thinner.period_s(),
+                     .log_period_s = thinner.grid_period_s(),
+                     .kernel_sigma_s = thinner.sigma_s()};
+
+  const Sided<Samples> logged_wheels = wheel_speeds(log, robot);
+  const Sided<Samples> wheels{thinner.on_grid(logged_wheels.left), thinner.on_grid(logged_wheels.right)};
+  signals.heading_measured = !log.heading_rad.empty();
+  const Samples heading = signals.heading_measured
+                              ? at_sample_middle(thinner.on_grid(unwrap_angle(log.heading_rad)))
+                              : heading_from_wheels(wheels, robot, thinner.grid_period_s());
+  fill_wheels(signals, thinner, wheels, heading, options.least_turning_speed_rad_s);
+
+  signals.time_s = thinner.smooth(thinner.grid_time_s());
+  signals.time_of_day_known = run.start_time_s.has_value();
+  signals.time_of_day_s = signals.time_s.array() + run.start_time_s.value_or(0.0);
+  signals.payload_kg = thinner.smooth(thinner.on_grid(log.payload_kg));
+  if (signals.payload_kg.size() == 0) signals.payload_kg = Eigen::VectorXd::Zero(signals.size());
+  for (Side side : kSides) {
+    signals.motor_voltage_V[side] =
+        thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));
+    signals.motor_current_A[side] =
+        thinner.smooth(thinner.on_grid(log.motor_current_A[side], options.channel_delay_s));
+    signals.conducting[side] = beyond(signals.motor_current_A[side], dead_band_A(robot.motor[side]));
+    Samples power = log.motor_power_W[side];
+    if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
+    if (power.empty())
+      power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
+    signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, options.channel_delay_s));
+  }
+  signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));
+  signals.battery_current_A = thinner.smooth(thinner.on_grid(log.battery_current_A));
+  signals.battery_power_W =
+      thinner.smooth(thinner.on_grid(product(log.battery_voltage_V, log.battery_current_A)));
+  signals.gyro_yaw_rate_rad_s = thinner.smooth(thinner.on_grid(log.gyro_yaw_rate_rad_s));
+  signals.heading_rad = thinner.smooth(heading);
+  if (!log.position_x_m.empty() && !log.position_y_m.empty()) {
+    signals.x_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_x_m)));
+    signals.y_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_y_m)));
+  }
+  return signals;
+}
+
+}  // namespace joulepath

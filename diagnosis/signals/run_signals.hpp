@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/values/dataset.hpp"
+
+namespace joulepath {
+
+/// One run, smoothed and thinned out to what the diagnosis works on.
+///
+/// Every measured channel is convolved with the same Gaussian kernel before it is thinned out; a
+/// wheel's acceleration is its speed convolved with the kernel's derivative. A convolution commutes
+/// with everything that is linear in the equations of motion, so currents and accelerations match
+/// although neither is differentiated. Absent channels are empty.
+struct RunSignals {
+  std::string name{};
+  std::size_t run_index{};
+  double period_s{};        ///< between samples here, not in the log
+  double log_period_s{};    ///< of the log
+  double kernel_sigma_s{};  ///< of the smoothing
+  Eigen::VectorXd time_s{};
+  Eigen::VectorXd time_of_day_s{};
+  Eigen::VectorXd payload_kg{};
+  Sided<Eigen::VectorXd> wheel_speed_rad_s{};
+  Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
+  Sided<Eigen::VectorXd> wheel_angle_rad{};  ///< since the run's start
+  /// Integrals of a wheel's speed times cosine and sine of the measured heading: what the wheel adds
+  /// to x and y per meter of radius (twice that, as both wheels share the axle's midpoint).
+  Sided<Eigen::VectorXd> wheel_along_x_rad{};
+  Sided<Eigen::VectorXd> wheel_along_y_rad{};
+  Sided<Eigen::VectorXd> motor_voltage_V{};
+  Sided<Eigen::VectorXd> motor_current_A{};
+  Sided<Eigen::VectorXd> motor_power_W{};  ///< logged; or V i of each sample; or (R i + Kv n q') i
+  Eigen::VectorXd battery_power_W{};
+  Eigen::VectorXd battery_voltage_V{};
+  Eigen::VectorXd battery_current_A{};
+  Eigen::VectorXd gyro_yaw_rate_rad_s{};
+  Eigen::VectorXd x_m{};
+  Eigen::VectorXd y_m{};
+  Eigen::VectorXd heading_rad{};  ///< unwrapped; from wheels and gyro where the log has no heading
+  bool heading_measured{};
+  bool time_of_day_known{};
+  /// Samples of each wheel in which it turns one way throughout the kernel: there Coulomb friction
+  /// has a known direction.
+  Sided<std::vector<bool>> turning{};
+  /// Samples in which a measured current is beyond the driver's dead band: near zero the voltage may be
+  /// anything in it. Empty without currents.
+  Sided<std::vector<bool>> conducting{};
+
+  Eigen::Index size() const { return time_s.size(); }
+};
+
+struct SignalOptions {
+  double kernel_sigma_s{0.06};
+  double period_s{0.1};
+  double least_turning_speed_rad_s{0.5};
+  double channel_delay_s{};  ///< the electrical channels are read this much later
+};
+
+/// Smooths and thins out a log. Needs wheel speeds and at least `kLeastSamples` samples.
+RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
+                            const SignalOptions& options = {});
+
+/// A run that the diagnosis can work on sample by sample: wheel speeds, enough samples.
+bool has_usable_log(const Run& run);
+
+inline constexpr std::size_t kLeastSamples = 40;
+
+}  // namespace joulepath

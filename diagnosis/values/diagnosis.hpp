@@ -1,0 +1,118 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/values/dataset.hpp"
+#include "model/prescribed_motion.hpp"
+
+namespace joulepath {
+
+enum class Verdict { no_gap, explained, partly_explained, unexplained, ambiguous, too_little_data };
+constexpr const char* verdict_name(Verdict verdict) {
+  constexpr const char* names[] = {"no_gap",      "explained", "partly_explained",
+                                   "unexplained", "ambiguous", "too_little_data"};
+  return names[static_cast<int>(verdict)];
+}
+
+using Range95 = std::pair<double, double>;  ///< low and high end of a 95 % interval
+
+/// The energy gap of the validation runs: sum of |predicted - measured| over sum of |measured|.
+struct EnergyGap {
+  double before_percent{}, after_percent{};
+  double bias_before_percent{}, bias_after_percent{};
+  double noise_floor_percent{};
+  double before_J{}, after_J{};
+  double shrink_fraction{};
+  Range95 shrink_interval_95{};
+};
+
+/// Root mean squares over the validation runs.
+struct SignalGap {
+  double before_rms{}, after_rms{}, noise_floor_rms{};
+  bool present{};
+};
+
+struct GapReport {
+  EnergyGap energy{};
+  SignalGap current_A{}, voltage_V{}, position_m{}, heading_rad{}, battery_W{};
+  std::map<std::string, std::pair<double, double>> energy_by_phase_J{};  ///< before, after
+};
+
+struct WhereCell {
+  std::string axis{};
+  std::string value{};
+  double share_of_gap{};
+  double energy_J{};
+  Range95 interval_95{};
+  std::optional<double> bias_percent{};  ///< predicted less measured, of the cell's |measured| energy
+};
+
+struct FoundParameter {
+  std::string name{};
+  double value{};
+  Range95 interval_95{};
+};
+
+struct Cause {
+  EffectSetting effect{};
+  double probability{};
+  std::vector<std::string> indistinguishable_from{};
+  std::vector<FoundParameter> parameters{};
+  double energy_share{};
+  double shrink_fraction_alone{};
+};
+
+struct RankedEffect {
+  std::string effect{};
+  double probability{};
+};
+
+struct NextExperiment {
+  std::vector<std::string> separates{};
+  std::vector<PrescribedMotion> motions{};  ///< one after the other; empty = nothing to separate
+  double payload_kg{};
+  std::string why{};
+  double expected_evidence{};
+};
+
+/// All that `diagnose` found out.
+struct Diagnosis {
+  GapReport gap{};
+  std::vector<WhereCell> where{};
+  Verdict verdict{Verdict::too_little_data};
+  std::vector<Cause> causes{};
+  std::vector<RankedEffect> ranking{};
+  bool leftover_significant{};
+  double leftover_share{};
+  std::string leftover_description{};
+  NextExperiment next{};
+  double ceiling_shrink_fraction{};
+  std::string control_effect{};
+  double control_shrink_fraction{};
+  std::string pinned_combination{};
+  std::vector<std::string> artifacts{};
+  std::vector<std::string> missing_channels{};
+  std::vector<std::string> notes{};  ///< what the runs cannot show
+  std::size_t decision_missions{};   ///< planned with both models; filled by whoever can plan
+  double joules_lost_percent{};      ///< by planning with the nominal model
+  std::vector<std::string> validation_runs{};
+  std::string validation_method{};
+  std::optional<Robot> corrected_robot{};  ///< where a correction holds on held-out runs
+  std::vector<EffectSetting> corrected_instruments{};
+};
+
+struct DiagnoseOptions {
+  std::size_t bootstrap{400};
+  std::set<std::string> without{};  ///< effects taken out of the catalog
+};
+
+/// Where the gap lies, which effect of the catalog causes it, how far it shrinks with it. The same
+/// dataset gives the same answer to the last bit. Throws ConfigError where no run can be used at all.
+[[nodiscard]] Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options = {});
+
+}  // namespace joulepath

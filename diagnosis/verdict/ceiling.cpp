@@ -1,0 +1,107 @@
+#include "diagnosis/verdict/ceiling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/where/gap.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr std::size_t kFolds = 4;
+constexpr double kRidges[] = {0.0, 0.01, 0.03, 0.1, 0.3, 1.0};  ///< widths of the dictionary's prior
+
+/// The named effects (none where nothing is named) with the whole dictionary.
+std::vector<int> flexible_columns(const Examination& x) {
+  std::vector<int> columns;
+  if (!x.named.empty()) columns = x.id.explanations.front().columns;
+  const std::vector<int> dictionary = x.id.equations.columns_of(Column::Kind::dictionary);
+  columns.insert(columns.end(), dictionary.begin(), dictionary.end());
+  return columns;
+}
+
+Equations with_ridge(Equations equations, double width) {
+  for (int k : equations.columns_of(Column::Kind::dictionary)) equations.prior_sd[k] *= width;
+  return equations;
+}
+
+/// Loss of diagnosis runs under fits that they took no part in.
+double left_out_loss(const Equations& equations, const std::vector<int>& columns, double dispersion) {
+  double loss = 0;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    std::vector<std::size_t> fitted, judged;
+    for (std::size_t r = 0; r < equations.runs.size(); ++r)
+      (r % kFolds == fold ? judged : fitted).push_back(r);
+    const Eigen::VectorXd parameters = fit_parameters(equations, fitted, columns, dispersion);
+    for (std::size_t r : judged) loss += run_loss(equations.runs[r], parameters);
+  }
+  return loss;
+}
+
+/// Parameters of the flexible model, its ridge the one that left-out runs like best.
+Eigen::VectorXd flexible_parameters(const Identification& id, const std::vector<int>& columns) {
+  Equations best = with_ridge(id.equations, kRidges[0]);
+  double least = left_out_loss(best, columns, id.dispersion);
+  for (std::size_t k = 1; k < std::size(kRidges); ++k) {
+    Equations equations = with_ridge(id.equations, kRidges[k]);
+    const double loss = left_out_loss(equations, columns, id.dispersion);
+    if (loss < least) least = loss, best = std::move(equations);
+  }
+  return fit_parameters(best, every(best.runs.size()), columns, id.dispersion);
+}
+
+/// What the dictionary adds to a run's structured rows.
+Eigen::MatrixXd dictionary_part(const Identification& id, const DictionaryLayout& layout,
+                                const Eigen::VectorXd& parameters, const RunSignals& run, const Robot& robot,
+                                const Prediction& prediction) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(run.size(), kChannelCount);
+  const std::vector<Eigen::MatrixXd> entries = dictionary_rows(layout, run, robot, prediction);
+  for (int k : id.equations.columns_of(Column::Kind::dictionary))
+    sum += parameters[k] *
+           entries[static_cast<std::size_t>(id.equations.columns[static_cast<std::size_t>(k)].owner)];
+  return sum;
+}
+
+/// Predicted less measured energy (J) of a run, dictionary included.
+double flexible_gap_J(const RunSignals& run, const Robot& robot, const Prediction& p,
+                      const Eigen::MatrixXd& added) {
+  double gap_J = 0;
+  for (Side side : kSides) {
+    const Eigen::VectorXd measured_W = measured_power_W(run, side);
+    if (measured_W.size() == 0) continue;
+    const int s = side == Side::left ? 0 : 1;
+    const Eigen::VectorXd current_A = added.col(kCurrentLeft + s);
+    const Eigen::VectorXd voltage_V =
+        added.col(kWindingLeft + s) + robot.motor[side].resistance_ohm * current_A;
+    gap_J += run.period_s *
+             ((p.voltage_V[side] + voltage_V).dot(p.current_A[side] + current_A) - measured_W.sum());
+  }
+  return gap_J;
+}
+
+}  // namespace
+
+double ceiling_shrink_fraction(const Examination& x) {
+  const double before_J = x.report.gap.energy.before_J;
+  if (before_J <= 0) return 0.0;
+  const Identification& id = x.id;
+  const Eigen::VectorXd parameters = flexible_parameters(id, flexible_columns(x));
+  const ModelState state = adopt(id.equations, id.nuisances, id.state,
+                                 x.named.empty() ? Explanation{} : id.explanations.front(), parameters);
+  const ModelPoint point = x.point_of(state);
+  const DictionaryLayout layout = lay_out(id.signals, x.dataset.robot);
+  const std::vector<RunSignals> signals = read_signals(x.validation, channel_delay_s(state));
+  std::vector<double> gap_J(signals.size());
+  parallel_for(signals.size(), [&](std::size_t r) {
+    const Prediction p = predict(signals[r], point);
+    gap_J[r] = flexible_gap_J(signals[r], point.robot, p,
+                              dictionary_part(id, layout, parameters, signals[r], x.dataset.robot, p));
+  });
+  double after_J = 0;
+  for (double gap : gap_J) after_J += std::abs(gap);
+  return std::clamp(1 - after_J / before_J, std::max(0.0, x.report.gap.energy.shrink_fraction), 1.0);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,126 @@
+#include "diagnosis/verdict/names.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/evidence/groups.hpp"
+#include "diagnosis/evidence/materiality.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A further effect below both shares (of the energy, of the gain) is not named beside a greater one;
+/// how likely it is there all the same is anyone's guess.
+constexpr double kFormErrorEnergy = 0.02;
+constexpr double kFormErrorGain = 0.05;
+/// What the greater effects cannot draw is none of their forms.
+constexpr double kGhost = 0.4;
+constexpr double kFormErrorProbability = 0.3;
+constexpr double kLeastProbability = 0.15;
+/// Share of names said to be sure that were right on development cases, with many runs and with few
+/// (`./dev bench diagnosis_coverage`).
+constexpr double kSurest = 0.97;
+constexpr double kSurestOfFewRuns = 0.85;
+constexpr std::size_t kRanked = 12;
+
+/// How far a named effect may be the others' inexact form.
+double ghost_share_of(const Examination& x, const std::string& label) {
+  const Identification& id = x.id;
+  for (int c : id.explanations.front().candidates)
+    if (id.equations.candidates[static_cast<std::size_t>(c)].label() == label)
+      return ghost_share(id.problem, id.equations, id.explanations.front(), c);
+  return 1.0;
+}
+
+/// A further effect of the mechanics with little energy and little of the evidence.
+bool may_be_form_error(const Examination& x, std::size_t e) {
+  const ModelState& state = x.id.state;
+  if (state.effects.size() < 2 || is_instrument(state.effects[e].candidate.shape.name)) return false;
+  ModelState without = state;
+  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(e));
+  Impact impact = impact_between(x.id.signals, x.point_of(state), x.point_of(without));
+  impact.motor_power = impact.battery_power = 0;  // what is left shows outside the mechanics
+  if (materiality(impact) >= 1) return false;
+  const EnergyShare energy = energy_of_effect(x.id.signals, x.dataset.robot, x.id.nuisances, state, e);
+  if (energy.effect_J > kFormErrorEnergy * energy.total_J) return false;
+  const std::string label = state.effects[e].candidate.label();
+  return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kFormErrorGain;
+}
+
+/// Effects that the data cannot tell apart share their probability by what the data say, not by which
+/// size is usual.
+void share_probabilities(Examination& x) {
+  const Identification& id = x.id;
+  for (int c : id.explanations.front().candidates) {
+    const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
+    const std::vector<StandIn> others =
+        stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion);
+    double weight = 1, sum = x.probabilities[label];
+    for (const StandIn& other : others) {
+      x.stand_ins[label].push_back(other.label);
+      sum += x.probabilities[other.label];
+      weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
+    }
+    if (others.empty()) continue;
+    x.probabilities[label] = sum / weight;
+    for (const StandIn& other : others)
+      x.probabilities[other.label] = sum / weight * std::exp(-0.5 * kScoreFlattening * other.loss_more);
+  }
+}
+
+}  // namespace
+
+double gain_share_of(const Examination& x, const std::string& label) {
+  const Identification& id = x.id;
+  const Explanation& best = id.explanations.front();
+  std::vector<int> columns;
+  for (int c : best.candidates)
+    if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
+      for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
+  const double nothing = solve(id.problem, {}, id.dispersion).loss,
+               others = solve(id.problem, columns, id.dispersion).loss;
+  return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
+}
+
+double Examination::probability_of(const ActiveEffect& effect) const {
+  const auto found = probabilities.find(effect.candidate.label());
+  const double surest = diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
+  return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(surest, found->second);
+}
+
+void choose_names(Examination& x) {
+  x.probabilities = effect_probabilities(x.id.equations, x.id.explanations);
+  share_probabilities(x);
+  std::vector<std::string> doubted;
+  for (std::size_t e = 0; e < x.id.state.effects.size(); ++e) {
+    const std::string label = x.id.state.effects[e].candidate.label();
+    if (x.probabilities[label] < kLeastProbability && !x.stand_ins.contains(label) &&
+        x.id.state.effects.size() > 1)
+      continue;  // the other sets do without it
+    if (may_be_form_error(x, e))
+      doubted.push_back(label);
+    else
+      x.named.push_back(x.id.state.effects[e]);
+  }
+  if (x.named.empty()) {  // none is the greater one
+    x.named = x.id.state.effects;
+    return;
+  }
+  for (const std::string& label : doubted) {
+    x.probabilities[label] = std::min(x.probabilities[label], kFormErrorProbability);
+    x.report.notes.push_back(
+        label + " is not named: small beside a greater effect, it may stand for that one's form");
+  }
+}
+
+void rank_effects(Examination& x) {
+  std::vector<RankedEffect>& ranking = x.report.ranking;
+  for (const auto& [label, probability] : x.probabilities)
+    if (probability > 1e-4) ranking.push_back({label, probability});
+  std::stable_sort(ranking.begin(), ranking.end(), [](const RankedEffect& a, const RankedEffect& b) {
+    return a.probability > b.probability;
+  });
+  if (ranking.size() > kRanked) ranking.resize(kRanked);
+}
+
+}  // namespace joulepath

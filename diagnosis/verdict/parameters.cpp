@@ -1,0 +1,96 @@
+#include "diagnosis/verdict/parameters.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace joulepath {
+namespace {
+
+/// Share by which an inexact form moves a law's mean strength, whatever the runs say; on development cases.
+constexpr double kLawInexactness = 0.025;
+constexpr double kPatchEdge_m = 0.05;  ///< half a step of the scan for a floor patch
+
+/// Rows of the refit's covariance that belong to a parameter of an effect.
+std::vector<Eigen::Index> covariance_rows(const Refit& fitted, std::size_t effect, const std::string& name) {
+  std::vector<Eigen::Index> rows;
+  const std::vector<std::string> shapes = shape_parameters(fitted.state.effects[effect].candidate.shape.name);
+  for (std::size_t i = 0; i < fitted.columns.size(); ++i) {
+    const Column& column = fitted.equations.columns[static_cast<std::size_t>(fitted.columns[i])];
+    if (column.kind == Column::Kind::nuisance || column.owner != static_cast<int>(effect)) continue;
+    const bool shape =
+        column.kind == Column::Kind::shape && shapes[static_cast<std::size_t>(column.part)] == name;
+    const bool amplitude = column.kind == Column::Kind::amplitude &&
+                           std::find(shapes.begin(), shapes.end(), name) == shapes.end();
+    if (shape || amplitude) rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  return rows;
+}
+
+/// Standard deviation along a gradient over some parameters: the greater of what the noise model and the
+/// runs' differences say.
+double sd_along(const Refit& fitted, const std::vector<Eigen::Index>& rows,
+                const std::vector<double>& gradient) {
+  double greatest = 0;
+  for (const Eigen::MatrixXd* covariance : {&fitted.covariance, &fitted.run_covariance}) {
+    double variance = 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      for (std::size_t j = 0; j < gradient.size(); ++j)
+        variance += gradient[i] * gradient[j] * (*covariance)(rows[i], rows[j]);
+    greatest = std::max(greatest, variance);
+  }
+  return std::sqrt(greatest);
+}
+
+/// A slope's grade or direction, as a gradient over its components.
+std::vector<double> slope_gradient(const ActiveEffect& slope, bool direction) {
+  const double x = slope.amplitude[0], y = slope.amplitude[1], grade = std::max(1e-9, std::hypot(x, y));
+  if (direction) return {-y / (grade * grade), x / (grade * grade)};
+  return {x / grade, y / grade};
+}
+
+/// A law's strength averages over what its form leaves out; a constant or an instrument has no form.
+double form_sd(const ActiveEffect& active, const std::string& name) {
+  const EffectDescription& description = *find_effect(active.candidate.shape.name);
+  const Stage stage = description.info.stage;
+  if (stage == Stage::parameters || stage == Stage::instrument || stage == Stage::supply) return 0.0;
+  if (name != description.parameters.front().name) return 0.0;
+  double square = 0;
+  for (double amplitude : active.amplitude) square += amplitude * amplitude;
+  return kLawInexactness * std::sqrt(square);
+}
+
+/// Half a 95 % interval, for the number of runs that it rests on.
+double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
+  const ActiveEffect& active = fitted.state.effects[effect];
+  const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
+  const bool slope = active.candidate.shape.name == "floor_slope";
+  const std::vector<double> gradient =
+      slope ? slope_gradient(active, name != "grade") : std::vector<double>{1.0};
+  const double sd = rows.size() < gradient.size() ? kPatchEdge_m : sd_along(fitted, rows, gradient);
+  const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
+  return std::hypot(sd, form_sd(active, name)) *
+         boost::math::quantile(boost::math::students_t(degrees), 0.975);
+}
+
+}  // namespace
+
+std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t effect, const Robot& robot) {
+  const ActiveEffect& active = fitted.state.effects[effect];
+  const EffectSetting setting = setting_of(active.candidate, active.amplitude, robot);
+  std::vector<FoundParameter> found;
+  for (const ParameterDescription& parameter : find_effect(setting.name)->parameters) {
+    const auto at = setting.parameters.find(parameter.name);
+    if (at == setting.parameters.end()) continue;
+    const double half = half_interval(fitted, effect, parameter.name);
+    Range95 interval{at->second - half, at->second + half};
+    if (setting.name == "wheel_slip") {  // symmetric in the compliance
+      const double compliance = 1 / at->second;
+      interval = {1 / (compliance + half), 1 / std::max(1e-9, compliance - half)};
+    }
+    found.push_back({parameter.name, at->second, interval});
+  }
+  return found;
+}
+
+}  // namespace joulepath

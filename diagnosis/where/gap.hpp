@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/evidence/whitening.hpp"
+#include "diagnosis/prediction/model_state.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+
+namespace joulepath {
+
+/// A run's energy of both motors (J), measured and predicted for the motion that it measured.
+struct RunEnergy {
+  double measured_J{};
+  double predicted_J{};
+  double gap_J() const { return predicted_J - measured_J; }
+};
+
+/// Measured power of one wheel (W) per sample: voltage times current, or empty.
+[[nodiscard]] Eigen::VectorXd measured_power_W(const RunSignals& run, Side side);
+
+[[nodiscard]] std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals,
+                                                  const ModelPoint& point);
+
+/// sum |gap| over runs, J.
+[[nodiscard]] double absolute_gap_J(const std::vector<RunEnergy>& runs);
+
+/// sum |gap| / sum |measured|, percent.
+[[nodiscard]] double energy_gap_percent(const std::vector<RunEnergy>& runs);
+
+struct GapInput {
+  const std::vector<RunSignals>& before_signals;
+  const std::vector<RunSignals>& after_signals;  ///< read at the corrected model's delay
+  ModelPoint before{};
+  ModelPoint after{};
+  double noise_floor_percent{};
+  std::size_t bootstrap{};
+  /// Runs that the correction was fitted to, at its delay: where few were held out, they tell how much
+  /// the shrink differs from run to run.
+  const std::vector<RunSignals>& fitted_signals;
+};
+
+/// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run
+/// to run, together with the readings' noise: what no model of the robot can take away. The variances
+/// come from the fit of everything, so that a wrong explanation does not pass for scatter.
+[[nodiscard]] double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
+                                         const Eigen::VectorXd& run_variance, const NoiseModel& noise);
+
+/// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
+[[nodiscard]] GapReport measure_gap(const GapInput& input);
+
+/// Phase of a sample: standstill, accelerate, cruise, brake, turn, spin.
+[[nodiscard]] const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index sample);
+
+}  // namespace joulepath

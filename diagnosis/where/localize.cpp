@@ -1,0 +1,132 @@
+#include "diagnosis/where/localize.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "diagnosis/where/gap_ledger.hpp"
+#include "model/kinematics.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string speed_cell(double speed_m_s) {
+  const double low = 0.2 * std::floor(std::abs(speed_m_s) / 0.2 + 1e-9);
+  return range_text(low, low + 0.2, "m/s");
+}
+
+std::string heading_cell(double heading_rad) {
+  const double turn = heading_rad / (2 * std::numbers::pi);
+  const int octant = static_cast<int>(std::floor((turn - std::floor(turn)) * 8 + 0.5)) % 8;
+  return number_text(octant * 45.0, "deg");
+}
+
+std::string floor_cell(double x_m, double y_m) {
+  char text[160];
+  std::snprintf(text, sizeof text, "x %g to %g m, y %g to %g m", std::floor(x_m), std::floor(x_m) + 1,
+                std::floor(y_m), std::floor(y_m) + 1);
+  return text;
+}
+
+class Localizer {
+ public:
+  Localizer(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+            const ModelPoint& nominal, const NoiseModel& noise)
+      : nominal_(nominal), noise_(noise), ledger_(signals.size()) {
+    for (std::size_t r = 0; r < signals.size(); ++r) add_run(signals[r], others[r], r);
+  }
+  const GapLedger& ledger() const { return ledger_; }
+
+ private:
+  /// Mean size of the power's error that sensor noise makes; without a voltage channel V is that of the
+  /// measured current, whose error counts in it, too.
+  double noise_W(double voltage_V, double current_A, Side side, bool voltage_measured) const {
+    const std::size_t s = side == Side::left ? 0 : 1;
+    const double sd_A = noise_.channel_sd[kCurrentLeft + s], ohm = nominal_.robot.motor[side].resistance_ohm;
+    if (!voltage_measured)
+      return std::sqrt(2 / std::numbers::pi) * std::abs(voltage_V + ohm * current_A) * sd_A;
+    const double winding_V = noise_.channel_sd[kWindingLeft + s];
+    const double sd_V2 =
+        std::max(winding_V * winding_V - ohm * ohm * sd_A * sd_A, 0.1 * winding_V * winding_V);
+    return std::sqrt(2 / std::numbers::pi *
+                     (voltage_V * voltage_V * sd_A * sd_A + current_A * current_A * sd_V2));
+  }
+
+  void add_run(const RunSignals& run, const OtherPrediction& other, std::size_t r) {
+    const Prediction p = in_place_of(predict(run, nominal_), other);
+    const ResidualRows rows = residual_rows(run, nominal_, p);
+    for (Side side : kSides) {
+      const Eigen::VectorXd measured = measured_power_W(run, side);
+      for (Eigen::Index j = 0; j < measured.size(); ++j) {
+        const double gap_W = p.power_W[side][j] - measured[j];
+        const double noise =
+            noise_W(p.voltage_V[side][j], p.current_A[side][j], side, run.motor_voltage_V[side].size() > 0);
+        book_sample(run, r, side, j,
+                    {.gap_J = std::abs(gap_W) * run.period_s,
+                     .noise_J = noise * run.period_s,
+                     .signed_J = gap_W * run.period_s,
+                     .measured_J = std::abs(measured[j]) * run.period_s});
+        book_channels(rows, p, r, side, j, run.period_s);
+      }
+    }
+  }
+
+  void book_sample(const RunSignals& run, std::size_t r, Side side, Eigen::Index j, const GapAmount& amount) {
+    const Twist<double> twist =
+        body_twist(nominal_.robot.geometry,
+                   Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
+    ledger_.book("phase", phase_of(run, nominal_.robot.geometry, j), r, amount);
+    ledger_.book("wheel", side_name(side), r, amount);
+    ledger_.book("speed", speed_cell(twist.speed_m_s), r, amount);
+    ledger_.book("payload", number_text(run.payload_kg[j], "kg"), r, amount);
+    ledger_.book("run", run.name, r, amount);
+    const bool moving = std::abs(twist.speed_m_s) > 0.02;
+    ledger_.book("direction", !moving ? "in place" : twist.speed_m_s > 0 ? "forward" : "reverse", r, amount);
+    if (run.heading_measured) ledger_.book("heading", heading_cell(run.heading_rad[j]), r, amount);
+    if (run.x_m.size() > 0) ledger_.book("floor", floor_cell(run.x_m[j], run.y_m[j]), r, amount);
+    if (run.time_of_day_known) {
+      const double low = 60 * std::floor(run.time_of_day_s[j] / 60);
+      ledger_.book("time_of_day", range_text(low, low + 60, "s"), r, amount);
+    }
+  }
+
+  /// The same gap by the equation that it breaks, each in watts.
+  void book_channels(const ResidualRows& rows, const Prediction& p, std::size_t r, Side side, Eigen::Index j,
+                     double dt) {
+    const int s = side == Side::left ? 0 : 1;
+    const double volts = std::abs(p.voltage_V[side][j]), amperes = std::abs(p.current_A[side][j]);
+    const auto sd = [&](int c) {
+      return std::sqrt(2 / std::numbers::pi) * noise_.channel_sd[static_cast<std::size_t>(c)];
+    };
+    if (rows.present(j, kCurrentLeft + s))
+      ledger_.book("channel", "current", r,
+                   {.gap_J = volts * std::abs(rows.value(j, kCurrentLeft + s)) * dt,
+                    .noise_J = volts * sd(kCurrentLeft + s) * dt});
+    if (rows.present(j, kWindingLeft + s))
+      ledger_.book("channel", "voltage", r,
+                   {.gap_J = amperes * std::abs(rows.value(j, kWindingLeft + s)) * dt,
+                    .noise_J = amperes * sd(kWindingLeft + s) * dt});
+    if (s == 0 && rows.present(j, kDriverPower))
+      ledger_.book("channel", "battery", r,
+                   {.gap_J = std::abs(rows.value(j, kDriverPower)) * dt, .noise_J = sd(kDriverPower) * dt});
+  }
+
+  const ModelPoint& nominal_;
+  const NoiseModel& noise_;
+  GapLedger ledger_;
+};
+
+}  // namespace
+
+std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
+                                    const std::vector<OtherPrediction>& others, const ModelPoint& nominal,
+                                    const NoiseModel& noise, std::size_t bootstrap) {
+  return Localizer(signals, others, nominal, noise)
+      .ledger()
+      .cells({"phase", "wheel", "speed", "payload", "floor", "heading", "direction", "time_of_day", "channel",
+              "run"},
+             bootstrap);
+}
+
+}  // namespace joulepath

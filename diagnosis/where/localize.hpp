@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/evidence/whitening.hpp"
+#include "diagnosis/where/gap.hpp"
+#include "diagnosis/where/other_prediction.hpp"
+
+namespace joulepath {
+
+/// Where the power gap lies: per axis (phase, wheel, speed, payload, floor, heading, direction, time of
+/// day, run, channel) the share of the summed absolute gap, what noise alone would give taken off,
+/// with an interval over runs. Shares over one axis add up to 1. Runs that carry another simulator's
+/// prediction (`others`, one entry per run) are held against that one.
+[[nodiscard]] std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
+                                                  const std::vector<OtherPrediction>& others,
+                                                  const ModelPoint& nominal, const NoiseModel& noise,
+                                                  std::size_t bootstrap);
+
+}  // namespace joulepath

@@ -1,0 +1,184 @@
+#include "planner/accounts/battery_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/nuisance.hpp"
+#include "planner/legs/prescribed_leg.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kJoulesPerWh = 3600.0;
+constexpr double k95 = 1.959964;  ///< two-sided 95 % of a normal distribution
+constexpr double k95OneSided = 1.644854;
+constexpr double kStep_s = 0.02;
+
+struct LegLoss {
+  double loss_J{};
+  double lowest_voltage_V{kNoLimit};
+};
+
+void add_sample(LegLoss& loss, const Battery& battery, double power_W, double duration_s) {
+  const BatteryLoad load = battery_load(battery, power_W);
+  if (!load.possible) return;
+  loss.loss_J += load.loss_W * duration_s;
+  loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
+}
+
+/// Adds a drive of `duration_s` at the midpoints of steps of 20 ms; power_W(t) is at the terminals.
+template <class Power>
+void add_drive(LegLoss& loss, const Battery& battery, double duration_s, Power&& power_W) {
+  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / kStep_s));
+  const double step_s = steps ? duration_s / static_cast<double>(steps) : 0.0;
+  for (std::size_t k = 0; k < steps; ++k)
+    add_sample(loss, battery, power_W((static_cast<double>(k) + 0.5) * step_s), step_s);
+}
+
+LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
+  LegLoss loss;
+  const Battery& battery = plant.robot.battery;
+  for (const StretchPlan& stretch : leg.stretches) {
+    const PathMotion path = path_motion(stretch.request);
+    add_drive(loss, battery, stretch.profile.duration_s(), [&](double time_s) {
+      const ProfileState state = stretch.profile.at_time(time_s);
+      const BodyMotion<double> motion =
+          PathMotion::body_motion(path.rates(state.s), state.rate, state.acceleration);
+      return power_by_cause(plant, motion, path.site(state.s, state.time_s)).total_W();
+    });
+  }
+  if (leg.prescribed)
+    add_drive(loss, battery, leg.duration_s, [&](double time_s) {
+      const SampledState state = sampled_state(*leg.prescribed, leg.prescribed->time_s.front() + time_s);
+      const Site site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg, state.motion.speed_m_s,
+                                state.motion.yaw_rate_rad_s, time_s);
+      return power_by_cause(plant, state.motion, site).total_W();
+    });
+  if (leg.charger_W == 0) add_sample(loss, battery, plant.robot.power.standby_W, leg.dwell_s);
+  return loss;
+}
+
+/// Energies of the legs as planned when the robot differs from its file by one uncertain constant.
+std::vector<double> energies_with(const Plan& plan, const Plant& plant, const Nuisance& nuisance,
+                                  double fraction) {
+  Plant other = plant;
+  apply_nuisance(nuisance, fraction, other.robot);
+  if (is_payload_nuisance(nuisance)) other.payload_factor *= 1.0 + fraction;
+  std::vector<double> energies_J;
+  for (const LegPlan& leg : plan.legs) {
+    double energy_J = other.robot.power.standby_W * leg.dwell_s;
+    for (const StretchPlan& stretch : leg.stretches) {
+      ProfileRequest request = stretch.request;
+      request.plant = other;
+      energy_J += energy_by_cause(path_motion(request), stretch.profile).total_J();
+    }
+    if (leg.prescribed) energy_J += prescribed_energy(leg, other, 0.0, leg.duration_s).total_J();
+    energies_J.push_back(energy_J);
+  }
+  return energies_J;
+}
+
+/// State of charge as the legs go by.
+class Charge {
+ public:
+  Charge(const Battery& battery, double start_fraction)
+      : battery_(battery), capacity_J_(battery.capacity_Wh * kJoulesPerWh), start_(start_fraction) {}
+
+  double fraction() const { return start_ - net_J_ / capacity_J_; }
+  double peak_J() const { return peak_J_; }
+
+  void draw(double energy_J) {
+    net_J_ += energy_J;
+    peak_J_ = std::max(peak_J_, net_J_);
+  }
+  /// Takes up charge for a time, at most up to a fraction; returns what the terminals took.
+  double take_up(double power_W, double duration_s, double to_fraction) {
+    const double stored_W = power_W - battery_load(battery_, -power_W).loss_W;
+    const double stored_J =
+        std::clamp((to_fraction - fraction()) * capacity_J_, 0.0, std::max(0.0, stored_W * duration_s));
+    net_J_ -= stored_J;
+    return stored_W > 0 ? stored_J * power_W / stored_W : 0.0;
+  }
+
+ private:
+  const Battery& battery_;
+  double capacity_J_;
+  double start_;
+  double net_J_{};
+  double peak_J_{};
+};
+
+}  // namespace
+
+void find_energy_sigmas(Plan& plan, const Plant& plant) {
+  double variance_J2 = 0.0;
+  std::vector<double> leg_variance_J2(plan.legs.size(), 0.0);
+  for (const Nuisance& nuisance : nuisances_of(plant.robot)) {
+    const std::vector<double> more_J = energies_with(plan, plant, nuisance, nuisance.sigma);
+    const std::vector<double> less_J = energies_with(plan, plant, nuisance, -nuisance.sigma);
+    double sum_J = 0.0;
+    for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+      const double half_J = 0.5 * (more_J[k] - less_J[k]);
+      leg_variance_J2[k] += half_J * half_J;
+      sum_J += half_J;
+    }
+    variance_J2 += sum_J * sum_J;
+  }
+  plan.energy_sigma_J = std::sqrt(variance_J2);
+  for (std::size_t k = 0; k < plan.legs.size(); ++k)
+    plan.legs[k].energy_sigma_J = std::sqrt(leg_variance_J2[k]);
+}
+
+std::optional<BatteryAccount> battery_account(Plan& plan, const Plant& plant, double start_fraction,
+                                              double charge_to_fraction) {
+  find_energy_sigmas(plan, plant);
+  const Battery& battery = plant.robot.battery;
+  if (!std::isfinite(battery.capacity_Wh)) return std::nullopt;
+  const double standby_W = plant.robot.power.standby_W;
+  Charge charge(battery, start_fraction);
+  BatteryAccount account{.start_fraction = start_fraction,
+                         .lowest_voltage_V = battery.open_circuit_voltage_V};
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    LegPlan& leg = plan.legs[k];
+    const bool charges = leg.charger_W > 0;
+    const LegLoss loss = loss_on(leg, plant);
+    account.loss_J += loss.loss_J;
+    account.lowest_voltage_V = std::min(account.lowest_voltage_V, loss.lowest_voltage_V);
+    // The charger feeds the robot that stands at it.
+    charge.draw(leg.energy.total_J() + loss.loss_J - (charges ? standby_W * leg.dwell_s : 0.0));
+    if (!account.fails_on_leg && charge.fraction() < battery.reserve_fraction) account.fails_on_leg = k;
+    if (charges) leg.charged_J = charge.take_up(leg.charger_W - standby_W, leg.dwell_s, charge_to_fraction);
+    account.charged_J += leg.charged_J;
+    account.fraction_after_leg.push_back(charge.fraction());
+  }
+  const double half_width = k95 * plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
+  account.end_fraction = charge.fraction();
+  account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
+  account.required_capacity_Wh = (charge.peak_J() + k95OneSided * plan.energy_sigma_J) / kJoulesPerWh;
+  const double usable_Wh = battery.capacity_Wh * (1.0 - battery.reserve_fraction);
+  account.missions_per_charge =
+      account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : 0.0;
+  return account;
+}
+
+std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant) {
+  if (!plan.battery || !plan.battery->fails_on_leg) return std::nullopt;
+  const BatteryAccount& account = *plan.battery;
+  const double lowest =
+      *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
+  const double missing_fraction = plant.robot.battery.reserve_fraction - lowest;
+  const LegPlan& leg = plan.legs[*account.fails_on_leg];
+  const Pose pose =
+      leg.stretches.empty() ? Pose{} : piece_point(leg.stretches.front().request.piece, 0.0).pose;
+  return Infeasibility{.constraint = "battery_reserve",
+                       .x_m = pose.x_m,
+                       .y_m = pose.y_m,
+                       .amount = missing_fraction * plant.robot.battery.capacity_Wh,
+                       .unit = "Wh",
+                       .relaxation = {{"battery_fraction", account.start_fraction + missing_fraction}},
+                       .message = "the battery falls below its reserve on the way"};
+}
+
+}  // namespace joulepath

@@ -1,0 +1,151 @@
+#include "planner/accounts/plan_accounts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "planner/baselines/baseline.hpp"
+
+namespace joulepath {
+namespace {
+
+void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s) {
+  total.name = result.name;
+  if (!result.feasible) {
+    total.feasible = false;
+    if (total.reason.empty()) total.reason = result.reason;
+  }
+  total.energy_J += result.energy_J;
+  total.motion_energy_J += result.motion_energy_J;
+  total.duration_s += result.duration_s;
+  total.later_s += std::max(0.0, result.duration_s - planned_s);
+  total.settings.push_back(result.parameters);
+}
+
+void add_leg(BaselineTotal& total, const BaselineTotal& leg) {
+  total.name = leg.name;
+  if (!leg.feasible) {
+    total.feasible = false;
+    if (total.reason.empty()) total.reason = leg.reason;
+  }
+  total.energy_J += leg.energy_J;
+  total.motion_energy_J += leg.motion_energy_J;
+  total.duration_s += leg.duration_s;
+  total.later_s += leg.later_s;
+}
+
+void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
+  for (const StretchPlan& stretch : leg.stretches) {
+    plan.replay_energy_J += stretch.replay.energy_J;
+    plan.iterations += stretch.summary.iterations;
+    plan.local |= stretch.summary.local;
+    if (stretch.replay.worst_violation > plan.worst_violation) {
+      plan.worst_violation = stretch.replay.worst_violation;
+      plan.worst_limit = stretch.replay.limit;
+    }
+  }
+  if (leg.prescribed)
+    plan.replay_energy_J += leg.energy.total_J() - standby_W * leg.dwell_s;  // nothing to replay
+  plan.replay_energy_J += standby_W * leg.dwell_s;
+}
+
+/// Gap in joules, of energy and the price of its time (of a minimum-time stretch none: its value is a time).
+double gap_J(const StretchPlan& stretch) {
+  const double cost_J =
+      stretch.energy.total_J() + stretch.summary.price_of_time_W * stretch.profile.duration_s();
+  return 0.01 * stretch.summary.gap_percent * std::abs(cost_J);
+}
+
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s", value);
+  return text;
+}
+
+}  // namespace
+
+double saving_percent(double energy_J, double baseline_J) {
+  return baseline_J > 0 ? 100.0 * (baseline_J - energy_J) / baseline_J : 0.0;
+}
+
+std::vector<BaselineTotal> leg_baselines(const LegPlan& leg) {
+  BaselineTotal maximum{.name = "trapezoid_max_acceleration"};
+  BaselineTotal tuned{.name = "trapezoid_best_tuned"};
+  for (const StretchPlan& stretch : leg.stretches) {
+    const double planned_s = stretch.profile.duration_s();
+    add_stretch(maximum, soonest(trapezoid_max_acceleration, stretch.request, planned_s), planned_s);
+    add_stretch(tuned, soonest(trapezoid_best_tuned, stretch.request, planned_s), planned_s);
+  }
+  if (leg.prescribed)  // every way of planning drives it the same
+    for (BaselineTotal* baseline : {&maximum, &tuned}) {
+      baseline->energy_J = leg.energy.total_J();
+      baseline->motion_energy_J = leg.energy.motion_J();
+      baseline->duration_s = leg.duration_s;
+    }
+  return {maximum, tuned};
+}
+
+void sum_up(Plan& plan, const Plant& plant, double accuracy) {
+  const double standby_W = plant.robot.power.standby_W;
+  double gap_sum_J = 0.0;
+  for (LegPlan& leg : plan.legs) {
+    plan.energy += leg.energy;
+    plan.duration_s += leg.duration_s + leg.dwell_s;
+    plan.distance_m += leg.distance_m;
+    plan.status = std::max(plan.status, leg.status);
+    add_replay(plan, leg, standby_W);
+    for (const StretchPlan& stretch : leg.stretches) {
+      gap_sum_J += gap_J(stretch);
+      if (plan.solver.empty()) plan.solver = stretch.summary.solver;
+    }
+    for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
+      BaselineTotal& of_leg = leg.baselines[b];
+      if (!leg.prescribed) of_leg.energy_J += standby_W * leg.dwell_s;
+      if (plan.baselines.size() <= b) plan.baselines.emplace_back();
+      add_leg(plan.baselines[b], of_leg);
+      plan.baselines[b].duration_s += leg.dwell_s;
+    }
+  }
+  const double energy_J = plan.energy.total_J();
+  plan.gap_percent = energy_J > 0 ? 100.0 * gap_sum_J / energy_J : 0.0;
+  if (plan.worst_violation > 1e-6) {
+    plan.status = SolveStatus::failed;
+    plan.message = "the replay found " + plan.worst_limit + " exceeded";
+  } else if (plan.status == SolveStatus::optimal && plan.gap_percent > 100.0 * std::max(accuracy, 1e-3)) {
+    plan.status = SolveStatus::feasible;
+  } else if (plan.status == SolveStatus::feasible && !plan.local && plan.gap_percent <= 100.0 * accuracy) {
+    plan.status = SolveStatus::optimal;  // what one stretch lacks is little of the whole
+  }
+}
+
+Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, double amount_s, double s_m,
+                           const Pose& pose) {
+  const LegRequest& asked = mission.legs[leg];
+  const bool of_mission =
+      !asked.deadline_s || (mission.objective.deadline_s && leg + 1 == mission.legs.size() &&
+                            *mission.objective.deadline_s - asked.dwell_s < *asked.deadline_s);
+  const double deadline_s = of_mission ? *mission.objective.deadline_s : *asked.deadline_s;
+  return {.constraint = "deadline",
+          .s = s_m,
+          .x_m = pose.x_m,
+          .y_m = pose.y_m,
+          .amount = amount_s,
+          .unit = "s",
+          .relaxation = {{"deadline_s", deadline_s + amount_s}},
+          .message = "even the fastest drive arrives " + seconds(amount_s) + " after the deadline of " +
+                     seconds(deadline_s)};
+}
+
+Infeasibility too_short(double duration_s, double minimum_s, double s_m, const Pose& pose) {
+  return {.constraint = "duration",
+          .s = s_m,
+          .x_m = pose.x_m,
+          .y_m = pose.y_m,
+          .amount = minimum_s - duration_s,
+          .unit = "s",
+          .relaxation = {{"duration_s", minimum_s}},
+          .message = "the fastest drive takes " + seconds(minimum_s) + ", more than the duration of " +
+                     seconds(duration_s)};
+}
+
+}  // namespace joulepath

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "planner/values/plan.hpp"
+
+namespace joulepath {
+
+/// The two trapezoids over all stretches of a leg, at the plan's own times.
+[[nodiscard]] std::vector<BaselineTotal> leg_baselines(const LegPlan& leg);
+
+/// Totals over the legs: energy by cause, time, gap, replay, baselines, status.
+void sum_up(Plan& plan, const Plant& plant, double accuracy);
+
+/// Verdicts on times that cannot be met.
+[[nodiscard]] Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, double amount_s,
+                                         double s_m, const Pose& pose);
+[[nodiscard]] Infeasibility too_short(double duration_s, double minimum_s, double s_m, const Pose& pose);
+
+/// Saving (%) of `energy_J` against a baseline's; 0 where the baseline takes nothing.
+[[nodiscard]] double saving_percent(double energy_J, double baseline_J);
+
+}  // namespace joulepath

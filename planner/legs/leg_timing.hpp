@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "planner/values/profile_request.hpp"
+#include "planner/values/profile_result.hpp"
+
+namespace joulepath {
+
+/// A leg's stretches together: they share one price of time, because the seconds of one are as good as
+/// those of another. Solutions are kept, so that a search over prices asks each question once.
+class LegTiming {
+ public:
+  explicit LegTiming(std::vector<ProfileRequest> stretches) : stretches_(std::move(stretches)) {}
+
+  const std::vector<ProfileRequest>& stretches() const { return stretches_; }
+  std::vector<ProfileRequest>& stretches() { return stretches_; }
+
+  /// Driving time (s) at a price of a second on top of standby; an infinite price gives the minimum time.
+  double duration_s(double price_W, SolverChoice solver);
+
+  /// Profiles of all stretches at a price; a result without a profile says why.
+  const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
+
+  /// The time that the leg is given (s): at no price of a second or less no stretch takes longer.
+  void give(double duration_s) {
+    given_s_ = duration_s;
+    forget();
+  }
+
+  void forget() { solved_.clear(); }
+
+  /// Whether stretches are solved as drafts (ProfileRequest::draft).
+  void solve_roughly(bool roughly);
+
+ private:
+  std::vector<ProfileRequest> stretches_{};
+  double given_s_{kNoLimit};
+  std::map<std::pair<double, SolverChoice>, std::vector<ProfileResult>> solved_{};
+};
+
+}  // namespace joulepath

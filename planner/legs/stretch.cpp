@@ -1,0 +1,101 @@
+#include "planner/legs/stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/motion/limits_for_payload.hpp"
+#include "planner/motion/path_motion.hpp"
+
+namespace joulepath {
+namespace {
+
+void take_smaller(Limits& limits, const Limits& other) {
+  for (double Limits::*limit :
+       {&Limits::speed_m_s, &Limits::acceleration_m_s2, &Limits::deceleration_m_s2,
+        &Limits::lateral_acceleration_m_s2, &Limits::yaw_rate_rad_s, &Limits::yaw_acceleration_rad_s2,
+        &Limits::wheel_acceleration_rad_s2, &Limits::jerk_m_s3, &Limits::traction_coefficient,
+        &Limits::motor_power_W, &Limits::battery_power_W, &Limits::max_payload_kg})
+    limits.*limit = std::min(limits.*limit, other.*limit);
+}
+
+/// Intervals of a curve on which the mask sets one cap.
+void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_limit_m_s,
+                      std::vector<SpeedCap>& caps) {
+  const double step_m = 0.5 * mask.grid.resolution_m;
+  const auto count = static_cast<std::size_t>(std::ceil(curve.length_m() / step_m));
+  std::optional<double> cap_m_s;
+  double from_m = 0.0;
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double s_m = std::min(curve.length_m(), static_cast<double>(k) * step_m);
+    const Pose pose = curve.at(s_m).pose;
+    const std::optional<double> here = mask.speed_cap_m_s(pose.x_m, pose.y_m, speed_limit_m_s);
+    if (k > 0 && here == cap_m_s && k < count) continue;
+    if (k > 0 && cap_m_s) caps.push_back({std::max(0.0, from_m - step_m), s_m, *cap_m_s});
+    cap_m_s = here;
+    from_m = s_m;
+  }
+}
+
+}  // namespace
+
+Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
+  Limits limits = limits_for_payload(robot, payload.from_kg);
+  take_smaller(limits, limits_for_payload(robot, payload.to_kg));
+  const auto [least_kg, most_kg] = std::minmax(payload.from_kg, payload.to_kg);
+  for (const PayloadLimits& row : robot.limits_by_payload)
+    if (row.payload_kg > least_kg && row.payload_kg < most_kg)
+      take_smaller(limits, limits_for_payload(robot, row.payload_kg));
+  return limits;
+}
+
+std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,
+                                    const std::vector<SpeedZone>& zones, const std::optional<SpeedMask>& mask,
+                                    double speed_limit_m_s) {
+  std::vector<SpeedCap> caps;
+  if (is_turn(piece)) return caps;
+  const double length_m = piece_length(piece);
+  for (const SpeedZone& zone : zones) {
+    const double from_m = std::max(0.0, zone.from_m - offset_m);
+    const double to_m = std::min(length_m, zone.to_m - offset_m);
+    if (zone.leg == leg && from_m < to_m) caps.push_back({from_m, to_m, zone.speed_m_s});
+  }
+  if (mask) append_mask_caps(std::get<Curve>(piece), *mask, speed_limit_m_s, caps);
+  return caps;
+}
+
+std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg, std::size_t leg_index,
+                                         const MissionRequest& mission, const MissionWorld& world,
+                                         const Plant& plant, const PlanOptions& options) {
+  Limits limits = limits_along(world.robot, leg.payload);
+  if (leg.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *leg.yaw_rate_rad_s);
+  const double leg_length_m = path.distance_m();
+  const auto payload_at_kg = [&](double s_m) {
+    const double fraction = leg_length_m > 0 ? s_m / leg_length_m : 0.0;
+    return leg.payload.from_kg + fraction * (leg.payload.to_kg - leg.payload.from_kg);
+  };
+  std::vector<ProfileRequest> requests;
+  double offset_m = 0.0;
+  EffectMemory memory{};
+  for (const PathPiece& piece : path.pieces) {
+    const double length_m = is_turn(piece) ? 0.0 : piece_length(piece);
+    requests.push_back({.piece = piece,
+                        .plant = plant,
+                        .limits = limits,
+                        .payload = {payload_at_kg(offset_m), payload_at_kg(offset_m + length_m)},
+                        .speed_caps = speed_caps_on(piece, offset_m, leg_index, mission.speed_zones,
+                                                    world.speed_mask, limits.speed_m_s),
+                        .nodes = options.nodes,
+                        .accuracy = options.accuracy,
+                        .solver = options.solver,
+                        .memory = memory});
+    memory = path_motion(requests.back()).memory(piece_length(piece));
+    offset_m += length_m;
+  }
+  if (!requests.empty()) {
+    requests.front().start_rate = leg.start_speed_m_s;
+    requests.back().end_rate = leg.end_speed_m_s;
+  }
+  return requests;
+}
+
+}  // namespace joulepath

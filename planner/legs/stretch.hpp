@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/values/mission_request.hpp"
+#include "planner/values/profile_request.hpp"
+
+namespace joulepath {
+
+/// Which steps of choosing ways are taken; without one its simplest alternative stands.
+struct WaySteps {
+  bool corners{true};     ///< else stop, turn, go at every corner
+  bool routes{true};      ///< else the shortest route
+  bool stops{true};       ///< else the robot turns on the spot at stops
+  bool refinement{true};  ///< else corners stay as they were blended
+};
+
+struct PlanOptions {
+  SolverChoice solver{SolverChoice::ipopt};
+  std::size_t nodes{200};
+  double accuracy{1e-4};
+  unsigned seed{1};
+  WaySteps steps{};
+  bool baselines{true};  ///< compare with classic profiles; costs more than the plan itself
+};
+
+/// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.
+[[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
+
+/// The speed caps of a piece that begins `offset_m` into its leg: the mission's zones on that leg, and the
+/// speed mask read along the curve (at half of its resolution, so that no cell is stepped over).
+[[nodiscard]] std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,
+                                                  const std::vector<SpeedZone>& zones,
+                                                  const std::optional<SpeedMask>& mask,
+                                                  double speed_limit_m_s);
+
+/// What a leg asks of the profile optimizer, a request per piece; casters' memories run on from piece to
+/// piece. The time goals are left to the caller.
+[[nodiscard]] std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg,
+                                                       std::size_t leg_index, const MissionRequest& mission,
+                                                       const MissionWorld& world, const Plant& plant,
+                                                       const PlanOptions& options);
+
+}  // namespace joulepath

@@ -1,0 +1,116 @@
+#include "planner/mission/charging.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace joulepath {
+namespace {
+
+constexpr int kMostStops = 12;
+constexpr std::size_t kEarlierLegs = 2;
+constexpr double kDetourShare = 1.3;  ///< of the straight line, when the energy to a charger is guessed
+
+bool touches_reserve(const Plan& plan) {
+  return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";
+}
+
+bool between_stations(const LegRequest& leg) { return !leg.to.empty() && !leg.path && !leg.motion; }
+
+/// Energy that takes the robot from where a leg begins to a charger, by the failed plan's joules per metre.
+double energy_to_J(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
+                   const Station& charger) {
+  Pose here = mission.start.pose;
+  if (leg > 0) {
+    const Station& stop = mission.stations.at(mission.legs[leg - 1].to);
+    here = {stop.x_m, stop.y_m, 0.0};
+  }
+  double energy_J = 0.0, distance_m = 0.0;
+  for (const LegPlan& planned : failed.legs) {
+    energy_J += planned.energy.total_J() - plant.robot.power.standby_W * planned.dwell_s;
+    distance_m += planned.distance_m;
+  }
+  const double way_m = kDetourShare * std::hypot(charger.x_m - here.x_m, charger.y_m - here.y_m);
+  return distance_m > 0 ? energy_J / distance_m * way_m : 0.0;
+}
+
+/// How long the robot charges when it turns off to a charger before a leg; infinite at too weak a charger.
+double charging_s(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
+                  const Station& charger) {
+  const Battery& battery = plant.robot.battery;
+  const BatteryAccount& account = *failed.battery;
+  const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
+  const double missing_J = (mission.charging->to_fraction - before) * 3600.0 * battery.capacity_Wh +
+                           energy_to_J(mission, failed, plant, leg, charger);
+  const double power_W = charger.charger_W - plant.robot.power.standby_W;
+  const double stored_W = power_W - battery_load(battery, -power_W).loss_W;
+  return stored_W > 0 ? std::max(0.0, missing_J) / stored_W : kNoLimit;
+}
+
+MissionRequest with_stop(const MissionRequest& mission, std::size_t leg, const std::string& charger,
+                         double dwell_s) {
+  MissionRequest longer = mission;
+  const double payload_kg = mission.legs[leg].payload.from_kg;
+  longer.legs.insert(longer.legs.begin() + static_cast<std::ptrdiff_t>(leg),
+                     {.to = charger,
+                      .payload = {payload_kg, payload_kg},
+                      .dwell_s = dwell_s,
+                      .charges = true,
+                      .marks = mission.charging->marks});
+  for (SpeedZone& zone : longer.speed_zones)
+    if (zone.leg >= leg) ++zone.leg;
+  return longer;
+}
+
+/// Missions with one stop more, before the leg that fails or before one of the legs ahead of it.
+std::vector<MissionRequest> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
+                                               const Plant& plant) {
+  std::vector<MissionRequest> missions;
+  const std::size_t fails = *failed.battery->fails_on_leg;
+  for (std::size_t back = 0; back <= kEarlierLegs && back <= fails; ++back) {
+    const std::size_t leg = fails - back;
+    const bool stands_at_station = leg == 0 || between_stations(mission.legs[leg - 1]);
+    const bool charged_already = leg > 0 && mission.legs[leg - 1].charges;
+    if (!stands_at_station || charged_already || !between_stations(mission.legs[leg])) continue;
+    for (const std::string& charger : mission.charging->stations) {
+      const double dwell_s = charging_s(mission, failed, plant, leg, mission.stations.at(charger));
+      if (std::isfinite(dwell_s)) missions.push_back(with_stop(mission, leg, charger, dwell_s));
+    }
+  }
+  return missions;
+}
+
+struct Attempt {
+  MissionRequest mission{};
+  Plan plan{};
+};
+
+/// How good an attempt is: without a breach the less energy the better, else the later the breach.
+std::pair<bool, double> rank(const Plan& plan) {
+  return touches_reserve(plan) ? std::pair(false, static_cast<double>(*plan.battery->fails_on_leg))
+                               : std::pair(true, -plan.energy.total_J());
+}
+
+}  // namespace
+
+Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
+                       const PlanLegs& plan_legs) {
+  if (!mission.charging || !touches_reserve(failed)) return failed;
+  Attempt best{mission, failed};
+  for (int stop = 0; stop < kMostStops && touches_reserve(best.plan); ++stop) {
+    std::optional<Attempt> next;
+    for (MissionRequest& longer : with_one_more_stop(best.mission, best.plan, plant)) {
+      Plan plan = plan_legs(longer);
+      const bool drives = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
+      // The stop moves the legs on by one: only a breach beyond that is progress.
+      const bool further =
+          touches_reserve(plan) && *plan.battery->fails_on_leg > *best.plan.battery->fails_on_leg + 1;
+      if ((drives || further) && (!next || rank(plan) > rank(next->plan)))
+        next = Attempt{std::move(longer), std::move(plan)};
+    }
+    if (!next) return failed;
+    best = std::move(*next);
+  }
+  return touches_reserve(best.plan) ? failed : best.plan;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,119 @@
+#include "planner/mission/draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/config_error.hpp"
+#include "planner/legs/prescribed_leg.hpp"
+
+namespace joulepath {
+namespace {
+
+std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequest& leg, const Pose& pose) {
+  const double most_kg = std::max(leg.payload.from_kg, leg.payload.to_kg);
+  const double limit_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
+  if (most_kg <= limit_kg) return std::nullopt;
+  return Infeasibility{.constraint = "max_payload",
+                       .x_m = pose.x_m,
+                       .y_m = pose.y_m,
+                       .amount = most_kg - limit_kg,
+                       .unit = "kg",
+                       .relaxation = {{"max_payload_kg", most_kg}},
+                       .message = "the payload exceeds what the robot may carry"};
+}
+
+/// A leg that ends at speed goes on at that speed, without a dwell.
+void check_joint(const MissionRequest& mission, std::size_t k) {
+  const LegRequest& leg = mission.legs[k];
+  const auto refuse = [&](const std::string& key, const ItemMarks& marks, double found_m_s,
+                          const std::string& accepted) {
+    throw ConfigError({.mark = marks.at(key),
+                       .key = marks.key_path(key),
+                       .found = std::to_string(found_m_s) + " m/s",
+                       .accepted = accepted,
+                       .hint = {}});
+  };
+  if (leg.dwell_s > 0 && leg.end_speed_m_s > 0)
+    refuse("end_speed_m_s", leg.marks, leg.end_speed_m_s, "0 m/s before a dwell");
+  if (k + 1 == mission.legs.size()) return;
+  const LegRequest& next = mission.legs[k + 1];
+  if (leg.end_speed_m_s != next.start_speed_m_s)
+    refuse("start_speed_m_s", next.marks, next.start_speed_m_s,
+           "the speed at which the leg before ends, " + std::to_string(leg.end_speed_m_s) + " m/s");
+}
+
+}  // namespace
+
+Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
+  plan.status = SolveStatus::infeasible;
+  plan.message = reason.message;
+  plan.infeasibility = {.reason = std::move(reason), .leg = leg, .arc_length_m = arc_length_m};
+  return plan;
+}
+
+Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
+                 const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
+  Draft draft;
+  Pose here = mission.start.pose;
+  for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k) {
+    const LegRequest& leg = mission.legs[k];
+    check_joint(mission, k);
+    if (auto reason = payload_too_heavy(world.robot, leg, here)) {
+      plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
+      return draft;
+    }
+    if (leg.motion) {
+      draft.timing.emplace_back(std::vector<ProfileRequest>{});
+      draft.legs.push_back(prescribed_leg(leg, plant, here));
+      if (auto reason = broken_limit(draft.legs.back(), plant, limits_along(world.robot, leg.payload))) {
+        plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
+        return draft;
+      }
+      here = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      continue;
+    }
+    LegPath& way = paths[k];
+    if (way.infeasibility) {
+      const double s_m = way.infeasibility->s;
+      plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
+      return draft;
+    }
+    draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options));
+    draft.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
+                          .path_source = way.source,
+                          .payload = leg.payload,
+                          .parts = leg.parts,
+                          .dwell_s = leg.dwell_s,
+                          .distance_m = way.path.distance_m(),
+                          .turned_rad = way.path.turned_rad(),
+                          .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
+                          .alternatives = std::move(way.alternatives),
+                          .improvements = std::move(way.improvements)});
+    if (!way.path.pieces.empty()) here = way.path.end();
+  }
+  return draft;
+}
+
+bool check_each_leg(Draft& draft, double price_W, SolverChoice solver, Plan& plan) {
+  for (std::size_t leg = 0; leg < draft.timing.size(); ++leg) {
+    double offset_m = 0.0;
+    const auto& results = draft.timing[leg].solve(price_W, solver);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const PathPiece& piece = draft.timing[leg].stretches()[k].piece;
+      if (!results[k].profile) {
+        if (results[k].infeasibility) {
+          const double s_m = offset_m + (is_turn(piece) ? 0.0 : results[k].infeasibility->s);
+          plan = infeasible(std::move(plan), leg, s_m, *results[k].infeasibility);
+        } else {
+          plan.status = SolveStatus::failed;
+          plan.message = "leg " + std::to_string(leg) + ": " + results[k].summary.message;
+        }
+        return false;
+      }
+      if (!is_turn(piece)) offset_m += piece_length(piece);
+    }
+  }
+  return true;
+}
+
+}  // namespace joulepath

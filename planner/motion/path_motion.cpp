@@ -1,0 +1,88 @@
+#include "planner/motion/path_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/kinematics.hpp"
+
+namespace joulepath {
+namespace {
+
+bool remembers(const Plant& plant) {
+  for (const Effect& effect : plant.effects)
+    if (std::visit(
+            [](const auto& e) {
+              return requires { e.memory_rate_per_m(0.0, 0.0); };
+            },
+            effect))
+      return true;
+  return false;
+}
+
+constexpr std::size_t kMemoryCells = 2000;
+
+}  // namespace
+
+PathMotion::PathMotion(const PathPiece& piece, const Plant& plant, PayloadAlongPath payload,
+                       double time_of_day_start_s, const EffectMemory& memory)
+    : piece_(&piece),
+      plant_(&plant),
+      payload_(payload),
+      time_of_day_start_s_(time_of_day_start_s),
+      length_(piece_length(piece)) {
+  if (remembers(plant)) tabulate_memory(memory);
+}
+
+double PathMotion::payload_kg(double s) const {
+  if (length_ <= 0 || payload_.from_kg == payload_.to_kg) return payload_.from_kg;
+  return payload_.from_kg + (payload_.to_kg - payload_.from_kg) * std::clamp(s / length_, 0.0, 1.0);
+}
+
+PathRates PathMotion::rates(double s) const {
+  if (is_turn(*piece_)) return {0.0, static_cast<double>(turn_sign(*piece_)), 0.0};
+  const PathPoint point = piece_point(*piece_, s);
+  return {static_cast<double>(travel_sign(*piece_)), point.curvature_per_m, point.curvature_slope_per_m2};
+}
+
+PathMotion::Place PathMotion::place(double s, double time_s) const {
+  const PathPoint point = piece_point(*piece_, s);
+  Place place;
+  place.rates = is_turn(*piece_) ? PathRates{0.0, static_cast<double>(turn_sign(*piece_)), 0.0}
+                                 : PathRates{static_cast<double>(travel_sign(*piece_)), point.curvature_per_m,
+                                             point.curvature_slope_per_m2};
+  place.site = site_of(plant_->robot.geometry, point.pose, payload_kg(s), place.rates.along, place.rates.turn,
+                       time_of_day_start_s_ + time_s);
+  if (!memory_.empty()) place.site.memory = memory(s);
+  return place;
+}
+
+EffectMemory PathMotion::memory(double s) const {
+  if (memory_.empty()) return {};
+  const double cell = std::clamp(s / memory_step_, 0.0, static_cast<double>(memory_.size() - 1));
+  const auto index = std::min(static_cast<std::size_t>(cell), memory_.size() - 2);
+  const double fraction = cell - static_cast<double>(index);
+  EffectMemory result{};
+  for (std::size_t i = 0; i < kMaxMemories; ++i)
+    result[i] = (1 - fraction) * memory_[index][i] + fraction * memory_[index + 1][i];
+  return result;
+}
+
+void PathMotion::tabulate_memory(const EffectMemory& start) {
+  memory_step_ = length_ / static_cast<double>(kMemoryCells);
+  if (!(memory_step_ > 0)) return;
+  const Geometry& geometry = plant_->robot.geometry;
+  const double distance_m = memory_step_ * (is_turn(*piece_) ? geometry.half_track_m : 1.0);
+  memory_.assign(1, start);
+  for (std::size_t i = 0; i < kMemoryCells; ++i) {
+    const PathRates middle = rates((static_cast<double>(i) + 0.5) * memory_step_);
+    EffectMemory next = memory_.back();
+    advance_memory(*plant_, distance_m, course_of(geometry, middle.along, middle.turn), next);
+    memory_.push_back(next);
+  }
+}
+
+PathMotion path_motion(const ProfileRequest& request) {
+  return PathMotion(request.piece, request.plant, request.payload, request.time_of_day_s, request.memory);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,96 @@
+#include "planner/motion/replay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+#include "model/operating_point.hpp"
+#include "model/power.hpp"
+#include "planner/motion/limit_check.hpp"
+#include "planner/motion/path_motion.hpp"
+
+namespace joulepath {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+using State = std::array<double, 3>;  // position, rate, energy
+
+double supply_at(const PathMotion& motion, const ProfileState& state) {
+  const PathMotion::Place place = motion.place(state.s, state.time_s);
+  const Sided<WheelState<double>> wheels = operating_point(
+      motion.plant(), PathMotion::body_motion(place.rates, state.rate, state.acceleration), place.site);
+  const PowerSupply& supply = motion.plant().robot.power;
+  return supply_power_W(supply, {wheels.left.power_W, wheels.right.power_W}) + supply.standby_W;
+}
+
+struct Replayer {
+  const ProfileRequest& request;
+  PathMotion motion;
+  ReplayResult result{};
+
+  void check(const ProfileState& state, double jerk) {
+    for_each_limit_use(motion, request.limits, request.speed_caps, state, jerk,
+                       [&](std::string_view name, double ratio) {
+                         if (ratio - 1 <= result.worst_violation) return;
+                         result.worst_violation = ratio - 1;
+                         result.limit = name;
+                         result.s = state.s;
+                       });
+  }
+
+  /// Drives through one segment, in which the acceleration is a smooth function of time.
+  void drive(const Profile& profile, std::size_t k, State& state) {
+    constexpr int kChecks = 8;
+    const double start_s = profile.time_s[k], duration_s = profile.time_s[k + 1] - start_s;
+    if (!(duration_s > 0)) return;
+    const auto acceleration = [&](double t) {
+      return profile.acceleration[k] + profile.jerk[k] * (t - start_s);
+    };
+    const auto system = [&](const State& x, State& dx, double t) {
+      const double a = acceleration(t);
+      dx = {x[1], a, supply_at(motion, {t, x[0], std::max(0.0, x[1]), a})};
+    };
+    auto stepper = odeint::make_controlled(1e-10, 1e-8, odeint::runge_kutta_dopri5<State>());
+    // At a segment's ends the path may change its law: look from the inside.
+    const double edge = 1e-7 * (profile.s[k + 1] - profile.s[k]);
+    const auto inside = [&](double t, double shift) {
+      check({t, state[0] + shift, std::max(0.0, state[1]), acceleration(t)}, profile.jerk[k]);
+    };
+    inside(start_s, edge);
+    for (int i = 0; i < kChecks; ++i) {
+      const double from_s = start_s + duration_s * i / kChecks,
+                   to_s = start_s + duration_s * (i + 1) / kChecks;
+      odeint::integrate_adaptive(stepper, system, state, from_s, to_s, duration_s / kChecks);
+      inside(to_s, i + 1 == kChecks ? -edge : 0.0);
+    }
+  }
+};
+
+}  // namespace
+
+ReplayResult replay(const ProfileRequest& request, const Profile& profile) {
+  Replayer replayer{request, path_motion(request)};
+  const double standby_W = request.plant.robot.power.standby_W;
+  State state{profile.s.front(), profile.rate.front(), 0.0};
+  for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) replayer.drive(profile, k, state);
+  ReplayResult& result = replayer.result;
+  result.duration_s = profile.duration_s();
+  result.energy_J = state[2] + standby_W * profile.wait_s;
+  result.motion_energy_J = result.energy_J - standby_W * result.duration_s;
+  result.end_s = state[0];
+  double jump_s = 0;
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
+      acceleration_jumps(profile, jump_s)) {
+    result.worst_violation = kNoLimit;
+    result.limit = "jerk";
+    result.s = jump_s;
+  }
+  const Pose pose = piece_point(request.piece, result.s).pose;
+  result.x_m = pose.x_m;
+  result.y_m = pose.y_m;
+  return result;
+}
+
+}  // namespace joulepath

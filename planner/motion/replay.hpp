@@ -1,0 +1,13 @@
+#pragma once
+
+#include "planner/values/profile.hpp"
+#include "planner/values/profile_request.hpp"
+#include "planner/values/replay_result.hpp"
+
+namespace joulepath {
+
+/// Drives the profile's acceleration through another integrator (Dormand-Prince of order 5 in time, on
+/// position, speed and energy, with the exact curvature) and checks every limit densely between nodes.
+[[nodiscard]] ReplayResult replay(const ProfileRequest& request, const Profile& profile);
+
+}  // namespace joulepath

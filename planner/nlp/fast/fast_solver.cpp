@@ -1,0 +1,163 @@
+#include "planner/nlp/fast/fast_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "planner/nlp/fast/coarse_problem.hpp"
+#include "planner/nlp/fast/newton_step.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+constexpr double kDualWeight = 1e-3;
+
+/// Starts (see FastStart). Where the first gap is smaller, the first steps are short, and more iterations go
+/// by than it saves.
+constexpr double kColdGap = 0.3, kColdRoom = 1e-6;
+/// From this many segments the start is solved for on a coarser grid, or iterations grow with the grid.
+constexpr std::size_t kContinuedFrom = 800, kMerged = 8;
+constexpr double kCoarseTolerance = 1e-2, kWarmGap = 1e-2, kWarmRoom = 1e-3;
+constexpr int kCoarseIterations = 30;
+
+class FastSolver {
+ public:
+  FastSolver(const Problem& problem, const FastStart& start)
+      : p_(problem),
+        model_(problem),
+        state_(starting_state(model_, start)),
+        newton_(model_, state_),
+        dual_residual_(problem.unknown_count()) {}
+
+  Solution solve(const FastOptions& options) {
+    tolerance_ = options.tolerance;
+    Solution solution;
+    int& i = solution.iterations;
+    for (; i < options.max_iterations; ++i) {
+      measure();
+      if (!std::isfinite(error_)) break;
+      if (error_ <= options.tolerance) {
+        solution.converged = true;
+        break;
+      }
+      if (!iterate()) break;
+    }
+    if (!solution.converged)
+      solution.message = i >= options.max_iterations ? "no convergence within its iterations" : "no descent";
+    fill(solution);
+    return solution;
+  }
+
+ private:
+  /// Residuals of the optimality conditions at the current point, relative to the objective.
+  void measure() {
+    double gap = 0;
+    pairs_ = 0;
+    state_.for_each_pair([&](const Pair& pair) {
+      gap += pair.s * pair.y;
+      ++pairs_;
+    });
+    mu_ = pairs_ > 0 ? gap / static_cast<double>(pairs_) : 0.0;
+    double primal = 0;
+    for (RowSide& side : state_.sides) {
+      side.residual = side.sign * (side.bound - model_.row(side.row).value) - side.pair.s;
+      primal += std::abs(side.residual) * side.pair.y;
+    }
+    total_ = model_.objective();
+    double dual_z = 0;
+    for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
+      Recovery& r = state_.recoveries[i];
+      const double E = model_.jets(i / p_.channels).energy_J[i % p_.channels].value;
+      r.residual = E + r.z.s - r.sum.s;
+      primal += std::abs(r.residual);
+      total_ += p_.recovery_weight * r.z.s;
+      dual_z += std::abs(p_.recovery_weight - r.z.y - r.sum.y) * r.z.s;
+    }
+    const double size = std::max(1e-9, std::abs(total_));
+    // A gradient's error counts in second order; it stops falling where slacks reach rounding.
+    error_ = std::max({gap / size, kDualWeight * dual_error() / size, dual_z / size, primal / size});
+    if (!state_.has_duration()) return;
+    state_.time_residual = p_.duration_s - model_.duration_s() - (state_.has_budget() ? state_.time.s : 0.0);
+    error_ = std::max(error_, std::abs(state_.time_residual) / p_.duration_s);
+  }
+
+  /// Gradient of the Lagrangian, times b.
+  double dual_error() {
+    std::fill(dual_residual_.begin(), dual_residual_.end(), 0.0);
+    newton_.lagrangian_gradient(dual_residual_);
+    double error = 0;
+    for (std::size_t k = 0; k < dual_residual_.size(); ++k)
+      error += std::abs(dual_residual_[k] - state_.low[k].y + state_.high[k].y) * state_.b[k + 1];
+    return error;
+  }
+
+  /// Mehrotra's predictor and corrector; false where no step is left.
+  bool iterate() {
+    if (!newton_.factor()) return false;
+    state_.for_each_pair([](Pair& pair) { pair.corrected = 0; });
+    const StepSizes affine = newton_.solve();
+    double after = 0;
+    state_.for_each_pair([&](const Pair& pair) {
+      after += (pair.s + affine.primal * pair.ds) * (pair.y + affine.dual * pair.dy);
+    });
+    const double ratio = pairs_ > 0 ? after / static_cast<double>(pairs_) / mu_ : 0.0;
+    const double least =
+        0.1 * tolerance_ * std::max(1e-9, std::abs(total_)) / static_cast<double>(pairs_ + 1);
+    const double target = std::max(least, mu_ * std::max(1e-4, ratio * ratio));
+    const double trust = std::min(affine.primal, affine.dual);
+    state_.for_each_pair([&](Pair& pair) {
+      const double second = trust * trust * pair.ds * pair.dy, most = 10 * target + pair.s * pair.y;
+      pair.corrected = target - std::clamp(second, -most, most);
+    });
+    const StepSizes sizes = newton_.solve();
+    newton_.take(sizes);
+    model_.evaluate(state_.b);
+    return sizes.primal > 1e-8;
+  }
+
+  void fill(Solution& solution) const {
+    solution.b = state_.b;
+    solution.objective = total_;
+    solution.price_W = state_.multiplier_of_time();
+    solution.row_multiplier.assign(p_.rows.size(), 0.0);
+    for (const RowSide& side : state_.sides) solution.row_multiplier[side.row] += side.sign * side.pair.y;
+    for (const Recovery& recovery : state_.recoveries) {
+      solution.z.push_back(recovery.z.s);
+      solution.recovery_multiplier.push_back(recovery.sum.y);
+    }
+  }
+
+  const Problem& p_;
+  FastModel model_;
+  FastState state_;
+  NewtonStep newton_;
+  std::vector<double> dual_residual_;
+  std::size_t pairs_{};
+  double total_{};  ///< objective, recovery included
+  double mu_{}, error_{}, tolerance_{};
+};
+
+/// A rough optimum on fewer nodes, as a start for all of them: nothing where even that is not found.
+std::optional<std::vector<double>> start_from_coarse(const Problem& problem,
+                                                     const std::vector<double>& b_guess) {
+  const CoarseProblem coarse = coarsen(problem, kMerged);
+  const Solution near = solve_fast(coarse.problem, coarse.restricted(b_guess),
+                                   {.tolerance = kCoarseTolerance, .max_iterations = kCoarseIterations});
+  if (!near.converged) return std::nullopt;
+  return coarse.prolonged(near.b, problem);
+}
+
+}  // namespace
+
+Solution solve_fast(const Problem& problem, const std::vector<double>& b_guess, const FastOptions& options) {
+  if (problem.segment_count() >= kContinuedFrom) {
+    const std::optional<std::vector<double>> near = start_from_coarse(problem, b_guess);
+    if (near) {
+      Solution solution = FastSolver(problem, {*near, kWarmGap, kWarmRoom}).solve(options);
+      if (solution.converged) return solution;
+    }
+  }
+  return FastSolver(problem, {b_guess, kColdGap, kColdRoom}).solve(options);
+}
+
+}  // namespace joulepath::nlp

@@ -1,0 +1,227 @@
+#include "planner/nlp/fast/newton_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace joulepath::nlp {
+namespace {
+
+constexpr double kToBoundary = 0.995;
+
+/// Shortens the steps so that a pair stays positive.
+void keep_positive(const Pair& pair, StepSizes& sizes) {
+  if (pair.s + sizes.primal * pair.ds < (1 - kToBoundary) * pair.s)
+    sizes.primal = -kToBoundary * pair.s / pair.ds;
+  if (pair.y + sizes.dual * pair.dy < (1 - kToBoundary) * pair.y)
+    sizes.dual = -kToBoundary * pair.y / pair.dy;
+}
+
+}  // namespace
+
+NewtonStep::NewtonStep(const FastModel& model, FastState& state)
+    : model_(model), p_(model.problem()), state_(state) {
+  const std::size_t n = p_.unknown_count();
+  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_}) v->assign(n, 0.0);
+  hessian_ = Tridiagonal(n);
+}
+
+void NewtonStep::add_gradient(std::size_t segment, double g0, double g1, std::vector<double>& to) const {
+  if (segment > 0) to[segment - 1] += g0;
+  if (segment < to.size()) to[segment] += g1;
+}
+
+void NewtonStep::add_hessian(std::size_t segment, double h00, double h01, double h11) {
+  const std::size_t n = hessian_.diagonal.size();
+  if (segment > 0) hessian_.diagonal[segment - 1] += h00;
+  if (segment < n) hessian_.diagonal[segment] += h11;
+  if (segment > 0 && segment < n) hessian_.below[segment - 1] += h01;
+}
+
+void NewtonStep::lagrangian_gradient(std::vector<double>& to) const {
+  const double weight = p_.time_weight_W + state_.multiplier_of_time();
+  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+    const SegmentJets& j = model_.jets(k);
+    double g0 = weight * j.duration_s.d[0], g1 = weight * j.duration_s.d[1];
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double recovered = c < p_.channels ? state_.recoveries[k * p_.channels + c].sum.y : 0.0;
+      g0 += (p_.energy_weight - recovered) * j.energy_J[c].d[0];
+      g1 += (p_.energy_weight - recovered) * j.energy_J[c].d[1];
+    }
+    add_gradient(k, g0, g1, to);
+  }
+  for (const RowSide& side : state_.sides) {
+    const Jet& g = model_.row(side.row);
+    const double y = side.sign * side.pair.y;
+    add_gradient(side.segment, y * g.d[0], y * g.d[1], to);
+  }
+}
+
+bool NewtonStep::factor() {
+  state_.for_each_pair([](Pair& pair) { pair.prepare(); });
+  for (Recovery& r : state_.recoveries) r.inverse_sigma = 1 / (r.z.sigma + r.sum.sigma);
+  for (std::size_t k = 0; k < state_.low.size(); ++k)
+    hessian_.diagonal[k] = state_.low[k].sigma + (state_.high[k].s > 0 ? state_.high[k].sigma : 0.0);
+  std::fill(hessian_.below.begin(), hessian_.below.end(), 0.0);
+  add_segments();
+  add_rows();
+  if (!factor_shifted()) return false;
+  factor_border();
+  return true;
+}
+
+void NewtonStep::add_segments() {
+  const double weight = p_.time_weight_W + state_.multiplier_of_time();
+  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+    const SegmentJets& j = model_.jets(k);
+    const Jet& dt = j.duration_s;
+    double h00 = weight * dt.dd[0], h01 = weight * dt.dd[1], h11 = weight * dt.dd[2];
+    for (std::size_t c = 0; c < 2; ++c) {
+      const Jet& E = j.energy_J[c];
+      double part = p_.energy_weight;
+      if (c < p_.channels) {
+        const Recovery& r = state_.recoveries[k * p_.channels + c];
+        part -= r.sum.y;
+        const double sigma = r.z.sigma * r.sum.sigma * r.inverse_sigma;
+        h00 += sigma * E.d[0] * E.d[0];
+        h01 += sigma * E.d[0] * E.d[1];
+        h11 += sigma * E.d[1] * E.d[1];
+      }
+      h00 += part * E.dd[0];
+      h01 += part * E.dd[1];
+      h11 += part * E.dd[2];
+    }
+    add_hessian(k, h00, h01, h11);
+  }
+}
+
+void NewtonStep::add_rows() {
+  for (const RowSide& side : state_.sides) {
+    const Jet& g = model_.row(side.row);
+    const double sigma = side.pair.sigma, y = side.sign * side.pair.y;
+    add_hessian(side.segment, sigma * g.d[0] * g.d[0] + y * g.dd[0], sigma * g.d[0] * g.d[1] + y * g.dd[1],
+                sigma * g.d[1] * g.d[1] + y * g.dd[2]);
+  }
+}
+
+bool NewtonStep::factor_shifted() {
+  original_ = hessian_;
+  double shift = 0;
+  for (int i = 0; i < 12; ++i) {
+    if (hessian_.factor()) return true;
+    shift = shift == 0 ? 1e-3 : 10 * shift;
+    hessian_ = original_;
+    for (double& diagonal : hessian_.diagonal) diagonal += shift * (std::abs(diagonal) + 1e-6);
+  }
+  return false;
+}
+
+StepSizes NewtonStep::solve() {
+  right_side();
+  hessian_.solve(step_);
+  border();
+  return expand();
+}
+
+void NewtonStep::right_side() {
+  for (std::size_t k = 0; k < state_.low.size(); ++k) {
+    const Pair &low = state_.low[k], &high = state_.high[k];
+    gradient_[k] = (high.s > 0 ? high.corrected * high.inverse : 0.0) - low.corrected * low.inverse;
+  }
+  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+    const SegmentJets& j = model_.jets(k);
+    double g0 = p_.time_weight_W * j.duration_s.d[0], g1 = p_.time_weight_W * j.duration_s.d[1];
+    for (std::size_t c = 0; c < 2; ++c) {
+      double part = p_.energy_weight;
+      if (c < p_.channels) {
+        const Recovery& r = state_.recoveries[k * p_.channels + c];
+        const double wanted = r.sum.corrected * r.sum.inverse;
+        const double excess = p_.recovery_weight - r.z.corrected * r.z.inverse - wanted;
+        part += -wanted + r.sum.sigma * (r.z.sigma * r.residual - excess) * r.inverse_sigma;
+      }
+      g0 += part * j.energy_J[c].d[0];
+      g1 += part * j.energy_J[c].d[1];
+    }
+    add_gradient(k, g0, g1, gradient_);
+  }
+  for (const RowSide& side : state_.sides) {
+    const Jet& g = model_.row(side.row);
+    const double y = side.sign * (side.pair.corrected - side.pair.y * side.residual) * side.pair.inverse;
+    add_gradient(side.segment, y * g.d[0], y * g.d[1], gradient_);
+  }
+  for (std::size_t k = 0; k < step_.size(); ++k) step_[k] = -gradient_[k];
+}
+
+/// The duration row's part of the system, the same for every right side.
+void NewtonStep::factor_border() {
+  if (!state_.has_duration()) return;
+  std::fill(time_gradient_.begin(), time_gradient_.end(), 0.0);
+  for (std::size_t k = 0; k < p_.segment_count(); ++k)
+    add_gradient(k, model_.jets(k).duration_s.d[0], model_.jets(k).duration_s.d[1], time_gradient_);
+  time_solved_ = time_gradient_;
+  hessian_.solve(time_solved_);
+  border_pivot_ = state_.has_budget() ? state_.time.s / state_.time.y : 0.0;
+  for (std::size_t k = 0; k < step_.size(); ++k) border_pivot_ += time_gradient_[k] * time_solved_[k];
+}
+
+/// The duration row: one more unknown, its multiplier.
+void NewtonStep::border() {
+  new_lambda_ = 0;
+  if (!state_.has_duration()) return;
+  const Pair& time = state_.time;
+  double along = 0;
+  for (std::size_t k = 0; k < step_.size(); ++k) along += time_gradient_[k] * step_[k];
+  const double centering = state_.has_budget() ? time.corrected / time.y : 0.0;
+  new_lambda_ = (along + centering - state_.time_residual) / border_pivot_;
+  for (std::size_t k = 0; k < step_.size(); ++k) step_[k] -= new_lambda_ * time_solved_[k];
+}
+
+/// Steps of everything that was eliminated, and how far all of them can be taken.
+StepSizes NewtonStep::expand() {
+  StepSizes sizes;
+  const auto step_at = [&](std::size_t node) {
+    return node == 0 || node == state_.b.size() - 1 ? 0.0 : step_[node - 1];
+  };
+  const auto move = [&](Pair& pair, double ds) {
+    pair.ds = ds;
+    pair.dual_step();
+    keep_positive(pair, sizes);
+  };
+  for (std::size_t k = 0; k < state_.low.size(); ++k) {
+    move(state_.low[k], step_[k]);
+    if (state_.high[k].s > 0) move(state_.high[k], -step_[k]);
+  }
+  for (RowSide& side : state_.sides) {
+    const Jet& g = model_.row(side.row);
+    const double moved = g.d[0] * step_at(side.segment) + g.d[1] * step_at(side.segment + 1);
+    move(side.pair, side.residual - side.sign * moved);
+  }
+  for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
+    Recovery& r = state_.recoveries[i];
+    const std::size_t k = i / p_.channels;
+    const Jet& E = model_.jets(k).energy_J[i % p_.channels];
+    const double moved = E.d[0] * step_at(k) + E.d[1] * step_at(k + 1) + r.residual;
+    const double excess = p_.recovery_weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
+    move(r.z, -(excess + r.sum.sigma * moved) * r.inverse_sigma);
+    move(r.sum, moved + r.z.ds);
+  }
+  if (state_.has_budget()) {
+    Pair& time = state_.time;
+    time.dy = new_lambda_ - time.y;
+    time.ds = (time.corrected - time.s * new_lambda_) / time.y;
+    keep_positive(time, sizes);
+  }
+  return sizes;
+}
+
+void NewtonStep::take(const StepSizes& sizes) {
+  for (std::size_t k = 0; k < step_.size(); ++k) state_.b[k + 1] += sizes.primal * step_[k];
+  state_.for_each_pair([&](Pair& pair) {
+    pair.s += sizes.primal * pair.ds;
+    pair.y += sizes.dual * pair.dy;
+  });
+  if (state_.has_duration() && !state_.has_budget())
+    state_.lambda += sizes.dual * (new_lambda_ - state_.lambda);
+  for (std::size_t k = 0; k < step_.size(); ++k) state_.low[k].s = state_.b[k + 1];
+}
+
+}  // namespace joulepath::nlp

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "planner/nlp/fast/fast_state.hpp"
+#include "planner/nlp/fast/tridiagonal.hpp"
+
+namespace joulepath::nlp {
+
+/// How far a step may be taken before a slack or a multiplier meets zero.
+struct StepSizes {
+  double primal{1.0}, dual{1.0};
+};
+
+/// The Newton system of FastState. Every row and every recovery variable is eliminated within its segment,
+/// what is left by b is tridiagonal, the duration borders it. O(N), no allocation after construction.
+class NewtonStep {
+ public:
+  NewtonStep(const FastModel& model, FastState& state);
+
+  /// Assembles and factors at the state; shifted until positive definite, false where that fails.
+  [[nodiscard]] bool factor();
+  /// Steps of b and of every pair towards the complementarities wanted (Pair::corrected).
+  StepSizes solve();
+  /// Takes the last step.
+  void take(const StepSizes& sizes);
+
+  /// Gradient of the Lagrangian by b at the current multipliers, bounds left out.
+  void lagrangian_gradient(std::vector<double>& to) const;
+
+ private:
+  void add_gradient(std::size_t segment, double g0, double g1, std::vector<double>& to) const;
+  void add_hessian(std::size_t segment, double h00, double h01, double h11);
+  void add_segments();
+  void add_rows();
+  bool factor_shifted();
+  void right_side();
+  void factor_border();
+  void border();
+  StepSizes expand();
+
+  const FastModel& model_;
+  const Problem& p_;
+  FastState& state_;
+  double new_lambda_{}, border_pivot_{};
+  std::vector<double> gradient_{}, step_{}, time_gradient_{}, time_solved_{};
+  Tridiagonal hessian_{}, original_{};
+};
+
+}  // namespace joulepath::nlp

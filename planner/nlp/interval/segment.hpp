@@ -1,0 +1,145 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "model/operating_point.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/interval/jet.hpp"
+#include "planner/nlp/interval/range.hpp"
+
+namespace joulepath::nlp {
+
+/// constant + of_a a + of_b b + of_u u, with u the rate, b = u^2, a the acceleration.
+struct Affine {
+  double constant{};
+  double of_a{};
+  double of_b{};
+  double of_u{};
+
+  template <class Real>
+  Real operator()(const Real& a, const Real& b, const Real& u) const {
+    return constant + of_a * a + of_b * b + of_u * u;
+  }
+};
+
+/// A wheel's current, voltage and contact force where they are affine: with every effect but those that
+/// bend the law (gear loss, driver drop, Stribeck friction).
+struct AffineWheel {
+  Affine current_A{};
+  Affine voltage_V{};
+  Affine force_N{};
+};
+
+template <class Real>
+struct WheelLoad {
+  Real current_A{};
+  Real voltage_V{};
+  Real force_N{};
+};
+
+/// A place within a segment with what the model needs there.
+struct SegmentPoint {
+  double fraction{};    ///< of the segment's length
+  double time_share{};  ///< of the segment's time
+  PathRates rates{};
+  Site site{};
+  bool affine{};
+  Sided<AffineWheel> wheel{};
+};
+
+inline constexpr std::size_t kLimitPoints = 3;   ///< both ends, seen from the inside, and the middle
+inline constexpr std::size_t kEnergyPoints = 2;  ///< Gauss-Legendre in time
+inline constexpr std::array<double, kEnergyPoints> kEnergyTimes{0.21132486540518712, 0.78867513459481288};
+
+/// The stretch between two neighbouring nodes.
+struct Segment {
+  double s0{};
+  double ds{};
+  const Plant* plant{};
+  std::array<SegmentPoint, kLimitPoints> limit_points{};
+  std::array<SegmentPoint, kEnergyPoints> energy_points{};
+};
+
+/// How the path coordinate moves at an instant.
+template <class Real>
+struct Motion {
+  Real a{};  ///< acceleration
+  Real b{};  ///< square of the rate
+  Real u{};  ///< rate
+};
+
+/// Two neighbouring nodes as a term sees them, with constant acceleration between them. Every kind of
+/// interval has `Real`, `segment`, `dt`, at_limit_point() and at_energy_point(); see jerk_interval.hpp.
+template <class R>
+struct Interval {
+  using Real = R;
+  const Segment& segment;
+  Real b0{}, b1{};  ///< rate^2
+  Real u0{}, u1{};  ///< rate
+  Real a{};         ///< (b1 - b0)/(2 ds), constant in the segment
+  Real dt{};        ///< 2 ds/(u0 + u1), exact
+
+  Motion<Real> at_limit_point(std::size_t point) const {
+    using std::sqrt;
+    if (point == 0) return {a, b0, u0};
+    if (point + 1 == kLimitPoints) return {a, b1, u1};
+    const double f = segment.limit_points[point].fraction;
+    const Real b = (1 - f) * b0 + f * b1;
+    return {a, b, sqrt(b)};
+  }
+  Motion<Real> at_energy_point(std::size_t point) const {
+    const double tau = kEnergyTimes[point];
+    const Real u = (1 - tau) * u0 + tau * u1;
+    return {a, Real(u * u), u};
+  }
+};
+
+template <class Real>
+WheelLoad<Real> affine_load(const AffineWheel& wheel, const Motion<Real>& motion) {
+  return {wheel.current_A(motion.a, motion.b, motion.u), wheel.voltage_V(motion.a, motion.b, motion.u),
+          wheel.force_N(motion.a, motion.b, motion.u)};
+}
+
+/// Wheel loads at a point for a motion there.
+template <class Real>
+Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& point,
+                                   const Motion<Real>& motion) {
+  if (point.affine) return {affine_load(point.wheel.left, motion), affine_load(point.wheel.right, motion)};
+  if constexpr (std::is_same_v<Real, Range>) {
+    constexpr Range anything{-kNoLimit, kNoLimit};
+    return {{anything, anything, anything}, {anything, anything, anything}};
+  } else {
+    const Sided<WheelState<Real>> wheels =
+        operating_point(*segment.plant, PathMotion::body_motion(point.rates, motion.u, motion.a), point.site);
+    return map_sides(wheels, [](Side, const WheelState<Real>& wheel) {
+      return WheelLoad<Real>{wheel.current_A, wheel.voltage_V, wheel.contact_force_N};
+    });
+  }
+}
+
+/// Wheel load at one of the limit points.
+template <class AnyInterval, class Real = typename AnyInterval::Real>
+WheelLoad<Real> load_at(const AnyInterval& interval, std::size_t point, Side side) {
+  const SegmentPoint& place = interval.segment.limit_points[point];
+  const Motion<Real> motion = interval.at_limit_point(point);
+  if (place.affine) return affine_load(place.wheel[side], motion);
+  return wheel_loads(interval.segment, place, motion)[side];
+}
+
+/// The interval with derivatives by b0 and b1; a rest end is a constant.
+inline Interval<Jet> jet_interval(const Segment& segment, double b0, double b1) {
+  const Jet x0 = b0 > 0 ? Jet::variable(0, b0) : Jet(0.0), x1 = b1 > 0 ? Jet::variable(1, b1) : Jet(0.0);
+  const Jet u0 = sqrt(x0), u1 = sqrt(x1);
+  return {segment, x0, x1, u0, u1, (x1 - x0) / (2 * segment.ds), 2 * segment.ds / (u0 + u1)};
+}
+
+/// The interval in plain numbers.
+inline Interval<double> plain_interval(const Segment& segment, double b0, double b1) {
+  const double u0 = std::sqrt(std::max(0.0, b0)), u1 = std::sqrt(std::max(0.0, b1));
+  return {segment, b0, b1, u0, u1, (b1 - b0) / (2 * segment.ds), 2 * segment.ds / (u0 + u1)};
+}
+
+}  // namespace joulepath::nlp

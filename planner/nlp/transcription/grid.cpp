@@ -1,0 +1,217 @@
+#include "planner/nlp/transcription/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/operating_point.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/rate_cap.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+constexpr std::size_t kScan = 1000;
+
+/// Torques that the wheels need to creep along at s.
+Sided<double> rest_torque_Nm(const PathMotion& motion, double s) {
+  const PathMotion::Place place = motion.place(s, 0.0);
+  const auto wheels =
+      operating_point(motion.plant(), PathMotion::body_motion<double>(place.rates, 0.0, 0.0), place.site);
+  return {wheels.left.torque_Nm, wheels.right.torque_Nm};
+}
+
+double difference(const Sided<double>& x, const Sided<double>& y) {
+  return std::max(std::abs(x.left - y.left), std::abs(x.right - y.right));
+}
+
+/// Halves [low, high] towards the larger change; a jump keeps its size, a slope does not.
+void find_jump(const PathMotion& motion, double low, double high, const Sided<double>& at_low,
+               const Sided<double>& at_high, std::vector<double>& nodes) {
+  const double whole = difference(at_low, at_high);
+  Sided<double> left = at_low, right = at_high;
+  while (high - low > 1e-10 * motion.length()) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    const Sided<double> inside = rest_torque_Nm(motion, middle);
+    if (difference(left, inside) >= difference(inside, right)) {
+      high = middle;
+      right = inside;
+    } else {
+      low = middle;
+      left = inside;
+    }
+    if (difference(left, right) < 0.2 * whole) return;
+  }
+  nodes.push_back(0.5 * (low + high));
+}
+
+void add_jumps(const PathMotion& motion, std::vector<double>& nodes) {
+  const double length = motion.length();
+  Sided<double> before = rest_torque_Nm(motion, 1e-9 * length);
+  double scale = std::max({1e-9, std::abs(before.left), std::abs(before.right)});
+  for (std::size_t i = 1; i <= kScan; ++i) {
+    const double from = length * static_cast<double>(i - 1) / kScan,
+                 to = length * static_cast<double>(i) / kScan;
+    const Sided<double> here = rest_torque_Nm(motion, i == kScan ? length * (1 - 1e-9) : to);
+    scale = std::max({scale, std::abs(here.left), std::abs(here.right)});
+    if (difference(before, here) > 1e-3 * scale) find_jump(motion, from, to, before, here, nodes);
+    before = here;
+  }
+}
+
+bool torque_is_the_same_everywhere(const ProfileRequest& request) {
+  if (is_turn(request.piece)) return request.plant.effects.empty();
+  if (!request.plant.effects.empty()) return false;
+  const Curve& curve = std::get<Curve>(request.piece);
+  return std::all_of(curve.segments().begin(), curve.segments().end(), [](const CurveSegment& segment) {
+    const auto* line = std::get_if<LinearCurvature>(&segment);
+    return line && line->at(0).curvature_per_m == 0 && line->at(0).curvature_slope_per_m2 == 0;
+  });
+}
+
+constexpr int kLooksPerSegment = 24;
+constexpr double kSafeShare =
+    0.7;  ///< of the curvature at which a wheel stands, where only samples are known
+
+/// Whether a wheel may stand or run backwards somewhere on the curve: |curvature| >= 1 / half track.
+bool wheel_may_reverse(const Curve& curve, double half_track_m) {
+  return std::any_of(curve.segments().begin(), curve.segments().end(), [&](const CurveSegment& segment) {
+    return std::visit(
+        [&](const auto& part) {
+          const bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+          const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
+          double most_per_m = 0;
+          for (int i = 0; i <= looks; ++i)
+            most_per_m = std::max(most_per_m, std::abs(part.at(part.length_m() * i / looks).curvature_per_m));
+          return most_per_m * half_track_m > (linear ? 1 - 1e-9 : kSafeShare);
+        },
+        segment);
+  });
+}
+
+/// Without effects only the sign of a wheel's friction jumps.
+bool torque_may_jump(const ProfileRequest& request) {
+  if (torque_is_the_same_everywhere(request)) return false;
+  return !request.plant.effects.empty() ||
+         wheel_may_reverse(std::get<Curve>(request.piece), request.plant.robot.geometry.half_track_m);
+}
+
+/// Drops nodes that are closer together than rounding allows; both ends stay.
+std::vector<double> without_doubles(std::vector<double> nodes, double length) {
+  std::sort(nodes.begin(), nodes.end());
+  std::vector<double> kept{0.0};
+  for (double s : nodes)
+    if (s > kept.back() + 1e-8 * length && s < length * (1 - 1e-8)) kept.push_back(s);
+  kept.push_back(length);
+  return kept;
+}
+
+/// Square of the rate of the parabola over time that is optimal without friction from rest to rest:
+///   u = 6 L/T tau (1 - tau) where s = L tau^2 (3 - 2 tau).
+double parabola_squared(double length, double duration_s, double s) {
+  const double share = std::clamp(1 - 2 * s / length, -1.0, 1.0);
+  const double tau = 0.5 - std::sin(std::asin(share) / 3);
+  const double rate = 6 * length / duration_s * tau * (1 - tau);
+  return rate * rate;
+}
+
+/// Whether that parabola is within the limits of a request that names its time.
+bool drives_parabola(const ProfileRequest& request, double length, double least_acceleration, double cap) {
+  const double T = request.time.duration_s;
+  return request.time.mode == TimeMode::fixed_time && std::isfinite(T) && T > 0 && request.start_rate == 0 &&
+         request.end_rate == 0 && request.speed_caps.empty() && 6 * length <= least_acceleration * T * T &&
+         2.25 * length * length <= cap * T * T && torque_is_the_same_everywhere(request);
+}
+
+}  // namespace
+
+std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request) {
+  std::vector<double> nodes = piece_breakpoints(request.piece);
+  if (!is_turn(request.piece))
+    for (const SpeedCap& cap : request.speed_caps) {
+      nodes.push_back(cap.from_m);
+      nodes.push_back(cap.to_m);
+    }
+  if (torque_may_jump(request)) add_jumps(motion, nodes);
+  return without_doubles(std::move(nodes), motion.length());
+}
+
+double reference_rate(const ProfileRequest& request, double length, double s, double cap) {
+  const bool turn = is_turn(request.piece);
+  const auto finite = [](double value, double otherwise) {
+    return std::isfinite(value) && value > 0 ? value : otherwise;
+  };
+  const double up =
+      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.acceleration_m_s2, 1.0);
+  const double down =
+      finite(turn ? request.limits.yaw_acceleration_rad_s2 : request.limits.deceleration_m_s2, up);
+  if (drives_parabola(request, length, std::min(up, down), cap))
+    return std::sqrt(parabola_squared(length, request.time.duration_s, s));
+  const double from_start = request.start_rate * request.start_rate + 2 * up * s;
+  const double from_end = request.end_rate * request.end_rate + 2 * down * (length - s);
+  // A smooth minimum: times between nodes change gently, as those of an optimal profile do.
+  return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
+}
+
+std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request, std::size_t count) {
+  const double length = motion.length();
+  std::vector<double> nodes = mandatory_nodes(motion, request);
+  const std::size_t cells = 4 * std::max<std::size_t>(count, 50);
+  const double h = length / static_cast<double>(cells);
+  std::vector<double> time(cells), bend(cells);
+  double total_time = 0, total_bend = 0;
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double s = (static_cast<double>(i) + 0.5) * h;
+    const PathRates rates = motion.rates(s);
+    const double u = reference_rate(request, length, s, rate_cap_squared(request, rates, s));
+    time[i] = h / std::max(u, 1e-6);
+    bend[i] =
+        is_turn(request.piece) ? 0.0 : h * (std::abs(rates.turn) + std::sqrt(std::abs(rates.turn_slope)));
+    total_time += time[i];
+    total_bend += bend[i];
+  }
+  // Bends get up to 0.4 of the nodes, by how much heading they turn; distance alone gets 0.1.
+  const double bend_share = total_bend > 0 ? 0.4 * total_bend / (total_bend + 1.0) : 0.0;
+  const double time_share = 0.9 - bend_share;
+  std::vector<double> cumulative(cells + 1, 0.0);
+  for (std::size_t i = 0; i < cells; ++i)
+    cumulative[i + 1] = cumulative[i] + time_share * time[i] / total_time +
+                        (total_bend > 0 ? bend_share * bend[i] / total_bend : 0.0) +
+                        0.1 / static_cast<double>(cells);
+  const auto place_of = [&](double share) {
+    const auto after = std::upper_bound(cumulative.begin(), cumulative.end(), share * cumulative.back());
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+        after - cumulative.begin() - 1, 0, static_cast<std::ptrdiff_t>(cells) - 1));
+    const double inside = (share * cumulative.back() - cumulative[i]) / (cumulative[i + 1] - cumulative[i]);
+    return (static_cast<double>(i) + std::clamp(inside, 0.0, 1.0)) * h;
+  };
+  // Between mandatory nodes the free ones are spread evenly in the density.
+  const auto share_of = [&](double s) {
+    const double cell = std::clamp(s / h, 0.0, static_cast<double>(cells));
+    const auto i = std::min(static_cast<std::size_t>(cell), cells - 1);
+    return (cumulative[i] + (cell - static_cast<double>(i)) * (cumulative[i + 1] - cumulative[i])) /
+           cumulative.back();
+  };
+  std::vector<double> grid{0.0};
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const double from = share_of(nodes[k]), to = share_of(nodes[k + 1]);
+    const auto parts = static_cast<std::size_t>(
+        std::max(1.0, std::round((to - from) * static_cast<double>(std::max<std::size_t>(count, 2)))));
+    for (std::size_t i = 1; i < parts; ++i)
+      grid.push_back(place_of(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts)));
+    grid.push_back(nodes[k + 1]);
+  }
+  // A node that rounding put upon its neighbour is left out.
+  return without_doubles(std::move(grid), length);
+}
+
+std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut) {
+  std::vector<double> grid{s.front()};
+  for (std::size_t k = 0; k + 1 < s.size(); ++k) {
+    if (cut[k]) grid.push_back(0.5 * (s[k] + s[k + 1]));
+    grid.push_back(s[k + 1]);
+  }
+  return grid;
+}
+
+}  // namespace joulepath::nlp

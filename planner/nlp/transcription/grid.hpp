@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/motion/path_motion.hpp"
+#include "planner/values/profile_request.hpp"
+
+namespace joulepath::nlp {
+
+/// Places where the law of a segment may change: ends and breakpoints of the piece, borders of speed caps,
+/// and jumps of the torque at rest (a wheel reverses, the turn changes its side, the floor changes).
+[[nodiscard]] std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request);
+
+/// Speed that a plain robot would reach: sqrt of what a constant acceleration allows from both ends, under
+/// the bounds on the rate. It only shapes the grid.
+[[nodiscard]] double reference_rate(const ProfileRequest& request, double length, double s, double cap);
+
+/// About `count` nodes, denser where the reference rate is low (equal times between nodes), where
+/// curvature is large or changes, and at rest ends; the mandatory nodes among them.
+[[nodiscard]] std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request,
+                                            std::size_t count);
+
+/// The grid with every marked segment cut in two.
+[[nodiscard]] std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut);
+
+}  // namespace joulepath::nlp

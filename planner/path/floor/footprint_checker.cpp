@@ -1,0 +1,177 @@
+#include "planner/path/floor/footprint_checker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/assert.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kShortestStep_m = 0.002;
+constexpr double kReportStep_m = 0.01;
+constexpr double kShortestSearchStep_m = 0.005;
+constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
+constexpr double kHalfDiagonalPerHalfSide = 1.4142135623730951;
+
+}  // namespace
+
+FootprintChecker::FootprintChecker(const ObstacleField& field, const Footprint& footprint, double clearance_m)
+    : field_(&field), polygon_m_(footprint.polygon_m), clearance_m_(clearance_m) {
+  outer_m_ = inner_m_ = footprint.radius_m;
+  if (polygon_m_.empty()) return;
+  JOULEPATH_ASSERT(polygon_m_.size() >= 3, "a footprint polygon needs three corners");
+  outer_m_ = 0;
+  for (const auto& corner : polygon_m_) outer_m_ = std::max(outer_m_, std::hypot(corner[0], corner[1]));
+  inner_m_ = std::max(0.0, -signed_distance_m(polygon_m_, {0, 0}));
+}
+
+double FootprintChecker::slack_m(const Pose& pose) const {
+  const double need_m = outer_m_ + clearance_m_;
+  const double lower_m = field_->distance_bounds_m(pose.x_m, pose.y_m).lower_m - need_m;
+  if (lower_m > field_->map().resolution_m) return lower_m;
+  if (!is_disc()) return polygon_slack_m(pose);
+  return field_->distance_m(pose.x_m, pose.y_m) - need_m;
+}
+
+double FootprintChecker::polygon_slack_m(const Pose& pose) const {
+  const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
+  const double half_diagonal_m = 0.5 * kHalfDiagonalPerHalfSide * field_->map().resolution_m;
+  const double within_m = outer_m_ + clearance_m_ + kLookAhead_m + half_diagonal_m;
+  double best_m = clearance_m_ + kLookAhead_m;
+  double frame_rad = 0;  // of the cells' axes
+  std::vector<Point2> outline;
+  const auto turned = [&](double heading_rad) {
+    // The outline about the axle midpoint in the axes of the cells.
+    std::vector<Point2> points;
+    const double rc = std::cos(pose.heading_rad - heading_rad), rs = std::sin(pose.heading_rad - heading_rad);
+    for (const auto& p : polygon_m_) points.push_back({rc * p[0] - rs * p[1], rs * p[0] + rc * p[1]});
+    return points;
+  };
+  field_->for_blocked_cells(
+      pose.x_m, pose.y_m, within_m, [&](double x, double y, double half, double heading_rad) {
+        const double dx = x - pose.x_m, dy = y - pose.y_m;
+        const Point2 in_robot{c * dx + s * dy, c * dy - s * dx};
+        const double center_m = signed_distance_m(polygon_m_, in_robot);
+        if (center_m - half * kHalfDiagonalPerHalfSide >= best_m) return true;
+        if (outline.empty() || heading_rad != frame_rad) {
+          outline = turned(heading_rad);
+          frame_rad = heading_rad;
+        }
+        const double fc = std::cos(heading_rad), fs = std::sin(heading_rad);
+        best_m = std::min(best_m, square_distance_m(outline, {fc * dx + fs * dy, fc * dy - fs * dx}, half));
+        return true;
+      });
+  return best_m - clearance_m_;
+}
+
+Collision FootprintChecker::collision_at(double s, const Pose& pose, double slack) const {
+  return {s, pose, -slack, field_->nearest(pose.x_m, pose.y_m)};
+}
+
+std::optional<Collision> FootprintChecker::pose_collision(const Pose& pose) const {
+  const double slack = slack_m(pose);
+  if (slack >= -kTolerance_m) return std::nullopt;
+  return collision_at(0, pose, slack);
+}
+
+template <class Place>
+std::optional<Collision> FootprintChecker::sweep(double length, double reach_per_s,
+                                                 const Place& place) const {
+  const double shortest = kShortestStep_m / reach_per_s;
+  for (double s = 0;;) {
+    const Pose pose = place(s);
+    const double slack = slack_m(pose);
+    if (slack < -kTolerance_m) return collision_at(s, pose, slack);
+    if (s >= length) return std::nullopt;
+    s = std::min(length, s + std::max(shortest, slack / reach_per_s));
+  }
+}
+
+namespace {
+
+/// Largest |curvature| of a segment: exact for linear curvature, sampled for Bezier curves.
+double largest_curvature_per_m(const CurveSegment& segment) {
+  const auto sampled = [](const auto& s, int count) {
+    double largest = 0;
+    for (int i = 0; i <= count; ++i)
+      largest = std::max(largest, std::abs(s.at(s.length_m() * i / count).curvature_per_m));
+    return largest;
+  };
+  if (const auto* linear = std::get_if<LinearCurvature>(&segment)) return sampled(*linear, 1);
+  return 1.2 * sampled(std::get<BezierSegment>(segment), 64);
+}
+
+}  // namespace
+
+std::optional<Collision> FootprintChecker::first_collision(const PathPiece& piece) const {
+  const double length = piece_length(piece);
+  const auto place = [&piece](double s) { return piece_point(piece, s).pose; };
+  if (is_turn(piece)) {
+    if (is_disc()) return pose_collision(place(0));
+    return sweep(length, std::max(outer_m_, 1e-3), place);
+  }
+  double reach = 1;
+  if (!is_disc())
+    for (const CurveSegment& segment : std::get<Curve>(piece).segments())
+      reach = std::max(reach, 1 + outer_m_ * largest_curvature_per_m(segment));
+  return sweep(length, reach, place);
+}
+
+std::optional<Collision> FootprintChecker::first_collision(const Path& path) const {
+  for (const PathPiece& piece : path.pieces)
+    if (auto collision = first_collision(piece)) return collision;
+  return std::nullopt;
+}
+
+std::optional<Collision> FootprintChecker::worst_collision(const Path& path) const {
+  std::optional<Collision> worst;
+  for (const PathPiece& piece : path.pieces) {
+    const double length = piece_length(piece), reach = is_turn(piece) ? outer_m_ : 1.0;
+    const int steps = static_cast<int>(length * reach / kReportStep_m) + 1;
+    for (int k = 0; k <= steps; ++k) {
+      const double s = length * k / steps;
+      const Pose pose = piece_point(piece, s).pose;
+      const double slack = slack_m(pose);
+      if (slack < -kTolerance_m && (!worst || -slack > worst->short_by_m))
+        worst = collision_at(s, pose, slack);
+    }
+  }
+  return worst;
+}
+
+bool FootprintChecker::segment_free(const CurveSegment& segment) const {
+  const double reach = is_disc() ? 1 : 1 + outer_m_ * largest_curvature_per_m(segment);
+  const double length_m = std::visit([](const auto& s) { return s.length_m(); }, segment);
+  const auto place = [&](double s_m) {
+    return std::visit([s_m](const auto& s) { return s.at(s_m).pose; }, segment);
+  };
+  return !sweep(length_m, reach, place).has_value();
+}
+
+bool FootprintChecker::line_free(double x0_m, double y0_m, double x1_m, double y1_m) const {
+  const double length_m = std::hypot(x1_m - x0_m, y1_m - y0_m);
+  if (length_m < 1e-12) return true;
+  if (is_disc()) return disc_line_free(*field_, x0_m, y0_m, x1_m, y1_m, outer_m_ + clearance_m_);
+  return segment_free(LinearCurvature({x0_m, y0_m, std::atan2(y1_m - y0_m, x1_m - x0_m)}, length_m));
+}
+
+bool disc_line_free(const ObstacleField& field, double x0_m, double y0_m, double x1_m, double y1_m,
+                    double radius_m) {
+  const double length_m = std::hypot(x1_m - x0_m, y1_m - y0_m);
+  const double ux = length_m > 0 ? (x1_m - x0_m) / length_m : 0,
+               uy = length_m > 0 ? (y1_m - y0_m) / length_m : 0;
+  for (double s_m = 0;;) {
+    const double x_m = x0_m + s_m * ux, y_m = y0_m + s_m * uy;
+    const auto bounds = field.distance_bounds_m(x_m, y_m);
+    double slack_m = bounds.lower_m - radius_m;
+    if (bounds.upper_m < radius_m - FootprintChecker::kTolerance_m) return false;
+    if (slack_m < kShortestSearchStep_m) slack_m = field.distance_m(x_m, y_m) - radius_m;
+    if (slack_m < -FootprintChecker::kTolerance_m) return false;
+    if (s_m >= length_m) return true;
+    s_m = std::min(length_m, s_m + std::max(kShortestSearchStep_m, slack_m));
+  }
+}
+
+}  // namespace joulepath

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "model/robot.hpp"
+#include "planner/path/floor/obstacle_field.hpp"
+#include "planner/path/geometry/path.hpp"
+
+namespace joulepath {
+
+/// Where a footprint comes closer to an obstacle than the clearance asked.
+struct Collision {
+  double s{};           ///< path coordinate in the piece (0 for a pose)
+  Pose pose{};          ///< of the robot
+  double short_by_m{};  ///< of the clearance asked; more than the clearance means contact (for
+                        ///< polygons the depth is then that of cell centers)
+  ObstacleField::Nearest obstacle{};
+};
+
+/// Checks a robot's outline, kept a clearance away from every obstacle. The field must outlive it.
+class FootprintChecker {
+ public:
+  FootprintChecker(const ObstacleField& field, const Footprint& footprint, double clearance_m);
+
+  /// Distance from the outline to the nearest obstacle minus the clearance; exact near zero and a lower
+  /// bound where it is larger than a few cells.
+  [[nodiscard]] double slack_m(const Pose& pose) const;
+  [[nodiscard]] bool free(const Pose& pose) const { return slack_m(pose) >= -kTolerance_m; }
+
+  [[nodiscard]] std::optional<Collision> pose_collision(const Pose& pose) const;
+  /// The first place along a curve, or in the sweep of a turn, that is not free. Steps are as long as the
+  /// slack lets no point of the outline reach an obstacle, and at least 2 mm (2 mm at the outline).
+  [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;
+  [[nodiscard]] std::optional<Collision> first_collision(const Path& path) const;
+  /// The place of a path where the clearance is missed by most, sampled every centimetre (of the outline).
+  [[nodiscard]] std::optional<Collision> worst_collision(const Path& path) const;
+  [[nodiscard]] bool segment_free(const CurveSegment& segment) const;
+  /// Straight driving between two points, looking along.
+  [[nodiscard]] bool line_free(double x0_m, double y0_m, double x1_m, double y1_m) const;
+
+  /// The same outline and obstacles with another clearance.
+  [[nodiscard]] FootprintChecker with_clearance(double clearance_m) const {
+    FootprintChecker other = *this;
+    other.clearance_m_ = clearance_m;
+    return other;
+  }
+
+  bool is_disc() const { return polygon_m_.empty(); }
+  double clearance_m() const { return clearance_m_; }
+  double circumscribed_radius_m() const { return outer_m_; }
+  double inscribed_radius_m() const { return inner_m_; }
+  const ObstacleField& field() const { return *field_; }
+
+  static constexpr double kTolerance_m = 1e-9;
+
+ private:
+  double polygon_slack_m(const Pose& pose) const;
+  Collision collision_at(double s, const Pose& pose, double slack) const;
+  template <class Place>
+  std::optional<Collision> sweep(double length, double reach_per_s, const Place& place) const;
+
+  const ObstacleField* field_{};
+  std::vector<std::array<double, 2>> polygon_m_{};  ///< empty: a disc
+  double clearance_m_{};
+  double outer_m_{};  ///< from the axle midpoint to the farthest point of the outline
+  double inner_m_{};  ///< to the nearest
+};
+
+/// Whether a disc may move along a line: the search's check.
+[[nodiscard]] bool disc_line_free(const ObstacleField& field, double x0_m, double y0_m, double x1_m,
+                                  double y1_m, double radius_m);
+
+}  // namespace joulepath

@@ -1,0 +1,188 @@
+#include "planner/path/floor/free_space.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "planner/path/floor/footprint_checker.hpp"
+
+namespace joulepath {
+namespace {
+
+using Cell = OccupancyGrid::CellIndex;
+constexpr std::array<Cell, 8> kNeighbors{
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+
+}  // namespace
+
+FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
+    : field_(&field), grid_(field.map()), radius_m_(radius_m) {
+  constexpr std::int32_t kUnlabelled = -2, kBlocked = -1;
+  const auto count = static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height);
+  component_.assign(count, kBlocked);
+  clear_.assign(count, 0);
+  const double clear_m = radius_m + kSpare_m + 0.5 * std::sqrt(2.0) * grid_.resolution_m;
+  for (int row = 0; row < grid_.height; ++row)
+    for (int column = 0; column < grid_.width; ++column) {
+      const auto center = grid_.center_of({column, row});
+      const double lower_m = field.distance_bounds_m(center[0], center[1]).lower_m;
+      if (lower_m < radius_m) continue;
+      component_[index({column, row})] = kUnlabelled;
+      clear_[index({column, row})] = lower_m >= clear_m ? 1 : 0;
+    }
+  std::int32_t label = 0;
+  std::vector<Cell> open;
+  for (int row = 0; row < grid_.height; ++row)
+    for (int column = 0; column < grid_.width; ++column) {
+      if (component_[index({column, row})] != kUnlabelled) continue;
+      component_[index({column, row})] = label;
+      open.push_back({column, row});
+      while (!open.empty()) {
+        const Cell cell = open.back();
+        open.pop_back();
+        for (const Cell& step : kNeighbors) {
+          const Cell next{cell.column + step.column, cell.row + step.row};
+          if (!grid_.contains(next) || component_[index(next)] != kUnlabelled) continue;
+          component_[index(next)] = label;
+          open.push_back(next);
+        }
+      }
+      ++label;
+    }
+}
+
+std::optional<Cell> FreeSpace::free_cell_near(const Point2& point_m) const {
+  const Cell center = grid_.cell_of(point_m[0], point_m[1]);
+  std::optional<Cell> best;
+  double best_squared = std::numeric_limits<double>::infinity();
+  for (int row = center.row - 1; row <= center.row + 1; ++row)
+    for (int column = center.column - 1; column <= center.column + 1; ++column) {
+      const Cell cell{column, row};
+      if (!grid_.contains(cell) || component_[index(cell)] < 0) continue;
+      const auto c = grid_.center_of(cell);
+      const double squared = std::pow(c[0] - point_m[0], 2) + std::pow(c[1] - point_m[1], 2);
+      if (squared < best_squared) best_squared = squared, best = cell;
+    }
+  return best;
+}
+
+std::optional<int> FreeSpace::component(const Point2& point_m) const {
+  const auto cell = free_cell_near(point_m);
+  if (!cell) return std::nullopt;
+  return component_[index(*cell)];
+}
+
+bool FreeSpace::connected(const Point2& a_m, const Point2& b_m) const {
+  const auto a = component(a_m), b = component(b_m);
+  return a && b && *a == *b;
+}
+
+std::optional<Point2> FreeSpace::nearest_reachable(const Point2& start_m, const Point2& goal_m) const {
+  const auto label = component(start_m);
+  if (!label) return std::nullopt;
+  double best_squared = std::numeric_limits<double>::infinity();
+  Point2 best = start_m;
+  for (int row = 0; row < grid_.height; ++row)
+    for (int column = 0; column < grid_.width; ++column) {
+      if (component_[index({column, row})] != *label) continue;
+      const Point2 c = grid_.center_of({column, row});
+      const double squared = std::pow(c[0] - goal_m[0], 2) + std::pow(c[1] - goal_m[1], 2);
+      if (squared < best_squared) best_squared = squared, best = c;
+    }
+  return best;
+}
+
+std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& goal_m, Cells cells) const {
+  const auto start = free_cell_near(start_m), goal = free_cell_near(goal_m);
+  if (!start || !goal || component_[index(*start)] != component_[index(*goal)]) return {};
+  constexpr double kDiagonal = 1.4142135623730951;
+  const double near_cells = kNearEnds_m / grid_.resolution_m;
+  const auto usable = [&](Cell cell) {
+    if (component_[index(cell)] < 0) return false;
+    if (cells == Cells::free || clear_[index(cell)] != 0) return true;
+    for (const Cell& end : {*start, *goal})
+      if (std::hypot(cell.column - end.column, cell.row - end.row) <= near_cells) return true;
+    return false;
+  };
+  const auto heuristic = [&](Cell cell) {
+    const double dx = std::abs(cell.column - goal->column), dy = std::abs(cell.row - goal->row);
+    return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
+  };
+  struct Entry {
+    double estimate;
+    std::size_t cell;
+    bool operator>(const Entry& other) const {
+      return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
+    }
+  };
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<float> cost(component_.size(), std::numeric_limits<float>::infinity());
+  std::vector<std::uint32_t> parent(component_.size(), kNone);
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  cost[index(*start)] = 0;
+  open.push({heuristic(*start), index(*start)});
+  while (!open.empty()) {
+    const Entry entry = open.top();
+    open.pop();
+    if (entry.cell == index(*goal)) break;
+    const Cell cell{static_cast<int>(entry.cell % static_cast<std::size_t>(grid_.width)),
+                    static_cast<int>(entry.cell / static_cast<std::size_t>(grid_.width))};
+    if (entry.estimate > cost[entry.cell] + heuristic(cell) + 1e-3) continue;  // outdated
+    for (const Cell& step : kNeighbors) {
+      const Cell next{cell.column + step.column, cell.row + step.row};
+      if (!grid_.contains(next) || !usable(next)) continue;
+      const double next_cost = cost[entry.cell] + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
+      if (next_cost >= static_cast<double>(cost[index(next)]) - 1e-4) continue;
+      cost[index(next)] = static_cast<float>(next_cost);
+      parent[index(next)] = static_cast<std::uint32_t>(entry.cell);
+      open.push({next_cost + heuristic(next), index(next)});
+    }
+  }
+  if (index(*goal) != index(*start) && parent[index(*goal)] == kNone) return {};
+  std::vector<Point2> route{goal_m};
+  for (std::size_t i = index(*goal); i != index(*start); i = parent[i]) {
+    const int width = grid_.width;
+    route.push_back(grid_.center_of({static_cast<int>(i) % width, static_cast<int>(i) / width}));
+  }
+  route.push_back(start_m);
+  std::reverse(route.begin(), route.end());
+  return route;
+}
+
+DiscLineCheck::DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m,
+                             FreeSpace::Cells cells)
+    : space_(&space), start_m_(start_m), goal_m_(goal_m), cells_(cells) {
+  // The spare distance, as far as the ends themselves have it.
+  double spare_m = FreeSpace::kSpare_m;
+  for (const Point2& end : {start_m, goal_m})
+    spare_m = std::min(spare_m, space.field().distance_m(end[0], end[1]) - space.radius_m());
+  exact_radius_m_ = space.radius_m() + std::max(0.0, spare_m);
+}
+
+bool DiscLineCheck::near_ends(const Point2& p) const {
+  for (const Point2& end : {start_m_, goal_m_})
+    if (std::hypot(p[0] - end[0], p[1] - end[1]) <= FreeSpace::kNearEnds_m) return true;
+  return false;
+}
+
+bool DiscLineCheck::point_free(const Point2& p) const {
+  if (space_->clear(p[0], p[1])) return true;
+  if (cells_ == FreeSpace::Cells::clear && !near_ends(p)) return false;
+  return space_->field().disc_free(p[0], p[1], exact_radius_m_);
+}
+
+bool DiscLineCheck::operator()(const Point2& a, const Point2& b) const {
+  const OccupancyGrid& grid = space_->field().map();
+  bool all_clear = true;
+  const bool possible = space_->for_cells_on_line(a, b, [&](bool clear, Cell cell) {
+    if (clear) return true;
+    all_clear = false;
+    return cells_ == FreeSpace::Cells::free || near_ends(grid.center_of(cell));
+  });
+  if (!possible || all_clear) return possible;
+  return disc_line_free(space_->field(), a[0], a[1], b[0], b[1], exact_radius_m_);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "planner/path/floor/obstacle_field.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
+
+namespace joulepath {
+
+/// The floor as a disc of one radius sees it, cell by cell: which cells are free, and which of them are
+/// connected (8-neighbors). It decides at once whether a search can succeed, at the map's resolution, and
+/// checks lines by looking up cells. Made once per map and radius.
+class FreeSpace {
+ public:
+  FreeSpace(const ObstacleField& field, double radius_m);
+
+  const ObstacleField& field() const { return *field_; }
+  double radius_m() const { return radius_m_; }
+  /// Component at a point: that of its cell, or of a free neighbor cell; absent where there is none.
+  [[nodiscard]] std::optional<int> component(const Point2& point_m) const;
+  [[nodiscard]] bool connected(const Point2& a_m, const Point2& b_m) const;
+  /// The place nearest to `goal` that can be reached from `start`; absent when `start` has no component.
+  [[nodiscard]] std::optional<Point2> nearest_reachable(const Point2& start_m, const Point2& goal_m) const;
+
+  /// Cells that a way may use.
+  enum class Cells {
+    free,  ///< the disc is free at the cell's center
+    clear  ///< it is free at every point of the cell, with 5 mm to spare
+  };
+  /// A way over cell centers, shortest by octile distance (A*); empty when there is none. Free cells within
+  /// kNearEnds_m of the ends may always be used.
+  [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
+                                               Cells cells) const;
+  [[nodiscard]] bool clear(double x_m, double y_m) const {
+    const auto cell = grid_.cell_of(x_m, y_m);
+    return grid_.contains(cell) && clear_[index(cell)] != 0;
+  }
+  [[nodiscard]] bool free_cell(OccupancyGrid::CellIndex cell) const { return component_[index(cell)] >= 0; }
+  /// Calls visit(cell is clear, cell center) for the cells that a line crosses until it returns false.
+  template <class Visit>
+  bool for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;
+
+  static constexpr double kNearEnds_m = 0.8;
+  static constexpr double kSpare_m = 0.005;
+
+ private:
+  std::optional<OccupancyGrid::CellIndex> free_cell_near(const Point2& point_m) const;
+  std::size_t index(OccupancyGrid::CellIndex cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid_.width) +
+           static_cast<std::size_t>(cell.column);
+  }
+
+  const ObstacleField* field_{};
+  OccupancyGrid grid_{};  ///< geometry only
+  double radius_m_{};
+  std::vector<std::int32_t> component_{};  ///< -1: not free
+  std::vector<std::uint8_t> clear_{};
+};
+
+/// Whether a disc may move along lines between two ends: quick and a little conservative (clear cells only,
+/// exact near the ends), or exact everywhere for floors too narrow for that. The space must outlive it.
+class DiscLineCheck {
+ public:
+  DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m, FreeSpace::Cells cells);
+
+  [[nodiscard]] bool operator()(const Point2& a_m, const Point2& b_m) const;
+  [[nodiscard]] bool point_free(const Point2& p_m) const;
+
+ private:
+  bool near_ends(const Point2& p_m) const;
+
+  const FreeSpace* space_{};
+  Point2 start_m_{}, goal_m_{};
+  FreeSpace::Cells cells_{};
+  double exact_radius_m_{};
+};
+
+template <class Visit>
+bool FreeSpace::for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const {
+  // Traversal of a grid from side to side, in the grid's own frame.
+  const double c = std::cos(grid_.origin.heading_rad), s = std::sin(grid_.origin.heading_rad);
+  const auto local = [&](const Point2& p) -> Point2 {
+    const double dx = (p[0] - grid_.origin.x_m) / grid_.resolution_m,
+                 dy = (p[1] - grid_.origin.y_m) / grid_.resolution_m;
+    return {c * dx + s * dy, c * dy - s * dx};
+  };
+  const Point2 from = local(a_m), to = local(b_m);
+  int cell[2], last[2], step[2];
+  double next[2], stride[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double d = to[i] - from[i];
+    cell[i] = static_cast<int>(std::floor(from[i]));
+    last[i] = static_cast<int>(std::floor(to[i]));
+    step[i] = d > 0 ? 1 : -1;
+    stride[i] = d != 0 ? std::abs(1 / d) : std::numeric_limits<double>::infinity();
+    next[i] = d != 0 ? (d > 0 ? cell[i] + 1 - from[i] : from[i] - cell[i]) * stride[i] : stride[i];
+  }
+  for (int left = std::abs(last[0] - cell[0]) + std::abs(last[1] - cell[1]); left >= 0; --left) {
+    const OccupancyGrid::CellIndex here{cell[0], cell[1]};
+    if (!visit(grid_.contains(here) && clear_[index(here)] != 0, here)) return false;
+    const std::size_t axis = next[0] < next[1] ? 0 : 1;
+    cell[axis] += step[axis];
+    next[axis] += stride[axis];
+  }
+  return true;
+}
+
+}  // namespace joulepath

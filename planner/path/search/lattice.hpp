@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/path/floor/free_space.hpp"
+
+namespace joulepath {
+
+/// A coarse square lattice over the floor, eight neighbors, with a price per metre at each node: for quick
+/// searches that prefer other ways than earlier ones. Passages narrower than its spacing may be missed.
+class Lattice {
+ public:
+  explicit Lattice(const FreeSpace& space, double spacing_m = 0.2);
+
+  /// The cheapest way over nodes whose connections are free (A*); empty when there is none.
+  [[nodiscard]] std::vector<Point2> route(const Point2& start_m, const Point2& goal_m,
+                                          const DiscLineCheck& free) const;
+  /// Adds to the price within a corridor about a polyline, except near its ends.
+  void make_dear(const std::vector<Point2>& line_m, double corridor_m, double except_near_ends_m,
+                 double extra_price);
+
+ private:
+  struct Node {
+    int column{}, row{};
+  };
+  std::size_t index(Node node) const {
+    return static_cast<std::size_t>(node.row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(node.column);
+  }
+  Node node(std::size_t i) const {
+    return {static_cast<int>(i % static_cast<std::size_t>(columns_)),
+            static_cast<int>(i / static_cast<std::size_t>(columns_))};
+  }
+  Point2 place(Node node) const;
+  Node nearest(const Point2& point_m) const;
+
+  double spacing_m_{};
+  ObstacleField::Extent extent_{};
+  int columns_{}, rows_{};
+  std::vector<double> price_{};
+};
+
+}  // namespace joulepath

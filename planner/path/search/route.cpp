@@ -1,0 +1,184 @@
+#include "planner/path/search/route.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "planner/path/search/homotopy.hpp"
+#include "planner/path/search/route_cache.hpp"
+#include "planner/path/search/route_pool.hpp"
+#include "planner/path/shape/end_leads.hpp"
+
+namespace joulepath {
+namespace {
+
+/// Shaping keeps this much more away than the final check, so that it cannot fail by rounding.
+constexpr double kShapeMargin_m = 0.001;
+constexpr double kArrived_m = 1e-6;
+
+std::string obstruction_text(const char* what, const Collision& c) {
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "%s (%.3f, %.3f) m: the clearance is short by %.3f m to %s at (%.3f, %.3f) m", what,
+                c.pose.x_m, c.pose.y_m, c.short_by_m,
+                c.obstacle.layer == ObstacleField::Layer::keepout ? "the keep-out area" : "the obstacle",
+                c.obstacle.x_m, c.obstacle.y_m);
+  return text;
+}
+
+RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
+  RouteVerdict verdict{status,
+                       c.pose.x_m,
+                       c.pose.y_m,
+                       c.short_by_m,
+                       c.obstacle.layer == ObstacleField::Layer::keepout,
+                       std::nullopt,
+                       obstruction_text(what, c)};
+  return verdict;
+}
+
+/// A place where there is no map at all is told as such.
+RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
+  const OccupancyGrid& map = field.map();
+  if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;
+  const ObstacleField::Extent extent = field.extent_m();
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "the %s (%.3f, %.3f) m lies outside of the map, which covers x from %.2f to %.2f m and y from "
+      "%.2f to %.2f m",
+      which, verdict.x_m, verdict.y_m, extent.x_min_m, extent.x_max_m, extent.y_min_m, extent.y_max_m);
+  verdict.message = text;
+  return verdict;
+}
+
+RouteVerdict unconnected(const FreeSpace& space, const Point2& start, const Point2& goal) {
+  RouteVerdict verdict{RouteStatus::no_connection,           goal[0], goal[1], 0, false,
+                       space.nearest_reachable(start, goal), ""};
+  char text[320];
+  if (verdict.nearest_reachable_m) {
+    const Point2& near = *verdict.nearest_reachable_m;
+    std::snprintf(
+        text, sizeof text,
+        "no way to (%.3f, %.3f) m for this footprint and clearance; nearest reachable place (%.3f, %.3f) m, "
+        "%.3f m away",
+        goal[0], goal[1], near[0], near[1], std::hypot(near[0] - goal[0], near[1] - goal[1]));
+  } else {
+    std::snprintf(text, sizeof text,
+                  "no way out of the start (%.3f, %.3f) m for this footprint and clearance", start[0],
+                  start[1]);
+  }
+  verdict.message = text;
+  return verdict;
+}
+
+Path with_end_turns(const Path& inner, const RouteRequest& request) {
+  Path path;
+  if (!inner.pieces.empty()) {
+    if (!request.start_heading_free) append_turn_to(path, request.start, inner.start().heading_rad);
+    path.pieces.insert(path.pieces.end(), inner.pieces.begin(), inner.pieces.end());
+  }
+  if (request.goal_heading_rad) append_turn_to(path, request.start, *request.goal_heading_rad);
+  return path;
+}
+
+}  // namespace
+
+std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request) {
+  // Where the heading is free it is enough that some heading fits: the inscribed disc.
+  const auto check = [&](const Pose& pose, bool heading_free) -> std::optional<Collision> {
+    if (!heading_free) return space.checker().pose_collision(pose);
+    const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
+    const auto nearest = space.field().nearest(pose.x_m, pose.y_m);
+    if (nearest.distance_m >= need_m - FootprintChecker::kTolerance_m) return std::nullopt;
+    return Collision{0, pose, need_m - nearest.distance_m, nearest};
+  };
+  const Pose goal{request.goal_x_m, request.goal_y_m, request.goal_heading_rad.value_or(0)};
+  if (const auto c = check(request.start, request.start_heading_free))
+    return told_of_the_map(blocked(RouteStatus::start_blocked, "the robot does not fit at the start", *c),
+                           space.field(), "start");
+  if (const auto c = check(goal, !request.goal_heading_rad))
+    return told_of_the_map(blocked(RouteStatus::goal_blocked, "the robot does not fit at the goal", *c),
+                           space.field(), "goal");
+  return std::nullopt;
+}
+
+std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request) {
+  if (auto verdict = blocked_ends(space, request)) return verdict;
+  const Point2 start{request.start.x_m, request.start.y_m}, goal{request.goal_x_m, request.goal_y_m};
+  if (is_there_already(request) || space.any_heading().connected(start, goal) ||
+      space.some_heading().connected(start, goal))
+    return std::nullopt;
+  return unconnected(space.any_heading(), start, goal);
+}
+
+bool is_there_already(const RouteRequest& request) {
+  return std::hypot(request.goal_x_m - request.start.x_m, request.goal_y_m - request.start.y_m) < kArrived_m;
+}
+
+RouteSpace::~RouteSpace() = default;
+RouteSpace::RouteSpace(RouteSpace&&) noexcept = default;
+RouteSpace& RouteSpace::operator=(RouteSpace&&) noexcept = default;
+
+RouteSpace::RouteSpace(const OccupancyGrid& map, const OccupancyGrid* keepout, const Footprint& footprint,
+                       double clearance_m)
+    : field_(std::make_unique<ObstacleField>(map, keepout)),
+      checker_(*field_, footprint, clearance_m),
+      any_heading_(*field_, checker_.circumscribed_radius_m() + clearance_m) {
+  islands_m_ = island_points(any_heading_);
+  routes_ = std::make_unique<RouteCache>();
+  if (!checker_.is_disc()) some_heading_.emplace(*field_, checker_.inscribed_radius_m() + clearance_m);
+}
+
+RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
+                        const std::vector<Point2>& polyline_m) {
+  RouteResult result;
+  result.polyline_m = polyline_m;
+  result.polyline_cost = polyline_cost(polyline_m, request.cost);
+  const FootprintChecker& checker = space.checker();
+  const FootprintChecker careful = checker.with_clearance(checker.clearance_m() + kShapeMargin_m);
+  // As asked; bending at the ends where there is no room to turn on the spot; stopping at every corner.
+  RouteRequest bending = request, stopping = request;
+  bending.blend_start = bending.blend_goal = true;
+  stopping.corners = {CornerPolicy::Kind::stop_turn_go, 0};
+  for (const RouteRequest* way :
+       {&request, static_cast<const RouteRequest*>(&bending), static_cast<const RouteRequest*>(&stopping)}) {
+    const bool leaves_along = way->blend_start && !way->start_heading_free;
+    const SmoothPath smooth = *smooth_along_headings(
+        polyline_m, leaves_along ? std::optional(way->start.heading_rad) : std::nullopt,
+        way->blend_goal ? way->goal_heading_rad : std::nullopt, careful, way->corners);
+    result.path = with_end_turns(smooth.path, request);
+    result.corners = smooth.corners;
+    const auto collision = checker.first_collision(result.path);
+    if (!collision) {
+      result.verdict = {};
+      return result;
+    }
+    if (way != &request) continue;
+    result.verdict = blocked(RouteStatus::no_room_to_turn, "no room on the way at",
+                             checker.worst_collision(result.path).value_or(*collision));
+  }
+  result.path = {};
+  return result;
+}
+
+RouteResult plan_route(const RouteSpace& space, const RouteRequest& request) {
+  RouteResult result;
+  if (auto verdict = no_way(space, request)) {
+    result.verdict = *verdict;
+    return result;
+  }
+  if (is_there_already(request)) return shape_route(space, request, {});
+  const std::vector<PooledRoute> routes = pool_routes(space, request, {.classes = 1, .searches = 1});
+  if (routes.empty()) {
+    result.verdict = unconnected(space.any_heading(), {request.start.x_m, request.start.y_m},
+                                 {request.goal_x_m, request.goal_y_m});
+    return result;
+  }
+  RouteResult shaped = shape_route(space, request, routes.front().polyline_m);
+  shaped.search_iterations = routes.front().search_iterations;
+  shaped.searched_by = routes.front().searched_by;
+  return shaped;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,146 @@
+#include "planner/path/search/route_pool.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/path/search/homotopy.hpp"
+#include "planner/path/search/lattice.hpp"
+#include "planner/path/search/polyline.hpp"
+#include "planner/path/search/rate_table.hpp"
+#include "planner/path/search/route_cache.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kCorridor_m = 0.8;  // half width of what is made dear about an earlier route
+constexpr double kNearEnd_m = 1.5;   // all routes share these neighborhoods
+constexpr double kDearer = 1.0;      // added to the price of a metre each time
+constexpr double kMergeWithin_m = 2.5;
+constexpr double kMergeExtra_m = 0.6;
+constexpr int kAttemptsPerClass = 2;
+constexpr std::uint64_t kSeedStride = 7919;
+
+/// The routes found so far between the ends of one request.
+class Pool {
+ public:
+  Pool(const RouteSpace& space, const RouteRequest& request)
+      : space_(space),
+        request_(request),
+        start_{request.start.x_m, request.start.y_m},
+        goal_{request.goal_x_m, request.goal_y_m},
+        floor_(space.any_heading().connected(start_, goal_) ? space.any_heading() : space.some_heading()),
+        table_(request.cost, space.field().extent_m()),
+        cost_(table_.cost()),
+        lattice_(floor_) {}
+
+  bool straight() {
+    if (request_.cost.rate || !DiscLineCheck(floor_, start_, goal_, cells_)(start_, goal_)) return false;
+    add({start_, goal_}, "line of sight");
+    return true;
+  }
+  /// The lattice's way, or the grid's own where that is too coarse: decides which cells a way may use.
+  void search_cells() {
+    std::vector<Point2> line = lattice_.route(start_, goal_, DiscLineCheck(floor_, start_, goal_, cells_));
+    if (line.empty()) line = floor_.cell_route(start_, goal_, cells_);
+    if (line.empty()) line = floor_.cell_route(start_, goal_, cells_ = FreeSpace::Cells::free);
+    add_taut(line, "lattice");
+  }
+  void search(SearchPlanner planner, std::uint64_t seed) {
+    const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, planner, cost_, seed});
+    iterations_ += found.iterations;
+    add_taut(found.polyline_m, found.planner);
+  }
+  void search_away(int classes) {
+    const DiscLineCheck free(floor_, start_, goal_, cells_);
+    for (const PooledRoute& route : routes_) avoid(route.polyline_m);
+    for (int attempt = 0; attempt < kAttemptsPerClass * classes; ++attempt) {
+      const std::vector<Point2> line = lattice_.route(start_, goal_, free);
+      if (line.empty()) return;
+      avoid(line);
+      add_taut(line, "lattice, away from earlier routes");
+    }
+  }
+  std::vector<PooledRoute> routes() && {
+    for (PooledRoute& route : routes_) route.search_iterations = iterations_;
+    return std::move(routes_);
+  }
+
+ private:
+  void avoid(const std::vector<Point2>& line) { lattice_.make_dear(line, kCorridor_m, kNearEnd_m, kDearer); }
+
+  void add_taut(const std::vector<Point2>& found, const std::string& source) {
+    if (found.empty()) return;
+    const DiscLineCheck free(floor_, start_, goal_, cells_);
+    const std::vector<Point2> line = pull_taut(found, free, cost_);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      if (!free(line[i], line[i + 1])) return;
+    add(line, source);
+  }
+
+  void add(const std::vector<Point2>& line, const std::string& source) {
+    const DiscLineCheck free(floor_, start_, goal_, cells_);
+    PooledRoute route{.polyline_m = line,
+                      .wide_m = merged_corners(line, free, kMergeWithin_m, kMergeExtra_m),
+                      .cost = polyline_cost(line, cost_),
+                      .searched_by = source};
+    if (route.wide_m.size() == line.size()) route.wide_m.clear();
+    const auto same = std::find_if(routes_.begin(), routes_.end(), [&](const PooledRoute& other) {
+      return same_homotopy_class(line, other.polyline_m, space_.islands_m());
+    });
+    if (same == routes_.end())
+      routes_.push_back(std::move(route));
+    else if (route.cost < same->cost)
+      *same = std::move(route);
+  }
+
+  const RouteSpace& space_;
+  const RouteRequest& request_;
+  Point2 start_, goal_;
+  const FreeSpace& floor_;
+  FreeSpace::Cells cells_{FreeSpace::Cells::clear};
+  RateTable table_;
+  TravelCost cost_;
+  Lattice lattice_;
+  std::vector<PooledRoute> routes_{};
+  unsigned iterations_{};
+};
+
+std::vector<PooledRoute> search_all(const RouteSpace& space, const RouteRequest& request,
+                                    const PoolOptions& options) {
+  Pool pool(space, request);
+  if (!pool.straight()) {
+    pool.search_cells();
+    for (int k = 0; k < options.searches; ++k)
+      pool.search(request.planner, request.seed + kSeedStride * static_cast<std::uint64_t>(k));
+    if (options.classes > 1) pool.search_away(options.classes);
+  }
+  return std::move(pool).routes();
+}
+
+}  // namespace
+
+double corner_angles_rad(const std::vector<Point2>& line) {
+  double sum_rad = 0;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const double in_rad = std::atan2(line[i][1] - line[i - 1][1], line[i][0] - line[i - 1][0]);
+    const double out_rad = std::atan2(line[i + 1][1] - line[i][1], line[i + 1][0] - line[i][0]);
+    sum_rad += std::abs(wrapped_angle_rad(out_rad - in_rad));
+  }
+  return sum_rad;
+}
+
+std::vector<PooledRoute> pool_routes(const RouteSpace& space, const RouteRequest& request,
+                                     const PoolOptions& options) {
+  std::vector<PooledRoute> routes =
+      space.routes().find_or_search(request, options, [&] { return search_all(space, request, options); });
+  for (PooledRoute& route : routes) route.cost += request.cost.per_rad * corner_angles_rad(route.polyline_m);
+  std::stable_sort(routes.begin(), routes.end(),
+                   [](const PooledRoute& a, const PooledRoute& b) { return a.cost < b.cost; });
+  const double dearest = routes.empty() ? 0.0 : options.dearest_ratio * routes.front().cost;
+  std::erase_if(routes, [&](const PooledRoute& route) { return route.cost > dearest; });
+  if (routes.size() > static_cast<std::size_t>(options.classes))
+    routes.resize(static_cast<std::size_t>(options.classes));
+  return routes;
+}
+
+}  // namespace joulepath

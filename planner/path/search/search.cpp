@@ -1,0 +1,138 @@
+#include "planner/path/search/search.hpp"
+
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/informedtrees/ABITstar.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/util/Console.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+
+#include "planner/path/search/ompl_space.hpp"
+
+namespace joulepath {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, SearchPlanner planner) {
+  switch (planner) {
+    case SearchPlanner::bit_star: {
+      auto bit = std::make_shared<og::BITstar>(space);
+      bit->setSamplesPerBatch(200);
+      return bit;
+    }
+    case SearchPlanner::abit_star: {
+      auto abit = std::make_shared<og::ABITstar>(space);
+      abit->setSamplesPerBatch(200);
+      return abit;
+    }
+    case SearchPlanner::rrt_star:
+      return std::make_shared<og::RRTstar>(space);
+    case SearchPlanner::informed_rrt_star:
+      return std::make_shared<og::InformedRRTstar>(space);
+  }
+  return nullptr;
+}
+
+/// Stops by counting: at the budget, or when the best cost has settled.
+class Budget {
+ public:
+  Budget(const SearchRequest& request, const ob::PlannerPtr& planner) : request_(request) {
+    for (const auto& [name, value] : planner->getPlannerProgressProperties())
+      if (name.rfind("best cost", 0) == 0) best_cost_ = value;
+  }
+
+  bool spent() {
+    if (++iterations_ >= request_.max_iterations) return true;
+    if (iterations_ % kLookEvery != 0 || !best_cost_) return false;
+    const double cost = std::strtod(best_cost_().c_str(), nullptr);
+    if (!std::isfinite(cost)) return false;
+    if (cost < (1 - kSettled) * settled_cost_) settled_cost_ = cost, settled_at_ = iterations_;
+    return iterations_ - settled_at_ > request_.patience;
+  }
+  unsigned iterations() const { return iterations_; }
+
+ private:
+  static constexpr unsigned kLookEvery = 32;
+  static constexpr double kSettled = 0.002;
+
+  const SearchRequest& request_;
+  std::function<std::string()> best_cost_{};
+  unsigned iterations_{};
+  double settled_cost_{std::numeric_limits<double>::infinity()};
+  unsigned settled_at_{};
+};
+
+/// OMPL draws the seeds of its internal random numbers from one generator per process: whoever
+/// constructs a planner sets that generator first, one at a time.
+std::mutex& seeding_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+struct Setup {
+  ob::ProblemDefinitionPtr problem{};
+  ob::PlannerPtr planner{};
+};
+
+Setup set_up(const FreeSpace& free_space, const SearchRequest& request) {
+  const std::lock_guard lock(seeding_mutex());
+  ompl::msg::noOutputHandler();
+  ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(request.seed % 4294967291U + 1));
+  const ob::SpaceInformationPtr space = ompl_space(free_space, request);
+  auto problem = std::make_shared<ob::ProblemDefinition>(space);
+  ob::ScopedState<ob::RealVectorStateSpace> start(space), goal(space);
+  for (unsigned i = 0; i < 2; ++i) start[i] = request.start_m[i], goal[i] = request.goal_m[i];
+  problem->setStartAndGoalStates(start, goal, 1e-6);
+  problem->setOptimizationObjective(ompl_objective(space, request));
+  ob::PlannerPtr planner = make_planner(space, request.planner);
+  planner->setProblemDefinition(problem);
+  planner->setup();
+  return {problem, planner};
+}
+
+}  // namespace
+
+const char* search_planner_name(SearchPlanner planner) {
+  switch (planner) {
+    case SearchPlanner::bit_star:
+      return "bit_star";
+    case SearchPlanner::abit_star:
+      return "abit_star";
+    case SearchPlanner::rrt_star:
+      return "rrt_star";
+    case SearchPlanner::informed_rrt_star:
+      return "informed_rrt_star";
+  }
+  return "";
+}
+
+SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request) {
+  SearchResult result;
+  result.planner = search_planner_name(request.planner);
+  const Point2 &a = request.start_m, &b = request.goal_m;
+  if (!request.cost.rate && DiscLineCheck(space, a, b, request.cells)(a, b)) {
+    result.polyline_m = {a, b};
+    result.cost = polyline_cost(result.polyline_m, request.cost);
+    return result;
+  }
+  const Setup setup = set_up(space, request);
+  Budget budget(request, setup.planner);
+  setup.planner->solve(ob::PlannerTerminationCondition([&budget] { return budget.spent(); }));
+  result.iterations = budget.iterations();
+  if (!setup.problem->hasExactSolution()) return result;
+  for (const ob::State* state : setup.problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
+    result.polyline_m.push_back(point_of(state));
+  result.polyline_m.front() = a;
+  result.polyline_m.back() = b;
+  result.cost = polyline_cost(result.polyline_m, request.cost);
+  return result;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/path/shape/smoothing.hpp"
+
+namespace joulepath {
+
+/// A straight line along a heading at an end of a route, so that the route leaves (or reaches) the end in
+/// that heading and bends, instead of turning on the spot.
+struct Lead {
+  double heading_rad{};
+  double length_m{};
+};
+
+/// The polyline with the leads' outer ends as new vertices. Requires two vertices.
+[[nodiscard]] std::vector<Point2> with_leads(const std::vector<Point2>& polyline_m,
+                                             const std::optional<Lead>& start,
+                                             const std::optional<Lead>& goal);
+
+/// The polyline with leads, its corners rounded; absent where a lead's corner has no room for a blend or the
+/// curve is not free.
+[[nodiscard]] std::optional<SmoothPath> smooth_with_leads(const std::vector<Point2>& polyline_m,
+                                                          const std::optional<Lead>& start,
+                                                          const std::optional<Lead>& goal,
+                                                          const FootprintChecker& checker,
+                                                          const CornerPolicy& policy);
+
+/// As smooth_with_leads with the lead lengths tried in turn: of those that are free, the path that turns
+/// least in place, then the shortest.
+[[nodiscard]] std::optional<SmoothPath> smooth_along_headings(const std::vector<Point2>& polyline_m,
+                                                              const std::optional<double>& start_heading_rad,
+                                                              const std::optional<double>& goal_heading_rad,
+                                                              const FootprintChecker& checker,
+                                                              const CornerPolicy& policy);
+
+}  // namespace joulepath

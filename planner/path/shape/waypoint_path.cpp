@@ -1,0 +1,126 @@
+#include "planner/path/shape/waypoint_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "planner/path/shape/bezier_chain.hpp"
+#include "planner/path/shape/corner_blend.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kSamePlace_m = 1e-6;
+
+std::string metres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g m", value_m);
+  return text;
+}
+
+/// Rounded down to the four digits of metres(): what a message proposes has to fit.
+double proposed_m(double most_m) {
+  constexpr double kClear = 1 - 1e-12;  // of the rounding of what is compared
+  if (!(most_m > 0)) return 0;
+  const double step_m = std::pow(10.0, std::floor(std::log10(most_m)) - 3);
+  return step_m * std::floor(kClear * most_m / step_m);
+}
+
+std::vector<double> chords_m(const std::vector<Point2>& points_m) {
+  std::vector<double> chords;
+  for (std::size_t i = 0; i + 1 < points_m.size(); ++i)
+    chords.push_back(std::hypot(points_m[i + 1][0] - points_m[i][0], points_m[i + 1][1] - points_m[i][1]));
+  return chords;
+}
+
+std::optional<WaypointDefect> senseless(const std::vector<Point2>& points_m) {
+  if (points_m.size() < 2)
+    return WaypointDefect{0, false, std::to_string(points_m.size()) + " waypoints", "two waypoints or more"};
+  const std::vector<double> chord = chords_m(points_m);
+  for (std::size_t i = 0; i < chord.size(); ++i)
+    if (!(chord[i] > kSamePlace_m))
+      return WaypointDefect{i + 1, false, "the place of the waypoint before", "a waypoint at another place"};
+  return std::nullopt;
+}
+
+/// Second derivatives (by chord length) of the natural cubic spline through `y` at the waypoints: the
+/// three-term recurrence of continuous first derivatives, by elimination; the matrix is diagonally dominant.
+std::vector<double> second_derivatives(const std::vector<double>& chord, const std::vector<double>& y) {
+  const std::size_t n = y.size();
+  std::vector<double> second(n, 0.0), above(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double pivot = 2 * (chord[i - 1] + chord[i]) - chord[i - 1] * above[i - 1];
+    const double slope = (y[i + 1] - y[i]) / chord[i] - (y[i] - y[i - 1]) / chord[i - 1];
+    above[i] = chord[i] / pivot;
+    second[i] = (6 * slope - chord[i - 1] * second[i - 1]) / pivot;
+  }
+  for (std::size_t i = n - 1; i-- > 1;) second[i] -= above[i] * second[i + 1];
+  return second;
+}
+
+std::vector<BezierPoints> spline_m(const std::vector<Point2>& points_m) {
+  const std::vector<double> chord = chords_m(points_m);
+  std::vector<BezierPoints> curves(chord.size());
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::vector<double> y;
+    for (const Point2& point : points_m) y.push_back(point[axis]);
+    const std::vector<double> second = second_derivatives(chord, y);
+    for (std::size_t i = 0; i < chord.size(); ++i) {
+      const double h = chord[i], slope = (y[i + 1] - y[i]) / h;
+      const double begin = slope - h * (2 * second[i] + second[i + 1]) / 6;
+      const double end = slope + h * (second[i] + 2 * second[i + 1]) / 6;
+      const double handles[] = {y[i], y[i] + h * begin / 3, y[i + 1] - h * end / 3, y[i + 1]};
+      for (std::size_t k = 0; k < 4; ++k) curves[i][k][axis] = handles[k];
+    }
+  }
+  return curves;
+}
+
+/// A corner whose blend does not fit between its neighbors'.
+std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
+                                       const std::vector<double>& radius_m) {
+  const std::vector<double> chord = chords_m(points_m);
+  std::vector<double> tangent(points_m.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
+    const double angle = corner_angle_rad(points_m, i);
+    if (radius_m[i] <= 0 || std::abs(angle) < kNoCorner_rad) continue;
+    if (std::abs(angle) > kSharpestBlend_rad)
+      return WaypointDefect{i, true, metres(radius_m[i]) + " at a corner that turns back",
+                            "0, to turn on the spot"};
+    tangent[i] = radius_m[i] * blend_shape(angle).tangent;
+  }
+  std::size_t widest = 0;
+  double room_m = 0;
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
+    const double room = std::min(chord[i - 1] - tangent[i - 1], chord[i] - tangent[i + 1]);
+    if (tangent[i] > room && tangent[i] > tangent[widest]) widest = i, room_m = room;
+  }
+  if (widest == 0) return std::nullopt;
+  const double most_m = std::max(0.0, room_m) * radius_m[widest] / tangent[widest];
+  return WaypointDefect{widest, true, metres(radius_m[widest]),
+                        "at most " + metres(proposed_m(most_m)) + " between its neighbors"};
+}
+
+}  // namespace
+
+WaypointPath curve_through(const std::vector<Point2>& waypoints_m) {
+  if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
+  if (waypoints_m.size() == 2) return {.path = blended_polyline(waypoints_m, {0.0, 0.0})};
+  std::vector<CurveSegment> segments;
+  const std::vector<BezierPoints> curves = spline_m(waypoints_m);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (const auto defects = bezier_defects(curves[i], i); !defects.empty())
+      return {.defect = WaypointDefect{i + 1, false, defects.front().message,
+                                       "waypoints that a smooth curve can follow"}};
+    segments.push_back(BezierSegment(curves[i]));
+  }
+  return {.path = Path{{Curve(std::move(segments))}}};
+}
+
+WaypointPath lines_between(const std::vector<Point2>& waypoints_m, const std::vector<double>& radius_m) {
+  if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
+  if (auto defect = too_wide(waypoints_m, radius_m)) return {.defect = std::move(defect)};
+  return {.path = blended_polyline(waypoints_m, radius_m)};
+}
+
+}  // namespace joulepath

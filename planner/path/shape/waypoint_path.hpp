@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/path/geometry/path.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
+
+namespace joulepath {
+
+/// Why no path leads along some waypoints.
+struct WaypointDefect {
+  std::size_t waypoint{};
+  bool radius{};  ///< its radius is what is wrong, else its place
+  std::string found{};
+  std::string accepted{};
+};
+
+/// A path along waypoints, or why there is none.
+struct WaypointPath {
+  Path path{};
+  std::optional<WaypointDefect> defect{};
+};
+
+/// The natural cubic spline through waypoints (m) by chord length: one curve with continuous curvature,
+/// driven forward without a stop. Two waypoints or more, neighbors at different places.
+[[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m);
+
+/// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of
+/// smallest radius radius_m[i]; 0: the robot stops and turns there. The ends' radii are not looked at.
+[[nodiscard]] WaypointPath lines_between(const std::vector<Point2>& waypoints_m,
+                                         const std::vector<double>& radius_m);
+
+}  // namespace joulepath

@@ -1,0 +1,109 @@
+#include "planner/profile/dense_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "planner/motion/limit_check.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+
+namespace joulepath::nlp {
+namespace {
+
+constexpr std::size_t kLooks = 8;         ///< per segment
+constexpr double kWorthALook = 1 - 1e-3;  ///< a limit used less does not peak above 1 between two looks
+constexpr double kTolerated = 3e-7;       ///< relative
+constexpr double kCoarse = 5e-3;  ///< a violation beyond this asks for a node, not for tightening alone
+
+/// Looks at the limits of one segment, and between the looks at where a parabola through three of them peaks.
+class SegmentLook {
+ public:
+  SegmentLook(const ProfileRequest& request, const PathMotion& motion, const Profile& profile, std::size_t k)
+      : request_(request),
+        motion_(motion),
+        profile_(profile),
+        from_(profile.s[k]),
+        ds_(profile.s[k + 1] - profile.s[k]),
+        jerk_(profile.jerk[k]) {}
+
+  std::map<std::string_view, double> worst_uses() const {
+    std::map<std::string_view, std::array<double, kLooks + 1>> uses;
+    for (std::size_t i = 0; i <= kLooks; ++i)
+      look(static_cast<double>(i) / kLooks, [&](std::string_view name, double ratio) {
+        double& most = uses[name][i];
+        most = std::max(most, ratio);
+      });
+    std::map<std::string_view, double> worst;
+    for (const auto& [name, ratios] : uses) worst[name] = std::max(peak(name, ratios), 0.0);
+    return worst;
+  }
+
+ private:
+  template <class Use>
+  void look(double share, Use&& use) const {
+    const ProfileState state = profile_.at_s(from_ + ds_ * std::clamp(share, 1e-7, 1 - 1e-7));
+    for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, jerk_, use);
+  }
+
+  double peak(std::string_view name, const std::array<double, kLooks + 1>& ratios) const {
+    double most = *std::max_element(ratios.begin(), ratios.end());
+    if (most < kWorthALook || !std::isfinite(most)) return most;
+    for (std::size_t i = 1; i < kLooks; ++i) {
+      const double before = ratios[i] - ratios[i - 1], after = ratios[i + 1] - ratios[i];
+      if (ratios[i] < kWorthALook || before < 0 || after > 0 || before - after <= 0) continue;
+      const double top = (static_cast<double>(i) + 0.5 * (before + after) / (before - after)) / kLooks;
+      look(top, [&](std::string_view limit, double ratio) {
+        if (limit == name) most = std::max(most, ratio);
+      });
+    }
+    return most;
+  }
+
+  const ProfileRequest& request_;
+  const PathMotion& motion_;
+  const Profile& profile_;
+  double from_{}, ds_{}, jerk_{};
+};
+
+}  // namespace
+
+std::vector<double> counted_energy_J(const Problem& problem, const std::vector<double>& b) {
+  std::vector<double> energy_J;
+  for (std::size_t k = 0; k < problem.segment_count(); ++k)
+    energy_J.push_back(kept_energy_J(plain_interval(problem.segments[k], b[k], b[k + 1])));
+  return energy_J;
+}
+
+DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const Profile& profile,
+                         const std::vector<double>& counted_energy_J, double accuracy) {
+  const ProfileRequest& request = *problem.request;
+  const std::size_t count = problem.segment_count();
+  DenseCheck result{.cut = std::vector<bool>(count, false)};
+  std::vector<double> error_J(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double from = profile.s[k], ds = profile.s[k + 1] - from;
+    const auto worst = SegmentLook(request, motion, profile, k).worst_uses();
+    for (const auto& [name, ratio] : worst) {
+      result.worst_ratio = std::max(result.worst_ratio, ratio);
+      if (ratio <= 1 + kTolerated || !std::isfinite(ratio)) continue;
+      const std::string_view limit = name == "deceleration" ? std::string_view("acceleration") : name;
+      result.tighten.push_back({limit, from, from + ds, (1 - 5e-8) / ratio});
+      if (ratio > 1 + kCoarse) result.cut[k] = true;
+    }
+    const double exact_J = segment_energy_J(motion, profile, k);
+    error_J[k] = counted_energy_J[k] - exact_J;
+    result.energy_J += exact_J;
+  }
+  double sum_J = 0, size_J = 0;
+  for (double e : error_J) sum_J += e, size_J += std::abs(e);
+  result.energy_error_J = std::abs(sum_J);
+  const double total_J = std::max(std::abs(result.energy_J), 1e-9);
+  if (result.energy_error_J > accuracy * total_J)
+    for (std::size_t k = 0; k < count; ++k)
+      if (std::abs(error_J[k]) > 0.2 * size_J / static_cast<double>(count)) result.cut[k] = true;
+  return result;
+}
+
+}  // namespace joulepath::nlp

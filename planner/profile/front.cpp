@@ -1,0 +1,158 @@
+#include "planner/profile/front.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
+#include "planner/nlp/fast/fast_solver.hpp"
+#include "planner/nlp/ipopt/ipopt_solver.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
+#include "planner/profile/dense_check.hpp"
+#include "planner/profile/profile_solver.hpp"
+
+namespace joulepath {
+namespace {
+
+struct Sum {
+  double duration_s{};
+  double motion_energy_J{};
+};
+
+/// One stretch, transcribed once; solved for any price of a second.
+class FrontStretch {
+ public:
+  explicit FrontStretch(const ProfileRequest& request) : request_(request), motion_(path_motion(request_)) {
+    request_.time = {.mode = TimeMode::free_time};
+    const std::vector<double> grid = nlp::make_grid(motion_, request_, request_.nodes);
+    std::vector<nlp::Tightening> tightenings;
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round) {
+      problem_ = nlp::transcribe(request_, motion_, grid, tightenings, nullptr);
+      envelope_ = nlp::rate_envelope(problem_);
+      if (envelope_.blocked) return;
+      const Profile fastest = profile_from_squares(problem_.s, envelope_.fastest);
+      const nlp::DenseCheck check = nlp::check_densely(
+          problem_, motion_, fastest, nlp::counted_energy_J(problem_, envelope_.fastest), 1.0);
+      if (check.worst_ratio <= 1 + 1e-6) break;
+      tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
+    }
+    start_ = envelope_.fastest;
+    for (std::size_t k = 1; k + 1 < start_.size(); ++k)
+      start_[k] = 0.7 * envelope_.fastest[k] + 0.3 * envelope_.slowest[k];
+  }
+  FrontStretch(const FrontStretch&) = delete;
+  FrontStretch& operator=(const FrontStretch&) = delete;
+
+  bool blocked() const { return envelope_.blocked.has_value(); }
+  const ProfileRequest& request() const { return request_; }
+
+  std::optional<Sum> at_price(double price_W) {
+    if (jerk_limited()) return planned_at_price(price_W);
+    if (std::isinf(price_W) || problem_.unknown_count() == 0) return sum_of(envelope_.fastest);
+    problem_.time_weight_W = request_.plant.robot.power.standby_W + price_W;
+    nlp::Solution solution = nlp::solve_fast(problem_, start_, {.tolerance = 1e-8});
+    if (!solution.converged) solution = nlp::solve_with_ipopt(problem_, start_);
+    if (!solution.converged) return std::nullopt;
+    return sum_of(solution.b);
+  }
+
+ private:
+  bool jerk_limited() const { return std::isfinite(request_.limits.jerk_m_s3) && !is_turn(request_.piece); }
+
+  /// A whole plan per price: under a jerk limit squares of the rate alone are not the unknowns.
+  std::optional<Sum> planned_at_price(double price_W) const {
+    ProfileRequest request = request_;
+    request.time = std::isinf(price_W) ? TimeGoal{.mode = TimeMode::minimum_time}
+                                       : TimeGoal{.mode = TimeMode::time_price, .price_W = price_W};
+    const ProfileResult result = solve_profile(request);
+    if (!result.profile) return std::nullopt;
+    const double energy_J = energy_by_cause(motion_, *result.profile).motion_J();
+    return Sum{.duration_s = result.profile->duration_s(), .motion_energy_J = energy_J};
+  }
+
+  Sum sum_of(const std::vector<double>& b) const {
+    Sum sum{.duration_s = duration_of(problem_, b)};
+    for (double energy_J : nlp::counted_energy_J(problem_, b)) sum.motion_energy_J += energy_J;
+    return sum;
+  }
+
+  ProfileRequest request_;
+  PathMotion motion_;
+  nlp::Problem problem_{};
+  nlp::RateEnvelope envelope_{};
+  std::vector<double> start_{};
+};
+
+/// The price between two neighbours of the front.
+double price_between_W(double high_W, double low_W, double typical_W) {
+  if (std::isinf(high_W)) return 4 * std::max(low_W, 0.25 * typical_W);
+  return low_W > 0 ? std::sqrt(high_W * low_W) : 0.3 * high_W;
+}
+
+/// Where the next point goes: behind the front's widest gap, durations and energies counted alike.
+std::size_t widest_gap(const std::vector<FrontPoint>& points) {
+  const double duration_s = std::max(1e-12, points.back().duration_s - points.front().duration_s);
+  const double energy_J = std::max(1e-12, points.front().energy_J - points.back().energy_J);
+  std::size_t widest = 0;
+  double most = -1;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    // Equal prices: the front is straight there, and every point between is reached at that one price.
+    if (points[k].price_of_time_W < points[k + 1].price_of_time_W * (1 + 1e-3)) continue;
+    const double gap = std::hypot((points[k + 1].duration_s - points[k].duration_s) / duration_s,
+                                  (points[k].energy_J - points[k + 1].energy_J) / energy_J);
+    if (gap > most) most = gap, widest = k;
+  }
+  return widest;
+}
+
+}  // namespace
+
+Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_t points) {
+  Front front;
+  std::vector<std::unique_ptr<FrontStretch>> parts;
+  double standby_W = 0;
+  for (const ProfileRequest& request : stretches) {
+    parts.push_back(std::make_unique<FrontStretch>(request));
+    standby_W = request.plant.robot.power.standby_W;
+    if (!parts.back()->blocked()) continue;
+    ProfileResult result = solve_profile(parts.back()->request());
+    front.summary = result.summary;
+    front.infeasibility = result.infeasibility;
+    return front;
+  }
+  const auto point_at = [&](double price_W) -> std::optional<FrontPoint> {
+    FrontPoint point{.price_of_time_W = price_W, .status = SolveStatus::optimal};
+    for (const auto& part : parts) {
+      const std::optional<Sum> sum = part->at_price(price_W);
+      if (!sum) return std::nullopt;
+      point.duration_s += sum->duration_s;
+      point.stretch_s.push_back(sum->duration_s);
+      point.motion_energy_J += sum->motion_energy_J;
+    }
+    point.energy_J = point.motion_energy_J + standby_W * point.duration_s;
+    return point;
+  };
+  const auto fastest = point_at(kNoLimit), cheapest = point_at(0.0);
+  if (parts.empty() || !fastest || !cheapest) {
+    front.summary.message = "no front: a stretch could not be solved";
+    return front;
+  }
+  front.points = {*fastest, *cheapest};
+  const double typical_W = std::max(0.1, cheapest->energy_J / std::max(1e-9, cheapest->duration_s));
+  while (front.points.size() < points) {
+    const std::size_t k = widest_gap(front.points);
+    const double price_W =
+        price_between_W(front.points[k].price_of_time_W, front.points[k + 1].price_of_time_W, typical_W);
+    const auto point = point_at(price_W);
+    if (!point) break;
+    front.points.insert(front.points.begin() + static_cast<std::ptrdiff_t>(k) + 1, *point);
+  }
+  front.summary.status = SolveStatus::optimal;
+  front.summary.solver = "fast";
+  return front;
+}
+
+}  // namespace joulepath

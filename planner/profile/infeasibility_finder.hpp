@@ -1,0 +1,20 @@
+#pragma once
+
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/values/infeasibility.hpp"
+
+namespace joulepath {
+
+/// The verdict for a request whose rate envelope is blocked: which limit, where, by how much, and the
+/// smallest value of it that would let the robot pass (found by bisection on the envelope).
+[[nodiscard]] Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
+                                            const nlp::Blocked& blocked);
+
+/// The verdict for a time that is shorter than the minimum time, or longer than the maximum.
+[[nodiscard]] Infeasibility explain_duration(const ProfileRequest& request, double possible_s);
+
+/// A path or a number of the request that makes no sense by itself.
+[[nodiscard]] Infeasibility explain_request(const ProfileRequest& request, std::string constraint,
+                                            std::string message);
+
+}  // namespace joulepath

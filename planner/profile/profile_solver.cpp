@@ -1,0 +1,193 @@
+#include "planner/profile/profile_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/fast/fast_solver.hpp"
+#include "planner/nlp/ipopt/ipopt_solver.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
+#include "planner/nlp/transcription/grid.hpp"
+#include "planner/profile/certification.hpp"
+#include "planner/profile/dense_check.hpp"
+#include "planner/profile/first_guess.hpp"
+#include "planner/profile/infeasibility_finder.hpp"
+#include "planner/profile/jerk_profile.hpp"
+#include "planner/profile/request_check.hpp"
+#include "planner/values/profile.hpp"
+
+namespace joulepath {
+namespace {
+
+using nlp::Problem;
+
+constexpr int kRounds = 12;         ///< of tightening and refinement
+constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
+constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
+constexpr double kMetTime = 1e-7;   ///< relative: a deadline missed by less is met
+constexpr int kSharpenings = 16;    ///< cuts of the grid for a deadline that it misses by little
+constexpr double kWorthACut = 0.2;  ///< share of the largest excess
+constexpr const char* kFastestSolver = "forward_backward";
+
+class ProfileSolver {
+ public:
+  explicit ProfileSolver(const ProfileRequest& request) : request_(request), motion_(path_motion(request)) {}
+
+  ProfileResult solve() {
+    std::vector<double> s =
+        nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000));
+    std::vector<nlp::Tightening> tightenings;
+    for (int round = 0; round < kRounds; ++round) {
+      const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
+      result_.summary.nodes = problem.node_count();
+      if (sharpen(problem, s)) {
+        --round;
+        continue;
+      }
+      if (!solve_on(problem)) return std::move(result_);
+      if (request_.draft) return sketch();
+      const nlp::DenseCheck check = nlp::check_densely(
+          problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), request_.accuracy);
+      const bool accurate =
+          check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
+      const bool last = round + 1 == kRounds;
+      if (check.worst_ratio <= 1 + kSettled && (accurate || last)) return finish(problem);
+      last_ratio_ = check.worst_ratio;
+      tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
+      s = nlp::cut_segments(s, check.cut);
+    }
+    result_.summary.status = SolveStatus::failed;
+    result_.summary.message =
+        "limits do not settle between nodes (worst use " + std::to_string(last_ratio_) + ")";
+    return std::move(result_);
+  }
+
+ private:
+  /// A grid takes longer than the path needs: the fastest profile bends within its segments. Where that may
+  /// be why a deadline is missed, the grid is cut there; false where it needs no cut.
+  bool sharpen(const Problem& problem, std::vector<double>& s) {
+    if (problem.duration_row == nlp::DurationRow::none || sharpened_ == kSharpenings) return false;
+    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
+    if (envelope.blocked) return false;
+    const double late_s = duration_of(problem, envelope.fastest) - problem.duration_s;
+    if (!(late_s > kMetTime * problem.duration_s)) return false;
+    const std::vector<double> excess_s = nlp::time_excess_s(problem, envelope.fastest);
+    const double sum_s = std::accumulate(excess_s.begin(), excess_s.end(), 0.0);
+    if (2 * sum_s < late_s) return false;
+    const double worth_s = kWorthACut * *std::max_element(excess_s.begin(), excess_s.end());
+    std::vector<bool> cut;
+    for (double each_s : excess_s) cut.push_back(each_s > worth_s);
+    s = nlp::cut_segments(s, cut);
+    return ++sharpened_ > 0;
+  }
+
+  /// Fills best_; false when the request is infeasible or the solver failed (result_ then says so).
+  bool solve_on(const Problem& problem) {
+    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
+    if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
+    const double minimum_s = duration_of(problem, envelope.fastest);
+    const bool limited = problem.duration_row != nlp::DurationRow::none;
+    if (std::isnan(problem.duration_s) || (limited && problem.duration_s < minimum_s * (1 - kMetTime)))
+      return give_up(explain_duration(request_, minimum_s));
+    const bool no_choice = limited && problem.duration_s <= minimum_s * (1 + kSameTime);
+    if (request_.time.mode == TimeMode::minimum_time || no_choice || problem.unknown_count() == 0)
+      return take(problem, envelope.fastest, kFastestSolver);
+    if (problem.duration_row == nlp::DurationRow::equal) {
+      const double maximum_s = duration_of(problem, blend(envelope, 1e-12));
+      if (problem.duration_s > maximum_s) return give_up(explain_duration(request_, maximum_s));
+    }
+    return optimize(problem, envelope, minimum_s);
+  }
+
+  bool optimize(const Problem& problem, const nlp::RateEnvelope& envelope, double minimum_s) {
+    const bool equal = problem.duration_row == nlp::DurationRow::equal;
+    const double aim_s =
+        equal ? problem.duration_s : std::min(0.9 * problem.duration_s + 0.1 * minimum_s, 1.5 * minimum_s);
+    const std::vector<double> start = first_guess(problem, envelope, aim_s);
+    SolveSummary& summary = result_.summary;
+    const char* solver = "fast";
+    if (request_.solver == SolverChoice::fast && summary.handed_over.empty()) {
+      solution_ = nlp::solve_fast(problem, start);
+      summary.iterations += solution_.iterations;
+      if (!solution_.converged) summary.handed_over = solution_.message;
+    }
+    if (request_.solver == SolverChoice::ipopt || !summary.handed_over.empty()) {
+      solver = "ipopt";
+      solution_ = nlp::solve_with_ipopt(problem, start);
+      summary.iterations += solution_.iterations;
+    }
+    if (!solution_.converged) {
+      summary.solver = solver;
+      summary.status = SolveStatus::failed;
+      summary.message = solution_.message;
+      return false;
+    }
+    const bool priced = request_.time.mode == TimeMode::time_price;
+    summary.price_of_time_W = solution_.price_W + (priced ? request_.time.price_W : 0.0);
+    return take(problem, solution_.b, solver);
+  }
+
+  bool take(const Problem& problem, const std::vector<double>& b, const char* solver) {
+    result_.summary.solver = solver;
+    best_b_ = b;
+    best_ = profile_from_squares(problem.s, b);
+    return true;
+  }
+
+  bool give_up(Infeasibility verdict) {
+    result_.summary.status = SolveStatus::infeasible;
+    result_.summary.message = verdict.message;
+    result_.infeasibility = std::move(verdict);
+    return false;
+  }
+
+  /// The objective stands where a plan has its lower bound.
+  ProfileResult sketch() {
+    result_.summary.status = SolveStatus::feasible;
+    result_.summary.lower_bound_J = solution_.objective;
+    result_.profile = std::move(best_);
+    return std::move(result_);
+  }
+
+  /// The certificate, and what it makes of the profile.
+  ProfileResult finish(const Problem& problem) {
+    SolveSummary& summary = result_.summary;
+    summary.status = SolveStatus::feasible;
+    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
+    if (summary.solver == kFastestSolver)
+      certify_time(problem, envelope, *best_, summary);
+    else
+      certify_energy(problem, motion_, envelope, solution_, *best_, summary);
+    if (summary.gap_percent <= 100 * request_.accuracy && !summary.local)
+      summary.status = SolveStatus::optimal;
+    result_.profile = std::move(best_);
+    return std::move(result_);
+  }
+
+  const ProfileRequest& request_;
+  PathMotion motion_;
+  ProfileResult result_{};
+  std::vector<double> best_b_{};  ///< squares of the rate
+  std::optional<Profile> best_{};
+  nlp::Solution solution_{};
+  double last_ratio_{};
+  int sharpened_{};
+};
+
+}  // namespace
+
+ProfileResult solve_profile(const ProfileRequest& request) {
+  if (std::optional<Infeasibility> verdict = senseless(request)) {
+    ProfileResult result;
+    result.summary.status = SolveStatus::infeasible;
+    result.summary.message = verdict->message;
+    result.infeasibility = std::move(verdict);
+    return result;
+  }
+  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) && !request.draft)
+    return solve_with_jerk_limit(request);
+  return ProfileSolver(request).solve();
+}
+
+}  // namespace joulepath

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/energy.hpp"
+#include "planner/values/baseline_result.hpp"
+#include "planner/values/mission_request.hpp"
+#include "planner/values/profile.hpp"
+#include "planner/values/profile_request.hpp"
+#include "planner/values/profile_result.hpp"
+#include "planner/values/replay_result.hpp"
+
+namespace joulepath {
+
+/// A piece of path that is driven without a stop, as planned.
+struct StretchPlan {
+  ProfileRequest request;
+  Profile profile{};
+  SolveSummary summary{};
+  ReplayResult replay{};
+  EnergyByCause energy{};  ///< while driving
+};
+
+/// A baseline over several stretches: same path, same distance, same time; later where no such profile keeps
+/// the plan's time.
+struct BaselineTotal {
+  std::string name{};
+  bool feasible{true};
+  std::string reason{};  ///< why it is not counted
+  double energy_J{};
+  double motion_energy_J{};
+  double duration_s{};
+  double later_s{};  ///< beyond the plan's time
+  bool late() const { return later_s > 1e-3; }
+  std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
+};
+
+/// What the planner looked at before it settled on a leg's path: driven between the chosen ways of its
+/// neighbors, turns at both stops included.
+struct PathAlternative {
+  std::string name{};
+  double energy_J{};  ///< standby included
+  double duration_s{};
+  double distance_m{};
+  bool chosen{};
+};
+
+/// A leg after a step of choosing its way, as the inner solves see it at the leg's price of a second.
+struct WayImprovement {
+  std::string step{};  ///< shortest_route | corners | routes | stops | refinement
+  double energy_J{};   ///< standby included
+  double duration_s{};
+  double cost_J{};  ///< energy and time at its price
+};
+
+struct LegPlan {
+  std::string to{};  ///< station, `path` or `motion`
+  std::string path_source{};
+  SolveStatus status{SolveStatus::failed};
+  PayloadAlongLeg payload{};
+  std::vector<StretchPlan> stretches{};
+  std::vector<PathPart> parts{};           ///< named by the mission: edges of an order
+  std::optional<Trajectory> prescribed{};  ///< a prescribed motion, sampled; no stretches then
+  double start_s{};                        ///< departure, from the mission's start
+  double duration_s{};                     ///< driving
+  double dwell_s{};
+  double distance_m{};
+  double turned_rad{};
+  double price_of_time_W{};
+  EnergyByCause energy{};   ///< driving and dwell
+  double energy_sigma_J{};  ///< 1-sigma from the robot file's uncertainty
+  double charger_W{};       ///< of the charger at its stop, where it was put in to charge
+  double charged_J{};       ///< taken up there
+  std::vector<BaselineTotal> baselines{};
+  std::vector<PathAlternative> alternatives{};
+  std::vector<WayImprovement> improvements{};
+};
+
+/// Why a mission cannot be driven, and the smallest change found that would make it possible.
+struct PlanInfeasibility {
+  Infeasibility reason{};
+  std::size_t leg{};
+  double arc_length_m{};  ///< along the leg
+};
+
+/// The order of stops that a mission with `visit:` was given.
+struct VisitOrder {
+  std::vector<std::size_t> order{};  ///< indices into MissionRequest::visit
+  std::vector<LegRequest> legs{};
+  bool exact{};                           ///< false: a beam search, with the bound below
+  double energy_J{};                      ///< of the order, from the table of leg energies
+  std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
+  double lower_bound_J{};                 ///< no order takes less: cheapest way into each stop, unloaded
+  std::optional<Infeasibility> infeasibility{};
+};
+
+struct BatteryAccount {
+  double start_fraction{};
+  double end_fraction{};
+  std::array<double, 2> interval_95{};  ///< of the end fraction, from the robot file's uncertainty
+  double loss_J{};                      ///< in the internal resistance
+  double charged_J{};                   ///< at chargers on the way
+  double required_capacity_Wh{};        ///< 95 % upper bound of what is drawn at most between charges
+  double missions_per_charge{};
+  double lowest_voltage_V{};
+  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the reserve is touched
+  std::vector<double> fraction_after_leg{};
+};
+
+/// The answer to a mission.
+struct Plan {
+  std::string mission{};
+  SolveStatus status{SolveStatus::failed};
+  std::string message{};
+  std::vector<LegPlan> legs{};
+  EnergyByCause energy{};
+  double energy_sigma_J{};  ///< 1-sigma of energy from the robot file's uncertainty
+  double duration_s{};
+  double distance_m{};
+  double gap_percent{};
+  bool local{};
+  std::string solver{};
+  int iterations{};
+  double replay_energy_J{};
+  double worst_violation{};
+  std::string worst_limit{};
+  std::optional<BatteryAccount> battery{};
+  std::optional<VisitOrder> visit{};
+  std::vector<BaselineTotal> baselines{};
+  std::optional<PlanInfeasibility> infeasibility{};
+};
+
+}  // namespace joulepath

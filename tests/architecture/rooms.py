@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Rooms stand in the order of docs/architecture.md: no include runs upward."""
+import pathlib
+import re
+import sys
+
+# From the ground up; a room may include itself and the rooms before it. The longest prefix decides.
+PLANNER = """model planner/path/geometry planner/path/floor planner/path/shape planner/path/search planner/values
+planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
+planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/mission planner/controller""".split()
+DIAGNOSIS = """model diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/checks diagnosis/prediction
+diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
+diagnosis""".split()
+HOUSE = ["model", "planner", "diagnosis", "scenarios", "app"]  # planner and diagnosis do not know each other
+
+
+def room(path, rooms):
+    inside = [name for name in rooms if path == name or path.startswith(name + "/")]
+    return max(inside, key=len, default=None)
+
+
+def upward(root, path, included):
+    for rooms in (PLANNER, DIAGNOSIS, HOUSE):
+        here, there = room(path, rooms), room(included, rooms)
+        if here and there and rooms.index(there) > rooms.index(here):
+            return True
+    tops = {path.split("/")[0], included.split("/")[0]}
+    return tops == {"planner", "diagnosis"}
+
+
+def main(root):
+    complaints = []
+    for top in HOUSE:
+        for file in sorted((root / top).rglob("*.[ch]pp")):
+            path = file.relative_to(root).as_posix()
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                match = re.match(r'#include "(\w+/[^"]+)"', line)
+                if match and upward(root, path, match[1]):
+                    complaints.append(f"{path}:{number}: includes {match[1]}, which stands above it")
+    print("\n".join(complaints) or "rooms: no include runs upward")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))
