@@ -2,30 +2,27 @@
 
 namespace joulepath {
 
-void write_correction(Examination& x, const ModelState& corrected) {
-  if (x.named.empty()) return;
-  if (x.report.verdict == Verdict::ambiguous) {
-    x.report.notes.push_back("which effect of the group it is cannot be told: no correction is written");
-    return;
-  }
-  const EnergyGap& energy = x.report.gap.energy;
-  if (energy.after_J > kToleratedWorsening * energy.before_J &&
-      energy.after_percent > kFloorsLeft * energy.noise_floor_percent) {
-    x.report.notes.push_back("the correction does not shrink the held-out energy gap: none is written");
-    return;
-  }
-  ModelState constants = corrected;
+Correction correction_of(const Examination& x, const Validation& v, const EnergyGap& gap) {
+  if (v.judgment.named.empty()) return {};
+  if (v.judgment.verdict == Verdict::ambiguous)
+    return {.notes = {"which effect of the group it is cannot be told: no correction is written"}};
+  if (gap.after_J > kToleratedWorsening * gap.before_J &&
+      gap.after_percent > kFloorsLeft * gap.noise_floor_percent)
+    return {.notes = {"the correction does not shrink the held-out energy gap: none is written"}};
+  ModelState constants = v.state;
   constants.effects.clear();
   Robot robot = x.point_of(constants).robot;
   bool physical = false;
-  for (const ActiveEffect& effect : corrected.effects) {
+  Correction correction;
+  for (const ActiveEffect& effect : v.state.effects) {
     const EffectSetting setting = setting_of(effect.candidate, effect.amplitude, x.dataset.robot);
     if (is_instrument(setting.name))
-      x.report.corrected_instruments.push_back(setting);
+      correction.instruments.push_back(setting);
     else
       robot.effects.push_back(setting), physical = true;
   }
-  if (physical) x.report.corrected_robot = robot;
+  if (physical) correction.robot = robot;
+  return correction;
 }
 
 }  // namespace joulepath

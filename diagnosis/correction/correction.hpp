@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/verdict/examination.hpp"
+#include "diagnosis/correction/validation.hpp"
 
 namespace joulepath {
 
@@ -9,8 +9,15 @@ inline constexpr double kToleratedWorsening = 1.05;
 /// A held-out gap above so many noise floors is more than noise.
 inline constexpr double kFloorsLeft = 2.0;
 
-/// The robot as it seems to be, calibration constants moved and effects added, where that does not make
-/// the held-out energy worse.
-void write_correction(Examination& examination, const ModelState& corrected);
+/// What a user takes over, and why there is nothing where there is nothing.
+struct Correction {
+  std::optional<Robot> robot{};  ///< constants moved, physical effects added
+  std::vector<EffectSetting> instruments{};
+  std::vector<std::string> notes{};
+};
+
+/// The robot as it seems to be, where one cause is told and the held-out energy does not get worse.
+[[nodiscard]] Correction correction_of(const Examination& examination, const Validation& validation,
+                                       const EnergyGap& gap);
 
 }  // namespace joulepath

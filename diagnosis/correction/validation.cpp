@@ -6,7 +6,6 @@
 #include "diagnosis/correction/correction.hpp"
 #include "diagnosis/evidence/held_out.hpp"
 #include "diagnosis/evidence/materiality.hpp"
-#include "diagnosis/verdict/verdict.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
@@ -32,12 +31,12 @@ double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0;
 
 /// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
 /// the scatter between runs allows: a wrong model must not pass its own error for noise.
-double noise_floor_percent(const Examination& x, const Correction& correction) {
-  const ModelPoint point = x.point_of(correction.state);
-  const double left = energy_gap_percent(run_energies(correction.fitted.signals, point));
+double noise_floor_percent(const Examination& x, const Validation& v) {
+  const ModelPoint point = x.point_of(v.state);
+  const double left = energy_gap_percent(run_energies(v.fitted.signals, point));
   return std::min(left,
-                  kScatterFactor * run_scatter_percent(correction.fitted.signals, point,
-                                                       x.id.equations.run_variance, x.id.equations.noise));
+                  kScatterFactor * run_scatter_percent(v.fitted.signals, point, x.id.equations.run_variance,
+                                                       x.id.equations.noise));
 }
 
 /// A constant that is far out is an effect: as the rival of a named one it stays within its box.
@@ -51,7 +50,7 @@ ModelState within_calibration(const Examination& x, ModelState state) {
 
 /// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
 bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
-  const std::vector<double> loss = held_out_losses(x.validation, x.id, corrected);
+  const std::vector<double> loss = held_out_losses(x.runs.validation, x.id, corrected);
   double sum = 0, square = 0;
   const auto n = static_cast<double>(loss.size());
   for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
@@ -59,27 +58,26 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
   const double chance = kChanceLoss * x.id.dispersion;
   if (sum > 0 && (n < 3 || sum * sum > square || sum > chance)) return true;
   // Held-out runs that hardly show a certain effect (no turn, say) must only not speak against it.
-  return x.id.explanations.front().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
+  return x.best().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
 }
 
 /// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
 /// can tell.
-bool calibration_leaves_a_gap(const Examination& x, const Correction& calibrated) {
+bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated) {
   const double left =
-      energy_gap_percent(run_energies(read_signals(x.validation, 0.0), x.point_of(calibrated.state)));
+      energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0), x.point_of(calibrated.state)));
   return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
                             kLeastGapUnnamed_percent));
 }
 
 /// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
-double caution(const Examination& x) { return x.validation.runs.size() < 3 ? 2.0 : 1.0; }
+double caution(const Examination& x) { return x.runs.validation.runs.size() < 3 ? 2.0 : 1.0; }
 
 /// Whether the named effects change the motors' energy at all: others are judged by what they do change.
-bool claims_energy(const Examination& x, const Correction& correction) {
-  ModelState without = correction.state;
+bool claims_energy(const Examination& x, const Validation& v) {
+  ModelState without = v.state;
   without.effects.clear();
-  const Impact impact =
-      impact_between(correction.fitted.signals, x.point_of(correction.state), x.point_of(without));
+  const Impact impact = impact_between(v.fitted.signals, x.point_of(v.state), x.point_of(without));
   return impact.motor_power >= MaterialityFloor{}.motor_power;
 }
 
@@ -93,14 +91,14 @@ bool energies_are_measured(const std::vector<RunSignals>& signals) {
 /// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
 /// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
 double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
-                                const ModelState& calibrated, const Correction& correction) {
+                                const ModelState& calibrated, const Validation& v) {
   if (!energies_are_measured(before_signals)) return 0.0;
-  const std::vector<RunSignals> after_signals = read_signals(x.validation, channel_delay_s(correction.state));
-  const double floor = noise_floor_percent(x, correction);
-  const double before = energy_gap_percent(run_energies(before_signals, x.nominal));
-  const double after = energy_gap_percent(run_energies(after_signals, x.point_of(correction.state)));
-  const bool claims = claims_energy(x, correction);
-  if (claims && after > before && x.id.explanations.front().score < kModestEvidence) return 1.0;
+  const std::vector<RunSignals> after_signals = read_signals(x.runs.validation, channel_delay_s(v.state));
+  const double floor = noise_floor_percent(x, v);
+  const double before = energy_gap_percent(run_energies(before_signals, x.nominal()));
+  const double after = energy_gap_percent(run_energies(after_signals, x.point_of(v.state)));
+  const bool claims = claims_energy(x, v);
+  if (claims && after > before && x.best().score < kModestEvidence) return 1.0;
   if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
   const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
   if (!claims) return after > by_calibration + floor ? 1.0 : 0.0;
@@ -110,21 +108,21 @@ double unexplained_energy_share(const Examination& x, const std::vector<RunSigna
 }
 
 /// Names nothing any more; calibration alone is fitted.
-void withdraw(Examination& x, Correction& correction, const std::string& why) {
-  x.report.notes.push_back(why);
-  x.named.clear();
-  correction.state = refit_on_diagnosis(x.diagnosis, x.id, {}, &correction.fitted);
+void withdraw(const Examination& x, Validation& v, const std::string& why) {
+  v.judgment.notes.push_back(why);
+  v.judgment.named.clear();
+  v.state = refit_on_diagnosis(x.runs.diagnosis, x.id, {}, &v.fitted);
 }
 
 /// Constants are moved only where that brings the energy of the runs that it was fitted to nearer: an
 /// effect that takes no energy of the motors needs none of it.
-void keep_constants_that_fit(const Examination& x, Correction& correction) {
-  ModelState nominal = correction.state;
+void keep_constants_that_fit(const Examination& x, Validation& v) {
+  ModelState nominal = v.state;
   std::fill(nominal.nuisance_fraction.begin(), nominal.nuisance_fraction.end(), 0.0);
   const auto gap = [&](const ModelState& state) {
-    return energy_gap_percent(run_energies(correction.fitted.signals, x.point_of(state)));
+    return energy_gap_percent(run_energies(v.fitted.signals, x.point_of(state)));
   };
-  if (gap(nominal) < gap(correction.state)) correction.state = nominal;
+  if (gap(nominal) < gap(v.state)) v.state = nominal;
 }
 
 void fill_floors(const NoiseModel& noise, GapReport& gap) {
@@ -137,52 +135,51 @@ void fill_floors(const NoiseModel& noise, GapReport& gap) {
 
 }  // namespace
 
-Correction validate(Examination& x) {
-  Diagnosis& report = x.report;
-  for (std::size_t r : x.validation.runs) report.validation_runs.push_back(x.dataset.runs[r].name);
-  report.validation_method =
-      x.few ? "the same runs: too few to hold any out" : "held-out runs, never used to choose or fit";
-  const ModelState calibrated = within_calibration(x, refit_on_diagnosis(x.diagnosis, x.id, {}));
-  Correction correction;
-  correction.state = refit_on_diagnosis(x.diagnosis, x.id, x.named, &correction.fitted, 2);
-  if (!x.named.empty() && !holds(x, held_out_losses(x.validation, x.id, calibrated), correction.state)) {
-    withdraw(x, correction, "the best explanation does not hold on the held-out runs and was withdrawn");
-    report.verdict = report.leftover_significant ? Verdict::unexplained : Verdict::no_gap;
+Validation validate(const Examination& x, const Judgment& by_diagnosis_runs) {
+  Validation v{.judgment = by_diagnosis_runs};
+  Verdict& verdict = v.judgment.verdict;
+  const std::vector<ActiveEffect>& named = v.judgment.named;
+  const bool leftover_significant = v.judgment.leftover.significant;
+  const ModelState calibrated = within_calibration(x, refit_on_diagnosis(x.runs.diagnosis, x.id, {}));
+  v.state = refit_on_diagnosis(x.runs.diagnosis, x.id, named, &v.fitted, 2);
+  if (!named.empty() && !holds(x, held_out_losses(x.runs.validation, x.id, calibrated), v.state)) {
+    withdraw(x, v, "the best explanation does not hold on the held-out runs and was withdrawn");
+    verdict = leftover_significant ? Verdict::unexplained : Verdict::no_gap;
   }
-  if (!x.named.empty()) {
-    const double share = unexplained_energy_share(x, read_signals(x.validation, 0.0), calibrated, correction);
+  if (!named.empty()) {
+    const double share = unexplained_energy_share(x, read_signals(x.runs.validation, 0.0), calibrated, v);
     if (share > kUnexplainedShare) {
-      withdraw(x, correction,
-               "the best explanation leaves most of the held-out energy gap and was withdrawn");
-      const bool modest = x.id.explanations.front().score < kModestEvidence && !report.leftover_significant;
-      report.verdict = modest ? Verdict::no_gap : Verdict::unexplained;
+      withdraw(x, v, "the best explanation leaves most of the held-out energy gap and was withdrawn");
+      const bool modest = x.best().score < kModestEvidence && !leftover_significant;
+      verdict = modest ? Verdict::no_gap : Verdict::unexplained;
     } else if (share > 0) {
-      report.verdict = Verdict::partly_explained;
-      x.energy_left_share = share;
+      verdict = Verdict::partly_explained;
+      v.energy_left_share = share;
     }
   }
-  if (!x.named.empty()) keep_constants_that_fit(x, correction);
-  if (report.verdict == Verdict::no_gap && calibration_leaves_a_gap(x, correction)) {
-    report.verdict = Verdict::unexplained;
-    report.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
+  if (!named.empty()) keep_constants_that_fit(x, v);
+  if (verdict == Verdict::no_gap && calibration_leaves_a_gap(x, v)) {
+    verdict = Verdict::unexplained;
+    v.judgment.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
   }
-  return correction;
+  return v;
 }
 
-void report_gap(Examination& x, const Correction& correction) {
-  const bool correct_it = !x.named.empty();
-  const std::vector<RunSignals> before = read_signals(x.validation, 0.0);
+GapReport held_out_gap(const Examination& x, const Validation& v, std::size_t bootstrap) {
+  const bool correct_it = !v.judgment.named.empty();
+  const std::vector<RunSignals> before = read_signals(x.runs.validation, 0.0);
   const std::vector<RunSignals> after =
-      read_signals(x.validation, correct_it ? channel_delay_s(correction.state) : 0.0);
-  x.report.gap = measure_gap({.before_signals = before,
-                              .after_signals = after,
-                              .before = x.nominal,
-                              .after = correct_it ? x.point_of(correction.state) : x.nominal,
-                              .noise_floor_percent = finite_or_zero(noise_floor_percent(x, correction)),
-                              .bootstrap = x.options.bootstrap,
-                              .fitted_signals = correction.fitted.signals});
-  if (!correct_it) x.report.gap.energy.shrink_interval_95 = {};  // nothing is claimed
-  fill_floors(x.id.equations.noise, x.report.gap);
+      read_signals(x.runs.validation, correct_it ? channel_delay_s(v.state) : 0.0);
+  GapReport gap = measure_gap({.before_signals = before,
+                               .after_signals = after,
+                               .before = x.nominal(),
+                               .after = correct_it ? x.point_of(v.state) : x.nominal(),
+                               .noise_floor_percent = finite_or_zero(noise_floor_percent(x, v)),
+                               .bootstrap = bootstrap,
+                               .fitted_signals = v.fitted.signals});
+  if (!correct_it) gap.energy.shrink_interval_95 = {};  // nothing is claimed
+  fill_floors(x.id.equations.noise, gap);
+  return gap;
 }
 
 }  // namespace joulepath

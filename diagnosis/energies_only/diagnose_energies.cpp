@@ -245,12 +245,11 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
   return std::move(x.report);
 }
 
-void judge_on_energies(const Dataset& dataset, Diagnosis& diagnosis) {
+std::string told_by_energies(const Dataset& dataset, const Correction& correction) {
   const std::vector<EnergyRun> runs = energy_runs(dataset);
-  if (runs.empty()) return;
+  if (runs.empty()) return {};
   const ModelPoint nominal{.robot = dataset.robot},
-      corrected{.robot = diagnosis.corrected_robot.value_or(dataset.robot),
-                .effects = diagnosis.corrected_instruments};
+      corrected{.robot = correction.robot.value_or(dataset.robot), .effects = correction.instruments};
   double measured_J = 0, before_J = 0, after_J = 0;
   for (const EnergyRun& run : runs) {
     measured_J += std::abs(run.measured_J());
@@ -262,7 +261,7 @@ void judge_on_energies(const Dataset& dataset, Diagnosis& diagnosis) {
                 "%zu runs without a log took no part; their energy gap is %.3g %% before the correction and "
                 "%.3g %% after it",
                 runs.size(), 100 * before_J / measured_J, 100 * after_J / measured_J);
-  diagnosis.notes.emplace_back(text);
+  return text;
 }
 
 }  // namespace joulepath

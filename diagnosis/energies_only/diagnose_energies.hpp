@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/correction/correction.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
@@ -12,8 +13,8 @@ namespace joulepath {
 /// in turn (four folds). Throws ConfigError where a motion cannot be driven.
 [[nodiscard]] Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& options);
 
-/// Adds to a diagnosis made from logs what its correction does to the dataset's runs without logs, none of
-/// which took part.
-void judge_on_energies(const Dataset& dataset, Diagnosis& diagnosis);
+/// What a correction made from logs does to the dataset's runs without logs, none of which took part, as a
+/// sentence; empty without such runs.
+[[nodiscard]] std::string told_by_energies(const Dataset& dataset, const Correction& correction);
 
 }  // namespace joulepath

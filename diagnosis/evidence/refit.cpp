@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/evidence/run_covariance.hpp"
-#include "diagnosis/numerics/parallel.hpp"
 
 namespace joulepath {
 namespace {
@@ -48,17 +47,6 @@ ModelState moved(const Equations& equations, const std::vector<Nuisance>& nuisan
 }
 
 }  // namespace
-
-std::vector<RunSignals> read_signals(const LogSet& logs, double delay_s) {
-  std::vector<RunSignals> signals(logs.runs.size());
-  SignalOptions options = logs.options;
-  options.channel_delay_s = delay_s;
-  parallel_for(logs.runs.size(), [&](std::size_t r) {
-    signals[r] =
-        make_run_signals(logs.dataset->runs[logs.runs[r]], logs.runs[r], logs.dataset->robot, options);
-  });
-  return signals;
-}
 
 ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisances, const ModelState& state,
                  const Explanation& explanation, const Eigen::VectorXd& parameters) {

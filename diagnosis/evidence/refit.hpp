@@ -3,17 +3,9 @@
 #include <vector>
 
 #include "diagnosis/evidence/attribution.hpp"
+#include "diagnosis/signals/log_set.hpp"
 
 namespace joulepath {
-
-/// Logs of a dataset, read anew where the electrical channels turn out to be late.
-struct LogSet {
-  const Dataset* dataset{};
-  std::vector<std::size_t> runs{};  ///< of the dataset, those with a usable log
-  SignalOptions options{};
-};
-
-[[nodiscard]] std::vector<RunSignals> read_signals(const LogSet& logs, double channel_delay_s);
 
 /// Takes an explanation over into a state: amplitudes, shapes and calibration as the linear fit has them.
 [[nodiscard]] ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisances,

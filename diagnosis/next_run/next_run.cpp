@@ -129,9 +129,15 @@ RunSignals ideal_signals(const PrescribedMotion& motion, const Robot& robot, dou
   return signals_of({motion}, robot, payload_kg, time_of_day_s);
 }
 
-NextExperiment propose_run(const Identification& id, const Robot& robot, std::vector<std::string> rivals,
+NextExperiment propose_run(const Identification& id, const Robot& robot, const std::vector<Cause>& causes,
                            const std::vector<RankedEffect>& ranking, Verdict verdict) {
   NextExperiment next;
+  std::vector<std::string> rivals;
+  for (const Cause& cause : causes) {
+    if (cause.indistinguishable_from.empty()) continue;
+    rivals.push_back(cause.effect.name);
+    rivals.insert(rivals.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  }
   if (rivals.empty() && (verdict == Verdict::ambiguous || verdict == Verdict::too_little_data))
     for (const RankedEffect& ranked : ranking)
       if (rivals.size() < 3) rivals.push_back(ranked.effect);

@@ -11,9 +11,10 @@ namespace joulepath {
 /// The safe manoeuvre that best separates what is still ambiguous: among a library (standing, driving both
 /// ways, two payloads, spins both ways, crawling, fast runs, hard stops, coasting), the one whose
 /// prediction differs most between the closest pair of rivals, each fitted to the data at hand.
-/// `rivals` empty: the two best explanations of the ranking, if they differ.
+/// Rivals are the causes with what these runs cannot tell them from; without any, where the verdict leaves
+/// the cause open, the best of the ranking.
 [[nodiscard]] NextExperiment propose_run(const Identification& identification, const Robot& robot,
-                                         std::vector<std::string> rivals,
+                                         const std::vector<Cause>& causes,
                                          const std::vector<RankedEffect>& ranking, Verdict verdict);
 
 /// Ideal signals of a prescribed motion, for predictions: 0.1 s apart, no noise.

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "diagnosis/evidence/signatures.hpp"
-#include "diagnosis/verdict/names.hpp"
 
 namespace joulepath {
 namespace {
@@ -27,21 +26,29 @@ const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 constexpr double kLeastEvidence = 25.0;
 constexpr double kLeastEvidenceOfFewRuns = 100.0;
 
-void withdraw(Examination& x, const std::string& note, const std::string& depends_on) {
-  x.report.notes.push_back(note);
-  x.named.clear();
+Judgment withdrawn(const Examination& x, Judgment judgment, const std::string& note,
+                   const std::string& depends_on) {
+  judgment.notes.push_back(note);
+  judgment.named.clear();
   const double least =
-      x.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
-  if (x.id.explanations.front().score < least && !x.report.leftover_significant) {
-    x.report.verdict = Verdict::no_gap;
-    return;
+      x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
+  if (x.best().score < least && !judgment.leftover.significant) {
+    judgment.verdict = Verdict::no_gap;
+    return judgment;
   }
-  x.report.verdict = Verdict::unexplained;
-  x.report.leftover_significant = true;
-  x.report.leftover_description = depends_on;
+  judgment.verdict = Verdict::unexplained;
+  judgment.leftover.significant = true;
+  judgment.leftover.description = depends_on;
+  return judgment;
 }
 
-}  // namespace
+/// How far the data pull a law away from the catalog's form. Each effect's strength may vary with speed,
+/// yaw rate, payload, acceleration and time of day by a share that laws are usually inexact by; the sum
+/// of squares of what the data ask for, in those shares, is chi-squared with 5 degrees for a true law.
+struct FormDoubt {
+  double chi_squared{};
+  std::string depends_on{};  ///< what the strength varies with most
+};
 
 FormDoubt form_doubt(const Identification& id, const std::string& label) {
   FormDoubt doubt;
@@ -62,38 +69,40 @@ FormDoubt form_doubt(const Identification& id, const std::string& label) {
   return doubt;
 }
 
+/// True where two or more of the names are laws of friction against speed: together they can draw any
+/// such curve, and stand for one that the catalog does not have.
 bool draws_a_friction_curve(const std::vector<ActiveEffect>& named) {
   return std::count_if(named.begin(), named.end(), [](const ActiveEffect& effect) {
            return kSpeedLaws.contains(effect.candidate.shape.name);
          }) > 1;
 }
 
-void judge_forms(Examination& x) {
-  if (draws_a_friction_curve(x.named)) {
-    withdraw(x, "only several laws of friction against speed together make up the gap: none is named",
-             "depends on wheel speed (current)");
-    return;
-  }
-  for (const ActiveEffect& effect : std::vector<ActiveEffect>(x.named)) {
-    const FormDoubt doubt = form_doubt(x.id, effect.candidate.label());
+}  // namespace
+
+Judgment judge_forms(const Examination& x, Judgment judgment) {
+  if (draws_a_friction_curve(judgment.named))
+    return withdrawn(x, std::move(judgment),
+                     "only several laws of friction against speed together make up the gap: none is named",
+                     "depends on wheel speed (current)");
+  for (const ActiveEffect& effect : std::vector<ActiveEffect>(judgment.named)) {
+    const std::string label = effect.candidate.label();
+    const FormDoubt doubt = form_doubt(x.id, label);
     if (doubt.chi_squared < kInexactLaw) continue;
-    const std::string text = effect.candidate.label() + " fits only with a strength that depends on " +
-                             doubt.depends_on + ", as the catalog's law does not";
-    if (x.named.size() > 1 && gain_share_of(x, effect.candidate.label()) < kMinorGain) {
-      x.report.notes.push_back(text + ": not named beside a greater effect");
-      std::erase_if(x.named,
-                    [&](const ActiveEffect& e) { return e.candidate.label() == effect.candidate.label(); });
+    const std::string text = label + " fits only with a strength that depends on " + doubt.depends_on +
+                             ", as the catalog's law does not";
+    if (judgment.named.size() > 1 && gain_share_of(x, label) < kMinorGain) {
+      judgment.notes.push_back(text + ": not named beside a greater effect");
+      std::erase_if(judgment.named, [&](const ActiveEffect& e) { return e.candidate.label() == label; });
       continue;
     }
-    if (doubt.chi_squared > kAnotherLaw && !kTurningLaws.contains(effect.candidate.shape.name)) {
-      withdraw(x, text, "depends on " + doubt.depends_on);
-      return;
-    }
-    x.report.notes.push_back(text);
-    x.report.verdict = Verdict::partly_explained;
-    if (x.report.leftover_description.empty())
-      x.report.leftover_description = "depends on " + doubt.depends_on;
+    if (doubt.chi_squared > kAnotherLaw && !kTurningLaws.contains(effect.candidate.shape.name))
+      return withdrawn(x, std::move(judgment), text, "depends on " + doubt.depends_on);
+    judgment.notes.push_back(text);
+    judgment.verdict = Verdict::partly_explained;
+    if (judgment.leftover.description.empty())
+      judgment.leftover.description = "depends on " + doubt.depends_on;
   }
+  return judgment;
 }
 
 }  // namespace joulepath

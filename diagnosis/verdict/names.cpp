@@ -49,22 +49,21 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
 
 /// Effects that the data cannot tell apart share their probability by what the data say, not by which
 /// size is usual.
-void share_probabilities(Examination& x) {
-  const Identification& id = x.id;
+void share_probabilities(const Identification& id, Names& names) {
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
     const std::vector<StandIn> others =
         stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion);
-    double weight = 1, sum = x.probabilities[label];
+    double weight = 1, sum = names.probabilities[label];
     for (const StandIn& other : others) {
-      x.stand_ins[label].push_back(other.label);
-      sum += x.probabilities[other.label];
+      names.stand_ins[label].push_back(other.label);
+      sum += names.probabilities[other.label];
       weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
     }
     if (others.empty()) continue;
-    x.probabilities[label] = sum / weight;
+    names.probabilities[label] = sum / weight;
     for (const StandIn& other : others)
-      x.probabilities[other.label] = sum / weight * std::exp(-0.5 * kScoreFlattening * other.loss_more);
+      names.probabilities[other.label] = sum / weight * std::exp(-0.5 * kScoreFlattening * other.loss_more);
   }
 }
 
@@ -72,7 +71,7 @@ void share_probabilities(Examination& x) {
 
 double gain_share_of(const Examination& x, const std::string& label) {
   const Identification& id = x.id;
-  const Explanation& best = id.explanations.front();
+  const Explanation& best = x.best();
   std::vector<int> columns;
   for (int c : best.candidates)
     if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
@@ -82,45 +81,47 @@ double gain_share_of(const Examination& x, const std::string& label) {
   return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
 }
 
-double Examination::probability_of(const ActiveEffect& effect) const {
-  const auto found = probabilities.find(effect.candidate.label());
-  const double surest = diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
-  return found == probabilities.end() ? 0.0 : (1 - energy_left_share) * std::min(surest, found->second);
+double probability_of(const Examination& x, const Names& names, const ActiveEffect& effect) {
+  const auto found = names.probabilities.find(effect.candidate.label());
+  const double surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
+  return found == names.probabilities.end() ? 0.0 : std::min(surest, found->second);
 }
 
-void choose_names(Examination& x) {
-  x.probabilities = effect_probabilities(x.id.equations, x.id.explanations);
-  share_probabilities(x);
+Names choose_names(const Examination& x) {
+  const std::vector<ActiveEffect>& best = x.id.state.effects;
+  Names names{.probabilities = effect_probabilities(x.id.equations, x.id.explanations)};
+  share_probabilities(x.id, names);
   std::vector<std::string> doubted;
-  for (std::size_t e = 0; e < x.id.state.effects.size(); ++e) {
-    const std::string label = x.id.state.effects[e].candidate.label();
-    if (x.probabilities[label] < kLeastProbability && !x.stand_ins.contains(label) &&
-        x.id.state.effects.size() > 1)
+  for (std::size_t e = 0; e < best.size(); ++e) {
+    const std::string label = best[e].candidate.label();
+    if (names.probabilities[label] < kLeastProbability && !names.stand_ins.contains(label) && best.size() > 1)
       continue;  // the other sets do without it
     if (may_be_form_error(x, e))
       doubted.push_back(label);
     else
-      x.named.push_back(x.id.state.effects[e]);
+      names.named.push_back(best[e]);
   }
-  if (x.named.empty()) {  // none is the greater one
-    x.named = x.id.state.effects;
-    return;
+  if (names.named.empty()) {  // none is the greater one
+    names.named = best;
+    return names;
   }
   for (const std::string& label : doubted) {
-    x.probabilities[label] = std::min(x.probabilities[label], kFormErrorProbability);
-    x.report.notes.push_back(
-        label + " is not named: small beside a greater effect, it may stand for that one's form");
+    names.probabilities[label] = std::min(names.probabilities[label], kFormErrorProbability);
+    names.notes.push_back(label +
+                          " is not named: small beside a greater effect, it may stand for that one's form");
   }
+  return names;
 }
 
-void rank_effects(Examination& x) {
-  std::vector<RankedEffect>& ranking = x.report.ranking;
-  for (const auto& [label, probability] : x.probabilities)
+std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities) {
+  std::vector<RankedEffect> ranking;
+  for (const auto& [label, probability] : probabilities)
     if (probability > 1e-4) ranking.push_back({label, probability});
   std::stable_sort(ranking.begin(), ranking.end(), [](const RankedEffect& a, const RankedEffect& b) {
     return a.probability > b.probability;
   });
   if (ranking.size() > kRanked) ranking.resize(kRanked);
+  return ranking;
 }
 
 }  // namespace joulepath

@@ -1,16 +1,29 @@
 #pragma once
 
+#include "diagnosis/values/diagnosis.hpp"
 #include "diagnosis/verdict/examination.hpp"
 
 namespace joulepath {
 
-/// Share of the best set's gain in loss that is lost when one of its effects is left out.
-[[nodiscard]] double gain_share_of(const Examination& examination, const std::string& label);
+/// The effects that the evidence speaks for, before any test of them.
+struct Names {
+  std::vector<ActiveEffect> named{};
+  std::map<std::string, double> probabilities{};                ///< of effects by label
+  std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label, what may be meant instead
+  std::vector<std::string> notes{};
+};
 
 /// The best set's effects, less those that may only make up for the inexact form of a greater one.
-void choose_names(Examination& examination);
+[[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
-void rank_effects(Examination& examination);
+[[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities);
+
+/// Probability of a named effect, bounded by the share of sure names that were right on development cases.
+[[nodiscard]] double probability_of(const Examination& examination, const Names& names,
+                                    const ActiveEffect& effect);
+
+/// Share of the best set's gain in loss that is lost when one of its effects is left out.
+[[nodiscard]] double gain_share_of(const Examination& examination, const std::string& label);
 
 }  // namespace joulepath

@@ -1,13 +1,22 @@
 #pragma once
 
-#include "diagnosis/verdict/examination.hpp"
+#include "diagnosis/evidence/leftover.hpp"
+#include "diagnosis/verdict/names.hpp"
 
 namespace joulepath {
 
 /// A leftover above this share of what could be explained takes the names away.
 inline constexpr double kUnexplainedShare = 0.45;
 
+/// What the diagnosis claims, and what it leaves.
+struct Judgment {
+  Verdict verdict{Verdict::too_little_data};
+  std::vector<ActiveEffect> named{};
+  Leftover leftover{};
+  std::vector<std::string> notes{};
+};
+
 /// Verdict and names by the diagnosis runs, before the held-out runs have a say.
-void judge(Examination& examination);
+[[nodiscard]] Judgment judge(const Examination& examination, const Names& names);
 
 }  // namespace joulepath

@@ -1,4 +1,4 @@
-#include "diagnosis/signals/split.hpp"
+#include "diagnosis/signals/runs_by_use.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 
 namespace joulepath {
 namespace {
+
+constexpr double kMostRows = 12000.0;
 
 /// Payload, kind of manoeuvre, and the sum of what was measured as a tie break.
 using Stratum = std::tuple<double, int, double>;
@@ -26,8 +28,12 @@ Stratum stratum_of(const Run& run) {
   return {log.payload_kg.empty() ? 0.0 : log.payload_kg.front(), kind, sum};
 }
 
-}  // namespace
+struct RunSplit {
+  std::vector<std::size_t> diagnosis{};  ///< indices into Dataset::runs, in the dataset's order
+  std::vector<std::size_t> validation{};
+};
 
+/// `use:` where a dataset says it; else about every fourth run, spread over payloads and manoeuvres.
 RunSplit split_runs(const Dataset& dataset, const std::vector<std::size_t>& usable) {
   RunSplit split;
   std::vector<std::size_t> open;
@@ -53,6 +59,35 @@ RunSplit split_runs(const Dataset& dataset, const std::vector<std::size_t>& usab
   std::sort(split.diagnosis.begin(), split.diagnosis.end());
   std::sort(split.validation.begin(), split.validation.end());
   return split;
+}
+
+/// Long logs are thinned out more: rows, not seconds, cost time and memory.
+SignalOptions sampling(const Dataset& dataset, const std::vector<std::size_t>& usable) {
+  double duration_s = 0;
+  for (std::size_t r : usable)
+    duration_s += dataset.runs[r].log.time_s.back() - dataset.runs[r].log.time_s.front();
+  SignalOptions options;
+  options.period_s = std::max(options.period_s, duration_s / kMostRows);
+  return options;
+}
+
+}  // namespace
+
+RunsByUse sort_runs(const Dataset& dataset) {
+  std::vector<std::size_t> usable;
+  for (std::size_t r = 0; r < dataset.runs.size(); ++r)
+    if (has_usable_log(dataset.runs[r])) usable.push_back(r);
+  const RunSplit split = split_runs(dataset, usable);
+  RunsByUse runs;
+  runs.few = usable.size() < kLeastRuns || split.diagnosis.size() < kLeastRuns - 1;
+  runs.options = sampling(dataset, usable);
+  const auto logs = [&](const std::vector<std::size_t>& which) {
+    return LogSet{.dataset = &dataset, .runs = which, .options = runs.options};
+  };
+  runs.diagnosis = logs(runs.few ? usable : split.diagnosis);
+  runs.validation = logs(runs.few ? usable : split.validation);
+  runs.signals = read_signals(logs(usable), 0.0);
+  return runs;
 }
 
 }  // namespace joulepath

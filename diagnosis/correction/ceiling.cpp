@@ -1,4 +1,4 @@
-#include "diagnosis/verdict/ceiling.hpp"
+#include "diagnosis/correction/ceiling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@ constexpr std::size_t kFolds = 4;
 constexpr double kRidges[] = {0.0, 0.01, 0.03, 0.1, 0.3, 1.0};  ///< widths of the dictionary's prior
 
 /// The named effects (none where nothing is named) with the whole dictionary.
-std::vector<int> flexible_columns(const Examination& x) {
+std::vector<int> flexible_columns(const Examination& x, bool any_named) {
   std::vector<int> columns;
-  if (!x.named.empty()) columns = x.id.explanations.front().columns;
+  if (any_named) columns = x.best().columns;
   const std::vector<int> dictionary = x.id.equations.columns_of(Column::Kind::dictionary);
   columns.insert(columns.end(), dictionary.begin(), dictionary.end());
   return columns;
@@ -83,16 +83,15 @@ double flexible_gap_J(const RunSignals& run, const Robot& robot, const Predictio
 
 }  // namespace
 
-double ceiling_shrink_fraction(const Examination& x) {
-  const double before_J = x.report.gap.energy.before_J;
-  if (before_J <= 0) return 0.0;
+double ceiling_shrink_fraction(const Examination& x, bool any_named, const EnergyGap& gap) {
+  if (gap.before_J <= 0) return 0.0;
   const Identification& id = x.id;
-  const Eigen::VectorXd parameters = flexible_parameters(id, flexible_columns(x));
-  const ModelState state = adopt(id.equations, id.nuisances, id.state,
-                                 x.named.empty() ? Explanation{} : id.explanations.front(), parameters);
+  const Eigen::VectorXd parameters = flexible_parameters(id, flexible_columns(x, any_named));
+  const ModelState state =
+      adopt(id.equations, id.nuisances, id.state, any_named ? x.best() : Explanation{}, parameters);
   const ModelPoint point = x.point_of(state);
   const DictionaryLayout layout = lay_out(id.signals, x.dataset.robot);
-  const std::vector<RunSignals> signals = read_signals(x.validation, channel_delay_s(state));
+  const std::vector<RunSignals> signals = read_signals(x.runs.validation, channel_delay_s(state));
   std::vector<double> gap_J(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
     const Prediction p = predict(signals[r], point);
@@ -100,8 +99,8 @@ double ceiling_shrink_fraction(const Examination& x) {
                               dictionary_part(id, layout, parameters, signals[r], x.dataset.robot, p));
   });
   double after_J = 0;
-  for (double gap : gap_J) after_J += std::abs(gap);
-  return std::clamp(1 - after_J / before_J, std::max(0.0, x.report.gap.energy.shrink_fraction), 1.0);
+  for (double run_J : gap_J) after_J += std::abs(run_J);
+  return std::clamp(1 - after_J / gap.before_J, std::max(0.0, gap.shrink_fraction), 1.0);
 }
 
 }  // namespace joulepath

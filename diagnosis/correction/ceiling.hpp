@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/verdict/examination.hpp"
+#include "diagnosis/correction/validation.hpp"
 
 namespace joulepath {
 
@@ -9,6 +9,7 @@ namespace joulepath {
 /// payload, place, heading, wheel angle, time), fitted on the diagnosis runs by ridge regression whose
 /// strength comes from leaving diagnosis runs out. In [0, 1], and never below what the diagnosis itself
 /// closes.
-[[nodiscard]] double ceiling_shrink_fraction(const Examination& examination);
+[[nodiscard]] double ceiling_shrink_fraction(const Examination& examination, bool any_named,
+                                             const EnergyGap& gap);
 
 }  // namespace joulepath

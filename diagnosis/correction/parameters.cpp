@@ -1,4 +1,4 @@
-#include "diagnosis/verdict/parameters.hpp"
+#include "diagnosis/correction/parameters.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

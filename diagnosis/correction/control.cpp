@@ -1,22 +1,22 @@
-#include "diagnosis/verdict/control.hpp"
+#include "diagnosis/correction/control.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "diagnosis/evidence/held_out.hpp"
-#include "diagnosis/verdict/ceiling.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
 namespace {
 
 /// Labels that are named, or that the data cannot tell from a named one.
-std::set<std::string> labels_spoken_for(const Examination& x) {
+std::set<std::string> labels_spoken_for(const std::vector<ActiveEffect>& named,
+                                        const std::vector<Cause>& causes) {
   std::set<std::string> labels;
-  for (const Cause& cause : x.report.causes)
+  for (const Cause& cause : causes)
     labels.insert(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-  for (const ActiveEffect& effect : x.named) labels.insert(effect.candidate.label());
+  for (const ActiveEffect& effect : named) labels.insert(effect.candidate.label());
   return labels;
 }
 
@@ -30,23 +30,20 @@ ActiveEffect with_amplitudes(const Candidate& candidate, const Explanation& expl
 
 }  // namespace
 
-void report_control(Examination& x) {
-  const double base_J = x.report.gap.energy.before_J;
-  x.report.ceiling_shrink_fraction = ceiling_shrink_fraction(x);
-  if (x.named.empty()) return;
-  const std::set<std::string> spoken_for = labels_spoken_for(x);
+Control wrong_candidate(const Examination& x, const std::vector<ActiveEffect>& named,
+                        const std::vector<Cause>& causes, const EnergyGap& gap) {
+  if (named.empty()) return {};
+  const std::set<std::string> spoken_for = labels_spoken_for(named, causes);
   for (const Explanation& e : x.id.explanations) {
     if (e.candidates.size() != 1) continue;
     const Candidate& candidate = x.id.equations.candidates[static_cast<std::size_t>(e.candidates.front())];
     if (spoken_for.contains(candidate.label()) || candidate.shape.name == "time_misalignment") continue;
-    const ModelState wrong = refit_on_diagnosis(x.diagnosis, x.id, {with_amplitudes(candidate, e)});
-    x.report.control_effect = candidate.label();
-    x.report.control_shrink_fraction =
-        base_J > 0
-            ? 1 - absolute_gap_J(run_energies(read_signals(x.validation, 0.0), x.point_of(wrong))) / base_J
-            : 0.0;
-    return;
+    const ModelState wrong = refit_on_diagnosis(x.runs.diagnosis, x.id, {with_amplitudes(candidate, e)});
+    const std::vector<RunSignals> signals = read_signals(x.runs.validation, 0.0);
+    const double left_J = absolute_gap_J(run_energies(signals, x.point_of(wrong)));
+    return {candidate.label(), gap.before_J > 0 ? 1 - left_J / gap.before_J : 0.0};
   }
+  return {};
 }
 
 }  // namespace joulepath

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "diagnosis/correction/causes.hpp"
+
+namespace joulepath {
+
+/// A wrong candidate fitted the same way, to compare the shrink with.
+struct Control {
+  std::string effect{};
+  double shrink_fraction{};
+};
+
+/// The best explanation by one effect that is neither named nor indistinguishable from a named one; empty
+/// where nothing is named.
+[[nodiscard]] Control wrong_candidate(const Examination& examination, const std::vector<ActiveEffect>& named,
+                                      const std::vector<Cause>& causes, const EnergyGap& gap);
+
+}  // namespace joulepath
