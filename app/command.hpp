@@ -4,11 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace joulepath {
+
+class CommandLine;
 
 /// What the program tells its caller; the same for every command.
 enum ExitCode : int {
@@ -45,7 +43,7 @@ class Command {
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string says() const = 0;      ///< one line for the list of commands
   [[nodiscard]] virtual std::string examples() const = 0;  ///< shown below the options
-  virtual void declare(CLI::App& app) = 0;
+  virtual void declare(CommandLine& line) = 0;
   [[nodiscard]] virtual int run() = 0;
 };
 
@@ -58,6 +56,6 @@ struct CommonOptions {
 };
 
 /// Adds those of the flags `qjfu` that are named (quiet, json, force, untrusted).
-void add_common_flags(CLI::App& app, CommonOptions& options, const std::string& which = "qj");
+void add_common_flags(CommandLine& line, CommonOptions& options, const std::string& which = "qj");
 
 }  // namespace joulepath

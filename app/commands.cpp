@@ -1,6 +1,6 @@
 #include "app/commands.hpp"
 
-#include <CLI/CLI.hpp>
+#include "app/command_line.hpp"
 
 namespace joulepath {
 
@@ -12,14 +12,13 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   return commands;
 }
 
-void add_common_flags(CLI::App& app, CommonOptions& options, const std::string& which) {
+void add_common_flags(CommandLine& line, CommonOptions& options, const std::string& which) {
   const auto wants = [&](char flag) { return which.find(flag) != std::string::npos; };
-  if (wants('f')) app.add_flag("--force", options.force, "overwrite existing results");
-  if (wants('j')) app.add_flag("--json", options.json, "results as JSON on stdout");
-  if (wants('q')) app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");
+  if (wants('f')) line.flag("--force", options.force, "overwrite existing results");
+  if (wants('j')) line.flag("--json", options.json, "results as JSON on stdout");
+  if (wants('q')) line.flag("-q,--quiet", options.quiet, "no progress and no summary");
   if (wants('u'))
-    app.add_flag("--untrusted", options.untrusted,
-                 "names inside of the input may not leave the input's folder");
+    line.flag("--untrusted", options.untrusted, "names inside of the input may not leave the input's folder");
 }
 
 }  // namespace joulepath

@@ -5,17 +5,15 @@
 #include "planner/legs/stretch.hpp"
 #include "scenarios/mission_source.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace joulepath {
 
+class CommandLine;
+
 /// Adds --nodes and --seed, which every command that plans a mission takes.
-void add_plan_options(CLI::App& app, PlanOptions& options,
+void add_plan_options(CommandLine& line, PlanOptions& options,
                       const std::string& nodes_say = "nodes of the first grid on each stretch");
 
 /// Adds what is planned: the file, --robot, --map, and beside a path --payload and (`with_time`) --time.
-void add_mission_source(CLI::App& app, MissionSource& source, bool with_time = true);
+void add_mission_source(CommandLine& line, MissionSource& source, bool with_time = true);
 
 }  // namespace joulepath

@@ -1,15 +1,17 @@
 #include "app/study.hpp"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line.hpp"
+
 namespace joulepath {
 
-void add_study_options(CLI::App& app, StudyOptions& options, const std::string& result_file, bool with_time) {
-  add_mission_source(app, options.source, with_time);
-  app.add_option("--out", options.out, "directory for " + result_file + " and report.html");
-  add_common_flags(app, options.common, "qjfu");
+void add_study_options(CommandLine& line, StudyOptions& options, const std::string& result_file,
+                       bool with_time) {
+  add_mission_source(line, options.source, with_time);
+  line.option("--out", options.out, "directory for " + result_file + " and report.html");
+  add_common_flags(line, options.common, "qjfu");
 }
 
 bool study_writes(const StudyOptions& options) { return !options.out.empty(); }

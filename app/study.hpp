@@ -20,7 +20,7 @@ struct StudyOptions {
 };
 
 /// Adds what is studied, --out and the common flags.
-void add_study_options(CLI::App& app, StudyOptions& options, const std::string& result_file,
+void add_study_options(CommandLine& line, StudyOptions& options, const std::string& result_file,
                        bool with_time = true);
 
 /// Where the results go. Throws ConfigError when they exist and --force is not given.

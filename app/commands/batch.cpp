@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +6,7 @@
 #include <thread>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/commands/batch_run.hpp"
 #include "app/interrupt.hpp"
@@ -82,19 +82,17 @@ class BatchCommand : public Command {
            "Exit code 0: every mission has its line in results.jsonl, whatever it says; .status tells.\n";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("missions", source_,
-                   "directory of missions (*.yaml), or a file of JSON lines with the mission's keys")
-        ->required()
-        ->check(CLI::ExistingPath);
-    app.add_option("--out", out_, "directory for results.jsonl, timings.jsonl, report.html")->required();
-    app.add_option("-j,--jobs", jobs_, "missions planned at once")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
-    add_plan_options(app, options_);
-    app.add_flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
-    app.add_flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
-    add_common_flags(app, common_, "qjfu");
+  void declare(CommandLine& line) override {
+    line.option("missions", source_,
+                "directory of missions (*.yaml), or a file of JSON lines with the mission's keys")
+        .required()
+        .existing_path();
+    line.option("--out", out_, "directory for results.jsonl, timings.jsonl, report.html").required();
+    line.option("-j,--jobs", jobs_, "missions planned at once").between(1, 256).shows_default();
+    add_plan_options(line, options_);
+    line.flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
+    line.flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
@@ -78,16 +78,16 @@ class Calibrate : public Command {
            "  joulepath calibrate dataset.yaml --method steady --json";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("DATASET", dataset_, "dataset: the robot and its runs")->required();
-    app.add_option("--robot", robot_, "robot file in place of the dataset's");
-    app.add_option("--out", out_, "robot file to write, with the calibrated values and their uncertainty");
-    app.add_option(
-           "--method", method_,
-           "full: whole runs, voltages and currents; steady: stretches of constant speed, friction alone")
-        ->check(CLI::IsMember({"full", "steady"}))
-        ->capture_default_str();
-    add_common_flags(app, options_, "qjfu");
+  void declare(CommandLine& line) override {
+    line.option("DATASET", dataset_, "dataset: the robot and its runs").required();
+    line.option("--robot", robot_, "robot file in place of the dataset's");
+    line.option("--out", out_, "robot file to write, with the calibrated values and their uncertainty");
+    line.option(
+            "--method", method_,
+            "full: whole runs, voltages and currents; steady: stretches of constant speed, friction alone")
+        .one_of({"full", "steady"})
+        .shows_default();
+    add_common_flags(line, options_, "qjfu");
   }
 
   int run() override {

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "scenarios/any_file.hpp"
@@ -19,12 +19,12 @@ class Check : public Command {
            "  joulepath check --kind robot my_robot.yaml";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("FILE", files_,
-                   "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
-        ->required();
-    app.add_option("--kind", kind_, "what the files are; default: as their schema line, name and keys tell");
-    add_common_flags(app, options_, "qju");
+  void declare(CommandLine& line) override {
+    line.option("FILE", files_,
+                "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
+        .required();
+    line.option("--kind", kind_, "what the files are; default: as their schema line, name and keys tell");
+    add_common_flags(line, options_, "qju");
   }
 
   int run() override {

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -62,9 +61,9 @@ class CompareCommand : public Command {
            "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n";
   }
 
-  void declare(CLI::App& app) override {
-    add_study_options(app, study_, kResult);
-    add_plan_options(app, study_.plan);
+  void declare(CommandLine& line) override {
+    add_study_options(line, study_, kResult);
+    add_plan_options(line, study_.plan);
   }
 
   int run() override {

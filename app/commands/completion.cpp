@@ -1,6 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 
 namespace joulepath {
@@ -17,9 +17,8 @@ class Completion : public Command {
            "  joulepath completion fish > ~/.config/fish/completions/joulepath.fish";
   }
 
-  void declare(CLI::App& app) override {
-    root_ = app.get_parent();
-    app.add_option("SHELL", shell_)->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  void declare(CommandLine& line) override {
+    line.option("SHELL", shell_).required().one_of({"bash", "zsh", "fish"});
   }
 
   int run() override {
@@ -30,24 +29,13 @@ class Completion : public Command {
   }
 
  private:
-  [[nodiscard]] std::vector<const CLI::App*> commands() const {
-    return root_->get_subcommands([](const CLI::App*) { return true; });
-  }
-
-  static std::vector<std::string> flags_of(const CLI::App& app) {
-    std::vector<std::string> flags;
-    for (const auto* option : app.get_options())
-      for (const auto& name : option->get_lnames()) flags.push_back("--" + name);
-    return flags;
-  }
-
-  [[nodiscard]] std::string bash() const {
+  static std::string bash() {
     std::string names, cases;
-    for (const auto* command : commands()) {
-      names += (names.empty() ? "" : " ") + command->get_name();
+    for (const CommandSummary& command : summaries(all_commands())) {
+      names += (names.empty() ? "" : " ") + command.name;
       std::string flags;
-      for (const auto& flag : flags_of(*command)) flags += (flags.empty() ? "" : " ") + flag;
-      cases += "    " + command->get_name() + ") words=\"" + flags + "\" ;;\n";
+      for (const auto& flag : command.flags) flags += (flags.empty() ? "" : " ") + flag;
+      cases += "    " + command.name + ") words=\"" + flags + "\" ;;\n";
     }
     return "_joulepath() {\n"
            "  local current=${COMP_WORDS[COMP_CWORD]} words\n"
@@ -68,19 +56,18 @@ class Completion : public Command {
            "complete -o filenames -F _joulepath joulepath\n";
   }
 
-  [[nodiscard]] std::string fish() const {
+  static std::string fish() {
     std::string text;
-    for (const auto* command : commands()) {
-      text += "complete -c joulepath -n __fish_use_subcommand -f -a " + command->get_name() + " -d '" +
-              command->get_description() + "'\n";
-      for (const auto& flag : flags_of(*command))
-        text += "complete -c joulepath -n '__fish_seen_subcommand_from " + command->get_name() + "' -l " +
+    for (const CommandSummary& command : summaries(all_commands())) {
+      text += "complete -c joulepath -n __fish_use_subcommand -f -a " + command.name + " -d '" +
+              command.says + "'\n";
+      for (const auto& flag : command.flags)
+        text += "complete -c joulepath -n '__fish_seen_subcommand_from " + command.name + "' -l " +
                 flag.substr(2) + "\n";
     }
     return text;
   }
 
-  const CLI::App* root_{};
   std::string shell_{};
 };
 

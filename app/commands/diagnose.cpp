@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/left_out_effects.hpp"
 #include "app/output_directory.hpp"
@@ -112,16 +112,15 @@ class Diagnose : public Command {
            "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
-    app.add_option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
-        ->required();
-    app.add_option("--robot", robot_, "robot file in place of the dataset's");
-    app.add_option("--without", without_, "effect to take out of the catalog (several: commas, or again)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    app.add_flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
-    add_common_flags(app, common_, "qjfu");
+  void declare(CommandLine& line) override {
+    line.option("dataset", dataset_, "dataset file (YAML)").required();
+    line.option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
+        .required();
+    line.option("--robot", robot_, "robot file in place of the dataset's");
+    line.option("--without", without_, "effect to take out of the catalog (several: commas, or again)")
+        .comma_separated();
+    line.flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

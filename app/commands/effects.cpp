@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "model/effects/catalog.hpp"
@@ -46,9 +46,9 @@ class EffectsCommand : public Command {
            "  joulepath effects --markdown > docs/effects.md\n";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_flag("--json", json_, "as JSON");
-    app.add_flag("--markdown", markdown_, "as the document docs/effects.md");
+  void declare(CommandLine& line) override {
+    line.flag("--json", json_, "as JSON");
+    line.flag("--markdown", markdown_, "as the document docs/effects.md");
   }
 
   int run() override {

@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
@@ -80,15 +80,15 @@ class EstimateCommand : public Command {
            "  joulepath estimate dataset.yaml --json | jq .fitness_percent\n";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("input", input_, "run log (CSV) or dataset (YAML)")->required();
-    app.add_option("--robot", robot_, "robot file; a log needs it, a dataset's is replaced by it");
-    app.add_option("--out", out_, "directory for estimate.json and the power over time of every run");
-    app.add_option(
-           "--smoothing-s", reach_s_,
-           "half width of the window in which speeds are smoothed; 0: none; default: as their noise asks")
-        ->check(CLI::Range(0.0, 5.0));
-    add_common_flags(app, common_, "qjfu");
+  void declare(CommandLine& line) override {
+    line.option("input", input_, "run log (CSV) or dataset (YAML)").required();
+    line.option("--robot", robot_, "robot file; a log needs it, a dataset's is replaced by it");
+    line.option("--out", out_, "directory for estimate.json and the power over time of every run");
+    line.option(
+            "--smoothing-s", reach_s_,
+            "half width of the window in which speeds are smoothed; 0: none; default: as their noise asks")
+        .between(0.0, 5.0);
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

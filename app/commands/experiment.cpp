@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "diagnosis/values/diagnosis.hpp"
@@ -22,11 +22,11 @@ class Experiment : public Command {
            "  joulepath simulate next_run.yaml --out out/next_run";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("dataset", dataset_, "dataset file (YAML)")->required();
-    app.add_option("--out", out_, "mission file to write")->required();
-    app.add_option("--robot", robot_, "robot file in place of the dataset's");
-    add_common_flags(app, common_, "qfu");
+  void declare(CommandLine& line) override {
+    line.option("dataset", dataset_, "dataset file (YAML)").required();
+    line.option("--out", out_, "mission file to write").required();
+    line.option("--robot", robot_, "robot file in place of the dataset's");
+    add_common_flags(line, common_, "qfu");
   }
 
   int run() override {

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
@@ -49,16 +49,15 @@ class ExportCommand : public Command {
     return text;
   }
 
-  void declare(CLI::App& app) override {
+  void declare(CommandLine& line) override {
     std::vector<std::string> names;
     for (const ExportFormat& format : export_formats()) names.push_back(format.name);
-    add_mission_source(app, source_);
-    app.add_option("--to", format_, "format")->required()->check(CLI::IsMember(names));
-    app.add_option("--out", out_, "file to write; further files take its name")->required();
-    app.add_option("--rate", rate_Hz_, "samples per second, where the format has any")
-        ->check(CLI::Range(0.1, 1000.0));
-    add_plan_options(app, options_);
-    add_common_flags(app, common_, "qjfu");
+    add_mission_source(line, source_);
+    line.option("--to", format_, "format").required().one_of(names);
+    line.option("--out", out_, "file to write; further files take its name").required();
+    line.option("--rate", rate_Hz_, "samples per second, where the format has any").between(0.1, 1000.0);
+    add_plan_options(line, options_);
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

@@ -1,12 +1,12 @@
 #include "planner/profile/front.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/plan_options.hpp"
 #include "app/report/report.hpp"
@@ -43,15 +43,15 @@ class FrontCommand : public Command {
            "  joulepath front path.csv --robot robot.yaml --payload 5\n";
   }
 
-  void declare(CLI::App& app) override {
-    add_study_options(app, study_, kResult, false);
-    app.add_option("--points", points_, "points of the front; deadlines and durations are left aside")
-        ->check(CLI::Range(2, 2000))
-        ->capture_default_str();
-    app.add_option("--baselines", baseline_points_, "points beside which the classic profiles stand; 0: none")
-        ->check(CLI::Range(0, 2000))
-        ->capture_default_str();
-    add_plan_options(app, study_.plan, "nodes on each stretch");
+  void declare(CommandLine& line) override {
+    add_study_options(line, study_, kResult, false);
+    line.option("--points", points_, "points of the front; deadlines and durations are left aside")
+        .between(2, 2000)
+        .shows_default();
+    line.option("--baselines", baseline_points_, "points beside which the classic profiles stand; 0: none")
+        .between(0, 2000)
+        .shows_default();
+    add_plan_options(line, study_.plan, "nodes on each stretch");
   }
 
   int run() override {

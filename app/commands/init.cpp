@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/starter_files.hpp"
@@ -74,9 +74,9 @@ class Init : public Command {
            "  joulepath diagnose my_robot/dataset.yaml --out my_robot/diagnosis";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("DIR", directory_, "directory to write to")->required();
-    add_common_flags(app, options_, "qf");
+  void declare(CommandLine& line) override {
+    line.option("DIR", directory_, "directory to write to").required();
+    add_common_flags(line, options_, "qf");
   }
 
   int run() override {

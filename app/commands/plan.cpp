@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
@@ -34,22 +34,22 @@ class PlanCommand : public Command {
            "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
   }
 
-  void declare(CLI::App& app) override {
-    add_mission_source(app, source_);
-    app.add_option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
-        ->required();
-    app.add_option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
-        ->check(CLI::IsMember({"ipopt", "fast"}))
-        ->capture_default_str();
-    add_plan_options(app, options_);
-    app.add_option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
-        ->check(CLI::Range(1e-7, 1e-1))
-        ->capture_default_str();
-    app.add_option("--without", without_,
-                   "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
-                   "shortest), stops (turn on the spot there), refinement; or baselines")
-        ->check(CLI::IsMember({"corners", "routes", "stops", "refinement", "baselines"}));
-    add_common_flags(app, common_, "qjfu");
+  void declare(CommandLine& line) override {
+    add_mission_source(line, source_);
+    line.option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
+        .required();
+    line.option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
+        .one_of({"ipopt", "fast"})
+        .shows_default();
+    add_plan_options(line, options_);
+    line.option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
+        .between(1e-7, 1e-1)
+        .shows_default();
+    line.option("--without", without_,
+                "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
+                "shortest), stops (turn on the spot there), refinement; or baselines")
+        .one_of({"corners", "routes", "stops", "refinement", "baselines"});
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

@@ -1,8 +1,8 @@
 #include "scenarios/schema.hpp"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 
 namespace joulepath {
@@ -19,7 +19,7 @@ class SchemaCommand : public Command {
            "  # yaml-language-server: $schema=robot.schema.json";
   }
 
-  void declare(CLI::App& app) override { app.add_option("KIND", kind_, "without it: list the kinds"); }
+  void declare(CommandLine& line) override { line.option("KIND", kind_, "without it: list the kinds"); }
 
   int run() override {
     if (kind_.empty()) {

@@ -1,11 +1,11 @@
 #include "model/simulation/simulate.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
@@ -96,36 +96,33 @@ class SimulateCommand : public Command {
            "  joulepath diagnose out/sim/dataset.yaml\n";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("input", inputs_,
-                   "plan directories (trajectory.csv, plan.json), trajectories (CSV) or missions (YAML)")
-        ->required();
-    app.add_option("--out", out_, "directory for the logs, dataset.yaml, robot.yaml, simulation.json")
-        ->required();
-    app.add_option("--robot", robot_, "robot file; wins over a mission's");
-    app.add_option("--effect", effects_,
-                   "NAME:PARAMETER=VALUE,... that the controller does not know (repeatable)")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--repeat", repeat_, "runs of each input, with other noise")->check(CLI::Range(1, 1000));
-    app.add_option("--seed", seed_, "seed of the sensors' noise")->capture_default_str();
-    app.add_option("--time-of-day-s", time_of_day_s_, "seconds since the robot was cold, at the first run");
-    app.add_option("--sample-rate-Hz", sensors_.sample_rate_Hz, "rows per second of the log")
-        ->check(CLI::Range(1.0, 1000.0))
-        ->capture_default_str();
-    app.add_option("--delay-s", sensors_.electrical_delay_s, "age of the electrical readings")
-        ->check(CLI::Range(0.0, 5.0));
-    app.add_flag("--ideal-sensors", ideal_, "no noise, no quantization");
-    app.add_option("--inductance-H", inductance_H_, "of each armature; 0 neglects it")
-        ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--control-period-s", controller_.period_s, "of the wheel-speed loops")
-        ->check(CLI::Range(1e-4, 0.1))
-        ->capture_default_str();
-    app.add_option("--bandwidth-per-s", controller_.bandwidth_per_s, "of the wheel-speed loops")
-        ->check(CLI::Range(0.1, 200.0))
-        ->capture_default_str();
-    app.add_flag("!--no-feed-forward", controller_.feed_forward, "feedback alone");
-    add_common_flags(app, common_, "qjfu");
+  void declare(CommandLine& line) override {
+    line.option("input", inputs_,
+                "plan directories (trajectory.csv, plan.json), trajectories (CSV) or missions (YAML)")
+        .required();
+    line.option("--out", out_, "directory for the logs, dataset.yaml, robot.yaml, simulation.json")
+        .required();
+    line.option("--robot", robot_, "robot file; wins over a mission's");
+    line.option("--effect", effects_,
+                "NAME:PARAMETER=VALUE,... that the controller does not know (repeatable)")
+        .repeatable();
+    line.option("--repeat", repeat_, "runs of each input, with other noise").between(1, 1000);
+    line.option("--seed", seed_, "seed of the sensors' noise").shows_default();
+    line.option("--time-of-day-s", time_of_day_s_, "seconds since the robot was cold, at the first run");
+    line.option("--sample-rate-Hz", sensors_.sample_rate_Hz, "rows per second of the log")
+        .between(1.0, 1000.0)
+        .shows_default();
+    line.option("--delay-s", sensors_.electrical_delay_s, "age of the electrical readings").between(0.0, 5.0);
+    line.flag("--ideal-sensors", ideal_, "no noise, no quantization");
+    line.option("--inductance-H", inductance_H_, "of each armature; 0 neglects it").between(0.0, 1.0);
+    line.option("--control-period-s", controller_.period_s, "of the wheel-speed loops")
+        .between(1e-4, 0.1)
+        .shows_default();
+    line.option("--bandwidth-per-s", controller_.bandwidth_per_s, "of the wheel-speed loops")
+        .between(0.1, 200.0)
+        .shows_default();
+    line.flag("!--no-feed-forward", controller_.feed_forward, "feedback alone");
+    add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {

@@ -1,0 +1,170 @@
+#include "app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+namespace {
+
+std::vector<std::string> flags_of(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  return flags;
+}
+
+/// The program's parser with all commands declared; `chosen` is set by parsing.
+std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen) {
+  auto app = std::make_unique<CLI::App>(
+      "Energy-optimal trajectories, power models and sim-to-real diagnosis for differential-drive robots",
+      "joulepath");
+  app->require_subcommand(1);
+  app->get_formatter()->column_width(32);
+  app->footer(
+      "Exit codes: 0 done, 1 infeasible or failed, 2 bad input or usage, 3 internal error, 4 environment, "
+      "130 interrupted.\n"
+      "joulepath COMMAND --help shows the options of a command, with examples.");
+  for (const auto& command : commands) {
+    CLI::App* sub = app->add_subcommand(command->name(), command->says());
+    sub->footer("Examples:\n" + command->examples());
+    CommandLine line(*sub);
+    command->declare(line);
+    sub->callback([&chosen, &command] { chosen = command.get(); });
+  }
+  return app;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? "" : " (did you mean " + near + "?)";
+}
+
+std::string unknown_command(int argc, const char* const* argv, const Commands& commands) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string> names;
+  for (const auto& command : commands) names.push_back(command->name());
+  for (const auto& name : names)
+    if (name == argv[1]) return "";
+  return "no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names);
+}
+
+/// The nearest option of the command in use, for an argument that it does not know.
+std::string unknown_argument(const CLI::App& app) {
+  const std::string argument = app.remaining(true).front();
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands())
+    for (const std::string& flag : flags_of(*command)) names.push_back(flag);
+  return "unknown argument " + argument + did_you_mean(argument, names);
+}
+
+ParsedCommandLine usage_error(const std::string& message, const CLI::App& app) {
+  const auto typed = app.get_subcommands();
+  const std::string command = typed.empty() ? "" : " " + typed.front()->get_name();
+  return {.error = message, .hint = "see: joulepath" + command + " --help", .exit_code = kBadInput};
+}
+
+}  // namespace
+
+OptionRules& OptionRules::required() {
+  option_->required();
+  return *this;
+}
+
+OptionRules& OptionRules::shows_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+OptionRules& OptionRules::between(int least, int most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+OptionRules& OptionRules::between(double least, double most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+OptionRules& OptionRules::not_negative() {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+
+OptionRules& OptionRules::positive() {
+  option_->check(CLI::PositiveNumber);
+  return *this;
+}
+
+OptionRules& OptionRules::existing_path() {
+  option_->check(CLI::ExistingPath);
+  return *this;
+}
+
+OptionRules& OptionRules::one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+OptionRules& OptionRules::comma_separated() {
+  option_->delimiter(',')->allow_extra_args(false);
+  return *this;
+}
+
+OptionRules& OptionRules::repeatable() {
+  option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+template <class Value>
+OptionRules CommandLine::option(const std::string& name, Value& value, const std::string& says) {
+  return OptionRules(*app_->add_option(name, value, says));
+}
+
+template OptionRules CommandLine::option(const std::string&, std::string&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, int&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, unsigned&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, std::size_t&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, double&, const std::string&);
+template OptionRules CommandLine::option(const std::string&, std::optional<double>&, const std::string&);
+
+void CommandLine::flag(const std::string& name, bool& value, const std::string& says) {
+  app_->add_flag(name, value, says);
+}
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Commands& commands,
+                                     const std::string& version) {
+  ParsedCommandLine parsed;
+  const auto app = make_parser(commands, parsed.command);
+  app->set_version_flag("--version", "joulepath " + version);
+  if (argc < 2) return {.output = app->help(), .exit_code = kBadInput};
+  if (const auto message = unknown_command(argc, argv, commands); !message.empty())
+    return {.error = message, .hint = "joulepath --help lists the commands", .exit_code = kBadInput};
+  try {
+    app->parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    // What is missing may be what was mistyped: an unknown argument is told first.
+    return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
+  } catch (const CLI::Success& success) {
+    std::ostringstream output;
+    const int code = app->exit(success, output, output);
+    return {.output = output.str(), .exit_code = code};
+  } catch (const CLI::ExtrasError&) {
+    return usage_error(unknown_argument(*app), *app);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(error.what(), *app);
+  }
+  return parsed;
+}
+
+std::vector<CommandSummary> summaries(const Commands& commands) {
+  Command* chosen = nullptr;
+  const auto app = make_parser(commands, chosen);
+  std::vector<CommandSummary> list;
+  for (const CLI::App* command : app->get_subcommands([](const CLI::App*) { return true; }))
+    list.push_back({command->get_name(), command->get_description(), flags_of(*command)});
+  return list;
+}
+
+}  // namespace joulepath
