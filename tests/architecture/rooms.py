@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rooms stand in the order of docs/architecture.md: no include runs upward."""
+"""Rooms stand in the order of docs/architecture.md: no include runs upward. Heavy libraries stay in their place."""
 import pathlib
 import re
 import sys
@@ -12,6 +12,9 @@ DIAGNOSIS = """model diagnosis/values diagnosis/numerics diagnosis/signals diagn
 diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
 diagnosis""".split()
 HOUSE = ["model", "planner", "diagnosis", "scenarios", "app"]  # planner and diagnosis do not know each other
+# Headers that take long to compile or that a replacement of the library must find in one place.
+CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/document_parse.cpp", "png.h": "scenarios/image.cpp",
+            "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/"}
 
 
 def room(path, rooms):
@@ -28,6 +31,10 @@ def upward(root, path, included):
     return tops == {"planner", "diagnosis"}
 
 
+def misplaced(path, header):
+    return any(header.startswith(start) and not path.startswith(home) for start, home in CONFINED.items())
+
+
 def main(root):
     complaints = []
     for top in HOUSE:
@@ -37,6 +44,9 @@ def main(root):
                 match = re.match(r'#include "(\w+/[^"]+)"', line)
                 if match and upward(root, path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which stands above it")
+                match = re.match(r"#include <([^>]+)>", line)
+                if match and misplaced(path, match[1]):
+                    complaints.append(f"{path}:{number}: includes {match[1]}, which has another place")
     print("\n".join(complaints) or "rooms: no include runs upward")
     return 1 if complaints else 0
 
