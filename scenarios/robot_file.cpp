@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "model/limit_table.hpp"
 #include "scenarios/effect_list.hpp"
-#include "scenarios/limit_keys.hpp"
 
 namespace joulepath {
 namespace {
@@ -55,8 +55,8 @@ Sided<Motor> read_motors(const Node& node) {
 
 Limits read_limits(const Node& node) {
   Limits limits;
-  for (const auto& key : kLimitKeys)
-    if (const auto value = node.optional_number(key.name)) limits.*key.field = *value;
+  for (const Limit& limit : kLimits)
+    if (limit.field != nullptr) limits.*limit.field = node.number_or(limit.key, kNoLimit);
   return limits;
 }
 
@@ -64,8 +64,9 @@ std::vector<PayloadLimits> read_limits_by_payload(const Node& node) {
   std::vector<PayloadLimits> rows;
   for (const auto& item : node.items()) {
     PayloadLimits row{.payload_kg = item["payload_kg"].number()};
-    for (const auto& key : kLimitKeys)
-      if (const auto value = item.optional_number(key.name)) row.limit_by_key[std::string(key.name)] = *value;
+    for (const Limit& limit : kLimits)
+      if (const auto value = item.optional_number(limit.key))
+        row.limit_by_key[std::string(limit.key)] = *value;
     if (!rows.empty() && row.payload_kg <= rows.back().payload_kg)
       item["payload_kg"].fail("a payload greater than the row before", "the rows stand in order of payload");
     rows.push_back(std::move(row));

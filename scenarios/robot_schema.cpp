@@ -1,5 +1,5 @@
+#include "model/limit_table.hpp"
 #include "scenarios/effect_list.hpp"
-#include "scenarios/limit_keys.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -42,21 +42,24 @@ Schema motor_schema() {
               optional("inductance_H", not_negative, "only the simulator uses it; default 0")});
 }
 
-std::vector<Schema::Key> limit_schema_keys() {
+/// Keys of `limits:`, or of a row of `by_payload`.
+std::vector<Schema::Key> limit_schema_keys(bool by_payload) {
   std::vector<Schema::Key> keys;
-  for (const auto& limit : kLimitKeys)
-    keys.push_back(optional(std::string(limit.name), number(kNotNegative),
-                            std::string(limit.says) + "; absent: no limit"));
+  for (const Limit& limit : kLimits)
+    if (limit.field != nullptr && (limit.by_payload || !by_payload))
+      keys.push_back(optional(std::string(limit.key), number(limit.may_be_zero ? kNotNegative : kPositive),
+                              std::string(limit.meaning) + (by_payload ? "; absent: as outside of by_payload"
+                                                                       : "; absent: no limit")));
   return keys;
 }
 
 Schema limits_schema() {
-  std::vector<Schema::Key> keys = limit_schema_keys(), row = limit_schema_keys();
+  std::vector<Schema::Key> keys = limit_schema_keys(false), row = limit_schema_keys(true);
   row.insert(row.begin(), required("payload_kg", number(kNotNegative), "these limits hold at this payload"));
   keys.push_back(optional(
       "by_payload", list(map(row), 1),
       "limits that depend on payload: interpolated between rows, overrides; beyond the rows the nearest "
-      "one holds"));
+      "one holds; a row that leaves a key out has the value outside of by_payload"));
   return map(std::move(keys));
 }
 

@@ -1,7 +1,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "scenarios/limit_keys.hpp"
+#include "model/limit_table.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -58,7 +58,8 @@ std::string motor_line(const Sided<Motor>& motor) {
 std::string limits_line(const Robot& robot) {
   if (!robot.limits) return "";
   Section section("limits");
-  for (const auto& key : kLimitKeys) section.number(key.name, (*robot.limits).*key.field);
+  for (const Limit& limit : kLimits)
+    if (limit.field != nullptr) section.number(limit.key, (*robot.limits).*limit.field);
   std::string rows;
   for (const auto& row : robot.limits_by_payload) {
     rows += (rows.empty() ? "{payload_kg: " : ", {payload_kg: ") + text_of(row.payload_kg);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "app/report/columns.hpp"
-#include "planner/motion/limits_for_payload.hpp"
+#include "model/limit_table.hpp"
 
 namespace joulepath::report {
 
@@ -11,18 +11,17 @@ Columns limit_columns(const Robot& robot, const Columns& columns) {
   const std::size_t rows = columns.at("time_s").size();
   const auto payload = columns.find("payload_kg");
   Columns limits;
-  const auto add = [&](const std::string& name, double Limits::*key, double sign) {
+  for (const std::string_view name : {"speed", "acceleration", "deceleration"}) {
+    const Limit& limit = *limit_named(name);
+    const double sign = name == "deceleration" ? -1.0 : 1.0;
     std::vector<double> values(rows);
     for (std::size_t row = 0; row < rows; ++row) {
       const double payload_kg = payload == columns.end() ? 0.0 : payload->second[row];
-      values[row] = sign * (limits_for_payload(robot, payload_kg).*key);
+      values[row] = sign * limits_for_payload(robot, payload_kg).*limit.field;
     }
     if (std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
-      limits[name] = values;
-  };
-  add("limit_speed_m_s", &Limits::speed_m_s, 1.0);
-  add("limit_acceleration_m_s2", &Limits::acceleration_m_s2, 1.0);
-  add("limit_deceleration_m_s2", &Limits::deceleration_m_s2, -1.0);
+      limits["limit_" + std::string(limit.key)] = values;
+  }
   return limits;
 }
 

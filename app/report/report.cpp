@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "model/limit_table.hpp"
+
 namespace joulepath::embedded {
 extern const std::string_view page, style, notice, library, library_css, script_core, script_plots,
     script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_main;
@@ -60,14 +62,9 @@ json json_of(const MapPicture& map) {
 
 json json_of(const Limits& limits) {
   json object = json::object();
-  const auto add = [&](const char* key, double value) {
-    if (std::isfinite(value)) object[key] = value;
-  };
-  add("speed_m_s", limits.speed_m_s);
-  add("acceleration_m_s2", limits.acceleration_m_s2);
-  add("deceleration_m_s2", limits.deceleration_m_s2);
-  add("yaw_rate_rad_s", limits.yaw_rate_rad_s);
-  add("battery_power_W", limits.battery_power_W);
+  for (const Limit& row : kLimits)
+    if (row.field != nullptr && std::isfinite(limits.*row.field))
+      object[std::string(row.key)] = limits.*row.field;
   return object;
 }
 

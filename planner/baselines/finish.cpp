@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "model/limit_table.hpp"
 #include "planner/motion/limit_check.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/segment_energy.hpp"
@@ -19,15 +20,12 @@ struct Worst {
   double s{};
 };
 
-/// Those of the limits that LocalLimits shapes a profile by.
-double* limit_named(Limits& limits, std::string_view name) {
-  if (name == "speed") return &limits.speed_m_s;
-  if (name == "acceleration") return &limits.acceleration_m_s2;
-  if (name == "deceleration") return &limits.deceleration_m_s2;
-  if (name == "lateral_acceleration") return &limits.lateral_acceleration_m_s2;
-  if (name == "yaw_rate") return &limits.yaw_rate_rad_s;
-  if (name == "yaw_acceleration") return &limits.yaw_acceleration_rad_s2;
-  return nullptr;
+/// The limit that a profile was shaped by, to be lowered; null where LocalLimits does not shape by it.
+double* shaping_limit(Limits& limits, std::string_view name) {
+  constexpr std::string_view kShapedBy[] = {"speed",    "acceleration",     "deceleration",
+                                            "yaw_rate", "yaw_acceleration", "lateral_acceleration"};
+  const bool shapes = std::find(std::begin(kShapedBy), std::end(kShapedBy), name) != std::end(kShapedBy);
+  return shapes ? &(limits.*limit_named(name)->field) : nullptr;
 }
 
 Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
@@ -105,7 +103,7 @@ BaselineResult with_room(const ProfileRequest& request,
   ProfileRequest inner = request;
   BaselineResult result = make(inner);
   for (int i = 0; i < kTries && !result.feasible && result.profile && result.worst_use < kNear; ++i) {
-    double* limit = limit_named(inner.limits, result.worst_limit);
+    double* limit = shaping_limit(inner.limits, result.worst_limit);
     if (limit == nullptr) break;
     *limit *= (1 - kMargin) / result.worst_use;
     BaselineResult again = make(inner);

@@ -22,8 +22,4 @@ struct SampledState {
 /// Throws ConfigError at the leg's marks where the prescription makes no sense.
 [[nodiscard]] LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& start);
 
-/// The limit that a prescribed motion exceeds most, relative to it; nothing when it keeps all.
-[[nodiscard]] std::optional<Infeasibility> broken_limit(const LegPlan& leg, const Plant& plant,
-                                                        const Limits& limits);
-
 }  // namespace joulepath

@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/limits_for_payload.hpp"
+#include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
 
 namespace joulepath {
 namespace {
-
-void take_smaller(Limits& limits, const Limits& other) {
-  for (double Limits::*limit :
-       {&Limits::speed_m_s, &Limits::acceleration_m_s2, &Limits::deceleration_m_s2,
-        &Limits::lateral_acceleration_m_s2, &Limits::yaw_rate_rad_s, &Limits::yaw_acceleration_rad_s2,
-        &Limits::wheel_acceleration_rad_s2, &Limits::jerk_m_s3, &Limits::traction_coefficient,
-        &Limits::motor_power_W, &Limits::battery_power_W, &Limits::max_payload_kg})
-    limits.*limit = std::min(limits.*limit, other.*limit);
-}
 
 /// Intervals of a curve on which the mask sets one cap.
 void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_limit_m_s,
@@ -39,13 +30,7 @@ void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_li
 }  // namespace
 
 Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
-  Limits limits = limits_for_payload(robot, payload.from_kg);
-  take_smaller(limits, limits_for_payload(robot, payload.to_kg));
-  const auto [least_kg, most_kg] = std::minmax(payload.from_kg, payload.to_kg);
-  for (const PayloadLimits& row : robot.limits_by_payload)
-    if (row.payload_kg > least_kg && row.payload_kg < most_kg)
-      take_smaller(limits, limits_for_payload(robot, row.payload_kg));
-  return limits;
+  return limits_between_payloads(robot, payload.from_kg, payload.to_kg);
 }
 
 std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,

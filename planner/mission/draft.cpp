@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "model/config_error.hpp"
+#include "model/limit_table.hpp"
 #include "planner/legs/prescribed_leg.hpp"
+#include "planner/legs/prescribed_limits.hpp"
 
 namespace joulepath {
 namespace {
@@ -13,12 +15,13 @@ std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequ
   const double most_kg = std::max(leg.payload.from_kg, leg.payload.to_kg);
   const double limit_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
   if (most_kg <= limit_kg) return std::nullopt;
-  return Infeasibility{.constraint = "max_payload",
+  const Limit& row = *limit_named("max_payload");
+  return Infeasibility{.constraint = std::string(row.name),
                        .x_m = pose.x_m,
                        .y_m = pose.y_m,
                        .amount = most_kg - limit_kg,
-                       .unit = "kg",
-                       .relaxation = {{"max_payload_kg", most_kg}},
+                       .unit = std::string(row.unit),
+                       .relaxation = {{std::string(row.key), most_kg}},
                        .message = "the payload exceeds what the robot may carry"};
 }
 
@@ -65,7 +68,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
       draft.legs.push_back(prescribed_leg(leg, plant, here));
-      if (auto reason = broken_limit(draft.legs.back(), plant, limits_along(world.robot, leg.payload))) {
+      if (auto reason = broken_limit(draft.legs.back(), k, mission, world, plant)) {
         plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
         return draft;
       }

@@ -9,9 +9,8 @@
 
 namespace joulepath {
 
-/// Calls `use(limit, ratio)` for every finite limit with |value|/limit at a state, straight from the model
-/// at the exact place (no coefficient of the optimizer). Names are keys of Limits without their unit,
-/// motor_voltage and motor_current. A limit of zero that is used gives an infinite ratio.
+/// Calls `use(name, |value| / limit)` for each finite limit of the table and each speed cap at a state,
+/// straight from the model at the exact place (no coefficient of the optimizer).
 void for_each_limit_use(const PathMotion& motion, const Limits& limits, const std::vector<SpeedCap>& caps,
                         const ProfileState& state, double jerk,
                         const std::function<void(std::string_view, double)>& use);

@@ -2,63 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
-#include <sstream>
 
+#include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
 
-struct LimitKey {
-  std::string_view name, key, unit;
-  std::function<double&(ProfileRequest&)> value;
+/// What a verdict may ask to change: a limit, or the speed at an end.
+struct Knob {
+  std::string_view name{}, key{}, unit{};
+  const Limit* limit{};
+  double ProfileRequest::*rate{};
 };
 
-const std::vector<LimitKey>& limit_keys() {
-  using R = ProfileRequest;
-  static const std::vector<LimitKey> keys{
-      {"speed", "speed_m_s", "m/s", [](R& r) -> double& { return r.limits.speed_m_s; }},
-      {"acceleration", "acceleration_m_s2", "m/s^2",
-       [](R& r) -> double& { return r.limits.acceleration_m_s2; }},
-      {"deceleration", "deceleration_m_s2", "m/s^2",
-       [](R& r) -> double& { return r.limits.deceleration_m_s2; }},
-      {"lateral_acceleration", "lateral_acceleration_m_s2", "m/s^2",
-       [](R& r) -> double& { return r.limits.lateral_acceleration_m_s2; }},
-      {"yaw_rate", "yaw_rate_rad_s", "rad/s", [](R& r) -> double& { return r.limits.yaw_rate_rad_s; }},
-      {"yaw_acceleration", "yaw_acceleration_rad_s2", "rad/s^2",
-       [](R& r) -> double& { return r.limits.yaw_acceleration_rad_s2; }},
-      {"wheel_acceleration", "wheel_acceleration_rad_s2", "rad/s^2",
-       [](R& r) -> double& { return r.limits.wheel_acceleration_rad_s2; }},
-      {"traction", "traction_coefficient", "1",
-       [](R& r) -> double& { return r.limits.traction_coefficient; }},
-      {"motor_power", "motor_power_W", "W", [](R& r) -> double& { return r.limits.motor_power_W; }},
-      {"battery_power", "battery_power_W", "W", [](R& r) -> double& { return r.limits.battery_power_W; }},
-      {"motor_current", "max_current_A", "A",
-       [](R& r) -> double& { return r.plant.robot.motor.left.max_current_A; }},
-      {"motor_voltage", "max_voltage_V", "V",
-       [](R& r) -> double& { return r.plant.robot.motor.left.max_voltage_V; }},
-      {"start_speed", "start_speed_m_s", "m/s", [](R& r) -> double& { return r.start_rate; }},
-      {"end_speed", "end_speed_m_s", "m/s", [](R& r) -> double& { return r.end_rate; }}};
-  return keys;
+const std::vector<Knob>& knobs() {
+  static const std::vector<Knob> all = [] {
+    std::vector<Knob> list;
+    for (const Limit& row : kLimits)
+      if (row.value != nullptr)
+        list.push_back({.name = row.name, .key = row.key, .unit = row.unit, .limit = &row});
+    list.push_back({"start_speed", "start_speed_m_s", "m/s", nullptr, &ProfileRequest::start_rate});
+    list.push_back({"end_speed", "end_speed_m_s", "m/s", nullptr, &ProfileRequest::end_rate});
+    return list;
+  }();
+  return all;
 }
 
 /// The value in force: a speed cap on a zone may be lower than the robot's own limit.
-double value_of(ProfileRequest& request, const LimitKey& key) {
-  double value = key.value(request);
-  if (key.name == "speed" && !is_turn(request.piece))
+double value_of(const ProfileRequest& request, const Knob& knob) {
+  if (knob.rate != nullptr) return request.*knob.rate;
+  const Sided<Motor>& motor = request.plant.robot.motor;
+  double value = std::min(limit_of(*knob.limit, request.limits, motor, Side::left),
+                          limit_of(*knob.limit, request.limits, motor, Side::right));
+  if (knob.name == "speed" && !is_turn(request.piece))
     for (const SpeedCap& cap : request.speed_caps) value = std::min(value, cap.speed_m_s);
   return value;
 }
 
-void set_limit(ProfileRequest& request, const LimitKey& key, double value) {
-  key.value(request) = key.name == "speed" ? std::max(value, key.value(request)) : value;
-  Sided<Motor>& motor = request.plant.robot.motor;
-  if (key.name == "motor_current") motor.right.max_current_A = value;
-  if (key.name == "motor_voltage") motor.right.max_voltage_V = value;
-  if (key.name == "speed")
-    for (SpeedCap& cap : request.speed_caps) cap.speed_m_s = std::max(cap.speed_m_s, value);
+/// The request with a limit raised to at least a value, or an end's speed set to it.
+ProfileRequest changed(ProfileRequest request, const Knob& knob, double value) {
+  const auto raise = [&](double& limit) { limit = std::max(limit, value); };
+  if (knob.rate != nullptr)
+    request.*knob.rate = value;
+  else if (knob.limit->field != nullptr)
+    raise(request.limits.*knob.limit->field);
+  else
+    for (const Side side : kSides) raise(request.plant.robot.motor[side].*knob.limit->rating);
+  if (knob.name == "speed")
+    for (SpeedCap& cap : request.speed_caps) raise(cap.speed_m_s);
+  return request;
 }
 
 bool passes(const ProfileRequest& request, const std::vector<double>& s) {
@@ -67,44 +62,30 @@ bool passes(const ProfileRequest& request, const std::vector<double>& s) {
   return !nlp::rate_envelope(problem).blocked;
 }
 
-/// Smallest (largest for start and end speeds) value that lets the robot pass, to 1e-4 of it.
-std::optional<double> smallest_relaxation(const ProfileRequest& request, const LimitKey& key,
+/// Smallest (largest for start and end speeds) value that lets the robot pass, to 1e-5 of it and not below
+/// 1e-6; none where the robot does not pass at any value.
+std::optional<double> smallest_relaxation(const ProfileRequest& request, const Knob& knob,
                                           const std::vector<double>& s) {
-  ProfileRequest trial = request;
-  const double found = value_of(trial, key);
-  constexpr double kFirst = 1e-3;  // tried where the limit is zero: anything above it may do
-  const bool lower = key.name == "start_speed" || key.name == "end_speed";
-  const auto possible = [&](double value) {
-    set_limit(trial, key, value);
-    return passes(trial, s);
-  };
-  double bad = found, good = lower ? 0.0 : std::max(2 * found, kFirst);
-  for (int i = 0; !possible(good); ++i) {
-    if (lower || i > 40) return std::nullopt;
-    bad = good;
-    good *= 2;
+  constexpr double kLargest = 1e9, kLeast = 1e-6, kClose = 1e-5;
+  const auto possible = [&](double value) { return passes(changed(request, knob, value), s); };
+  double bad = value_of(request, knob), good = knob.rate != nullptr ? 0.0 : kLargest;
+  if (!possible(good)) return std::nullopt;
+  if (knob.rate == nullptr) {
+    good = std::max(2 * bad, kLeast);
+    for (; good < kLargest && !possible(good); good *= 2) bad = good;
+    if (bad < kLeast) return good;
   }
-  if (found == 0.0 && good == kFirst) return good;
-  for (int i = 0; i < 40 && std::abs(good - bad) > 1e-5 * std::max(std::abs(good), 1e-6); ++i) {
+  while (std::abs(good - bad) > kClose * std::max(std::abs(good), kLeast)) {
     const double middle = 0.5 * (good + bad);
     (possible(middle) ? good : bad) = middle;
   }
   return good;
 }
 
-const LimitKey* key_of(std::string_view name) {
-  for (const LimitKey& key : limit_keys())
-    if (key.name == name) return &key;
+const Knob* knob_named(std::string_view name) {
+  for (const Knob& knob : knobs())
+    if (knob.name == name) return &knob;
   return nullptr;
-}
-
-std::string sentence(const Infeasibility& verdict) {
-  std::ostringstream text;
-  text.precision(4);
-  text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
-       << " m) is missed by " << verdict.amount << " " << verdict.unit;
-  for (const auto& [name, value] : verdict.relaxation) text << "; " << name << " " << value << " would do";
-  return text.str();
 }
 
 Infeasibility at_place(const ProfileRequest& request, std::string constraint, double s) {
@@ -128,24 +109,19 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   candidates.push_back(name);
   if (request.end_rate > 0) candidates.push_back("end_speed");
   if (request.start_rate > 0) candidates.push_back("start_speed");
-  for (const LimitKey& key : limit_keys()) {
-    ProfileRequest copy = request;
-    if (std::isfinite(key.value(copy)) && key.name != "start_speed" && key.name != "end_speed")
-      candidates.push_back(key.name);
-  }
+  for (const Knob& knob : knobs())
+    if (knob.limit != nullptr && std::isfinite(value_of(request, knob))) candidates.push_back(knob.name);
   for (std::string_view candidate : candidates) {
-    const LimitKey* key = key_of(candidate);
-    if (key == nullptr) continue;
-    const std::optional<double> value = smallest_relaxation(request, *key, problem.s);
+    const Knob* knob = knob_named(candidate);
+    if (knob == nullptr) continue;
+    const std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
     if (!value) continue;
-    ProfileRequest copy = request;
-    const double found = value_of(copy, *key);
     double s = problem.s[blocked.node];
     if (candidate == "end_speed") s = problem.s.back();
     Infeasibility verdict = at_place(request, std::string(candidate), s);
-    verdict.amount = std::abs(*value - found);
-    verdict.unit = key->unit;
-    verdict.relaxation[std::string(key->key)] = *value;
+    verdict.amount = std::abs(*value - value_of(request, *knob));
+    verdict.unit = knob->unit;
+    verdict.relaxation[std::string(knob->key)] = *value;
     verdict.message = sentence(verdict);
     return verdict;
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/limit_table.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 
 namespace joulepath {
@@ -13,14 +14,10 @@ std::optional<Infeasibility> senseless(const ProfileRequest& request) {
   if (!(request.start_rate >= 0) || !(request.end_rate >= 0) ||
       !std::isfinite(request.start_rate + request.end_rate))
     return explain_request(request, "start_speed", "start and end speed must be 0 or more");
-  const Limits& limits = request.limits;
-  for (double limit : {limits.speed_m_s, limits.acceleration_m_s2, limits.deceleration_m_s2,
-                       limits.lateral_acceleration_m_s2, limits.yaw_rate_rad_s,
-                       limits.yaw_acceleration_rad_s2, limits.wheel_acceleration_rad_s2,
-                       limits.traction_coefficient, limits.motor_power_W, limits.battery_power_W})
-    if (!(limit >= 0)) return explain_request(request, "limits", "a limit must be a number of 0 or more");
-  if (std::isnan(limits.jerk_m_s3))
-    return explain_request(request, "limits", "a jerk limit must be a number");
+  for (const Limit& row : kLimits)
+    for (const Side side : kSides)
+      if (!(limit_of(row, request.limits, request.plant.robot.motor, side) >= 0))
+        return explain_request(request, "limits", std::string(row.key) + " must be a number of 0 or more");
   if (!(request.payload.from_kg >= 0) || !(request.payload.to_kg >= 0))
     return explain_request(request, "payload", "a payload must be a number of 0 or more");
   return std::nullopt;

@@ -146,10 +146,14 @@ RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
   return envelope;
 }
 
+/// Whether any row is other than affine in the squares of the rates. A term that is not named here counts as
+/// one that bends.
 bool bends(const Problem& problem) {
+  constexpr std::string_view kStraight[] = {Acceleration::name, YawAcceleration::name,
+                                            WheelAcceleration::name, Traction::name};
   return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ActiveRow& row) {
-    return row.name == MotorVoltage::name || row.name == MotorPower::name || row.name == BatteryPower::name ||
-           row.name == MotorCurrent::name || !problem.segments[row.segment].limit_points[0].affine;
+    return std::find(std::begin(kStraight), std::end(kStraight), row.name) == std::end(kStraight) ||
+           !problem.segments[row.segment].limit_points[0].affine;
   });
 }
 

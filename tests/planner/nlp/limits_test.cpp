@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <ostream>
 #include <string>
+#include <vector>
 
+#include "model/limit_table.hpp"
 #include "planner/motion/replay.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/profile/profile_solver.hpp"
@@ -37,13 +40,13 @@ struct Tightened {
   friend std::ostream& operator<<(std::ostream& stream, const Tightened& one) { return stream << one.limit; }
 };
 
-Tightened limit(const std::string& name, double Limits::*member, double value) {
-  return {name, [=](ProfileRequest& request) { request.limits.*member = value; }};
-}
-
-Tightened rating(const std::string& name, double Motor::*member, double value) {
-  return {name, [=](ProfileRequest& request) {
-            request.plant.robot.motor.left.*member = request.plant.robot.motor.right.*member = value;
+Tightened limit(const std::string& name, double value) {
+  const Limit& row = *limit_named(name);
+  return {name, [&row, value](ProfileRequest& request) {
+            if (row.field != nullptr)
+              request.limits.*row.field = value;
+            else
+              for (const Side side : kSides) request.plant.robot.motor[side].*row.rating = value;
           }};
 }
 
@@ -75,32 +78,37 @@ TEST_P(EveryLimitOfATurn, CostsTimeAndHoldsBetweenTheNodes) {
   expect_costs_time_and_holds(kTurn, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit,
-                         ::testing::Values(limit("speed", &Limits::speed_m_s, 0.5),
-                                           limit("acceleration", &Limits::acceleration_m_s2, 0.2),
-                                           limit("deceleration", &Limits::deceleration_m_s2, 0.2),
-                                           limit("lateral_acceleration", &Limits::lateral_acceleration_m_s2,
-                                                 0.1),
-                                           limit("yaw_rate", &Limits::yaw_rate_rad_s, 0.3),
-                                           limit("yaw_acceleration", &Limits::yaw_acceleration_rad_s2, 0.1),
-                                           limit("wheel_acceleration", &Limits::wheel_acceleration_rad_s2, 2),
-                                           limit("traction", &Limits::traction_coefficient, 0.04),
-                                           limit("motor_power", &Limits::motor_power_W, 5),
-                                           limit("battery_power", &Limits::battery_power_W, 20),
-                                           rating("motor_current", &Motor::max_current_A, 0.5),
-                                           rating("motor_voltage", &Motor::max_voltage_V, 6)),
+const std::vector<Tightened> kOnACurve{limit("speed", 0.5),
+                                       limit("acceleration", 0.2),
+                                       limit("deceleration", 0.2),
+                                       limit("lateral_acceleration", 0.1),
+                                       limit("yaw_rate", 0.3),
+                                       limit("yaw_acceleration", 0.1),
+                                       limit("wheel_acceleration", 2),
+                                       limit("traction", 0.04),
+                                       limit("motor_power", 5),
+                                       limit("battery_power", 20),
+                                       limit("motor_current", 0.5),
+                                       limit("motor_voltage", 6)};
+const std::vector<Tightened> kInATurn{limit("yaw_rate", 0.8),         limit("yaw_acceleration", 0.7),
+                                      limit("wheel_acceleration", 2), limit("traction", 0.02),
+                                      limit("motor_power", 1.2),      limit("battery_power", 12),
+                                      limit("motor_current", 0.35),   limit("motor_voltage", 3)};
+
+INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit, ::testing::ValuesIn(kOnACurve),
+                         [](const auto& one) { return one.param.limit; });
+INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn, ::testing::ValuesIn(kInATurn),
                          [](const auto& one) { return one.param.limit; });
 
-INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn,
-                         ::testing::Values(limit("yaw_rate", &Limits::yaw_rate_rad_s, 0.8),
-                                           limit("yaw_acceleration", &Limits::yaw_acceleration_rad_s2, 0.7),
-                                           limit("wheel_acceleration", &Limits::wheel_acceleration_rad_s2, 2),
-                                           limit("traction", &Limits::traction_coefficient, 0.02),
-                                           limit("motor_power", &Limits::motor_power_W, 1.2),
-                                           limit("battery_power", &Limits::battery_power_W, 12),
-                                           rating("motor_current", &Motor::max_current_A, 0.35),
-                                           rating("motor_voltage", &Motor::max_voltage_V, 3)),
-                         [](const auto& one) { return one.param.limit; });
+/// Jerk has its own tests (jerk_test.cpp).
+TEST(EveryLimitOfTheTable, IsTightenedAbove) {
+  for (const Limit& row : kLimits) {
+    if (row.value == nullptr || row.name == "jerk") continue;
+    EXPECT_TRUE(std::any_of(kOnACurve.begin(), kOnACurve.end(), [&](const Tightened& one) {
+      return one.limit == row.name;
+    })) << row.name;
+  }
+}
 
 }  // namespace
 }  // namespace joulepath

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/nlp/transcription/problem.hpp"
@@ -62,6 +63,14 @@ struct AsTypes<std::tuple<Terms...>> {
   using type = ::testing::Types<Terms..., Energy, Time>;
 };
 TYPED_TEST_SUITE(EveryTerm, AsTypes<Rows>::type);
+
+TEST(Rows, AreNamedAsTheLimitsOfTheTable) {
+  const auto has_row = [](std::string_view name) {
+    EXPECT_NE(limit_named(name), nullptr) << name;
+    return true;
+  };
+  std::apply([&](const auto&... term) { return (has_row(term.name) && ...); }, rows_for({}));
+}
 
 /// Value by plain numbers, derivatives by central differences of first order jets' values.
 TYPED_TEST(EveryTerm, HasExactDerivatives) {

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
+#include "model/limit_table.hpp"
 #include "planner/motion/replay.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/profile/profile_solver.hpp"
@@ -140,7 +142,9 @@ std::vector<Case> hopeless() {
   add("voltage 0", changed(straight(), [](R r) { both_motors(r, &Motor::max_voltage_V, 0); }),
       "motor_voltage");
   add("jerk 0", changed(straight(), [](R r) { r.limits.jerk_m_s3 = 0; }), "jerk");
-  add("negative jerk", changed(bezier(), [](R r) { r.limits.jerk_m_s3 = -1; }), "jerk");
+  add("negative jerk", changed(bezier(), [](R r) { r.limits.jerk_m_s3 = -1; }), "limits");
+  add("NaN current", changed(straight(), [](R r) { r.plant.robot.motor.right.max_current_A = kNaN; }),
+      "limits");
   add("jerk 0 and a deadline",
       changed(within(straight(), TimeMode::time_budget, 20), [](R r) { r.limits.jerk_m_s3 = 0; }), "jerk");
   add("zone of 0", changed(straight(), [](R r) { r.speed_caps = {{4, 5, 0}}; }), "speed");
@@ -207,35 +211,17 @@ bool relax(ProfileRequest& r, const std::string& key, double value) {
     r.start_rate = value;
   else if (key == "end_speed_m_s")
     r.end_rate = value;
-  else if (key == "speed_m_s") {
-    r.limits.speed_m_s = std::max(r.limits.speed_m_s, value);
-    for (SpeedCap& cap : r.speed_caps) cap.speed_m_s = std::max(cap.speed_m_s, value);
-  } else if (key == "max_current_A")
-    both_motors(r, &Motor::max_current_A, value);
-  else if (key == "max_voltage_V")
-    both_motors(r, &Motor::max_voltage_V, value);
-  else if (key == "acceleration_m_s2")
-    r.limits.acceleration_m_s2 = value;
-  else if (key == "deceleration_m_s2")
-    r.limits.deceleration_m_s2 = value;
-  else if (key == "lateral_acceleration_m_s2")
-    r.limits.lateral_acceleration_m_s2 = value;
-  else if (key == "yaw_rate_rad_s")
-    r.limits.yaw_rate_rad_s = value;
-  else if (key == "yaw_acceleration_rad_s2")
-    r.limits.yaw_acceleration_rad_s2 = value;
-  else if (key == "wheel_acceleration_rad_s2")
-    r.limits.wheel_acceleration_rad_s2 = value;
-  else if (key == "traction_coefficient")
-    r.limits.traction_coefficient = value;
-  else if (key == "motor_power_W")
-    r.limits.motor_power_W = value;
-  else if (key == "jerk_m_s3")
-    r.limits.jerk_m_s3 = value;
-  else if (key == "battery_power_W")
-    r.limits.battery_power_W = value;
-  else
-    return false;
+  else {
+    const auto row =
+        std::find_if(kLimits.begin(), kLimits.end(), [&](const Limit& limit) { return limit.key == key; });
+    if (row == kLimits.end()) return false;
+    if (row->rating != nullptr)
+      both_motors(r, row->rating, value);
+    else
+      r.limits.*row->field = key == "speed_m_s" ? std::max(r.limits.speed_m_s, value) : value;
+    if (key == "speed_m_s")
+      for (SpeedCap& cap : r.speed_caps) cap.speed_m_s = std::max(cap.speed_m_s, value);
+  }
   return true;
 }
 
@@ -259,6 +245,23 @@ TEST(Verdicts, TheRelaxationWouldDo) {
     ++tried;
   }
   EXPECT_GE(tried, 38);
+}
+
+/// Less than what is offered must not be enough, down to 1e-6, below which nothing is offered.
+TEST(Verdicts, NoLimitIsRaisedFurtherThanItMustBe) {
+  for (const Case& c : hopeless()) {
+    const ProfileResult result = solve_profile(c.request);
+    if (!result.infeasibility || result.infeasibility->relaxation.empty()) continue;
+    const auto& [key, value] = *result.infeasibility->relaxation.begin();
+    const bool is_limit = std::any_of(kLimits.begin(), kLimits.end(), [&key = key](const Limit& row) {
+      return row.key == key && row.name != "jerk";
+    });
+    if (!is_limit || value <= 1e-6) continue;
+    ProfileRequest relaxed = c.request;
+    ASSERT_TRUE(relax(relaxed, key, value * 0.999)) << key;
+    relaxed.time = {TimeMode::minimum_time};
+    EXPECT_FALSE(solve_profile(relaxed).profile.has_value()) << c.name << ": " << key << " = " << value;
+  }
 }
 
 TEST(Verdicts, AJerkLimitTooLowForTheDeadlineNamesOneThatWouldDo) {

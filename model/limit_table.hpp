@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string_view>
+
+#include "model/limits.hpp"
+#include "model/operating_point.hpp"
+
+namespace joulepath {
+
+/// A robot in motion, as the rows of the table of limits see it.
+struct LimitState {
+  using Motor = joulepath::Motor;
+
+  const Plant& plant;
+  Site site{};
+  BodyMotion<double> motion{};
+  double speed_gain_m_s2{};  ///< d|v|/dt: negative while braking, in reverse too
+  double jerk_m_s3{};
+  Sided<double> wheel_acceleration_rad_s2{};
+  Sided<WheelState<double>> wheels{};
+  double normal_load_N{};    ///< on each wheel, m g/2
+  double battery_power_W{};  ///< at the terminals, standby included
+};
+
+/// The state of a plant in motion. `speed_gain_m_s2` is passed because the motion does not tell gain from
+/// loss at standstill.
+[[nodiscard]] LimitState limit_state(const Plant& plant, const BodyMotion<double>& motion, const Site& site,
+                                     double speed_gain_m_s2, double jerk_m_s3);
+
+using Limit = LimitRow<LimitState>;
+inline constexpr const auto& kLimits = kLimitRows<LimitState>;
+
+/// The row with a name (not a key); null where there is none.
+[[nodiscard]] const Limit* limit_named(std::string_view name);
+
+/// A limit's value in force for a wheel.
+[[nodiscard]] double limit_of(const Limit& row, const Limits& limits, const Sided<Motor>& motor, Side side);
+
+/// |value| / limit; a limit of zero is not used at all or infinitely.
+[[nodiscard]] double limit_fraction(double value, double limit);
+
+/// Calls use(row, value, limit) for each finite limit of a motion; once for each wheel where the row says so.
+template <class Use>
+void for_each_limit(const LimitState& state, const Limits& limits, Use&& use) {
+  for (const Limit& row : kLimits)
+    for (const Side side : kSides) {
+      if (row.value == nullptr || (side == Side::right && !row.per_wheel)) break;
+      const double limit = limit_of(row, limits, state.plant.robot.motor, side);
+      if (limit < kNoLimit) use(row, row.value(state, side), limit);
+    }
+}
+
+/// Limits with `limits: by_payload` applied, for each key linear in the payload between the rows, and held
+/// beyond the first and the last row. A row that leaves a key out has the value outside of `by_payload`
+/// there. Between a row with a limit and a row without, the limit holds.
+[[nodiscard]] Limits limits_for_payload(const Robot& robot, double payload_kg);
+
+/// Limits that hold for all payloads between two: for each key the least.
+[[nodiscard]] Limits limits_between_payloads(const Robot& robot, double from_kg, double to_kg);
+
+}  // namespace joulepath

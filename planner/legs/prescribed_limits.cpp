@@ -1,0 +1,146 @@
+#include "planner/legs/prescribed_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "model/limit_table.hpp"
+#include "planner/legs/prescribed_leg.hpp"
+#include "planner/legs/stretch.hpp"
+#include "planner/values/verdict_text.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kTolerance = 1e-6;  ///< relative, as in the replay
+
+/// Where a motion exceeds a limit most.
+struct Excess {
+  const Limit* row{};
+  double value{};
+  double limit{};
+  double time_s{};
+  SampledState state{};
+
+  double amount() const { return std::abs(value) - limit; }
+};
+
+/// Looks for the places where a prescribed leg exceeds limits: those of the table, speed zones, speed mask.
+struct LimitSearch {
+  const LegPlan& planned;
+  std::size_t leg{};
+  const MissionRequest& mission;
+  const MissionWorld& world;
+  const Plant& plant;
+
+  /// For each limit that is exceeded, where it is exceeded most.
+  std::vector<Excess> worst() const {
+    const Limits limits = limits_along(world.robot, mission.legs[leg].payload);
+    std::vector<Excess> excesses;
+    const Trajectory& motion = *planned.prescribed;
+    for (std::size_t k = 0; k + 1 < motion.size(); ++k)
+      for (const double share : {1e-6, 0.5, 1 - 1e-6}) {
+        const double time_s = motion.time_s[k] + share * (motion.time_s[k + 1] - motion.time_s[k]);
+        const SampledState state = sampled_state(motion, time_s);
+        look(state, time_s, limits, excesses);
+      }
+    if (limits.jerk_m_s3 < kNoLimit) look_for_jumps(limits.jerk_m_s3, excesses);
+    return excesses;
+  }
+
+ private:
+  static void add(std::vector<Excess>& excesses, const Excess& one) {
+    if (!(limit_fraction(one.value, one.limit) > 1 + kTolerance)) return;
+    const auto same = std::find_if(excesses.begin(), excesses.end(),
+                                   [&](const Excess& other) { return other.row == one.row; });
+    if (same == excesses.end())
+      excesses.push_back(one);
+    else if (one.amount() > same->amount())
+      *same = one;
+  }
+
+  void look(const SampledState& state, double time_s, const Limits& limits,
+            std::vector<Excess>& excesses) const {
+    const BodyMotion<double>& body = state.motion;
+    const Site site = site_of(plant.robot.geometry, state.pose, planned.payload.from_kg, body.speed_m_s,
+                              body.yaw_rate_rad_s, time_s);
+    const double gain_m_s2 = body.acceleration_m_s2 * (body.speed_m_s < 0 ? -1.0 : 1.0);
+    for_each_limit(limit_state(plant, body, site, gain_m_s2, 0.0), limits,
+                   [&](const Limit& row, double value, double limit) {
+                     add(excesses, {&row, value, limit, time_s, state});
+                   });
+    const double cap_m_s = speed_cap_m_s(state, limits.speed_m_s);
+    if (cap_m_s < limits.speed_m_s)
+      add(excesses, {limit_named("speed"), body.speed_m_s, cap_m_s, time_s, state});
+  }
+
+  /// The lowest cap of zones and mask at a place.
+  double speed_cap_m_s(const SampledState& state, double limit_m_s) const {
+    double cap_m_s = kNoLimit;
+    for (const SpeedZone& zone : mission.speed_zones)
+      if (zone.leg == leg && state.arc_length_m > zone.from_m && state.arc_length_m < zone.to_m)
+        cap_m_s = std::min(cap_m_s, zone.speed_m_s);
+    if (world.speed_mask)
+      if (const auto masked = world.speed_mask->speed_cap_m_s(state.pose.x_m, state.pose.y_m, limit_m_s))
+        cap_m_s = std::min(cap_m_s, *masked);
+    return cap_m_s;
+  }
+
+  /// The acceleration is constant between samples: wherever it changes it jumps, and no finite jerk limit
+  /// allows that. A coasting robot is exempt: nothing commands its acceleration.
+  void look_for_jumps(double limit_m_s3, std::vector<Excess>& excesses) const {
+    constexpr double kJump_m_s2 = 1e-5;  // rounding of differences is far below
+    if (mission.legs[leg].motion->profile == MotionProfile::coast) return;
+    const Trajectory& motion = *planned.prescribed;
+    double before_m_s2 = 0.0;
+    for (std::size_t k = 0; k < motion.size(); ++k) {
+      const double time_s = motion.time_s[k];
+      double after_m_s2 = 0.0;
+      if (k + 1 < motion.size())
+        after_m_s2 = sampled_state(motion, 0.5 * (time_s + motion.time_s[k + 1])).motion.acceleration_m_s2;
+      if (std::abs(after_m_s2 - before_m_s2) > kJump_m_s2)
+        add(excesses, {limit_named("jerk"), kNoLimit, limit_m_s3, time_s, sampled_state(motion, time_s)});
+      before_m_s2 = after_m_s2;
+    }
+  }
+};
+
+/// The verdict on the first of the limits that a motion exceeds. A relaxation is offered where it is enough:
+/// where no other limit is exceeded and the value is finite.
+Infeasibility verdict_of(const std::vector<Excess>& excesses) {
+  const Excess& worst = excesses.front();
+  Infeasibility verdict{.constraint = std::string(worst.row->name),
+                        .s = worst.state.arc_length_m,
+                        .x_m = worst.state.pose.x_m,
+                        .y_m = worst.state.pose.y_m,
+                        .amount = worst.amount(),
+                        .unit = std::string(worst.row->unit)};
+  if (excesses.size() == 1 && std::isfinite(worst.value))
+    verdict.relaxation[std::string(worst.row->key)] = std::abs(worst.value);
+  std::ostringstream text;
+  text.precision(4);
+  text << sentence(verdict) << "; the prescribed motion does this at t = " << worst.time_s << " s";
+  for (std::size_t i = 1; i < excesses.size(); ++i)
+    text << (i == 1 ? "; it exceeds also " : ", ") << excesses[i].row->name << " by " << excesses[i].amount()
+         << " " << excesses[i].row->unit;
+  verdict.message = text.str();
+  return verdict;
+}
+
+}  // namespace
+
+std::optional<Infeasibility> broken_limit(const LegPlan& planned, std::size_t leg,
+                                          const MissionRequest& mission, const MissionWorld& world,
+                                          const Plant& plant) {
+  const LimitSearch search{planned, leg, mission, world, plant};
+  std::vector<Excess> worst = search.worst();
+  if (worst.empty()) return std::nullopt;
+  const auto less = [](const Excess& x, const Excess& y) {
+    return limit_fraction(x.value, x.limit) < limit_fraction(y.value, y.limit);
+  };
+  std::iter_swap(worst.begin(), std::max_element(worst.begin(), worst.end(), less));
+  return verdict_of(worst);
+}
+
+}  // namespace joulepath

@@ -1,0 +1,16 @@
+#include "planner/values/verdict_text.hpp"
+
+#include <sstream>
+
+namespace joulepath {
+
+std::string sentence(const Infeasibility& verdict) {
+  std::ostringstream text;
+  text.precision(4);
+  text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
+       << " m) is missed by " << verdict.amount << " " << verdict.unit;
+  for (const auto& [name, value] : verdict.relaxation) text << "; " << name << " " << value << " would do";
+  return text.str();
+}
+
+}  // namespace joulepath

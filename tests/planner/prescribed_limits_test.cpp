@@ -1,0 +1,159 @@
+// A prescribed motion that exceeds a limit is infeasible, whichever limit it is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "model/limit_table.hpp"
+#include "planner/mission/mission.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// The Nomad without a limit.
+Robot unlimited() {
+  Robot robot = testing::nomad();
+  robot.limits = Limits{};
+  for (const Side side : kSides) robot.motor[side].max_current_A = robot.motor[side].max_voltage_V = kNoLimit;
+  return robot;
+}
+
+Robot with_limit(const Limit& row, double value) {
+  Robot robot = unlimited();
+  if (row.field != nullptr)
+    (*robot.limits).*row.field = value;
+  else
+    for (const Side side : kSides) robot.motor[side].*row.rating = value;
+  return robot;
+}
+
+/// To the left on a circle of 2 m radius: 0.4 m/s^2 up to 0.5 m/s, 0.3 m/s^2 down.
+PrescribedMotion arc() {
+  return {.profile = MotionProfile::arc,
+          .acceleration_m_s2 = 0.4,
+          .deceleration_m_s2 = 0.3,
+          .speed_m_s = 0.5,
+          .radius_m = 2,
+          .angle_rad = 1.5};
+}
+
+PrescribedMotion trapezoid() {
+  return {.profile = MotionProfile::trapezoid, .acceleration_m_s2 = 0.25, .speed_m_s = 0.5, .distance_m = 5};
+}
+
+MissionRequest mission_of(const PrescribedMotion& motion, double payload_kg = 3) {
+  return {.name = "prescribed", .legs = {{.motion = motion, .payload = {payload_kg, payload_kg}}}};
+}
+
+Plan planned(const MissionRequest& mission, const Robot& robot) {
+  return plan_mission(mission, {.robot = robot}, {.solver = SolverChoice::fast, .nodes = 60});
+}
+
+const Infeasibility* verdict_of(const Plan& plan) {
+  return plan.infeasibility ? &plan.infeasibility->reason : nullptr;
+}
+
+TEST(PrescribedLimits, WithoutALimitTheMotionIsPlanned) {
+  EXPECT_EQ(verdict_of(planned(mission_of(arc()), unlimited())), nullptr);
+}
+
+/// The value that the verdict offers is what the motion uses: a little more is enough, a tenth less is
+/// missed by that tenth.
+TEST(PrescribedLimits, EveryRowOfTheTableIsHeld) {
+  for (const Limit& row : kLimits) {
+    if (row.value == nullptr || row.name == "jerk") continue;
+    const Plan hopeless = planned(mission_of(arc()), with_limit(row, 1e-3));
+    ASSERT_NE(verdict_of(hopeless), nullptr) << row.name << " is not held";
+    EXPECT_EQ(verdict_of(hopeless)->constraint, row.name);
+    ASSERT_EQ(verdict_of(hopeless)->relaxation.count(std::string(row.key)), 1u) << row.name;
+    const double used = verdict_of(hopeless)->relaxation.at(std::string(row.key));
+    EXPECT_EQ(verdict_of(planned(mission_of(arc()), with_limit(row, used * 1.0001))), nullptr) << row.name;
+
+    const Plan tight = planned(mission_of(arc()), with_limit(row, 0.9 * used));
+    ASSERT_NE(verdict_of(tight), nullptr) << row.name;
+    EXPECT_EQ(tight.status, SolveStatus::infeasible);
+    EXPECT_NEAR(verdict_of(tight)->amount, 0.1 * used, 1e-9 * used) << row.name;
+    EXPECT_EQ(verdict_of(tight)->unit, row.unit);
+    EXPECT_NE(tight.message.find("t = "), std::string::npos) << tight.message;
+    EXPECT_NE(tight.message.find(row.key), std::string::npos) << tight.message;
+  }
+}
+
+/// Kinematic limits by hand.
+TEST(PrescribedLimits, TheUseIsWhatTheMotionSays) {
+  const std::map<std::string, double> expected{{"speed", 0.5},
+                                               {"acceleration", 0.4},
+                                               {"deceleration", 0.3},
+                                               {"lateral_acceleration", 0.5 * 0.5 / 2},
+                                               {"yaw_rate", 0.5 / 2},
+                                               {"yaw_acceleration", 0.4 / 2},
+                                               {"wheel_acceleration", (0.4 + 0.165 * 0.4 / 2) / 0.1}};
+  for (const bool reverse : {false, true})
+    for (const auto& [name, used] : expected) {
+      PrescribedMotion motion = arc();
+      motion.reverse = reverse;
+      const Plan plan = planned(mission_of(motion), with_limit(*limit_named(name), 0.01));
+      ASSERT_NE(verdict_of(plan), nullptr) << name;
+      EXPECT_NEAR(verdict_of(plan)->amount, used - 0.01, 1e-5 * used)
+          << name << (reverse ? " in reverse" : "");
+    }
+}
+
+TEST(PrescribedLimits, TheBatteryPowerOfAStraightDriveIsHeld) {
+  const Plan plan = planned(mission_of(trapezoid(), 0), with_limit(*limit_named("battery_power"), 12));
+  ASSERT_NE(verdict_of(plan), nullptr);
+  // At the end of the ramp, by hand: 5 rad/s, tau = 0.7513 and 0.7245 N m, i = 0.4373 and 0.4217 A,
+  // R i^2 + Kv n q' i = 4.2805 and 4.1097 W, and 10 W of standby.
+  EXPECT_NEAR(verdict_of(plan)->amount, 18.390 - 12, 1e-3) << plan.message;
+  EXPECT_NEAR(verdict_of(plan)->s, 0.5, 1e-3);
+  EXPECT_NEAR(verdict_of(plan)->x_m, 0.5, 1e-3);
+}
+
+TEST(PrescribedLimits, NoFiniteJerkLimitAllowsAJumpOfAcceleration) {
+  const Robot robot = with_limit(*limit_named("jerk"), 1000);
+  for (const PrescribedMotion& motion : {arc(), trapezoid()}) {
+    const Plan plan = planned(mission_of(motion), robot);
+    ASSERT_NE(verdict_of(plan), nullptr);
+    EXPECT_EQ(verdict_of(plan)->constraint, "jerk");
+    EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
+  }
+  using enum MotionProfile;
+  for (const PrescribedMotion& motion :
+       {PrescribedMotion{.profile = constant_speed, .speed_m_s = 0.5, .distance_m = 2},
+        PrescribedMotion{.profile = spin, .angle_rad = 2, .yaw_rate_rad_s = 1, .yaw_acceleration_rad_s2 = 1},
+        PrescribedMotion{.profile = coast, .speed_m_s = 0.5},
+        PrescribedMotion{.profile = stand, .duration_s = 2}})
+    EXPECT_EQ(verdict_of(planned(mission_of(motion), robot)), nullptr);
+}
+
+TEST(PrescribedLimits, ThePayloadIsHeld) {
+  const Plan plan = planned(mission_of(arc(), 5), with_limit(*limit_named("max_payload"), 4));
+  ASSERT_NE(verdict_of(plan), nullptr);
+  EXPECT_EQ(verdict_of(plan)->constraint, "max_payload");
+}
+
+TEST(PrescribedLimits, SpeedZonesAreHeldInsideThem) {
+  MissionRequest mission = mission_of(trapezoid());
+  mission.speed_zones = {{.leg = 0, .from_m = 2, .to_m = 3, .speed_m_s = 0.3}};
+  const Plan plan = planned(mission, unlimited());
+  ASSERT_NE(verdict_of(plan), nullptr);
+  EXPECT_EQ(verdict_of(plan)->constraint, "speed");
+  EXPECT_NEAR(verdict_of(plan)->amount, 0.2, 1e-9);
+  EXPECT_NEAR(verdict_of(plan)->s, 2, 0.02);
+  mission.speed_zones = {{.leg = 0, .from_m = 0, .to_m = 0.08, .speed_m_s = 0.3}};  // 0.2 m/s at its end
+  EXPECT_EQ(verdict_of(planned(mission, unlimited())), nullptr);
+}
+
+TEST(PrescribedLimits, TwoLimitsThatAreExceededAreBothNamedAndNoneIsSaidToBeEnough) {
+  Robot robot = with_limit(*limit_named("battery_power"), 12);
+  robot.limits->speed_m_s = 0.45;
+  const Plan plan = planned(mission_of(trapezoid()), robot);
+  ASSERT_NE(verdict_of(plan), nullptr);
+  EXPECT_EQ(verdict_of(plan)->constraint, "battery_power");
+  EXPECT_NE(plan.message.find("speed by 0.05 m/s"), std::string::npos) << plan.message;
+  EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
+}
+
+}  // namespace
+}  // namespace joulepath
