@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "planner/motion/limit_check.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 
 namespace joulepath {
