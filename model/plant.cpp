@@ -76,6 +76,17 @@ void distort_log(const std::vector<Effect>& effects, Trajectory& log) {
         effect);
 }
 
+bool remembers(const Plant& plant) {
+  for (const Effect& effect : plant.effects)
+    if (std::visit(
+            [](const auto& e) {
+              return requires { e.memory_rate_per_m(0.0, 0.0); };
+            },
+            effect))
+      return true;
+  return false;
+}
+
 void advance_memory(const Plant& plant, double distance_m, double course, EffectMemory& memory) {
   std::size_t slot = 0;
   for (const Effect& effect : plant.effects)

@@ -4,6 +4,7 @@
 
 #include "model/dynamics.hpp"
 #include "model/effects/catalog.hpp"
+#include "model/kinematics.hpp"
 
 namespace joulepath {
 
@@ -32,9 +33,26 @@ struct Plant {
 /// Applies the instrument effects among `effects` to a log, in their order.
 void distort_log(const std::vector<Effect>& effects, Trajectory& log);
 
-/// Moves the memories of a plant's effects on by a distance (m, or rad of spin times half track) on a
-/// constant course; exact for first-order lags.
+/// True where an effect of the plant has a memory.
+[[nodiscard]] bool remembers(const Plant& plant);
+
+/// Moves the memories of a plant's effects on by a distance (m, see caster_speed_m_s()) on a constant course;
+/// exact for first-order lags.
 void advance_memory(const Plant& plant, double distance_m, double course, EffectMemory& memory);
+
+/// Moves memories on along a motion: `twist_at(x)` is its twist per unit of x (time, or a path coordinate).
+/// Speed and course of the casters are taken at the middle of each of `steps` equal steps.
+template <class TwistAt>
+void advance_memory_along(const Plant& plant, TwistAt&& twist_at, double from, double to, int steps,
+                          EffectMemory& memory) {
+  const Geometry& geometry = plant.robot.geometry;
+  const double step = (to - from) / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Twist<double> twist = twist_at(from + (i + 0.5) * step);
+    advance_memory(plant, step * caster_speed_m_s(geometry, twist.speed_m_s, twist.yaw_rate_rad_s),
+                   course_of(geometry, twist.speed_m_s, twist.yaw_rate_rad_s), memory);
+  }
+}
 
 /// Watts or newtons that an effect adds come through this: calls function(effect, memory).
 template <class Function>

@@ -13,8 +13,12 @@ double PowerByCause::motor_W() const {
 double PowerByCause::total_W() const { return motor_W() + not_recovered_W + standby_W; }
 
 PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion, const Site& site) {
+  return power_by_cause(plant, motion, site, operating_point(plant, motion, site));
+}
+
+PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion, const Site& site,
+                            const Sided<WheelState<double>>& wheels) {
   const Robot& robot = plant.robot;
-  const Sided<WheelState<double>> wheels = operating_point(plant, motion, site);
   const MassProperties mass = mass_properties(robot, plant.payload_kg(site.payload_kg));
   const double v = motion.speed_m_s;
   const double omega = motion.yaw_rate_rad_s;

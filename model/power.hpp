@@ -6,13 +6,15 @@
 
 namespace joulepath {
 
+/// What counts of a power that comes back with an efficiency where it is negative: max(P, eta P).
+inline double counted_power_W(double power_W, double efficiency) {
+  return power_W >= 0 ? power_W : efficiency * power_W;
+}
+
 /// Power that the drives take from the supply: negative power comes back with an efficiency, of each
 /// wheel alone (PowerSharing::wheel) or of the sum (PowerSharing::bus).
-///   P_supply = max(P, eta P)
 inline double supply_power_W(const PowerSupply& supply, const Sided<double>& motor_power_W) {
-  const auto kept = [&](double power_W) {
-    return power_W >= 0 ? power_W : supply.regeneration_efficiency * power_W;
-  };
+  const auto kept = [&](double power_W) { return counted_power_W(power_W, supply.regeneration_efficiency); };
   return supply.sharing == PowerSharing::bus ? kept(motor_power_W.left + motor_power_W.right)
                                              : kept(motor_power_W.left) + kept(motor_power_W.right);
 }
@@ -36,6 +38,9 @@ struct PowerByCause {
 /// robot show up in the cause that they change.
 [[nodiscard]] PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion,
                                           const Site& site);
+/// The same for wheels whose operating point is known.
+[[nodiscard]] PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion,
+                                          const Site& site, const Sided<WheelState<double>>& wheels);
 
 /// What happens inside of the battery at a power taken from its terminals.
 struct BatteryLoad {

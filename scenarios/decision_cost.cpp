@@ -5,8 +5,8 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "planner/mission/mission.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "benchmarks/paper/sections.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "planner/values/profile_request.hpp"
 #include "planner/values/profile_result.hpp"

@@ -20,6 +20,9 @@ namespace joulepath {
 /// | driver     | double voltage_drop_V(): between command and motor                       |
 /// | supply     | void adjust(Robot&)                                                      |
 /// | instrument | void distort(Trajectory&): what the log shows; planning ignores it       |
+///
+/// A law with regions also offers bool branch(const Site&): which side of its border a site is on. The
+/// energy integral splits its intervals there.
 enum class Stage { parameters, body, wheel, gear, contact, winding, driver, supply, instrument };
 
 constexpr std::string_view stage_name(Stage stage) {

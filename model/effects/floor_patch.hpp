@@ -49,9 +49,11 @@ struct FloorPatch {
     return cells.empty() && inside(x_min_m, x_max_m, y_min_m, y_max_m);
   }
 
+  bool branch(const Site& site) const { return contains(site.pose.x_m, site.pose.y_m); }
+
   template <class Real>
   Real shaft_torque_Nm(const WheelContext<Real>& wheel) const {
-    if (!contains(wheel.site.pose.x_m, wheel.site.pose.y_m)) return Real(0.0);
+    if (!branch(wheel.site)) return Real(0.0);
     return Real(coefficient * wheel.normal_load_N * wheel.radius_m * wheel.direction);
   }
 };

@@ -11,10 +11,6 @@ namespace {
 /// Speed (m/s) below which a course is no longer told apart from standing: casters neither swivel nor push.
 constexpr double kCourseSpeed_m_s = 1e-3;
 
-double course_speed_m_s(const Geometry& geometry, const DriveState& state) {
-  return std::hypot(state[kVelocity + kTravel], geometry.half_track_m * state[kVelocity + kTurn]);
-}
-
 /// Memories as the effects may use them: near standstill what they remember fades into the course.
 EffectMemory usable_memory(const DriveState& state, double course, double course_speed) {
   const double share =
@@ -95,7 +91,7 @@ Site Drive::site_at(const DriveState& state, double time_s, const FrictionMode& 
           .turn_direction = active_[kTurn] ? mode[kTurn] : sign_of(omega),
           .wheel_direction = {double(mode[kLeftWheel]), double(mode[kRightWheel])},
           .course = course,
-          .memory = usable_memory(state, course, course_speed_m_s(geometry, state))};
+          .memory = usable_memory(state, course, caster_speed_m_s(geometry, v, omega))};
 }
 
 /// L i' + R i + Kv n q' = V within the current limit; without inductance i follows at once.
@@ -188,7 +184,8 @@ void Drive::motion(const DriveState& state, const Site& site, const Velocity& ac
   rate[kAngleLeft] = state[kVelocity + kLeftWheel];
   rate[kAngleRight] = state[kVelocity + kRightWheel];
   for (std::size_t s = 0; s < kSurfaces; ++s) rate[kVelocity + s] = acceleration[s];
-  const double path_m_s = course_speed_m_s(plant_.robot.geometry, state);
+  const double path_m_s =
+      caster_speed_m_s(plant_.robot.geometry, state[kVelocity + kTravel], state[kVelocity + kTurn]);
   std::size_t slot = 0;
   for (const Effect& effect : plant_.effects)
     std::visit(

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "model/nuisance.hpp"
+#include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
-#include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {
@@ -14,49 +13,21 @@ namespace {
 constexpr double kJoulesPerWh = 3600.0;
 constexpr double k95 = 1.959964;  ///< two-sided 95 % of a normal distribution
 constexpr double k95OneSided = 1.644854;
-constexpr double kStep_s = 0.02;
 
 struct LegLoss {
   double loss_J{};
   double lowest_voltage_V{kNoLimit};
 };
 
-void add_sample(LegLoss& loss, const Battery& battery, double power_W, double duration_s) {
-  const BatteryLoad load = battery_load(battery, power_W);
-  if (!load.possible) return;
-  loss.loss_J += load.loss_W * duration_s;
-  loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
-}
-
-/// Adds a drive of `duration_s` at the midpoints of steps of 20 ms; power_W(t) is at the terminals.
-template <class Power>
-void add_drive(LegLoss& loss, const Battery& battery, double duration_s, Power&& power_W) {
-  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / kStep_s));
-  const double step_s = steps ? duration_s / static_cast<double>(steps) : 0.0;
-  for (std::size_t k = 0; k < steps; ++k)
-    add_sample(loss, battery, power_W((static_cast<double>(k) + 0.5) * step_s), step_s);
-}
-
 LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
-  LegLoss loss;
-  const Battery& battery = plant.robot.battery;
-  for (const StretchPlan& stretch : leg.stretches) {
-    const PathMotion path = path_motion(stretch.request);
-    add_drive(loss, battery, stretch.profile.duration_s(), [&](double time_s) {
-      const ProfileState state = stretch.profile.at_time(time_s);
-      const BodyMotion<double> motion =
-          PathMotion::body_motion(path.rates(state.s), state.rate, state.acceleration);
-      return power_by_cause(plant, motion, path.site(state.s, state.time_s)).total_W();
-    });
-  }
-  if (leg.prescribed)
-    add_drive(loss, battery, leg.duration_s, [&](double time_s) {
-      const SampledState state = sampled_state(*leg.prescribed, leg.prescribed->time_s.front() + time_s);
-      const Site site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg, state.motion.speed_m_s,
-                                state.motion.yaw_rate_rad_s, time_s);
-      return power_by_cause(plant, state.motion, site).total_W();
-    });
-  if (leg.charger_W == 0) add_sample(loss, battery, plant.robot.power.standby_W, leg.dwell_s);
+  EnergySum sum(plant);
+  LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
+  LegLoss loss{sum.battery_loss_J(), sum.lowest_voltage_V()};
+  if (leg.charger_W > 0) return loss;
+  const BatteryLoad load = battery_load(plant.robot.battery, plant.robot.power.standby_W);
+  if (!load.possible) return loss;
+  loss.loss_J += load.loss_W * leg.dwell_s;
+  loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
   return loss;
 }
 
@@ -74,7 +45,7 @@ std::vector<double> energies_with(const Plan& plan, const Plant& plant, const Nu
       request.plant = other;
       energy_J += energy_by_cause(path_motion(request), stretch.profile).total_J();
     }
-    if (leg.prescribed) energy_J += prescribed_energy(leg, other, 0.0, leg.duration_s).total_J();
+    if (leg.prescribed) energy_J += prescribed_energy(leg, other).total_J();
     energies_J.push_back(energy_J);
   }
   return energies_J;

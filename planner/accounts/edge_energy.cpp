@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "planner/legs/prescribed_leg.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {
@@ -54,7 +54,7 @@ class Rows {
          .payload_kg = leg.payload.from_kg,
          .from = sampled_state(motion, motion.time_s.front()).pose,
          .to = sampled_state(motion, motion.time_s.back()).pose,
-         .energy = prescribed_energy(leg, plant_, 0.0, leg.duration_s)});
+         .energy = prescribed_energy(leg, plant_)});
   }
 
   /// The row of a stretch between two of its path coordinates.

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/legs/prescribed_leg.hpp"
-#include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
+#include "planner/legs/leg_motion.hpp"
 
 namespace joulepath {
 namespace {
@@ -18,8 +16,7 @@ struct Sample {
   double curvature_per_m{};
 };
 
-Sample sample_stretch(const StretchPlan& stretch, double time_s, double offset_m) {
-  const PathMotion path = path_motion(stretch.request);
+Sample sample_stretch(const StretchPlan& stretch, const PathMotion& path, double time_s, double offset_m) {
   const ProfileState state = stretch.profile.at_time(time_s);
   const PathRates rates = path.rates(state.s);
   const bool turn = is_turn(stretch.request.piece);
@@ -30,12 +27,13 @@ Sample sample_stretch(const StretchPlan& stretch, double time_s, double offset_m
 }
 
 /// State of a leg `elapsed_s` after its departure; at rest at its end during dwell.
-Sample sample_leg(const LegPlan& leg, const Plant& plant, double elapsed_s) {
+Sample sample_leg(const LegPlan& leg, const LegMotion& motion, double elapsed_s) {
   if (leg.prescribed) {
-    const SampledState state = sampled_state(*leg.prescribed, leg.prescribed->time_s.front() + elapsed_s);
-    Sample sample{.motion = state.motion,
-                  .site = site_of(plant.robot.geometry, state.pose, leg.payload.from_kg,
-                                  state.motion.speed_m_s, state.motion.yaw_rate_rad_s, elapsed_s),
+    const double time_s = leg.prescribed->time_s.front() + elapsed_s;
+    const SampledState state = sampled_state(*leg.prescribed, time_s);
+    const MotionInstant instant = motion.prescribed()->at(time_s);
+    Sample sample{.motion = instant.motion,
+                  .site = instant.site,
                   .arc_length_m = state.arc_length_m,
                   .curvature_per_m = state.curvature_per_m};
     if (elapsed_s >= leg.duration_s) sample.motion = {};
@@ -46,7 +44,7 @@ Sample sample_leg(const LegPlan& leg, const Plant& plant, double elapsed_s) {
     const StretchPlan& stretch = leg.stretches[k];
     const double duration_s = stretch.profile.duration_s();
     if (elapsed_s < duration_s || k + 1 == leg.stretches.size()) {
-      Sample sample = sample_stretch(stretch, std::min(elapsed_s, duration_s), offset_m);
+      Sample sample = sample_stretch(stretch, motion.stretch(k), std::min(elapsed_s, duration_s), offset_m);
       if (elapsed_s >= duration_s && stretch.request.end_rate == 0.0) sample.motion = {};
       return sample;
     }
@@ -86,33 +84,14 @@ void append(Trajectory& out, const Plant& plant, const Sample& sample, double ti
   out.leg.push_back(static_cast<double>(leg));
 }
 
-/// Joules at the battery's terminals between two instants of a leg, counted from its departure.
-double leg_energy_J(const LegPlan& leg, const Plant& plant, double from_s, double to_s) {
-  double sum_J = 0, begin_s = 0;
-  if (leg.prescribed) {
-    sum_J = prescribed_energy(leg, plant, from_s, std::min(to_s, leg.duration_s)).total_J();
-    begin_s = leg.duration_s;
-  }
-  for (const StretchPlan& stretch : leg.stretches) {
-    const double end_s = begin_s + stretch.profile.duration_s();
-    const double first_s = std::max(from_s, begin_s), last_s = std::min(to_s, end_s);
-    if (last_s > first_s)
-      sum_J +=
-          energy_between(path_motion(stretch.request), stretch.profile, first_s - begin_s, last_s - begin_s)
-              .total_J();
-    begin_s = end_s;
-  }
-  return sum_J + plant.robot.power.standby_W * std::max(0.0, to_s - std::max(from_s, begin_s));
-}
-
 /// Joules between two instants of a plan, over as many legs as lie between.
-double plan_energy_J(const Plan& plan, const Plant& plant, double from_s, double to_s) {
+double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, double from_s, double to_s) {
   double sum_J = 0;
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const LegPlan& leg = plan.legs[k];
     const double end_s = leg.start_s + leg.duration_s + leg.dwell_s;
     const double first_s = std::max(from_s, leg.start_s), last_s = std::min(to_s, end_s);
-    if (last_s > first_s) sum_J += leg_energy_J(leg, plant, first_s - leg.start_s, last_s - leg.start_s);
+    if (last_s > first_s) sum_J += motions[k].energy_J(first_s - leg.start_s, last_s - leg.start_s);
   }
   return sum_J;
 }
@@ -122,6 +101,8 @@ double plan_energy_J(const Plan& plan, const Plant& plant, double from_s, double
 Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz) {
   Trajectory out;
   if (plan.legs.empty()) return out;
+  std::vector<LegMotion> motions;
+  for (const LegPlan& leg : plan.legs) motions.emplace_back(leg, plant);
   std::size_t index = 0;
   const auto end_of = [&](std::size_t k) {
     return plan.legs[k].start_s + plan.legs[k].duration_s + plan.legs[k].dwell_s;
@@ -133,10 +114,10 @@ Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz)
     if (k > 0 && time_s <= out.time_s.back()) break;
     while (index + 1 < plan.legs.size() && time_s >= plan.legs[index + 1].start_s) ++index;
     const LegPlan& leg = plan.legs[index];
-    const Sample sample = sample_leg(leg, plant, time_s - leg.start_s);
+    const Sample sample = sample_leg(leg, motions[index], time_s - leg.start_s);
     const double payload_kg = leg.stretches.empty() ? leg.payload.from_kg : sample.site.payload_kg;
     out.energy_J.push_back(
-        k == 0 ? 0.0 : out.energy_J.back() + plan_energy_J(plan, plant, out.time_s.back(), time_s));
+        k == 0 ? 0.0 : out.energy_J.back() + plan_energy_J(plan, motions, out.time_s.back(), time_s));
     append(out, plant, sample, time_s, payload_kg, index);
   }
   return out;

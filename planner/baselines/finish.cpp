@@ -7,8 +7,8 @@
 
 #include "model/limit_table.hpp"
 #include "planner/motion/limit_check.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 
 namespace joulepath {

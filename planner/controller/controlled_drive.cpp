@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
 
 namespace joulepath {

@@ -48,9 +48,14 @@ std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std
   return caps;
 }
 
+EffectMemory memory_after(const ProfileRequest& request) {
+  return path_motion(request).memory(piece_length(request.piece));
+}
+
 std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg, std::size_t leg_index,
                                          const MissionRequest& mission, const MissionWorld& world,
-                                         const Plant& plant, const PlanOptions& options) {
+                                         const Plant& plant, const PlanOptions& options,
+                                         EffectMemory memory) {
   Limits limits = limits_along(world.robot, leg.payload);
   if (leg.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *leg.yaw_rate_rad_s);
   const double leg_length_m = path.distance_m();
@@ -60,7 +65,6 @@ std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg
   };
   std::vector<ProfileRequest> requests;
   double offset_m = 0.0;
-  EffectMemory memory{};
   for (const PathPiece& piece : path.pieces) {
     const double length_m = is_turn(piece) ? 0.0 : piece_length(piece);
     requests.push_back({.piece = piece,
@@ -73,7 +77,7 @@ std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg
                         .accuracy = options.accuracy,
                         .solver = options.solver,
                         .memory = memory});
-    memory = path_motion(requests.back()).memory(piece_length(piece));
+    memory = memory_after(requests.back());
     offset_m += length_m;
   }
   if (!requests.empty()) {

@@ -34,11 +34,14 @@ struct PlanOptions {
                                                   const std::optional<SpeedMask>& mask,
                                                   double speed_limit_m_s);
 
-/// What a leg asks of the profile optimizer, a request per piece; casters' memories run on from piece to
-/// piece. The time goals are left to the caller.
+/// What a leg asks of the profile optimizer, a request per piece; the effects' memories run on from piece to
+/// piece, from `memory` at the departure. The time goals are left to the caller.
 [[nodiscard]] std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg,
                                                        std::size_t leg_index, const MissionRequest& mission,
                                                        const MissionWorld& world, const Plant& plant,
-                                                       const PlanOptions& options);
+                                                       const PlanOptions& options, EffectMemory memory = {});
+
+/// Memories of the effects at the end of a piece.
+[[nodiscard]] EffectMemory memory_after(const ProfileRequest& request);
 
 }  // namespace joulepath

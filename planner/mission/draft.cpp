@@ -5,6 +5,7 @@
 
 #include "model/config_error.hpp"
 #include "model/limit_table.hpp"
+#include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/legs/prescribed_limits.hpp"
 
@@ -58,6 +59,7 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
                  const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
   Draft draft;
   Pose here = mission.start.pose;
+  EffectMemory memory{};
   for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k) {
     const LegRequest& leg = mission.legs[k];
     check_joint(mission, k);
@@ -68,11 +70,14 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     if (leg.motion) {
       draft.timing.emplace_back(std::vector<ProfileRequest>{});
       draft.legs.push_back(prescribed_leg(leg, plant, here));
+      draft.legs.back().memory = memory;
       if (auto reason = broken_limit(draft.legs.back(), k, mission, world, plant)) {
         plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
         return draft;
       }
-      here = sampled_state(*draft.legs.back().prescribed, draft.legs.back().prescribed->time_s.back()).pose;
+      const double end_s = draft.legs.back().prescribed->time_s.back();
+      here = sampled_state(*draft.legs.back().prescribed, end_s).pose;
+      memory = prescribed_motion(draft.legs.back(), plant).memory(end_s);
       continue;
     }
     LegPath& way = paths[k];
@@ -81,18 +86,21 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
       plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
       return draft;
     }
-    draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options));
+    draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory));
     draft.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                           .path_source = way.source,
                           .payload = leg.payload,
                           .parts = leg.parts,
+                          .memory = memory,
                           .dwell_s = leg.dwell_s,
                           .distance_m = way.path.distance_m(),
                           .turned_rad = way.path.turned_rad(),
                           .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
                           .alternatives = std::move(way.alternatives),
                           .improvements = std::move(way.improvements)});
-    if (!way.path.pieces.empty()) here = way.path.end();
+    if (way.path.pieces.empty()) continue;
+    here = way.path.end();
+    memory = memory_after(draft.timing.back().stretches().back());
   }
   return draft;
 }

@@ -5,12 +5,13 @@
 
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "planner/legs/prescribed_leg.hpp"
 #include "planner/mission/charging.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/visit_order.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
-#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,7 +22,11 @@ constexpr int kRounds = 3;  ///< of choosing ways at the prices that the last ro
 /// The final solution of a leg at its price, replayed and accounted for.
 void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration_s,
                 const PlanOptions& options, const Plant& plant) {
-  if (leg.prescribed) return;
+  if (leg.prescribed) {
+    leg.energy = prescribed_energy(leg, plant);
+    leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
+    return;
+  }
   constexpr double kNoWait = 1e-6;  ///< relative
   // A duration longer than any use: the certificate is to know that there is no more of it. The times that
   // were shared are the fast solver's, so Ipopt has not been asked yet.

@@ -8,17 +8,6 @@
 namespace joulepath {
 namespace {
 
-bool remembers(const Plant& plant) {
-  for (const Effect& effect : plant.effects)
-    if (std::visit(
-            [](const auto& e) {
-              return requires { e.memory_rate_per_m(0.0, 0.0); };
-            },
-            effect))
-      return true;
-  return false;
-}
-
 constexpr std::size_t kMemoryCells = 2000;
 
 }  // namespace
@@ -56,28 +45,31 @@ PathMotion::Place PathMotion::place(double s, double time_s) const {
   return place;
 }
 
+Twist<double> PathMotion::twist(double s) const {
+  const PathRates here = rates(s);
+  return {here.along, here.turn};
+}
+
 EffectMemory PathMotion::memory(double s) const {
   if (memory_.empty()) return {};
-  const double cell = std::clamp(s / memory_step_, 0.0, static_cast<double>(memory_.size() - 1));
-  const auto index = std::min(static_cast<std::size_t>(cell), memory_.size() - 2);
-  const double fraction = cell - static_cast<double>(index);
-  EffectMemory result{};
-  for (std::size_t i = 0; i < kMaxMemories; ++i)
-    result[i] = (1 - fraction) * memory_[index][i] + fraction * memory_[index + 1][i];
+  const double place = std::clamp(s, 0.0, length_);
+  const auto cell = std::min(static_cast<std::size_t>(place / memory_step_), memory_.size() - 1);
+  EffectMemory result = memory_[cell];
+  advance_memory_along(
+      *plant_, [&](double at) { return twist(at); }, static_cast<double>(cell) * memory_step_, place, 1,
+      result);
   return result;
 }
 
 void PathMotion::tabulate_memory(const EffectMemory& start) {
   memory_step_ = length_ / static_cast<double>(kMemoryCells);
   if (!(memory_step_ > 0)) return;
-  const Geometry& geometry = plant_->robot.geometry;
-  const double distance_m = memory_step_ * (is_turn(*piece_) ? geometry.half_track_m : 1.0);
   memory_.assign(1, start);
   for (std::size_t i = 0; i < kMemoryCells; ++i) {
-    const PathRates middle = rates((static_cast<double>(i) + 0.5) * memory_step_);
-    EffectMemory next = memory_.back();
-    advance_memory(*plant_, distance_m, course_of(geometry, middle.along, middle.turn), next);
-    memory_.push_back(next);
+    const double from = static_cast<double>(i) * memory_step_;
+    memory_.push_back(memory_.back());
+    advance_memory_along(
+        *plant_, [&](double at) { return twist(at); }, from, from + memory_step_, 1, memory_.back());
   }
 }
 

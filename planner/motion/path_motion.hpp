@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/kinematics.hpp"
 #include "planner/values/profile_request.hpp"
 
 namespace joulepath {
@@ -47,6 +48,8 @@ class PathMotion {
   }
 
  private:
+  /// Twist of the body per unit of the path coordinate.
+  Twist<double> twist(double s) const;
   void tabulate_memory(const EffectMemory& start);
 
   const PathPiece* piece_{};

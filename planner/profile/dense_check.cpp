@@ -6,8 +6,8 @@
 #include <map>
 
 #include "planner/motion/limit_check.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 
 namespace joulepath::nlp {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/nlp/transcription/forward_backward.hpp"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <sstream>
 
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"

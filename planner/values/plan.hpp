@@ -66,6 +66,7 @@ struct LegPlan {
   std::vector<PathPart> parts{};           ///< named by the mission: edges of an order
   std::optional<Trajectory> prescribed{};  ///< a prescribed motion, sampled; no stretches then
   double start_s{};                        ///< departure, from the mission's start
+  EffectMemory memory{};                   ///< of the effects, at the departure
   double duration_s{};                     ///< driving
   double dwell_s{};
   double distance_m{};

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/nlp/transcription/grid.hpp"

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "planner/values/profile_request.hpp"
 #include "planner/values/profile_result.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlopt.hpp>
 
+#include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
-#include "planner/motion/segment_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/sampled_motion.hpp"
+#include "planner/motion/motion_energy.hpp"
+#include "planner/values/plan.hpp"
+
+namespace joulepath {
+
+/// The motion of a leg's prescription, from the state in which the leg before leaves the robot.
+[[nodiscard]] SampledMotion prescribed_motion(const LegPlan& leg, const Plant& plant);
+
+/// A planned leg as it moves: the motions along its stretches, or the prescribed one. The leg and the plant
+/// are referred to and must outlive it.
+class LegMotion {
+ public:
+  LegMotion(const LegPlan& leg, const Plant& plant);
+
+  const PathMotion& stretch(std::size_t k) const { return stretches_[k]; }
+
+  const std::optional<SampledMotion>& prescribed() const { return prescribed_; }
+
+  /// Joules (J) at the battery's terminals between two instants, counted from the departure; waits and dwell
+  /// take standby.
+  [[nodiscard]] double energy_J(double from_s, double to_s) const;
+
+  /// The nodes of the energy integral of the whole leg; waits and dwell have none.
+  template <class Visit>
+  void integrate(Visit&& visit) const {
+    for (std::size_t k = 0; k < stretches_.size(); ++k)
+      integrate_profile(stretches_[k], leg_->stretches[k].profile, 0.0,
+                        leg_->stretches[k].profile.duration_s(), visit);
+    if (prescribed_) prescribed_->integrate_between(prescribed_->start_s(), prescribed_->end_s(), visit);
+  }
+
+ private:
+  const LegPlan* leg_{};
+  double standby_W_{};
+  std::vector<PathMotion> stretches_{};
+  std::optional<SampledMotion> prescribed_{};
+};
+
+}  // namespace joulepath
