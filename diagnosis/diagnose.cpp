@@ -41,7 +41,7 @@ std::vector<std::string> joined(const std::vector<std::vector<std::string>>& lis
 /// The steps in their order; each reads what the steps before it found, and changes none of it.
 Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const DiagnoseOptions& options) {
   const Survey survey = survey_dataset(dataset, runs.signals);
-  const Identification id = identify(runs.diagnosis, {.without = options.without});
+  const Identification id = identify(runs.diagnosis, options.without);
   const Examination x{.dataset = dataset, .runs = runs, .id = id};
   const std::vector<OtherPrediction> others = other_predictions(dataset, runs.signals, runs.options);
   const std::vector<WhereCell> where =

@@ -66,7 +66,7 @@ Json report_of(const DatasetEstimate& all) {
       "one-sided 95 % of a normal distribution: energy + battery loss + 1.645 sqrt(sigma^2 + (model_error "
       "energy)^2), over (1 - reserve); sigma from the robot file's uncertainty, model_error the rms of the "
       "compared runs' errors (none below " +
-      std::to_string(kLeastRuns) + " runs)";
+      std::to_string(kLeastRunsToCompare) + " runs)";
   return report;
 }
 

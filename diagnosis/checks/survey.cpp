@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -63,19 +65,19 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     for (Eigen::Index j = 0; j < run.size(); ++j) {
       const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
       total += 1;
-      turning +=
-          std::abs(right - left) > 0.2 * (std::abs(left) + std::abs(right)) && std::abs(right - left) > 0.3;
-      reverse += left < -0.3 && right < -0.3;
-      still += std::abs(left) < 0.1 && std::abs(right) < 0.1;
+      turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
+                 std::abs(right - left) > kMovingWheel_rad_s;
+      reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
+      still += std::abs(left) < kStillWheel_rad_s && std::abs(right) < kStillWheel_rad_s;
     }
   }
   if (payloads.size() < 2)
     survey.notes.push_back("one payload only: what grows with the load looks like what does not");
-  if (total > 0 && turning < 0.01 * total)
+  if (total > 0 && turning < kLeastManoeuvreShare * total)
     survey.notes.push_back("no turns: scrub, center of mass, yaw inertia and track width cannot be seen");
-  if (total > 0 && reverse < 0.01 * total)
+  if (total > 0 && reverse < kLeastManoeuvreShare * total)
     survey.notes.push_back("no reversing: direction-dependent friction cannot be seen, and a slope hardly");
-  if (total > 0 && still < 0.005 * total)
+  if (total > 0 && still < kLeastStandstillShare * total)
     survey.notes.push_back("no standstill: sensor offsets show less clearly");
   for (const Run& run : dataset.runs)
     if (!run.payload_known) {

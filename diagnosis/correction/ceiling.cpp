@@ -5,12 +5,12 @@
 
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kFolds = 4;
 constexpr double kRidges[] = {0.0, 0.01, 0.03, 0.1, 0.3, 1.0};  ///< widths of the dictionary's prior
 
 /// The named effects (none where nothing is named) with the whole dictionary.
@@ -30,10 +30,10 @@ Equations with_ridge(Equations equations, double width) {
 /// Loss of diagnosis runs under fits that they took no part in.
 double left_out_loss(const Equations& equations, const std::vector<int>& columns, double dispersion) {
   double loss = 0;
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+  for (std::size_t fold = 0; fold < kRidgeFolds; ++fold) {
     std::vector<std::size_t> fitted, judged;
     for (std::size_t r = 0; r < equations.runs.size(); ++r)
-      (r % kFolds == fold ? judged : fitted).push_back(r);
+      (r % kRidgeFolds == fold ? judged : fitted).push_back(r);
     const Eigen::VectorXd parameters = fit_parameters(equations, fitted, columns, dispersion);
     for (std::size_t r : judged) loss += run_loss(equations.runs[r], parameters);
   }

@@ -1,5 +1,7 @@
 #include "diagnosis/correction/correction.hpp"
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 
 Correction correction_of(const Examination& x, const Validation& v, const EnergyGap& gap) {

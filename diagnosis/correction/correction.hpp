@@ -4,11 +4,6 @@
 
 namespace joulepath {
 
-/// Runs may come out a little worse on energy while the correction is right.
-inline constexpr double kToleratedWorsening = 1.05;
-/// A held-out gap above so many noise floors is more than noise.
-inline constexpr double kFloorsLeft = 2.0;
-
 /// What a user takes over, and why there is nothing where there is nothing.
 struct Correction {
   std::optional<Robot> robot{};  ///< constants moved, physical effects added

@@ -4,11 +4,11 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
-/// Share by which an inexact form moves a law's mean strength, whatever the runs say; on development cases.
-constexpr double kLawInexactness = 0.025;
 constexpr double kPatchEdge_m = 0.05;  ///< half a step of the scan for a floor patch
 
 /// Rows of the refit's covariance that belong to a parameter of an effect.

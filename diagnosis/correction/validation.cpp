@@ -3,28 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/correction/correction.hpp"
 #include "diagnosis/evidence/held_out.hpp"
 #include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr double kCalibrationBox = 3.0;  ///< sigmas that a calibration may be off
-/// A held-out gap above so many noise floors, and above this share of the energy, is not explained.
-constexpr double kLeastGapLeft_percent = 2.0;
-/// Effects that together come near a foreign cause leave both: a tenth of the gap and many noise floors.
-constexpr double kShareOfWrongForm = 0.1;
-constexpr double kFloorsOfWrongForm = 10.0;
-/// Where nothing is named the bar is higher: the scatter of few rough runs is not well known.
-constexpr double kFloorsUnnamed = 4.0;
-constexpr double kLeastGapUnnamed_percent = 4.0;
-/// What a wrong model leaves is no noise: the floor is at most so many times the scatter between runs.
-constexpr double kScatterFactor = 2.0;
-constexpr double kChanceLoss = 6.0;         ///< that held-out runs may differ by, in units of their noise
-constexpr double kCertainEvidence = 100.0;  ///< of the diagnosis runs alone
-constexpr double kModestEvidence = 30.0;    ///< that a worse held-out energy outweighs
 
 /// Logs without any noise (a simulator's) have no floor to measure.
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
@@ -56,7 +41,7 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
   for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
   for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
   const double chance = kChanceLoss * x.id.dispersion;
-  if (sum > 0 && (n < 3 || sum * sum > square || sum > chance)) return true;
+  if (sum > 0 && (loss.size() < kFewHeldOut || sum * sum > square || sum > chance)) return true;
   // Held-out runs that hardly show a certain effect (no turn, say) must only not speak against it.
   return x.best().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
 }
@@ -67,11 +52,13 @@ bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated
   const double left =
       energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0), x.point_of(calibrated.state)));
   return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
-                            kLeastGapUnnamed_percent));
+                            kGapUnnamed_percent));
 }
 
 /// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
-double caution(const Examination& x) { return x.runs.validation.runs.size() < 3 ? 2.0 : 1.0; }
+double caution(const Examination& x) {
+  return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
+}
 
 /// Whether the named effects change the motors' energy at all: others are judged by what they do change.
 bool claims_energy(const Examination& x, const Validation& v) {
@@ -99,7 +86,7 @@ double unexplained_energy_share(const Examination& x, const std::vector<RunSigna
   const double after = energy_gap_percent(run_energies(after_signals, x.point_of(v.state)));
   const bool claims = claims_energy(x, v);
   if (claims && after > before && x.best().score < kModestEvidence) return 1.0;
-  if (after <= caution(x) * std::max(kFloorsLeft * floor, kLeastGapLeft_percent)) return 0.0;
+  if (after <= caution(x) * std::max(kFloorsLeft * floor, kMaterialGap_percent)) return 0.0;
   const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
   if (!claims) return after > by_calibration + floor ? 1.0 : 0.0;
   if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;

@@ -10,17 +10,10 @@
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/resample.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr std::size_t kLeastRunsToName = 8;  ///< two numbers each, against a whole catalog
-constexpr double kSureEnough = 0.9;
-constexpr double kSurest = 0.995;
-constexpr double kMaterialGap_percent = 2.0;
-constexpr double kFloorsLeft = 2.0;  ///< a held-out gap above so many noise floors is not explained
-constexpr double kLeastProbability = 1e-4;
-constexpr std::size_t kLongestRanking = 12;
 
 /// One diagnosis of energies under way.
 struct EnergyExamination {
@@ -50,7 +43,7 @@ void tell_limits(EnergyExamination& x) {
 
 void rank(EnergyExamination& x) {
   for (const auto& [label, probability] : effect_probabilities(x.problem.equations, x.explanations))
-    if (probability > kLeastProbability) x.report.ranking.push_back({label, probability});
+    if (probability > kLeastProbabilityRanked) x.report.ranking.push_back({label, probability});
   std::ranges::stable_sort(x.report.ranking, std::ranges::greater{}, &RankedEffect::probability);
   if (x.report.ranking.size() > kLongestRanking) x.report.ranking.resize(kLongestRanking);
 }
@@ -108,9 +101,9 @@ void withdraw(EnergyExamination& x) {
 void judge(EnergyExamination& x) {
   EnergyGap& energy = x.report.gap.energy;
   const std::vector<int>& best = x.explanations.front().candidates;
-  if (x.problem.runs.size() < kLeastRunsToName) {
+  if (x.problem.runs.size() < kRunsForSmallEffects) {
     x.report.verdict = Verdict::too_little_data;
-    x.report.notes.push_back("fewer than " + std::to_string(kLeastRunsToName) +
+    x.report.notes.push_back("fewer than " + std::to_string(kRunsForSmallEffects) +
                              " runs: candidates only; log speed, voltage and current of some");
     return;
   }
@@ -158,14 +151,14 @@ void report_causes(EnergyExamination& x) {
     const std::string label = x.named[e].label();
     Cause cause{
         .effect = setting_of(x.named[e], fit.state.effects[e].amplitude, x.problem.robot),
-        .probability = (1 - left) * std::min(kSurest, probabilities.at(label)),
+        .probability = (1 - left) * std::min(kSurestOfEnergies, probabilities.at(label)),
         .indistinguishable_from = stand_ins_by_score(x.problem.equations, x.explanations, best.candidates[e]),
         .parameters = parameters_of(fit, e, x.problem.robot)};
     if (!cause.indistinguishable_from.empty() && x.report.pinned_combination.empty())
       x.report.pinned_combination =
           pinned_combination(without_calibration(x.problem.equations, all), x.problem.equations, best, label,
                              cause.indistinguishable_from.front(), 1.0);
-    sure = sure && cause.probability >= kSureEnough && cause.indistinguishable_from.empty();
+    sure = sure && cause.probability >= kSureOfEnergies && cause.indistinguishable_from.empty();
     EnergyFit without = fit;
     without.state.effects.erase(without.state.effects.begin() + static_cast<std::ptrdiff_t>(e));
     cause.energy_share =
@@ -225,7 +218,7 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
       localize_energy_gap(x.problem.runs, dataset.robot, x.problem.repeatability, options.bootstrap);
   x.folds = energy_folds(dataset, x.problem.runs);
   x.explanations =
-      explain_energies(x.problem, x.folds.size() == 1 && x.problem.runs.size() >= kLeastRunsToName
+      explain_energies(x.problem, x.folds.size() == 1 && x.problem.runs.size() >= kRunsForSmallEffects
                                       ? x.folds.front().fitted
                                       : every(x.problem.runs.size()));
   rank(x);

@@ -8,14 +8,12 @@
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kUsualScatter = 0.03;   ///< relative, of repeated runs
-constexpr double kLeastScatter = 0.005;  ///< what a wattmeter and a stop watch can repeat
-constexpr double kSmoothPriorSd = 0.2;   ///< of the smooth function's coefficients
-constexpr double kLeastFreedom = 4;      ///< degrees of freedom to estimate a scatter from
+constexpr double kSmoothPriorSd = 0.2;  ///< of the smooth function's coefficients
 
 Eigen::VectorXd row_scatter_J(const EnergyRun& run, const EnergyNoise& noise) {
   const double joules = std::abs(run.measured_J());

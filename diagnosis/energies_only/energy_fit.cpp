@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr int kIterations = 3;
 constexpr int kNoiseRounds = 4;
-constexpr int kMostEffects = 2;         ///< a sum and a difference per run do not carry more
-constexpr double kMaterial = 0.01;      ///< of the energy
-constexpr double kVisibleSigmas = 2.0;  ///< that a large effect must move the data beyond calibration
 
 /// Where on the floor, when in the day and at which sample something happened, energies do not say.
 std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
@@ -51,7 +49,7 @@ std::vector<double> least_amplitudes(const EnergyProblem& problem) {
     const int k = equations.columns_of_candidate(static_cast<int>(c), false).front();
     const double per_amplitude =
         problem.noise.sum * std::sqrt(all.gram(k, k) / static_cast<double>(problem.runs.size()));
-    least.push_back(per_amplitude > 0 ? kMaterial / per_amplitude : 1e300);
+    least.push_back(per_amplitude > 0 ? kMaterialEnergy / per_amplitude : 1e300);
   }
   return least;
 }
@@ -115,7 +113,7 @@ std::vector<Explanation> explain_energies(const EnergyProblem& problem,
                                           const std::vector<std::size_t>& which) {
   std::vector<Explanation> explanations =
       search_explanations(without_calibration(problem.equations, which), problem.equations,
-                          {.most_effects = problem.visible.empty() ? 0 : kMostEffects,
+                          {.most_effects = problem.visible.empty() ? 0 : kMostEffectsOfEnergies,
                            .allowed = problem.visible,
                            .least_amplitude = least_amplitudes(problem)});
   std::erase_if(explanations, [](const Explanation& e) { return !e.material; });

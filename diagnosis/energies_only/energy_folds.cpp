@@ -6,11 +6,10 @@
 #include <tuple>
 
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr std::size_t kFolds = 4;
 
 double sum_of_sizes(const std::vector<double>& values) {
   double sum = 0;
@@ -50,7 +49,7 @@ std::vector<EnergyFold> energy_folds(const Dataset& dataset, const std::vector<E
     return std::tuple(runs[r].path, runs[r].payload_kg, runs[r].acceleration_m_s2, runs[r].measured_J());
   };
   std::ranges::stable_sort(order, {}, key);
-  std::vector<EnergyFold> folds(std::min(kFolds, runs.size()));
+  std::vector<EnergyFold> folds(std::min(kEnergyFolds, runs.size()));
   for (std::size_t k = 0; k < order.size(); ++k)
     for (std::size_t f = 0; f < folds.size(); ++f)
       (k % folds.size() == f ? folds[f].judged : folds[f].fitted).push_back(order[k]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/motions.hpp"
 #include "model/power.hpp"
 

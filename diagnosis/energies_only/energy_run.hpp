@@ -25,7 +25,6 @@ struct DrivenMotion {
 /// How a prescription may have been driven other than it says; each a common factor of all runs.
 enum class MotionDoubt { deceleration, start_speed };
 inline constexpr std::array kMotionDoubts{MotionDoubt::deceleration, MotionDoubt::start_speed};
-inline constexpr double kMotionDoubtSigma = 0.2;  ///< relative, of either
 
 /// A run of which only the energy was measured.
 struct EnergyRun {

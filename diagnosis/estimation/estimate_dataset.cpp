@@ -69,7 +69,7 @@ DatasetEstimate estimate_dataset(const Dataset& dataset, const EstimateOptions& 
     const double count = static_cast<double>(all.compared);
     all.fitness = static_cast<double>(within) / count;
     all.mean_error /= count;
-    if (all.compared >= kLeastRuns) all.model_error = std::sqrt(squares / count);
+    if (all.compared >= kLeastRunsToCompare) all.model_error = std::sqrt(squares / count);
   }
   for (RunEstimate& run : all.runs) {
     const double model_J = all.model_error.value_or(0.0) * run.terminals_J;

@@ -24,11 +24,11 @@ struct DatasetEstimate {
   std::size_t compared{};  ///< runs with something measured
   double fitness{};        ///< share of them with an error under 10 %      [P1, Eq. (33)]
   double mean_error{};
-  std::optional<double> model_error{};  ///< rms of the errors; empty below kLeastRuns compared runs
+  std::optional<double> model_error{};  ///< rms of the errors; empty below kLeastRunsToCompare compared runs
   double regeneration_efficiency{};     ///< with which braking power counts, estimated and measured alike
 };
 
-inline constexpr std::size_t kLeastRuns = 3;
+inline constexpr std::size_t kLeastRunsToCompare = 3;
 inline constexpr double kFitnessError = 0.10;
 
 /// Energy of every run from its motion alone, against what was measured.

@@ -5,21 +5,17 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
-/// Effects smaller than this share of what matters are not named, whatever speaks for them.
-constexpr double kLeastSize = 0.03;
 /// Small effects that make up for what the others lack: how the laws of turning pass through zero is not
 /// known, and a patch is laid wherever it fits.
 const std::set<std::string> kPliable{"yaw_inertia_error", "caster_swivel", "turning_scrub", "floor_patch"};
 /// Those of them that stand in for anything.
 const std::set<std::string> kStopgaps{"yaw_inertia_error", "floor_patch"};
-constexpr double kShareOfFormError = 0.05;
-/// Overlap with the other effects from which on all of an effect may be their inexact form.
-constexpr double kFullOverlap = 0.25;
 constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
-constexpr std::size_t kMostReconsidered = 300;
 
 /// Physics' signs, and sizes worth a name.
 bool sizes_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
@@ -56,7 +52,7 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
     for (int k : equations.columns_of_candidate(c, true)) explanation.columns.push_back(k);
   Posterior posterior = solve(problem, explanation.columns, options.dispersion);
   const auto effects = static_cast<double>(explanation.candidates.size());
-  const double cost = effects > 0 ? options.effect_cost + (effects - 1) * options.further_effect_cost : 0.0;
+  const double cost = effects > 0 ? kEffectCost + (effects - 1) * kFurtherEffectCost : 0.0;
   explanation.score = posterior.log_evidence - empty_evidence - cost;
   explanation.loss = posterior.loss;
   if (!options.least_amplitude.empty()) {
@@ -164,7 +160,7 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
       }
     std::stable_sort(next.begin(), next.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
-    beam.assign(next.begin(), next.begin() + std::min<std::ptrdiff_t>(options.beam_width, std::ssize(next)));
+    beam.assign(next.begin(), next.begin() + std::min<std::ptrdiff_t>(kBeamWidth, std::ssize(next)));
     met.insert(met.end(), next.begin(), next.end());
   }
   std::stable_sort(met.begin(), met.end(),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/evidence/equations.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 
@@ -22,10 +23,7 @@ struct Explanation {
 };
 
 struct SearchOptions {
-  double effect_cost{6.0};           ///< log prior odds against a first effect
-  double further_effect_cost{14.0};  ///< against each one more: a law's inexact form breeds ghosts
-  int beam_width{14};
-  int most_effects{4};
+  int most_effects{kMostEffects};
   double dispersion{1.0};
   std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any

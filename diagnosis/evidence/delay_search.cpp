@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
 constexpr double kEarliest_s = -0.2, kLatest_s = 0.4;
-constexpr double kNotableGain = 0.15;  ///< of the sum of squares
 }  // namespace
 
 double rough_channel_delay_s(const LogSet& logs) {
@@ -44,7 +45,7 @@ double rough_channel_delay_s(const LogSet& logs) {
     if (shift == 0) at_zero = left_over;
     if (shift == zero_first || left_over < best) best = left_over, best_shift = shift;
   }
-  if (!any || best > (1 - kNotableGain) * at_zero) return 0.0;
+  if (!any || best > (1 - kNotableDelayGain) * at_zero) return 0.0;
   return best_shift * period_s;
 }
 

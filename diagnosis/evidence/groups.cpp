@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <set>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -14,9 +16,6 @@ std::multiset<std::string> labels_of(const Equations& equations, const std::vect
   for (int c : candidates) labels.insert(equations.candidates[static_cast<std::size_t>(c)].label());
   return labels;
 }
-
-constexpr std::size_t kMostRivals = 100;
-constexpr double kFreeAmplitude = 30.0;
 
 /// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
 /// alone say.

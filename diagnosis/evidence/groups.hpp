@@ -36,8 +36,4 @@ struct StandIn {
                                              const Explanation& best, const std::string& label,
                                              const std::string& other, double dispersion);
 
-inline constexpr double kStandInLogOdds = 4.0;
-inline constexpr double kStandInLoss = 6.0;      ///< a likelihood ratio of 20 tells two effects apart
-inline constexpr double kScoreFlattening = 0.7;  ///< log evidence of real data is worth less than its face
-
 }  // namespace joulepath

@@ -9,12 +9,10 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-/// The fit of everything takes much of few runs' noise with it: what it leaves is too small by about this.
-constexpr double kFewRunsDispersion = 2.0;
 
 /// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
 Eigen::VectorXd rich_parameters(const Equations& equations) {
@@ -39,29 +37,23 @@ std::vector<std::string> labels_of(const ModelState& state) {
   return labels;
 }
 
-SearchOptions search_options(const IdentifyOptions& options, double dispersion, bool few,
-                             std::vector<double> least_amplitude) {
-  return {.effect_cost = options.effect_cost,
-          .further_effect_cost = options.further_effect_cost,
-          .most_effects = options.most_effects,
-          .dispersion = dispersion,
+SearchOptions search_options(double dispersion, bool few, std::vector<double> least_amplitude) {
+  return {.dispersion = dispersion,
           .allowed = {},
           .least_amplitude = std::move(least_amplitude),
-          .small_effect_evidence =
-              few ? options.small_effect_evidence_of_few_runs : options.small_effect_evidence,
-          .small_pliable_evidence =
-              few ? std::numeric_limits<double>::infinity() : options.small_pliable_evidence};
+          .small_effect_evidence = few ? kSmallEffectEvidenceOfFewRuns : kSmallEffectEvidence,
+          .small_pliable_evidence = few ? std::numeric_limits<double>::infinity() : kSmallPliableEvidence};
 }
 
 }  // namespace
 
-Identification identify(const LogSet& logs, const IdentifyOptions& options) {
+Identification identify(const LogSet& logs, const std::set<std::string>& without) {
   Identification result{.nuisances = calibration_nuisances(logs.dataset->robot)};
   const Robot& robot = logs.dataset->robot;
   const std::vector<std::size_t> runs = every(logs.runs.size());
   result.state.nuisance_fraction.assign(result.nuisances.size(), 0.0);
   if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0)
-    for (const Candidate& candidate : catalog_candidates(robot, options.without))
+    for (const Candidate& candidate : catalog_candidates(robot, without))
       if (candidate.shape.name == "time_misalignment") result.state.effects.push_back({candidate, {delay_s}});
   result.signals = read_signals(logs, channel_delay_s(result.state));
   const bool few = runs.size() < kRunsForSmallEffects;
@@ -69,18 +61,17 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
   NoiseModel noise;
   for (int round = 0;; ++round) {
     std::vector<Candidate> patches;
-    if (!options.without.contains("floor_patch"))
+    if (!without.contains("floor_patch"))
       patches = floor_patch_candidates(result.signals, robot, result.nuisances, result.state);
-    result.equations =
-        build_equations(result.signals, robot, result.nuisances, result.state, patches,
-                        {.first_noise = round > 0 ? &noise : nullptr, .without = options.without});
+    result.equations = build_equations(result.signals, robot, result.nuisances, result.state, patches,
+                                       {.first_noise = round > 0 ? &noise : nullptr, .without = without});
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
                         (few ? kFewRunsDispersion : 1.0);
     result.problem = without_calibration(result.equations, runs, result.dispersion);
     result.explanations = search_explanations(
         result.problem, result.equations,
-        search_options(options, result.dispersion, few,
+        search_options(result.dispersion, few,
                        least_amplitudes(result.signals, robot, result.nuisances, result.state,
                                         result.equations.candidates, known)));
     std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
@@ -95,7 +86,7 @@ Identification identify(const LogSet& logs, const IdentifyOptions& options) {
                          result.equations.noise, result.equations.run_variance, result.dispersion, 2);
     result.state = fitted.state;
     result.signals = std::move(fitted.signals);
-    if (round == options.rounds) break;  // did not settle: the last answer stands, refitted
+    if (round == kRelinearizations) break;  // did not settle: the last answer stands, refitted
   }
   return result;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
-
-constexpr std::size_t kFolds = 6;
 
 LeftOutGain summed(const std::vector<double>& gains) {
   const auto n = static_cast<double>(gains.size());
@@ -36,9 +36,9 @@ std::map<std::string, LeftOutGain> left_out_gains(const Identification& id, cons
   std::vector<int> explained = equations.columns_of(Column::Kind::nuisance);
   explained.insert(explained.end(), columns.begin(), columns.end());
   std::map<std::string, std::vector<double>> gains;
-  for (std::size_t fold = 0; fold < std::min(kFolds, count); ++fold) {
+  for (std::size_t fold = 0; fold < std::min(kFamilyFolds, count); ++fold) {
     std::vector<std::size_t> seen, judged;
-    for (std::size_t r = 0; r < count; ++r) (r % kFolds == fold ? judged : seen).push_back(r);
+    for (std::size_t r = 0; r < count; ++r) (r % kFamilyFolds == fold ? judged : seen).push_back(r);
     const LinearProblem problem = sum_runs(equations.runs, seen, equations.prior_sd);
     const Eigen::VectorXd without = fit_parameters(problem, explained, id.dispersion);
     for (const auto& [name, family] : families) {

@@ -8,25 +8,13 @@
 
 #include "diagnosis/evidence/left_out_gain.hpp"
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
 
-/// Loss that one free column buys by chance, and how much more counts as a finding: calibrated on
-/// development cases.
-constexpr double kChancePerColumn = 3.0;
-constexpr double kLeastEvidence = 40.0;
-constexpr double kManyRuns = 18.0;  ///< with fewer, the noise is known less: more evidence is asked for
-constexpr double kLeastShare = 0.06;
-/// One family of the dictionary is a finding by itself where it saves so much on runs that it has not seen,
-/// and so many standard errors between runs: calibrated on development cases.
-constexpr double kLeastFamilyGain = 40.0;
-constexpr double kLeastFamilyErrors = 2.0;
 /// Voltages go with acceleration where stamps or a winding's inductance are a little off: no finding.
 const std::set<std::string> kOfTheLogger{"acceleration (voltage)"};
-/// Where nothing is named, so much loss that only constants outside their box would save is a finding.
-constexpr double kLeastLossOfBox = 50.0;
-constexpr double kCalibrationBox = 3.0;  ///< of a nuisance's sigma: beyond it is no calibration error
 
 /// What calibration errors explain inside their box, and which of them it holds back.
 struct BoxedFit {
@@ -80,7 +68,7 @@ FamilyFinding strongest_family(const Identification& id, const std::vector<int>&
                                const DictionaryFamilies& families) {
   FamilyFinding strongest;
   for (const auto& [name, gain] : left_out_gains(id, columns, families))
-    if (!kOfTheLogger.contains(name) && gain.gain > std::max(kLeastFamilyGain, strongest.gain) &&
+    if (!kOfTheLogger.contains(name) && gain.gain > std::max(kLeastLeftover, strongest.gain) &&
         gain.over_scatter > kLeastFamilyErrors)
       strongest = {name, gain.gain};
   return strongest;
@@ -125,11 +113,11 @@ Leftover find_leftover(const Identification& id, const std::vector<int>& columns
     return std::clamp(evidence / possible, 0.0, 1.0);
   };
   leftover.share = share_of(leftover.evidence);
-  const double runs = std::min(kManyRuns, static_cast<double>(equations.runs.size()));
-  const double least = kLeastEvidence * std::pow(kManyRuns / runs, 1.9);
-  leftover.significant = leftover.evidence > least && leftover.share > kLeastShare;
+  const double runs = std::min(kLeftoverManyRuns, static_cast<double>(equations.runs.size()));
+  const double least = kLeastLeftover * std::pow(kLeftoverManyRuns / runs, kLeftoverRunsPower);
+  leftover.significant = leftover.evidence > least && leftover.share > kLeastLeftoverShare;
   const FamilyFinding family = strongest_family(id, columns, families);
-  if (share_of(family.gain) > kLeastShare) {
+  if (share_of(family.gain) > kLeastLeftoverShare) {
     leftover.significant = true;
     leftover.evidence = std::max(leftover.evidence, family.gain);
     leftover.share = std::max(leftover.share, share_of(family.gain));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/evidence/equations.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 
@@ -20,12 +21,12 @@ struct Impact {
 
 /// Below this nothing is called an effect: about 1 % of the energy, or as much of the motion.
 struct MaterialityFloor {
-  double motor_power{0.01};
-  double battery_power{0.01};
-  double battery_voltage_V{0.1};
-  double heading_rad{0.03};
-  double position{0.006};
-  double delay_samples{0.6};
+  double motor_power{kMaterialEnergy};
+  double battery_power{kMaterialEnergy};
+  double battery_voltage_V{kMaterialVoltage_V};
+  double heading_rad{kMaterialHeading_rad};
+  double position{kMaterialPosition};
+  double delay_samples{kMaterialDelay_samples};
 };
 
 [[nodiscard]] Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& with_effect,

@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
 
 namespace joulepath {
 namespace {
 
-/// Prior width of an amplitude in steps (sizes worth noticing).
-constexpr double kAmplitudePriorSteps = 4.0;
 constexpr double kPatchEdgeSd_m = 0.1;
 
 bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
@@ -39,7 +38,6 @@ Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, c
 }
 
 constexpr int kFormCount = static_cast<int>(kFormVariables.size());
-constexpr double kFormSpread = 0.12;
 
 /// A variable of kFormVariables, scaled to [-1, 1].
 double form_variable(const RunSignals& s, const Geometry& geometry, int form, Eigen::Index j) {
@@ -266,9 +264,9 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {
   Eigen::VectorXd sd(6);
-  const double torque = 0.02 * (robot.motor.left.friction_torque_Nm + 1e-3),
-               ohm = 0.02 * robot.motor.left.resistance_ohm;
-  sd << torque, torque, ohm, ohm, 1e-3, 0.05;
+  const double torque = kRunFriction * (robot.motor.left.friction_torque_Nm + 1e-3),
+               ohm = kRunResistance * robot.motor.left.resistance_ohm;
+  sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W;
   return sd.cwiseAbs2();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/thresholds.hpp"
 #include "model/nuisance.hpp"
 
 namespace joulepath {
@@ -8,10 +9,6 @@ namespace joulepath {
 /// electrical channels' time stamps are good to a part of a sample only.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
-/// Creep compliance of a rubber tire times the mass that it carries, order of magnitude: stiffness grows
-/// with the load.
-inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
-inline constexpr double kStampFraction = 0.06;  ///< of the log's period, 1-sigma
 
 /// 1-sigma of the creep compliance of a robot's tires, m/s per N.
 inline double usual_creep_m_s_N(const Robot& robot) {

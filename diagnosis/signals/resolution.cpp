@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
 
-/// 12 bits of a signal that fills its range by a half.
-constexpr double kResolution = 5e-4;
-/// A motor's voltage is set, not sensed: its duty cycle is finer.
-constexpr double kVoltageResolution = 2e-4;
 constexpr double kLeast = 1e-7;  ///< in each channel's unit, where it reads nothing at all
 
 /// Root mean square of a channel over all runs that have it.

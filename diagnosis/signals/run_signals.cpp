@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/numerics/smoothing.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
 #include "model/motor.hpp"
@@ -27,7 +28,7 @@ UniformLog uniform_grid(const Samples& time_s) {
   std::nth_element(steps.begin(), middle, steps.end());
   UniformLog grid{.time_s = time_s, .period_s = *middle, .resampled = false};
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
-    grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > 0.05 * grid.period_s;
+    grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > kUnevenPeriod * grid.period_s;
   if (!grid.resampled) return grid;
   grid.time_s.clear();
   for (double t = time_s.front(); t <= time_s.back() + 1e-9; t += grid.period_s) grid.time_s.push_back(t);
@@ -37,7 +38,7 @@ UniformLog uniform_grid(const Samples& time_s) {
 class Thinner {
  public:
   Thinner(const Trajectory& log, const SignalOptions& options) : log_(log), grid_(uniform_grid(log.time_s)) {
-    sigma_s_ = std::max(options.kernel_sigma_s, 1.2 * grid_.period_s);
+    sigma_s_ = std::max(options.kernel_sigma_s, kLeastKernelPeriods * grid_.period_s);
     kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
     stride_ =
         std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options.period_s / grid_.period_s)));
@@ -155,8 +156,6 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
     }
   }
 }
-
-constexpr double kDeadBand_A = 0.1;
 
 /// Currents below which a driver's dead band hides the winding: less than friction takes.
 double dead_band_A(const Motor& motor) {

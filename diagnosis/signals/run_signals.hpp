@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/dataset.hpp"
 
 namespace joulepath {
@@ -53,9 +54,9 @@ struct RunSignals {
 };
 
 struct SignalOptions {
-  double kernel_sigma_s{0.06};
-  double period_s{0.1};
-  double least_turning_speed_rad_s{0.5};
+  double kernel_sigma_s{kKernelSigma_s};
+  double period_s{kPeriod_s};
+  double least_turning_speed_rad_s{kLeastTurningSpeed_rad_s};
   double channel_delay_s{};  ///< the electrical channels are read this much later
 };
 
@@ -65,7 +66,5 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
 
 /// A run that the diagnosis can work on sample by sample: wheel speeds, enough samples.
 bool has_usable_log(const Run& run);
-
-inline constexpr std::size_t kLeastSamples = 40;
 
 }  // namespace joulepath

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
-
-constexpr double kMostRows = 12000.0;
 
 /// Payload, kind of manoeuvre, and the sum of what was measured as a tie break.
 using Stratum = std::tuple<double, int, double>;
@@ -51,7 +51,7 @@ RunSplit split_runs(const Dataset& dataset, const std::vector<std::size_t>& usab
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return strata[a] < strata[b]; });
     for (std::size_t k = 0; k < order.size(); ++k)
-      (k % 4 == 2 && usable.size() >= kLeastRuns ? split.validation : split.diagnosis)
+      (k % kHeldOutEvery == 2 && usable.size() >= kLeastRunsToName ? split.validation : split.diagnosis)
           .push_back(open[order[k]]);
   } else {
     split.diagnosis.insert(split.diagnosis.end(), open.begin(), open.end());
@@ -79,7 +79,7 @@ RunsByUse sort_runs(const Dataset& dataset) {
     if (has_usable_log(dataset.runs[r])) usable.push_back(r);
   const RunSplit split = split_runs(dataset, usable);
   RunsByUse runs;
-  runs.few = usable.size() < kLeastRuns || split.diagnosis.size() < kLeastRuns - 1;
+  runs.few = usable.size() < kLeastRunsToName || split.diagnosis.size() < kLeastRunsToName - 1;
   runs.options = sampling(dataset, usable);
   const auto logs = [&](const std::vector<std::size_t>& which) {
     return LogSet{.dataset = &dataset, .runs = which, .options = runs.options};

@@ -6,8 +6,6 @@
 
 namespace joulepath {
 
-inline constexpr std::size_t kLeastRuns = 4;  ///< below this nothing is named
-
 /// The runs of a dataset by what they are for.
 struct RunsByUse {
   bool few{};                         ///< too few with a usable log to name anything: each is in both sets

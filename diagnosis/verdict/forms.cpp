@@ -5,16 +5,10 @@
 #include <set>
 
 #include "diagnosis/evidence/signatures.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-/// 99.3 % and 93 % of a chi-squared of 5 degrees: laws bent by a little more than usual are common.
-constexpr double kAnotherLaw = 16.0;
-constexpr double kInexactLaw = 10.0;
-
-/// Share of the evidence below which a doubtful effect is dropped alone.
-constexpr double kMinorGain = 0.05;
 
 const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "stribeck_friction",
                                        "quadratic_drag"};
@@ -22,16 +16,12 @@ const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "
 /// the yaw rate says nothing against them, and other forms only that they explain a part.
 const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
 
-/// Below this evidence, a wrong law is no more than scatter that looks like one.
-constexpr double kLeastEvidence = 25.0;
-constexpr double kLeastEvidenceOfFewRuns = 100.0;
-
 Judgment withdrawn(const Examination& x, Judgment judgment, const std::string& note,
                    const std::string& depends_on) {
   judgment.notes.push_back(note);
   judgment.named.clear();
   const double least =
-      x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kLeastEvidenceOfFewRuns : kLeastEvidence;
+      x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kWrongLawEvidenceOfFewRuns : kWrongLawEvidence;
   if (x.best().score < least && !judgment.leftover.significant) {
     judgment.verdict = Verdict::no_gap;
     return judgment;

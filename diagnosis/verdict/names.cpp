@@ -5,23 +5,10 @@
 
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-/// A further effect below both shares (of the energy, of the gain) is not named beside a greater one;
-/// how likely it is there all the same is anyone's guess.
-constexpr double kFormErrorEnergy = 0.02;
-constexpr double kFormErrorGain = 0.05;
-/// What the greater effects cannot draw is none of their forms.
-constexpr double kGhost = 0.4;
-constexpr double kFormErrorProbability = 0.3;
-constexpr double kLeastProbability = 0.15;
-/// Share of names said to be sure that were right on development cases, with many runs and with few
-/// (`./dev bench diagnosis_coverage`).
-constexpr double kSurest = 0.97;
-constexpr double kSurestOfFewRuns = 0.85;
-constexpr std::size_t kRanked = 12;
 
 /// How far a named effect may be the others' inexact form.
 double ghost_share_of(const Examination& x, const std::string& label) {
@@ -44,7 +31,7 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
   const EnergyShare energy = energy_of_effect(x.id.signals, x.dataset.robot, x.id.nuisances, state, e);
   if (energy.effect_J > kFormErrorEnergy * energy.total_J) return false;
   const std::string label = state.effects[e].candidate.label();
-  return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kFormErrorGain;
+  return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kMinorGain;
 }
 
 /// Effects that the data cannot tell apart share their probability by what the data say, not by which
@@ -94,7 +81,8 @@ Names choose_names(const Examination& x) {
   std::vector<std::string> doubted;
   for (std::size_t e = 0; e < best.size(); ++e) {
     const std::string label = best[e].candidate.label();
-    if (names.probabilities[label] < kLeastProbability && !names.stand_ins.contains(label) && best.size() > 1)
+    if (names.probabilities[label] < kLeastProbabilityNamed && !names.stand_ins.contains(label) &&
+        best.size() > 1)
       continue;  // the other sets do without it
     if (may_be_form_error(x, e))
       doubted.push_back(label);
@@ -116,11 +104,11 @@ Names choose_names(const Examination& x) {
 std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities) {
   std::vector<RankedEffect> ranking;
   for (const auto& [label, probability] : probabilities)
-    if (probability > 1e-4) ranking.push_back({label, probability});
+    if (probability > kLeastProbabilityRanked) ranking.push_back({label, probability});
   std::stable_sort(ranking.begin(), ranking.end(), [](const RankedEffect& a, const RankedEffect& b) {
     return a.probability > b.probability;
   });
-  if (ranking.size() > kRanked) ranking.resize(kRanked);
+  if (ranking.size() > kLongestRanking) ranking.resize(kLongestRanking);
   return ranking;
 }
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/verdict/forms.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr double kSureEnough = 0.6;
 
 Judgment judge_leftover(const Examination& x, const Names& names) {
   Judgment judgment{.named = names.named, .leftover = find_leftover(x.id, x.best().columns)};
@@ -15,7 +14,7 @@ Judgment judge_leftover(const Examination& x, const Names& names) {
   if (x.runs.few) {
     judgment.verdict = Verdict::too_little_data;
     judgment.named.clear();
-    judgment.notes.push_back("fewer than " + std::to_string(kLeastRuns) +
+    judgment.notes.push_back("fewer than " + std::to_string(kLeastRunsToName) +
                              " runs: candidates only; add runs with two payloads, both directions and turns");
   } else if (judgment.named.empty()) {
     judgment.verdict = leftover.significant ? Verdict::unexplained : Verdict::no_gap;

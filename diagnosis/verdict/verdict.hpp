@@ -5,9 +5,6 @@
 
 namespace joulepath {
 
-/// A leftover above this share of what could be explained takes the names away.
-inline constexpr double kUnexplainedShare = 0.45;
-
 /// What the diagnosis claims, and what it leaves.
 struct Judgment {
   Verdict verdict{Verdict::too_little_data};

@@ -7,6 +7,7 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/numerics/resample.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
 
 namespace joulepath {
@@ -18,10 +19,6 @@ double shrink(const std::vector<RunEnergy>& before, const std::vector<RunEnergy>
   for (std::size_t r : runs) old_J += std::abs(before[r].gap_J()), new_J += std::abs(after[r].gap_J());
   return old_J > 0 ? 1 - new_J / old_J : 0.0;
 }
-
-constexpr std::size_t kFewHeldOut = 3;
-/// Part of the noise floor by which another day's scatter moves what is left; from development cases.
-constexpr double kAnotherDay = 0.7;
 
 /// How much wider than a bootstrap's percentiles an interval from `runs` runs is: Student's t, and the
 /// variance that resampling few takes off.
@@ -203,11 +200,11 @@ const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Ind
       geometry, Sided<double>{run.wheel_acceleration_rad_s2.left[j], run.wheel_acceleration_rad_s2.right[j]});
   const double across_m_s = std::abs(twist.yaw_rate_rad_s) * geometry.half_track_m;
   const double along_m_s = std::abs(twist.speed_m_s);
-  if (along_m_s < 0.02 && across_m_s < 0.01) return "standstill";
-  if (across_m_s > 3 * along_m_s) return "spin";
-  if (across_m_s > 0.08 * along_m_s + 0.005) return "turn";
+  if (along_m_s < kStandstillAlong_m_s && across_m_s < kStandstillAcross_m_s) return "standstill";
+  if (across_m_s > kSpinRatio * along_m_s) return "spin";
+  if (across_m_s > kTurnRatio * along_m_s + kTurnAcross_m_s) return "turn";
   const double gain = rate.speed_m_s * (twist.speed_m_s > 0 ? 1 : -1);
-  return gain > 0.06 ? "accelerate" : gain < -0.06 ? "brake" : "cruise";
+  return gain > kCruise_m_s2 ? "accelerate" : gain < -kCruise_m_s2 ? "brake" : "cruise";
 }
 
 }  // namespace joulepath

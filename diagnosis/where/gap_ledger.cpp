@@ -6,12 +6,10 @@
 
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/resample.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr std::size_t kManyCells = 40;     ///< beyond this, small cells get no interval
-constexpr double kNegligibleShare = 0.01;  ///< of the axis
 
 GapAmount sum_over(const std::vector<GapAmount>& cell, const std::vector<std::size_t>& runs) {
   GapAmount sum;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
 #include "model/kinematics.hpp"
 
@@ -12,8 +13,8 @@ namespace joulepath {
 namespace {
 
 std::string speed_cell(double speed_m_s) {
-  const double low = 0.2 * std::floor(std::abs(speed_m_s) / 0.2 + 1e-9);
-  return range_text(low, low + 0.2, "m/s");
+  const double low = kSpeedCell_m_s * std::floor(std::abs(speed_m_s) / kSpeedCell_m_s + 1e-9);
+  return range_text(low, low + kSpeedCell_m_s, "m/s");
 }
 
 std::string heading_cell(double heading_rad) {
@@ -81,13 +82,13 @@ class Localizer {
     ledger_.book("speed", speed_cell(twist.speed_m_s), r, amount);
     ledger_.book("payload", number_text(run.payload_kg[j], "kg"), r, amount);
     ledger_.book("run", run.name, r, amount);
-    const bool moving = std::abs(twist.speed_m_s) > 0.02;
+    const bool moving = std::abs(twist.speed_m_s) > kStandstillAlong_m_s;
     ledger_.book("direction", !moving ? "in place" : twist.speed_m_s > 0 ? "forward" : "reverse", r, amount);
     if (run.heading_measured) ledger_.book("heading", heading_cell(run.heading_rad[j]), r, amount);
     if (run.x_m.size() > 0) ledger_.book("floor", floor_cell(run.x_m[j], run.y_m[j]), r, amount);
     if (run.time_of_day_known) {
-      const double low = 60 * std::floor(run.time_of_day_s[j] / 60);
-      ledger_.book("time_of_day", range_text(low, low + 60, "s"), r, amount);
+      const double low = kTimeCell_s * std::floor(run.time_of_day_s[j] / kTimeCell_s);
+      ledger_.book("time_of_day", range_text(low, low + kTimeCell_s, "s"), r, amount);
     }
   }
 

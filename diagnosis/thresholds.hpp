@@ -1,0 +1,267 @@
+#pragma once
+
+#include <cstddef>
+
+namespace joulepath {
+
+// Every number that decides what a diagnosis says, with its origin:
+//   derived         a quantile, a false-alarm rate or a likelihood ratio, as said
+//   physical scale  an order of magnitude of small wheeled robots
+//   declared        a convention of the answer: what is listed, what counts as material
+//   calibrated      by the named command
+//   chosen          by hand on development cases (benchmarks/results/blind.md); no command repeats the choice
+// A number in parentheses is the decision in docs/decisions that tells why. Tolerances of the arithmetic stay
+// where they are used.
+
+// Runs and samples.
+
+/// Fewer usable runs name nothing. Declared: three to fit, one to judge.
+inline constexpr std::size_t kLeastRunsToName = 4;
+/// One run in so many judges only. Chosen.
+inline constexpr std::size_t kHeldOutEvery = 4;
+/// With fewer held-out runs their scatter says little. Chosen.
+inline constexpr std::size_t kFewHeldOut = 3;
+/// With fewer diagnosis runs noise and scatter are known too little to be sure. Chosen.
+inline constexpr std::size_t kRunsForSmallEffects = 8;
+/// Of a log that can be smoothed and thinned out. Chosen.
+inline constexpr std::size_t kLeastSamples = 40;
+/// Of all runs together; longer logs are thinned out more. Declared: bounds memory and time.
+inline constexpr double kMostRows = 12000.0;
+/// Of the Gaussian that smooths every channel. Chosen.
+inline constexpr double kKernelSigma_s = 0.06;
+/// Between samples after smoothing. Chosen.
+inline constexpr double kPeriod_s = 0.1;
+/// Kernel over the log's period, at least. Chosen.
+inline constexpr double kLeastKernelPeriods = 1.2;
+/// A period off by this share makes the log one that is resampled. Chosen.
+inline constexpr double kUnevenPeriod = 0.05;
+/// Below it dry friction has no known direction under the kernel. Chosen.
+inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
+/// Motor currents below it may lie in a driver's dead band. Physical scale.
+inline constexpr double kDeadBand_A = 0.1;
+
+// What runs cannot show.
+
+/// A sample turns where the wheels differ by this share of their speeds. Physical scale.
+inline constexpr double kTurningShare = 0.2;
+/// A wheel that turns faster moves. Physical scale.
+inline constexpr double kMovingWheel_rad_s = 0.3;
+/// A wheel that turns slower stands. Physical scale.
+inline constexpr double kStillWheel_rad_s = 0.1;
+/// Turns or reversing in fewer samples count as none. Chosen.
+inline constexpr double kLeastManoeuvreShare = 0.01;
+/// Standstill in fewer samples counts as none. Chosen.
+inline constexpr double kLeastStandstillShare = 0.005;
+
+// Noise and calibration.
+
+/// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
+inline constexpr double kResolution = 5e-4;
+/// The same of voltages: a duty cycle is set, not sensed, and finer. Physical scale.
+inline constexpr double kVoltageResolution = 2e-4;
+/// Creep of a rubber tire times the mass that it carries, 1-sigma. Physical scale.
+inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
+/// Error of time stamps over the log's period, 1-sigma. Chosen (0045: development nulls have 3.4 %
+/// median).
+inline constexpr double kStampFraction = 0.06;
+/// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
+inline constexpr double kCalibrationBox = 3.0;
+/// Friction differs from run to run by this share at first; the fit re-estimates it. Physical scale.
+inline constexpr double kRunFriction = 0.02;
+/// The same of the windings' resistance. Physical scale.
+inline constexpr double kRunResistance = 0.02;
+/// The same of a gyro's bias. Physical scale.
+inline constexpr double kRunGyroBias_rad_s = 1e-3;
+/// The same of the standby power. Physical scale.
+inline constexpr double kRunStandby_W = 0.05;
+/// Samples from which a channel's memory or a pair's correlation is estimated. Chosen.
+inline constexpr double kLeastPairs = 30;
+/// The fit of everything absorbs noise of few runs: their variance times this. Chosen (0043).
+inline constexpr double kFewRunsDispersion = 2.0;
+
+// Weighing sets of effects, in log units of evidence.
+
+/// Log prior odds against a first effect. Chosen.
+inline constexpr double kEffectCost = 6.0;
+/// Against each further one: a law's inexact form breeds ghosts. Chosen.
+inline constexpr double kFurtherEffectCost = 14.0;
+/// Effects of a set. Chosen.
+inline constexpr int kMostEffects = 4;
+/// Sets kept at each size of the search. Chosen.
+inline constexpr int kBeamWidth = 14;
+/// Sets whose small effects are tested again. Declared: bounds time.
+inline constexpr std::size_t kMostReconsidered = 300;
+/// Rounds of linearize, search, refit. Chosen.
+inline constexpr int kRelinearizations = 4;
+/// For an effect below the materiality floor. Chosen (0045).
+inline constexpr double kSmallEffectEvidence = 10.0;
+/// The same from fewer than kRunsForSmallEffects. Chosen (0045).
+inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;
+/// The same for pliable effects at just material size; grows as 1/sqrt(size). Chosen (0043).
+inline constexpr double kSmallPliableEvidence = 13.0;
+/// Effects below this share of the materiality floor are not named. Chosen (0045).
+inline constexpr double kLeastSize = 0.03;
+/// Share of all evidence that inexact forms of the other effects make up. Chosen (0045).
+inline constexpr double kShareOfFormError = 0.05;
+/// Overlap from which on all of an effect may be the others' inexact form. Chosen (0045).
+inline constexpr double kFullOverlap = 0.25;
+/// Prior width of an amplitude in sizes worth noticing. Chosen.
+inline constexpr double kAmplitudePriorSteps = 4.0;
+/// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
+inline constexpr double kFormSpread = 0.12;
+/// Share of the windings' sum of squares that a delay must explain. Chosen.
+inline constexpr double kNotableDelayGain = 0.15;
+
+// Materiality: what a user would notice.
+
+/// Change of energy or power, as a share. Declared.
+inline constexpr double kMaterialEnergy = 0.01;
+/// Of a battery. Declared.
+inline constexpr double kMaterialVoltage_V = 0.1;
+/// At a run's end. Declared.
+inline constexpr double kMaterialHeading_rad = 0.03;
+/// At a run's end, over the distance travelled. Declared.
+inline constexpr double kMaterialPosition = 0.006;
+/// Of the electrical channels. Declared (0045: half a sample is a delay).
+inline constexpr double kMaterialDelay_samples = 0.6;
+
+// Leftovers, in units of -2 log likelihood.
+
+/// That one free column is expected to gain by chance. Chosen.
+inline constexpr double kChancePerColumn = 3.0;
+/// Beyond chance, or of one family on unseen runs, for a finding. Chosen (0045).
+inline constexpr double kLeastLeftover = 40.0;
+/// With fewer runs the noise is known less and more is asked for. Chosen.
+inline constexpr double kLeftoverManyRuns = 18.0;
+/// Exponent of kLeftoverManyRuns over the runs. Chosen.
+inline constexpr double kLeftoverRunsPower = 1.9;
+/// Of all that could be explained, for a finding. Chosen (0045).
+inline constexpr double kLeastLeftoverShare = 0.06;
+/// Standard errors between runs of a family's gain. Derived: 2.3 % of chance gains are greater.
+inline constexpr double kLeastFamilyErrors = 2.0;
+/// Each family is judged on a sixth of the runs that its fit left out. Chosen (0045).
+inline constexpr std::size_t kFamilyFolds = 6;
+/// That only constants beyond kCalibrationBox would save. Chosen (0045).
+inline constexpr double kLeastLossOfBox = 50.0;
+/// A leftover above this share takes the names away. Chosen (0042).
+inline constexpr double kUnexplainedShare = 0.45;
+
+// Names and groups.
+
+/// Log evidence of real data over its face value. Chosen for calibrated probabilities.
+inline constexpr double kScoreFlattening = 0.7;
+/// -2 log likelihood ratio that tells two effects apart. Derived: 2 ln 20.
+inline constexpr double kStandInLoss = 6.0;
+/// The same in log units of evidence, for energies alone. Chosen.
+inline constexpr double kStandInLogOdds = 4.0;
+/// Explanations compared with a named one. Declared: bounds time.
+inline constexpr std::size_t kMostRivals = 100;
+/// Prior widths that leave an amplitude to the data. Chosen.
+inline constexpr double kFreeAmplitude = 30.0;
+/// A further effect that is less likely is not named. Chosen.
+inline constexpr double kLeastProbabilityNamed = 0.15;
+/// A less likely effect is not listed. Declared.
+inline constexpr double kLeastProbabilityRanked = 1e-4;
+/// Effects listed. Declared.
+inline constexpr std::size_t kLongestRanking = 12;
+/// Share of sure names that were right. Calibrated by `./dev bench diagnosis_coverage`, its own cases.
+inline constexpr double kSurest = 0.97;
+/// The same from fewer than kRunsForSmallEffects, same command.
+inline constexpr double kSurestOfFewRuns = 0.85;
+/// A name less probable than this leaves the verdict ambiguous. Chosen.
+inline constexpr double kSureEnough = 0.6;
+/// A further effect with less of the energy may be another's inexact form. Chosen (0042).
+inline constexpr double kFormErrorEnergy = 0.02;
+/// A further effect with less of the gain in loss is a minor one. Chosen (0042).
+inline constexpr double kMinorGain = 0.05;
+/// Ghost share above which a minor effect is not named. Chosen.
+inline constexpr double kGhost = 0.4;
+/// At most, of an effect that may be another's inexact form. Chosen.
+inline constexpr double kFormErrorProbability = 0.3;
+/// Pull of the forms that makes a law inexact. Derived: 92.5 % quantile of chi-squared, 5 degrees.
+inline constexpr double kInexactLaw = 10.0;
+/// Pull of the forms that makes it another law. Derived: 99.3 % quantile of chi-squared, 5 degrees.
+inline constexpr double kAnotherLaw = 16.0;
+/// A wrong law with less evidence is scatter that looks like one. Chosen.
+inline constexpr double kWrongLawEvidence = 25.0;
+/// The same from fewer than kRunsForSmallEffects. Chosen.
+inline constexpr double kWrongLawEvidenceOfFewRuns = 100.0;
+
+// Held-out runs and the correction.
+
+/// Loss that held-out runs may differ by, in units of their noise. Chosen.
+inline constexpr double kChanceLoss = 6.0;
+/// Evidence of the diagnosis runs that held-out runs must only not contradict. Chosen.
+inline constexpr double kCertainEvidence = 100.0;
+/// Evidence that a worse held-out energy outweighs. Chosen.
+inline constexpr double kModestEvidence = 30.0;
+/// Held-out energy may get worse by this factor while the correction is right. Chosen.
+inline constexpr double kToleratedWorsening = 1.05;
+/// A held-out gap above so many noise floors is more than noise. Chosen (0042).
+inline constexpr double kFloorsLeft = 2.0;
+/// A smaller held-out gap is not examined further. Chosen (0042).
+inline constexpr double kMaterialGap_percent = 2.0;
+/// Both of these with fewer than kFewHeldOut runs. Chosen.
+inline constexpr double kCautionFactor = 2.0;
+/// A greater share left, above kFloorsOfWrongForm floors, is a foreign cause. Chosen (0042).
+inline constexpr double kShareOfWrongForm = 0.1;
+/// See kShareOfWrongForm. Chosen (0042).
+inline constexpr double kFloorsOfWrongForm = 10.0;
+/// kFloorsLeft where nothing is named: few rough runs' scatter is not well known. Chosen.
+inline constexpr double kFloorsUnnamed = 4.0;
+/// kMaterialGap_percent where nothing is named. Chosen.
+inline constexpr double kGapUnnamed_percent = 4.0;
+/// The noise floor is at most so many times the scatter between runs. Chosen (0042).
+inline constexpr double kScatterFactor = 2.0;
+/// Noise floors by which another day's scatter moves what is left. Chosen (0045).
+inline constexpr double kAnotherDay = 0.7;
+/// Share by which an inexact form moves a law's mean strength. Chosen (0043).
+inline constexpr double kLawInexactness = 0.025;
+/// Of the diagnosis runs, to choose the ceiling's ridge. Chosen.
+inline constexpr std::size_t kRidgeFolds = 4;
+
+// Cells of the gap, and phases of a motion.
+
+/// Beyond this, small cells get no interval. Declared: bounds time.
+inline constexpr std::size_t kManyCells = 40;
+/// Of an axis: a small cell. Declared.
+inline constexpr double kNegligibleShare = 0.01;
+/// Width. Declared.
+inline constexpr double kSpeedCell_m_s = 0.2;
+/// Width. Declared.
+inline constexpr double kTimeCell_s = 60.0;
+/// A slower body stands. Physical scale.
+inline constexpr double kStandstillAlong_m_s = 0.02;
+/// The same of a wheel about the body's middle. Physical scale.
+inline constexpr double kStandstillAcross_m_s = 0.01;
+/// Wheel speed about the middle over the body's speed, from which on it spins. Declared.
+inline constexpr double kSpinRatio = 3.0;
+/// The same from which on it turns. Declared.
+inline constexpr double kTurnRatio = 0.08;
+/// Least speed about the middle of a turn, at kTurnRatio 0. Declared.
+inline constexpr double kTurnAcross_m_s = 0.005;
+/// A smaller change of speed is cruising. Declared.
+inline constexpr double kCruise_m_s2 = 0.06;
+
+// Runs with energies alone, beside the thresholds above.
+
+/// Relative scatter of repeated runs where too few runs tell it. Chosen.
+inline constexpr double kUsualScatter = 0.03;
+/// The least that it is taken for: what a wattmeter and a stop watch repeat. Physical scale.
+inline constexpr double kLeastScatter = 0.005;
+/// Degrees of freedom from which a scatter is estimated. Chosen.
+inline constexpr double kLeastFreedom = 4.0;
+/// Error of a braking rate or an entry speed that nobody recorded, 1-sigma, relative. Declared (0044).
+inline constexpr double kMotionDoubtSigma = 0.2;
+/// Effects of a set: a sum and a difference per run do not carry more. Chosen.
+inline constexpr int kMostEffectsOfEnergies = 2;
+/// Sigmas by which a large effect must move the data beyond calibration to be a candidate. Derived: 95 %.
+inline constexpr double kVisibleSigmas = 2.0;
+/// A less probable cause leaves the verdict ambiguous and is not corrected. Chosen (0044).
+inline constexpr double kSureOfEnergies = 0.9;
+/// Greatest probability of a cause. Chosen.
+inline constexpr double kSurestOfEnergies = 0.995;
+/// Of the runs, where the dataset says nothing about their use. Chosen (0044).
+inline constexpr std::size_t kEnergyFolds = 4;
+
+}  // namespace joulepath
