@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/channel_delay.hpp"
 #include "model/config_error.hpp"
 
 namespace joulepath {
@@ -71,7 +72,13 @@ void distort_log(const std::vector<Effect>& effects, Trajectory& log) {
   for (const Effect& effect : effects)
     std::visit(
         [&](const auto& e) {
-          if constexpr (requires { e.distort(log); }) e.distort(log);
+          if constexpr (requires { e.current_reading(Side::left); })
+            for (Side side : kSides)
+              for (double& current_A : log.motor_current_A[side]) {
+                const CurrentReading reading = e.current_reading(side);
+                current_A = reading.gain * current_A + reading.offset_A;
+              }
+          if constexpr (requires { e.channel_delay_s(); }) delay_motor_channels(log, e.channel_delay_s());
         },
         effect);
 }

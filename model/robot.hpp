@@ -97,7 +97,7 @@ struct EffectSetting {
   std::string name{};
   std::map<std::string, double> parameters{};
   std::optional<Side> side{};
-  std::vector<std::array<double, 4>> cells{};  ///< floor_patch only: x_min, x_max, y_min, y_max each
+  std::vector<std::array<double, 4>> cells{};  ///< of a region: x_min, x_max, y_min, y_max each
 };
 
 /// All that a robot file says.

@@ -64,12 +64,15 @@ struct Distortion {
 
 Distortion distortion_of(const std::vector<EffectSetting>& instruments, Side side) {
   Distortion distortion;
-  for (const EffectSetting& effect : instruments) {
-    if (effect.name == "current_sensor_offset" && effect.side == side)
-      distortion.offset_A += effect.parameters.at("offset_A");
-    if (effect.name == "current_sensor_gain") distortion.gain *= 1 + effect.parameters.at("fraction");
-    if (effect.name == "time_misalignment") distortion.delay_s += effect.parameters.at("delay_s");
-  }
+  const auto add = [&](const auto& effect) {
+    if constexpr (requires { effect.current_reading(side); }) {
+      const CurrentReading reading = effect.current_reading(side);
+      distortion.offset_A = reading.gain * distortion.offset_A + reading.offset_A;
+      distortion.gain *= reading.gain;
+    }
+    if constexpr (requires { effect.channel_delay_s(); }) distortion.delay_s += effect.channel_delay_s();
+  };
+  for (const EffectSetting& setting : instruments) std::visit(add, make_effect(setting));
   return distortion;
 }
 

@@ -8,7 +8,7 @@ namespace {
 Schema effect_schema(const EffectDescription& effect) {
   std::vector<Schema::Key> keys;
   for (const auto& p : effect.parameters) {
-    const bool replaced_by_cells = effect.has_cells && p.name != effect.parameters.front().name;
+    const bool replaced_by_cells = effect.has_cells && p.role == ParameterRole::edge;
     const std::string says = p.meaning + (p.unit == "1" ? "" : ", in " + p.unit);
     keys.push_back({p.name, number({p.min, p.max}), says, !replaced_by_cells});
   }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/thresholds.hpp"
+#include "model/effects/catalog.hpp"
 
 namespace joulepath {
 namespace {
@@ -29,6 +30,14 @@ std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
   return text.empty() ? text : text + ": ";
 }
 
+/// The effects of the catalog that need something to be seen, as a sentence that it is missing.
+std::string hidden_without(bool Needs::*need) {
+  std::string text;
+  for (const EffectDescription& effect : effect_catalog())
+    if (effect.info.needs.*need) text += (text.empty() ? "" : ", ") + std::string(effect.info.name);
+  return text + " cannot be seen";
+}
+
 }  // namespace
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
@@ -50,13 +59,13 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
         [](const RunSignals& r) {
           return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
         });
-  lacks("battery", "standby power, regeneration and supply sag cannot be seen",
+  lacks("battery", hidden_without(&Needs::battery),
         [](const RunSignals& r) { return r.battery_power_W.size() > 0; });
-  lacks("pose", "wheel radius, slip and places on the floor cannot be seen",
+  lacks("pose", hidden_without(&Needs::pose),
         [](const RunSignals& r) { return r.x_m.size() > 0 && r.heading_measured; });
-  lacks("gyro", "track width is seen through the pose alone",
+  lacks("gyro", "yaw rates are seen through the pose alone",
         [](const RunSignals& r) { return r.gyro_yaw_rate_rad_s.size() > 0; });
-  lacks("start_time", "effects of warming up cannot be seen",
+  lacks("start_time", hidden_without(&Needs::time_of_day),
         [](const RunSignals& r) { return r.time_of_day_known; });
   std::set<double> payloads;
   double turning = 0, reverse = 0, still = 0, total = 0;
@@ -74,9 +83,9 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
   if (payloads.size() < 2)
     survey.notes.push_back("one payload only: what grows with the load looks like what does not");
   if (total > 0 && turning < kLeastManoeuvreShare * total)
-    survey.notes.push_back("no turns: scrub, center of mass, yaw inertia and track width cannot be seen");
+    survey.notes.push_back("no turns: " + hidden_without(&Needs::turns));
   if (total > 0 && reverse < kLeastManoeuvreShare * total)
-    survey.notes.push_back("no reversing: direction-dependent friction cannot be seen, and a slope hardly");
+    survey.notes.push_back("no reversing: " + hidden_without(&Needs::reversing));
   if (total > 0 && still < kLeastStandstillShare * total)
     survey.notes.push_back("no standstill: sensor offsets show less clearly");
   for (const Run& run : dataset.runs)

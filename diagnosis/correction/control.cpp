@@ -37,7 +37,7 @@ Control wrong_candidate(const Examination& x, const std::vector<ActiveEffect>& n
   for (const Explanation& e : x.id.explanations) {
     if (e.candidates.size() != 1) continue;
     const Candidate& candidate = x.id.equations.candidates[static_cast<std::size_t>(e.candidates.front())];
-    if (spoken_for.contains(candidate.label()) || candidate.shape.name == "time_misalignment") continue;
+    if (spoken_for.contains(candidate.label()) || candidate.effect().delays_channels) continue;
     const ModelState wrong = refit_on_diagnosis(x.runs.diagnosis, x.id, {with_amplitudes(candidate, e)});
     const std::vector<RunSignals> signals = read_signals(x.runs.validation, 0.0);
     const double left_J = absolute_gap_J(run_energies(signals, x.point_of(wrong)));

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPatchEdge_m = 0.05;  ///< half a step of the scan for a floor patch
+constexpr double kRegionEdge_m = 0.05;  ///< half a step of the scan for a region
 
 /// Rows of the refit's covariance that belong to a parameter of an effect.
 std::vector<Eigen::Index> covariance_rows(const Refit& fitted, std::size_t effect, const std::string& name) {
@@ -42,19 +42,19 @@ double sd_along(const Refit& fitted, const std::vector<Eigen::Index>& rows,
   return std::sqrt(greatest);
 }
 
-/// A slope's grade or direction, as a gradient over its components.
-std::vector<double> slope_gradient(const ActiveEffect& slope, bool direction) {
-  const double x = slope.amplitude[0], y = slope.amplitude[1], grade = std::max(1e-9, std::hypot(x, y));
-  if (direction) return {-y / (grade * grade), x / (grade * grade)};
-  return {x / grade, y / grade};
+/// Size or direction of a vector, as a gradient over its components.
+std::vector<double> polar_gradient(const ActiveEffect& vector, bool direction) {
+  const double x = vector.amplitude[0], y = vector.amplitude[1], size = std::max(1e-9, std::hypot(x, y));
+  if (direction) return {-y / (size * size), x / (size * size)};
+  return {x / size, y / size};
 }
 
 /// A law's strength averages over what its form leaves out; a constant or an instrument has no form.
 double form_sd(const ActiveEffect& active, const std::string& name) {
-  const EffectDescription& description = *find_effect(active.candidate.shape.name);
+  const EffectDescription& description = active.candidate.effect();
   const Stage stage = description.info.stage;
   if (stage == Stage::parameters || stage == Stage::instrument || stage == Stage::supply) return 0.0;
-  if (name != description.parameters.front().name) return 0.0;
+  if (name != description.strength().name) return 0.0;
   double square = 0;
   for (double amplitude : active.amplitude) square += amplitude * amplitude;
   return kLawInexactness * std::sqrt(square);
@@ -64,10 +64,11 @@ double form_sd(const ActiveEffect& active, const std::string& name) {
 double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
   const ActiveEffect& active = fitted.state.effects[effect];
   const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
-  const bool slope = active.candidate.shape.name == "floor_slope";
-  const std::vector<double> gradient =
-      slope ? slope_gradient(active, name != "grade") : std::vector<double>{1.0};
-  const double sd = rows.size() < gradient.size() ? kPatchEdge_m : sd_along(fitted, rows, gradient);
+  const EffectDescription& effect_of = active.candidate.effect();
+  const std::vector<double> gradient = effect_of.find(ParameterRole::direction)
+                                           ? polar_gradient(active, name != effect_of.strength().name)
+                                           : std::vector<double>{1.0};
+  const double sd = rows.size() < gradient.size() ? kRegionEdge_m : sd_along(fitted, rows, gradient);
   const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
   return std::hypot(sd, form_sd(active, name)) *
          boost::math::quantile(boost::math::students_t(degrees), 0.975);
@@ -79,14 +80,14 @@ std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t ef
   const ActiveEffect& active = fitted.state.effects[effect];
   const EffectSetting setting = setting_of(active.candidate, active.amplitude, robot);
   std::vector<FoundParameter> found;
-  for (const ParameterDescription& parameter : find_effect(setting.name)->parameters) {
+  for (const ParameterDescription& parameter : active.candidate.effect().parameters) {
     const auto at = setting.parameters.find(parameter.name);
     if (at == setting.parameters.end()) continue;
     const double half = half_interval(fitted, effect, parameter.name);
     Range95 interval{at->second - half, at->second + half};
-    if (setting.name == "wheel_slip") {  // symmetric in the compliance
-      const double compliance = 1 / at->second;
-      interval = {1 / (compliance + half), 1 / std::max(1e-9, compliance - half)};
+    if (parameter.role == ParameterRole::inverse_strength) {  // symmetric in the strength
+      const double strength = 1 / at->second;
+      interval = {1 / (strength + half), 1 / std::max(1e-9, strength - half)};
     }
     found.push_back({parameter.name, at->second, interval});
   }

@@ -14,10 +14,13 @@ constexpr int kNoiseRounds = 4;
 
 /// Where on the floor, when in the day and at which sample something happened, energies do not say.
 std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
-  std::set<std::string> names{"floor_slope", "floor_patch", "time_misalignment"};
   const bool dated =
       std::ranges::all_of(runs, [](const EnergyRun& run) { return run.motion.signals.time_of_day_known; });
-  if (!dated) names.insert("winding_heating");
+  std::set<std::string> names;
+  for (const EffectDescription& effect : effect_catalog()) {
+    const Needs& needs = effect.info.needs;
+    if (needs.samples || (needs.time_of_day && !dated)) names.emplace(effect.info.name);
+  }
   return names;
 }
 

@@ -10,11 +10,6 @@
 namespace joulepath {
 namespace {
 
-/// Small effects that make up for what the others lack: how the laws of turning pass through zero is not
-/// known, and a patch is laid wherever it fits.
-const std::set<std::string> kPliable{"yaw_inertia_error", "caster_swivel", "turning_scrub", "floor_patch"};
-/// Those of them that stand in for anything.
-const std::set<std::string> kStopgaps{"yaw_inertia_error", "floor_patch"};
 constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
 
 /// Physics' signs, and sizes worth a name.
@@ -67,7 +62,8 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
 }
 
 double evidence_needed(const Candidate& candidate, double size, const SearchOptions& options) {
-  if (kPliable.contains(candidate.shape.name)) return options.small_pliable_evidence / std::sqrt(size);
+  if (candidate.effect().info.pliability != Pliability::firm)
+    return options.small_pliable_evidence / std::sqrt(size);
   return options.small_effect_evidence;
 }
 
@@ -104,7 +100,8 @@ bool has_name(const Equations& equations, const std::vector<int>& set, int candi
 
 double ghost_share(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
                    int candidate) {
-  if (kStopgaps.contains(equations.candidates[static_cast<std::size_t>(candidate)].shape.name)) return 1.0;
+  const EffectInfo& info = equations.candidates[static_cast<std::size_t>(candidate)].effect().info;
+  if (info.pliability == Pliability::anywhere) return 1.0;
   std::vector<int> others;
   for (int k : explanation.columns)
     if (equations.columns[static_cast<std::size_t>(k)].owner != candidate) others.push_back(k);

@@ -30,7 +30,7 @@ struct SearchOptions {
   /// Evidence that makes an effect below the materiality floor be named all the same. Infinite: smaller
   /// ones are passed over.
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
-  /// The same for pliable effects (of turning, and patches) at just material size; grows as 1/sqrt(size).
+  /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
 };
 

@@ -46,7 +46,7 @@ struct EquationOptions {
 };
 
 /// Linearizes the model at a state and compresses every run. `extra` are candidates beyond the
-/// catalog's, such as floor patches.
+/// catalog's, such as effects with a region of the floor.
 [[nodiscard]] Equations build_equations(const std::vector<RunSignals>& signals, const Robot& robot,
                                         const std::vector<Nuisance>& nuisances, const ModelState& state,
                                         const std::vector<Candidate>& extra, const EquationOptions& options);

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "diagnosis/evidence/delay_search.hpp"
-#include "diagnosis/evidence/floor_patch_search.hpp"
 #include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/evidence/region_search.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -52,19 +52,22 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
   const Robot& robot = logs.dataset->robot;
   const std::vector<std::size_t> runs = every(logs.runs.size());
   result.state.nuisance_fraction.assign(result.nuisances.size(), 0.0);
-  if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0)
-    for (const Candidate& candidate : catalog_candidates(robot, without))
-      if (candidate.shape.name == "time_misalignment") result.state.effects.push_back({candidate, {delay_s}});
+  if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0) {
+    const std::vector<Candidate> candidates = catalog_candidates(robot, without);
+    const auto delay = std::ranges::find_if(
+        candidates, [](const Candidate& candidate) { return candidate.effect().delays_channels; });
+    if (delay != candidates.end()) result.state.effects.push_back({*delay, {delay_s}});
+  }
   result.signals = read_signals(logs, channel_delay_s(result.state));
   const bool few = runs.size() < kRunsForSmallEffects;
   std::map<std::string, double> known;
   NoiseModel noise;
   for (int round = 0;; ++round) {
-    std::vector<Candidate> patches;
-    if (!without.contains("floor_patch"))
-      patches = floor_patch_candidates(result.signals, robot, result.nuisances, result.state);
-    result.equations = build_equations(result.signals, robot, result.nuisances, result.state, patches,
-                                       {.first_noise = round > 0 ? &noise : nullptr, .without = without});
+    const std::vector<Candidate> regions =
+        region_candidates(result.signals, robot, result.nuisances, result.state, without);
+    result.equations =
+        build_equations(result.signals, robot, result.nuisances, result.state, regions,
+                        {.first_noise = round > 0 ? &noise : nullptr, .without = without});
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
                         (few ? kFewRunsDispersion : 1.0);

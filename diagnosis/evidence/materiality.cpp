@@ -96,7 +96,7 @@ std::vector<double> least_amplitudes(const std::vector<RunSignals>& signals, con
     with_it.effects.push_back({candidate, amplitude});
     Impact impact = impact_between(signals, model_point(robot, nuisances, with_it),
                                    model_point(robot, nuisances, without));
-    if (candidate.shape.name == "time_misalignment" && !signals.empty())
+    if (candidate.effect().delays_channels && !signals.empty())
       impact.delay_samples = candidate.step[0] / signals.front().log_period_s;
     const double ratio = materiality(impact);
     least[c] = known[key] = ratio > 0 ? candidate.step[0] / ratio : 1e300;

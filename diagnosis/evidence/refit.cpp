@@ -8,13 +8,13 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPatchEdgeStep_m = 0.2;  ///< that an edge moves by in one iteration
+constexpr double kRegionEdgeStep_m = 0.2;  ///< that an edge moves by in one iteration
 
 double clamp_shape(const Candidate& candidate, const std::string& name, double old_value, double value) {
-  for (const ParameterDescription& parameter : find_effect(candidate.shape.name)->parameters)
-    if (parameter.name == name) value = std::clamp(value, parameter.min, parameter.max);
-  if (candidate.shape.name == "floor_patch")
-    return std::clamp(value, old_value - kPatchEdgeStep_m, old_value + kPatchEdgeStep_m);
+  const ParameterDescription& parameter = *candidate.effect().find(name);
+  value = std::clamp(value, parameter.min, parameter.max);
+  if (parameter.role == ParameterRole::edge)
+    return std::clamp(value, old_value - kRegionEdgeStep_m, old_value + kRegionEdgeStep_m);
   if (old_value > 0) value = std::clamp(value, 0.5 * old_value, 2.0 * old_value);
   return value;
 }

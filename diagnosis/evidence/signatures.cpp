@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPatchEdgeSd_m = 0.1;
+constexpr double kRegionEdgeSd_m = 0.1;
 
 bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
   for (index = 0; index < state.effects.size(); ++index)
@@ -62,22 +62,18 @@ double form_variable(const RunSignals& s, const Geometry& geometry, int form, Ei
   }
 }
 
-/// An edge of a floor patch is known from the scan to a bin; other shapes to a half of their value.
+bool is_edge(const Candidate& candidate, const std::string& parameter) {
+  return candidate.effect().find(parameter)->role == ParameterRole::edge;
+}
+
+/// An edge of a region is known from the scan to a bin; other shapes to a half of their value.
 double shape_prior_sd(const Candidate& candidate, const std::string& parameter) {
-  if (candidate.shape.name == "floor_patch") return kPatchEdgeSd_m;
+  if (is_edge(candidate, parameter)) return kRegionEdgeSd_m;
   return 0.5 * std::abs(candidate.shape.parameters.at(parameter));
 }
 
-double shape_step(const Candidate& candidate, double value) {
-  return candidate.shape.name == "floor_patch" ? 0.5 * kPatchEdgeSd_m
-                                               : std::max(1e-3, 0.05 * std::abs(value));
-}
-
-/// Least and greatest value that the catalog accepts for a parameter.
-std::pair<double, double> bounds_of(const std::string& effect, const std::string& parameter) {
-  for (const ParameterDescription& known : find_effect(effect)->parameters)
-    if (known.name == parameter) return {known.min, known.max};
-  return {-1e300, 1e300};
+double shape_step(const Candidate& candidate, const std::string& parameter, double value) {
+  return is_edge(candidate, parameter) ? 0.5 * kRegionEdgeSd_m : std::max(1e-3, 0.05 * std::abs(value));
 }
 
 class Differencer {
@@ -101,7 +97,7 @@ class Differencer {
   }
 
   Eigen::MatrixXd amplitude(const Candidate& candidate, std::size_t part) const {
-    if (candidate.shape.name == "time_misalignment") return delay();
+    if (candidate.effect().delays_channels) return delay();
     const AmplitudeStep step = amplitude_step(state_, candidate, part);
     return difference(signals_, point_, base_, step.low, step.high,
                       [&](double change) { return at(with_change(state_, candidate, step, part, change)); });
@@ -111,9 +107,9 @@ class Differencer {
     std::size_t index;
     if (!is_active(candidate, state_, index)) return {};
     const double value = candidate.shape.parameters.at(parameter);
-    const auto [least, greatest] = bounds_of(candidate.shape.name, parameter);
-    const double step = shape_step(candidate, value), down = std::max(-step, least - value),
-                 up = std::min(step, greatest - value);
+    const ParameterDescription& accepted = *candidate.effect().find(parameter);
+    const double step = shape_step(candidate, parameter, value), down = std::max(-step, accepted.min - value),
+                 up = std::min(step, accepted.max - value);
     return difference(signals_, point_, base_, down, up, [&](double change) {
       Candidate moved = candidate;
       moved.shape.parameters[parameter] += change;
@@ -129,7 +125,7 @@ class Differencer {
     ModelState without = state_;
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(index));
     Eigen::MatrixXd rows = -signature_rows(signals_, point_, base_, at(without));
-    if (candidate.shape.name == "time_misalignment") rows = state_.effects[index].amplitude[0] * delay();
+    if (candidate.effect().delays_channels) rows = state_.effects[index].amplitude[0] * delay();
     for (Eigen::Index j = 0; j < rows.rows(); ++j)
       rows.row(j) *= form_variable(signals_, robot_.geometry, variable, j);
     for (Channel pose : {kHeading, kPositionX, kPositionY}) rows.col(pose).setZero();
@@ -158,7 +154,7 @@ class Differencer {
 
   Prediction shifted(double delay_s) const {
     ModelPoint point = point_;
-    point.effects.push_back({.name = "time_misalignment", .parameters = {{"delay_s", delay_s}}});
+    point.channel_delay_s += delay_s;
     return predict(signals_, point);
   }
 

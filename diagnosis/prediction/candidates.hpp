@@ -12,26 +12,30 @@ namespace joulepath {
 /// What is left are one or two amplitudes in which the model is nearly linear; zero means "absent".
 struct Candidate {
   EffectSetting shape{};                 ///< parameters that are not amplitudes are set
-  std::vector<std::string> amplitude{};  ///< names of the amplitudes; floor_slope has two
+  std::vector<std::string> amplitude{};  ///< names of the amplitudes: one, or two components of a vector
   std::vector<double> step{};            ///< for differencing, and the size worth noticing
   bool nonnegative{};                    ///< physics allows one sign only
   std::string label() const;             ///< name and side: what is told apart in a result
+  const EffectDescription& effect() const;
 };
 
 /// The setting of a candidate with given amplitudes. Converts where a file's parameter is not the
-/// amplitude itself: compliance for wheel_slip, components for floor_slope, changes for parameters
-/// that replace a value of the robot file.
+/// amplitude itself: the reciprocal of an inverse strength, the components of a strength with a direction,
+/// the change by a strength that replaces a value of the robot file.
 EffectSetting setting_of(const Candidate& candidate, const std::vector<double>& amplitudes,
                          const Robot& robot);
 
 /// Inverse of setting_of() for a setting of the same effect.
 std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& robot);
 
-/// Every effect of the catalog with a grid over its shape parameters; floor_patch is left out, its
-/// region comes from floor_patch_search(). Effects named in `without` are left out too.
+/// The candidate of an effect with neither side nor shape parameters chosen.
+Candidate bare_candidate(const EffectDescription& effect, const Robot& robot);
+
+/// Every effect of the catalog with a grid over its shape parameters. Effects with a region of the floor are
+/// left out: region_candidates() finds the region. Effects named in `without` are left out too.
 std::vector<Candidate> catalog_candidates(const Robot& robot, const std::set<std::string>& without = {});
 
-/// Names of an effect's shape parameters: all that are no amplitude.
+/// Names of an effect's shape parameters: those that no amplitude stands for.
 std::vector<std::string> shape_parameters(const std::string& effect);
 
 }  // namespace joulepath

@@ -2,14 +2,11 @@
 
 namespace joulepath {
 
-namespace {
-const std::string kDelay = "time_misalignment";
-}
-
 double channel_delay_s(const ModelState& state) {
+  double sum_s = 0.0;
   for (const ActiveEffect& effect : state.effects)
-    if (effect.candidate.shape.name == kDelay) return effect.amplitude[0];
-  return 0.0;
+    if (effect.candidate.effect().delays_channels) sum_s += effect.amplitude[0];
+  return sum_s;
 }
 
 ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisances, const ModelState& state) {
@@ -25,7 +22,7 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
       apply_nuisance(nuisances[k], state.nuisance_fraction[k], point.robot);
   }
   for (const ActiveEffect& effect : state.effects)
-    if (effect.candidate.shape.name != kDelay)
+    if (!effect.candidate.effect().delays_channels)
       point.effects.push_back(setting_of(effect.candidate, effect.amplitude, robot));
   return point;
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/prediction/patch_edge.hpp"
+#include "diagnosis/prediction/region_edge.hpp"
+#include "model/channel_delay.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
 
@@ -75,8 +76,9 @@ struct Resizer {
   void operator()(Sided<Eigen::VectorXd>& v) const { (*this)(v.left), (*this)(v.right); }
 };
 
-void distort(const std::vector<Effect>& instruments, const RunSignals& signals, Prediction& prediction) {
-  if (instruments.empty()) return;
+void distort(const std::vector<Effect>& instruments, double channel_delay_s, const RunSignals& signals,
+             Prediction& prediction) {
+  if (instruments.empty() && channel_delay_s == 0) return;
   Trajectory log;
   const auto copy = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
   log.time_s = copy(signals.time_s);
@@ -85,6 +87,7 @@ void distort(const std::vector<Effect>& instruments, const RunSignals& signals, 
     log.motor_voltage_V[side] = copy(prediction.voltage_V[side]);
   }
   distort_log(instruments, log);
+  if (channel_delay_s != 0) delay_motor_channels(log, channel_delay_s);
   for (Side side : kSides)
     for (Eigen::Index j = 0; j < signals.size(); ++j) {
       prediction.current_A[side][j] = log.motor_current_A[side][static_cast<std::size_t>(j)];
@@ -168,7 +171,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
                    std::sqrt(twist.speed_m_s * twist.speed_m_s + across_m_s * across_m_s) * signals.period_s,
                    site.course, memory);
   }
-  distort(split.instruments, signals, out);
+  distort(split.instruments, point.channel_delay_s, signals, out);
   return out;
 }
 

@@ -15,7 +15,8 @@ struct ModelPoint {
   Robot robot{};
   std::vector<EffectSetting> effects{};  ///< beyond those of the robot file
   double payload_factor{1.0};            ///< weighing error of all payloads
-  double contact_creep_m_s_N{};          ///< that every tire has, wheel_slip apart
+  double contact_creep_m_s_N{};          ///< that every tire has, effects apart
+  double channel_delay_s{};              ///< of the motors' readings, beyond that of the effects
 };
 
 /// What a model predicts for the motion that a run measured.

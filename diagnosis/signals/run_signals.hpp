@@ -43,7 +43,7 @@ struct RunSignals {
   Eigen::VectorXd heading_rad{};  ///< unwrapped; from wheels and gyro where the log has no heading
   bool heading_measured{};
   bool time_of_day_known{};
-  /// Samples of each wheel in which it turns one way throughout the kernel: there Coulomb friction
+  /// Samples of each wheel in which it turns one way throughout the kernel: there dry friction
   /// has a known direction.
   Sided<std::vector<bool>> turning{};
   /// Samples in which a measured current is beyond the driver's dead band: near zero the voltage may be

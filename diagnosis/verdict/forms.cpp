@@ -1,8 +1,8 @@
 #include "diagnosis/verdict/forms.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
+#include <string_view>
 
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -10,11 +10,12 @@
 namespace joulepath {
 namespace {
 
-const std::set<std::string> kSpeedLaws{"coulomb_friction", "viscous_friction", "stribeck_friction",
-                                       "quadratic_drag"};
-/// Their strength at small yaw rates depends on how the law passes through zero, which logs do not show:
-/// the yaw rate says nothing against them, and other forms only that they explain a part.
-const std::set<std::string> kTurningLaws{"turning_scrub", "caster_swivel"};
+/// Logs do not show how these laws pass through zero: the yaw rate says nothing against them, and other
+/// forms say only that they explain a part.
+bool vague_at_slow_turns(const Candidate& candidate) {
+  return candidate.effect().info.pliability == Pliability::slow_turns;
+}
+
 
 Judgment withdrawn(const Examination& x, Judgment judgment, const std::string& note,
                    const std::string& depends_on) {
@@ -49,7 +50,7 @@ FormDoubt form_doubt(const Identification& id, const std::string& label) {
     if (column.kind != Column::Kind::form) continue;
     const Candidate& candidate = id.equations.candidates[static_cast<std::size_t>(column.owner)];
     const bool yaw = kFormVariables[static_cast<std::size_t>(column.part)] == "yaw rate";
-    if (candidate.label() != label || (yaw && kTurningLaws.contains(candidate.shape.name))) continue;
+    if (candidate.label() != label || (yaw && vague_at_slow_turns(candidate))) continue;
     const double pull = best.mean[static_cast<Eigen::Index>(k)] / column.prior_sd;
     doubt.chi_squared += pull * pull;
     if (pull * pull <= most) continue;
@@ -59,21 +60,25 @@ FormDoubt form_doubt(const Identification& id, const std::string& label) {
   return doubt;
 }
 
-/// True where two or more of the names are laws of friction against speed: together they can draw any
-/// such curve, and stand for one that the catalog does not have.
-bool draws_a_friction_curve(const std::vector<ActiveEffect>& named) {
-  return std::count_if(named.begin(), named.end(), [](const ActiveEffect& effect) {
-           return kSpeedLaws.contains(effect.candidate.shape.name);
-         }) > 1;
+/// The family that two or more of the names belong to: together they can draw any such curve, and stand for
+/// one that the catalog does not have. Without a name where there is none.
+LawFamily family_that_draws_a_curve(const std::vector<ActiveEffect>& named) {
+  std::set<std::string_view> met;
+  for (const ActiveEffect& effect : named) {
+    const LawFamily& family = effect.candidate.effect().info.family;
+    if (!family.name.empty() && !met.insert(family.name).second) return family;
+  }
+  return {};
 }
 
 }  // namespace
 
 Judgment judge_forms(const Examination& x, Judgment judgment) {
-  if (draws_a_friction_curve(judgment.named))
-    return withdrawn(x, std::move(judgment),
-                     "only several laws of friction against speed together make up the gap: none is named",
-                     "depends on wheel speed (current)");
+  if (const LawFamily family = family_that_draws_a_curve(judgment.named); !family.name.empty())
+    return withdrawn(
+        x, std::move(judgment),
+        "only several laws of " + std::string(family.name) + " together make up the gap: none is named",
+        "depends on " + std::string(family.variable) + " (current)");
   for (const ActiveEffect& effect : std::vector<ActiveEffect>(judgment.named)) {
     const std::string label = effect.candidate.label();
     const FormDoubt doubt = form_doubt(x.id, label);
@@ -85,7 +90,7 @@ Judgment judge_forms(const Examination& x, Judgment judgment) {
       std::erase_if(judgment.named, [&](const ActiveEffect& e) { return e.candidate.label() == label; });
       continue;
     }
-    if (doubt.chi_squared > kAnotherLaw && !kTurningLaws.contains(effect.candidate.shape.name))
+    if (doubt.chi_squared > kAnotherLaw && !vague_at_slow_turns(effect.candidate))
       return withdrawn(x, std::move(judgment), text, "depends on " + doubt.depends_on);
     judgment.notes.push_back(text);
     judgment.verdict = Verdict::partly_explained;

@@ -4,8 +4,8 @@
 
 namespace joulepath {
 
-/// A judgment with the names taken back whose law is not the catalog's: two or more laws of friction against
-/// speed, which together can draw any such curve, and laws that fit only with a strength that depends on
+/// A judgment with the names taken back whose law is not the catalog's: two or more laws of one
+/// family, which together can draw any curve, and laws that fit only with a strength that depends on
 /// something.
 [[nodiscard]] Judgment judge_forms(const Examination& examination, Judgment judgment);
 

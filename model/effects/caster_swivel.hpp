@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -23,13 +23,18 @@ struct CasterSwivel {
           "line is not seen",
       .source = "first-order lag in distance of the caster angle",
       .gazebo = "a swivel joint with <friction>",
-      .mujoco = "a hinge with frictionloss at the caster fork"};
+      .mujoco = "a hinge with frictionloss at the caster fork",
+      .sign = Sign::nonnegative,
+      .pliability = Pliability::slow_turns,
+      .needs = {.turns = true}};
+  static constexpr std::array kTrails_m{0.03, 0.08, 0.2, 0.5};
   static constexpr auto parameters() {
-    return std::array{
-        EffectParameter<CasterSwivel>{"moment_Nm", "N m", -100, 1000, 0.5,
-                                      "moment against a full change of course", &CasterSwivel::moment_Nm},
-        EffectParameter<CasterSwivel>{"trail_m", "m", 0.005, 10, 0.1,
-                                      "distance over which the casters come round", &CasterSwivel::trail_m}};
+    return std::array{EffectParameter<CasterSwivel>{
+                          "moment_Nm", "N m", -100, 1000, 0.5, "moment against a full change of course",
+                          &CasterSwivel::moment_Nm, ParameterRole::strength, kResistingMoment},
+                      EffectParameter<CasterSwivel>{
+                          "trail_m", "m", 0.005, 10, 0.1, "distance over which the casters come round",
+                          &CasterSwivel::trail_m, ParameterRole::shape, kHalfTrack, kTrails_m}};
   }
 
   double memory_rate_per_m(double memory, double course) const { return (course - memory) / trail_m; }

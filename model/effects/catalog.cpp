@@ -1,5 +1,6 @@
 #include "model/effects/catalog.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -9,21 +10,44 @@
 namespace joulepath {
 namespace {
 
+/// The first parameter is a strength, no other is.
+template <class Type>
+constexpr bool strength_comes_first() {
+  bool first = true;
+  for (const auto& p : Type::parameters()) {
+    const bool strength = p.role == ParameterRole::strength || p.role == ParameterRole::inverse_strength;
+    if (strength != first) return false;
+    first = false;
+  }
+  return !first;
+}
+
 template <class Type>
 EffectDescription describe() {
-  EffectDescription description{.info = Type::info, .has_side = requires(Type e){e.side;
+  static_assert(strength_comes_first<Type>(), "say the role of every parameter after the first one");
+  constexpr bool has_side = requires(Type e) { e.side; };
+  constexpr bool has_cells = requires(Type e) { e.cells; };
+  constexpr bool has_region = requires(Type e) { e.contains(0.0, 0.0); };
+  constexpr bool delays_channels = requires(Type e) { e.channel_delay_s(); };
+  EffectDescription description{.info = Type::info,
+                                .has_side = has_side,
+                                .has_cells = has_cells,
+                                .has_region = has_region,
+                                .delays_channels = delays_channels};
+  if constexpr (requires(const Robot& robot) { Type::in_robot_file(robot); })
+    description.in_robot_file = Type::in_robot_file;
+  for (const auto& p : Type::parameters())
+    description.parameters.push_back({.name = std::string(p.name),
+                                      .unit = std::string(p.unit),
+                                      .min = p.min,
+                                      .max = p.max,
+                                      .typical = p.typical,
+                                      .meaning = std::string(p.meaning),
+                                      .role = p.role,
+                                      .yardstick = p.yardstick,
+                                      .grid = {p.grid.begin(), p.grid.end()}});
+  return description;
 }
-, .has_cells = requires(Type e) { e.cells; }
-};  // namespace
-for (const auto& p : Type::parameters())
-  description.parameters.push_back({.name = std::string(p.name),
-                                    .unit = std::string(p.unit),
-                                    .min = p.min,
-                                    .max = p.max,
-                                    .typical = p.typical,
-                                    .meaning = std::string(p.meaning)});
-return description;
-}  // namespace joulepath
 
 template <class... Types>
 std::vector<EffectDescription> describe_all(const std::variant<Types...>*) {
@@ -60,8 +84,7 @@ Effect build(const EffectSetting& setting) {
     const std::string range = "a number from " + text_of(p.min) + " to " + text_of(p.max) +
                               (p.unit == "1" ? "" : " " + std::string(p.unit));
     if (given == setting.parameters.end()) {
-      if (!setting.cells.empty() && p.name != Type::parameters().front().name)
-        continue;  // cells replace edges
+      if (!setting.cells.empty() && p.role == ParameterRole::edge) continue;  // cells replace edges
       refuse(setting, std::string(p.name), "nothing", range);
     }
     if (!(given->second >= p.min && given->second <= p.max))
@@ -92,6 +115,34 @@ std::optional<Effect> build_any(const EffectSetting& setting, const std::variant
 }
 
 }  // namespace
+
+double typical_size(const ParameterDescription& parameter, const Robot& robot) {
+  const Yardstick& yardstick = parameter.yardstick;
+  const double measure = yardstick.of ? yardstick.of(robot) : 0.0;
+  return measure > 0 ? parameter.typical * measure / yardstick.reference : parameter.typical;
+}
+
+std::vector<double> search_grid(const ParameterDescription& parameter, const Robot& robot) {
+  const double typical = typical_size(parameter, robot), scale = typical / parameter.typical;
+  std::vector<double> grid = parameter.grid;
+  for (double& value : grid) value *= scale;
+  if (grid.empty())
+    for (double factor : {0.3, 1.0, 3.0}) grid.push_back(factor * typical);
+  for (double& value : grid) value = std::clamp(value, parameter.min, parameter.max);
+  return grid;
+}
+
+const ParameterDescription* EffectDescription::find(ParameterRole role) const {
+  for (const ParameterDescription& parameter : parameters)
+    if (parameter.role == role) return &parameter;
+  return nullptr;
+}
+
+const ParameterDescription* EffectDescription::find(const std::string& name) const {
+  for (const ParameterDescription& parameter : parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
 
 const std::vector<EffectDescription>& effect_catalog() {
   static const std::vector<EffectDescription> catalog = describe_all(static_cast<const Effect*>(nullptr));

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -33,18 +35,29 @@
 #include "model/effects/winding_heating.hpp"
 #include "model/effects/winding_resistance_error.hpp"
 #include "model/effects/yaw_inertia_error.hpp"
+#ifdef JOULEPATH_MORE_EFFECTS  // CMake: -DJOULEPATH_MORE_EFFECTS=FILE, effects kept outside of this tree
+#include JOULEPATH_MORE_EFFECTS
+#else
+namespace joulepath {
+using MoreEffects = std::tuple<>;
+}
+#endif
 
 namespace joulepath {
 
 /// The catalog: every effect that the simulator, the planner, the diagnosis and the documents know.
-/// To add one, write its file and name it here.
-using Effect =
+/// To add one, write its file and name it here (docs/adding_an_effect.md).
+using OwnEffects =
     std::variant<RollingResistance, FloorPatch, StribeckFriction, CoulombFriction, DraggingWheel,
                  DirectionDependentFriction, ViscousFriction, GearEfficiency, TurningScrub, CasterSwivel,
                  QuadraticDrag, WheelSlip, PayloadMassError, CenterOfMassOffset, YawInertiaError,
                  WheelRadiusError, WheelRadiusMismatch, TrackWidthError, FloorSlope, WindingResistanceError,
                  WindingHeating, TorqueConstantError, DriverVoltageDrop, StandbyPowerError, RegenerationError,
                  SupplySag, CurrentSensorOffset, CurrentSensorGain, TimeMisalignment>;
+
+template <class... Own, class... More>
+std::variant<Own..., More...> joined(std::variant<Own...>, std::tuple<More...>);
+using Effect = decltype(joined(std::declval<OwnEffects>(), std::declval<MoreEffects>()));
 
 /// What is known of one parameter of one effect; `member` aside, as EffectParameter.
 struct ParameterDescription {
@@ -54,13 +67,31 @@ struct ParameterDescription {
   double max{};
   double typical{};
   std::string meaning{};
+  ParameterRole role{};
+  Yardstick yardstick{};
+  std::vector<double> grid{};
 };
+
+/// The typical size on another robot than the catalog's: in proportion to the parameter's yardstick, where
+/// it has one and the robot has it.
+[[nodiscard]] double typical_size(const ParameterDescription& parameter, const Robot& robot);
+
+/// Values of a shape parameter to search on a robot.
+[[nodiscard]] std::vector<double> search_grid(const ParameterDescription& parameter, const Robot& robot);
 
 struct EffectDescription {
   EffectInfo info{};
   bool has_side{};
   bool has_cells{};
+  bool has_region{};       ///< acts inside a region of the floor only
+  bool delays_channels{};  ///< of the motors: voltages and currents show what was a while ago
+  double (*in_robot_file)(const Robot&){};  ///< what the strength replaces; absent: the strength is a change
   std::vector<ParameterDescription> parameters{};
+
+  [[nodiscard]] const ParameterDescription& strength() const { return parameters.front(); }
+  /// The first parameter of that role, or nullptr.
+  [[nodiscard]] const ParameterDescription* find(ParameterRole role) const;
+  [[nodiscard]] const ParameterDescription* find(const std::string& name) const;
 };
 
 /// All effects, in the catalog's order.

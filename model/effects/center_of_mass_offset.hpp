@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,11 +17,12 @@ struct CenterOfMassOffset {
                                    .validity = "any",
                                    .source = "[P1, Eqs. (12), (17)]",
                                    .gazebo = "<inertial><pose> of the chassis link",
-                                   .mujoco = "inertial pos of the chassis body"};
+                                   .mujoco = "inertial pos of the chassis body",
+                                   .needs = {.turns = true}};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<CenterOfMassOffset>{"offset_m", "m", -1, 1, 0.02,
-                                                          "forward of where the robot file puts it",
-                                                          &CenterOfMassOffset::offset_m}};
+    return std::array{EffectParameter<CenterOfMassOffset>{
+        "offset_m", "m", -1, 1, 0.02, "forward of where the robot file puts it",
+        &CenterOfMassOffset::offset_m, ParameterRole::strength, kHalfTrack}};
   }
 
   void adjust(Robot& robot) const {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,11 +17,12 @@ struct CoulombFriction {
                                    .validity = "as the motor model",
                                    .source = "[P1, Eq. (14)]",
                                    .gazebo = "<dynamics><friction> of the wheel joint",
-                                   .mujoco = "frictionloss of the wheel joint"};
+                                   .mujoco = "frictionloss of the wheel joint",
+                                   .family = kFrictionAgainstSpeed};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<CoulombFriction>{"torque_Nm", "N m", -50, 50, 0.05,
-                                                       "change of the friction torque, both wheels alike",
-                                                       &CoulombFriction::torque_Nm}};
+    return std::array{EffectParameter<CoulombFriction>{
+        "torque_Nm", "N m", -50, 50, 0.05, "change of the friction torque, both wheels alike",
+        &CoulombFriction::torque_Nm, ParameterRole::strength, kResistingTorque}};
   }
 
   void adjust(Robot& robot) const {

@@ -23,10 +23,7 @@ struct CurrentSensorGain {
         "fraction", "1", -0.95, 10, 0.03, "relative error of the reading", &CurrentSensorGain::fraction}};
   }
 
-  void distort(Trajectory& log) const {
-    for (Side side : kSides)
-      for (double& current_A : log.motor_current_A[side]) current_A *= 1.0 + fraction;
-  }
+  CurrentReading current_reading(Side) const { return {.gain = 1.0 + fraction}; }
 };
 
 }  // namespace joulepath

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -20,14 +20,12 @@ struct CurrentSensorOffset {
                                    .gazebo = "sensor bias of the log",
                                    .mujoco = "sensor bias of the log"};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<CurrentSensorOffset>{"offset_A", "A", -100, 100, 0.05,
-                                                           "added to the reading of that side",
-                                                           &CurrentSensorOffset::offset_A}};
+    return std::array{EffectParameter<CurrentSensorOffset>{
+        "offset_A", "A", -100, 100, 0.05, "added to the reading of that side", &CurrentSensorOffset::offset_A,
+        ParameterRole::strength, kResistingCurrent}};
   }
 
-  void distort(Trajectory& log) const {
-    for (double& current_A : log.motor_current_A[side]) current_A += offset_A;
-  }
+  CurrentReading current_reading(Side of) const { return {.offset_A = of == side ? offset_A : 0.0}; }
 };
 
 }  // namespace joulepath

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,11 +17,13 @@ struct DirectionDependentFriction {
                                    .validity = "as Coulomb friction",
                                    .source = "[P1, Eq. (14)], made one-sided",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .sign = Sign::nonnegative,
+                                   .needs = {.reversing = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<DirectionDependentFriction>{
         "reverse_torque_Nm", "N m", -50, 50, 0.05, "extra friction torque of a wheel turning backward",
-        &DirectionDependentFriction::reverse_torque_Nm}};
+        &DirectionDependentFriction::reverse_torque_Nm, ParameterRole::strength, kResistingTorque}};
   }
 
   template <class Real>

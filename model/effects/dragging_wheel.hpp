@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -18,11 +18,12 @@ struct DraggingWheel {
                                    .validity = "as the motor model",
                                    .source = "[P1, Eq. (14)]",
                                    .gazebo = "<dynamics><friction> of one wheel joint",
-                                   .mujoco = "frictionloss of one wheel joint"};
+                                   .mujoco = "frictionloss of one wheel joint",
+                                   .sign = Sign::nonnegative};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<DraggingWheel>{"torque_Nm", "N m", -50, 50, 0.05,
-                                                     "change of the friction torque on that side",
-                                                     &DraggingWheel::torque_Nm}};
+    return std::array{EffectParameter<DraggingWheel>{
+        "torque_Nm", "N m", -50, 50, 0.05, "change of the friction torque on that side",
+        &DraggingWheel::torque_Nm, ParameterRole::strength, kResistingTorque}};
   }
 
   void adjust(Robot& robot) const { robot.motor[side].friction_torque_Nm += torque_Nm; }

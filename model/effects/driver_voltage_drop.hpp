@@ -17,7 +17,8 @@ struct DriverVoltageDrop {
                                    .validity = "currents well above the ripple",
                                    .source = "transistor and diode drops of an H-bridge",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .sign = Sign::nonnegative};
   static constexpr auto parameters() {
     return std::array{EffectParameter<DriverVoltageDrop>{"voltage_V", "V", -5, 20, 0.2, "lost in the bridge",
                                                          &DriverVoltageDrop::voltage_V}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "model/motion.hpp"
@@ -19,10 +20,15 @@ namespace joulepath {
 /// | winding    | double resistance_factor(double time_of_day_s)                           |
 /// | driver     | double voltage_drop_V(): between command and motor                       |
 /// | supply     | void adjust(Robot&)                                                      |
-/// | instrument | void distort(Trajectory&): what the log shows; planning ignores it       |
+/// | instrument | CurrentReading current_reading(Side), double channel_delay_s(): what the log |
+/// |            | shows; planning ignores it                                               |
 ///
-/// A law with regions also offers bool branch(const Site&): which side of its border a site is on. The
-/// energy integral splits its intervals there.
+/// Further hooks say more about an effect at any stage:
+///   double memory_rate_per_m(double memory, double course): it remembers the way it came;
+///   bool branch(const Site&): which side of the border of its region a site is on, where the energy integral
+///     splits its intervals;
+///   bool contains(double x_m, double y_m): it acts inside a region of the floor only;
+///   static double in_robot_file(const Robot&): its strength replaces this value of the robot file.
 enum class Stage { parameters, body, wheel, gear, contact, winding, driver, supply, instrument };
 
 constexpr std::string_view stage_name(Stage stage) {
@@ -30,6 +36,33 @@ constexpr std::string_view stage_name(Stage stage) {
                                         "winding",    "driver", "supply", "instrument"};
   return names[static_cast<int>(stage)];
 }
+
+/// Signs of the strength that physics allows. A passive resistance takes energy and never gives it.
+enum class Sign { either, nonnegative };
+
+/// How far an effect can take the place of what the laws of other effects lack.
+enum class Pliability {
+  firm,        ///< the law alone decides what the effect looks like
+  slow_turns,  ///< what it does at small yaw rates depends on how the law passes through zero, unknown
+  anywhere,    ///< it fits wherever other laws are inexact
+};
+
+/// Laws that together can draw any curve against one variable. Empty name: none.
+struct LawFamily {
+  std::string_view name{};
+  std::string_view variable{};
+};
+inline constexpr LawFamily kFrictionAgainstSpeed{"friction against speed", "wheel speed"};
+
+/// What logs must hold for the effect to be seen at all.
+struct Needs {
+  bool samples{};  ///< readings along a run; energies of whole runs do not show the effect
+  bool pose{};
+  bool battery{};  ///< readings at the battery's terminals
+  bool time_of_day{};
+  bool turns{};
+  bool reversing{};
+};
 
 /// What the catalog, the documents and the diagnosis know about an effect.
 struct EffectInfo {
@@ -41,10 +74,31 @@ struct EffectInfo {
   std::string_view source{};
   std::string_view gazebo{};  ///< counterpart in Gazebo (SDFormat), "none" where there is none
   std::string_view mujoco{};  ///< counterpart in MuJoCo (MJCF)
+  Sign sign{Sign::either};
+  Pliability pliability{Pliability::firm};
+  LawFamily family{};
+  Needs needs{};
+};
+
+/// What a parameter does in its effect. The first parameter is the strength, and only the first.
+enum class ParameterRole {
+  strength,
+  inverse_strength,  ///< the strength is 1/parameter: an infinite parameter means no effect
+  direction,         ///< rad; the strength and this angle are the polar form of a vector
+  shape,             ///< of the law; searched on a grid
+  edge,              ///< of a region of the floor, in the order x_min, x_max, y_min, y_max
+};
+
+/// A measure of a robot that a typical size is proportional to, and its value for the robot that the
+/// catalog's typical sizes are meant for (Nomad Super Scout, 24 kg).
+struct Yardstick {
+  double (*of)(const Robot&){};
+  double reference{};
 };
 
 /// One parameter of an effect. `min`, `max`: what is accepted; `typical`: a size worth noticing, the
-/// step that differencing starts from.
+/// step that differencing starts from. `yardstick` scales `typical` and `grid` to another robot.
+/// `grid`: values of a shape parameter to search; empty: multiples of its typical size.
 template <class Effect>
 struct EffectParameter {
   std::string_view name{};
@@ -54,6 +108,9 @@ struct EffectParameter {
   double typical{};
   std::string_view meaning{};
   double Effect::*member{};
+  ParameterRole role{ParameterRole::strength};
+  Yardstick yardstick{};
+  std::span<const double> grid{};
 };
 
 /// Force against the heading and moment against counter-clockwise yaw, to be overcome by the wheels.
@@ -61,6 +118,12 @@ template <class Real>
 struct BodyLoad {
   Real force_N{};
   Real moment_Nm{};
+};
+
+/// What a motor's current sensor shows: gain * current + offset.
+struct CurrentReading {
+  double gain{1.0};
+  double offset_A{};
 };
 
 template <class Real>

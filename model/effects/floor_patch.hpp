@@ -25,19 +25,23 @@ struct FloorPatch {
       .validity = "patches larger than the robot",
       .source = "Coulomb law of rolling friction",
       .gazebo = "a separate ground collision with its own <surface> friction",
-      .mujoco = "a separate geom with its own rolling friction"};
+      .mujoco = "a separate geom with its own rolling friction",
+      .sign = Sign::nonnegative,
+      .pliability = Pliability::anywhere,
+      .needs = {.samples = true, .pose = true}};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<FloorPatch>{"coefficient", "1", -0.05, 0.5, 0.02,
-                                                  "rolling resistance coefficient inside the region",
-                                                  &FloorPatch::coefficient},
-                      EffectParameter<FloorPatch>{"x_min_m", "m", -1000000.0, 1000000.0, 1.0,
-                                                  "west edge, map frame", &FloorPatch::x_min_m},
-                      EffectParameter<FloorPatch>{"x_max_m", "m", -1000000.0, 1000000.0, 1.0, "east edge",
-                                                  &FloorPatch::x_max_m},
-                      EffectParameter<FloorPatch>{"y_min_m", "m", -1000000.0, 1000000.0, 1.0, "south edge",
-                                                  &FloorPatch::y_min_m},
-                      EffectParameter<FloorPatch>{"y_max_m", "m", -1000000.0, 1000000.0, 1.0, "north edge",
-                                                  &FloorPatch::y_max_m}};
+    return std::array{
+        EffectParameter<FloorPatch>{"coefficient", "1", -0.05, 0.5, 0.02,
+                                    "rolling resistance coefficient inside the region",
+                                    &FloorPatch::coefficient},
+        EffectParameter<FloorPatch>{"x_min_m", "m", -1000000.0, 1000000.0, 1.0, "west edge, map frame",
+                                    &FloorPatch::x_min_m, ParameterRole::edge},
+        EffectParameter<FloorPatch>{"x_max_m", "m", -1000000.0, 1000000.0, 1.0, "east edge",
+                                    &FloorPatch::x_max_m, ParameterRole::edge},
+        EffectParameter<FloorPatch>{"y_min_m", "m", -1000000.0, 1000000.0, 1.0, "south edge",
+                                    &FloorPatch::y_min_m, ParameterRole::edge},
+        EffectParameter<FloorPatch>{"y_max_m", "m", -1000000.0, 1000000.0, 1.0, "north edge",
+                                    &FloorPatch::y_max_m, ParameterRole::edge}};
   }
 
   bool contains(double x_m, double y_m) const {

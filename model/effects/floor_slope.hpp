@@ -20,13 +20,14 @@ struct FloorSlope {
       .validity = "small grades",
       .source = "gravity on an inclined plane",
       .gazebo = "<gravity> or the pose of the ground plane",
-      .mujoco = "gravity vector of the option element"};
+      .mujoco = "gravity vector of the option element",
+      .needs = {.samples = true}};
   static constexpr auto parameters() {
     return std::array{
         EffectParameter<FloorSlope>{"grade", "1", -0.3, 0.3, 0.005, "rise over run", &FloorSlope::grade},
         EffectParameter<FloorSlope>{"uphill_direction_rad", "rad", -7, 7, 1.0,
                                     "in floor coordinates, counter-clockwise from x",
-                                    &FloorSlope::uphill_direction_rad}};
+                                    &FloorSlope::uphill_direction_rad, ParameterRole::direction}};
   }
 
   template <class Real>

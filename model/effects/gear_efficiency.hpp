@@ -17,7 +17,8 @@ struct GearEfficiency {
                                    .validity = "loss_fraction < 1; running gears",
                                    .source = "constant-efficiency gear",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .sign = Sign::nonnegative};
   static constexpr auto parameters() {
     return std::array{EffectParameter<GearEfficiency>{
         "loss_fraction", "1", -0.5, 0.9, 0.05, "of the transmitted torque", &GearEfficiency::loss_fraction}};

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,10 +17,13 @@ struct QuadraticDrag {
                                    .validity = "fast or large robots, headwind",
                                    .source = "aerodynamic drag",
                                    .gazebo = "none by default (a drag plugin)",
-                                   .mujoco = "fluid drag of the body (density)"};
+                                   .mujoco = "fluid drag of the body (density)",
+                                   .sign = Sign::nonnegative,
+                                   .family = kFrictionAgainstSpeed};
   static constexpr auto parameters() {
     return std::array{EffectParameter<QuadraticDrag>{"coefficient_N_s2_m2", "N s^2/m^2", -100, 1000, 2.0,
-                                                     "force at 1 m/s", &QuadraticDrag::coefficient_N_s2_m2}};
+                                                     "force at 1 m/s", &QuadraticDrag::coefficient_N_s2_m2,
+                                                     ParameterRole::strength, kResistingForce}};
   }
 
   template <class Real>

@@ -17,13 +17,16 @@ struct RegenerationError {
                                    .validity = "any",
                                    .source = "-",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .sign = Sign::nonnegative,
+                                   .needs = {.battery = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<RegenerationError>{"efficiency", "1", 0.0, 1.0, 0.5,
                                                          "of negative motor power that comes back",
                                                          &RegenerationError::efficiency}};
   }
 
+  static double in_robot_file(const Robot& robot) { return robot.power.regeneration_efficiency; }
   void adjust(Robot& robot) const { robot.power.regeneration_efficiency = efficiency; }
 };
 

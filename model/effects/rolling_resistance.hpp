@@ -18,7 +18,8 @@ struct RollingResistance {
       .validity = "hard floor, speeds where the coefficient is constant",
       .source = "Coulomb law of rolling friction",
       .gazebo = "none by default; a wheel joint <friction> scaled by load comes near",
-      .mujoco = "frictionloss on the wheel joint, scaled by load"};
+      .mujoco = "frictionloss on the wheel joint, scaled by load",
+      .sign = Sign::nonnegative};
   static constexpr auto parameters() {
     return std::array{EffectParameter<RollingResistance>{
         "coefficient", "1", -0.05, 0.5, 0.01, "rolling resistance coefficient, times the normal load",

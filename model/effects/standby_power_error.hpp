@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,10 +17,12 @@ struct StandbyPowerError {
                                    .validity = "any",
                                    .source = "-",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .needs = {.battery = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<StandbyPowerError>{
-        "power_W", "W", -10000.0, 100000.0, 2.0, "change of the standby power", &StandbyPowerError::power_W}};
+        "power_W", "W", -10000.0, 100000.0, 2.0, "change of the standby power", &StandbyPowerError::power_W,
+        ParameterRole::strength, kStandby}};
   }
 
   void adjust(Robot& robot) const { robot.power.standby_W += power_W; }

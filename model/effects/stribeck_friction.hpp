@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -19,14 +19,24 @@ struct StribeckFriction {
                                    .validity = "lubricated gears at low speed",
                                    .source = "Stribeck curve, Gaussian form",
                                    .gazebo = "none",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .sign = Sign::nonnegative,
+                                   .family = kFrictionAgainstSpeed};
+  static constexpr std::array kSpeeds_rad_s{0.6, 1.0, 1.6, 2.5, 4.0};
   static constexpr auto parameters() {
-    return std::array{
-        EffectParameter<StribeckFriction>{"torque_Nm", "N m", -5, 50, 0.1,
-                                          "at standstill, on top of Coulomb friction",
-                                          &StribeckFriction::torque_Nm},
-        EffectParameter<StribeckFriction>{"speed_rad_s", "rad/s", 0.01, 100, 1.0,
-                                          "wheel speed over which it fades", &StribeckFriction::speed_rad_s}};
+    return std::array{EffectParameter<StribeckFriction>{
+                          "torque_Nm", "N m", -5, 50, 0.1, "at standstill, on top of Coulomb friction",
+                          &StribeckFriction::torque_Nm, ParameterRole::strength, kResistingTorque},
+                      EffectParameter<StribeckFriction>{"speed_rad_s",
+                                                        "rad/s",
+                                                        0.01,
+                                                        100,
+                                                        1.0,
+                                                        "wheel speed over which it fades",
+                                                        &StribeckFriction::speed_rad_s,
+                                                        ParameterRole::shape,
+                                                        {},
+                                                        kSpeeds_rad_s}};
   }
 
   template <class Real>

@@ -17,13 +17,15 @@ struct SupplySag {
                                    .validity = "steady loads",
                                    .source = "battery as a source with internal resistance",
                                    .gazebo = "a battery plugin with <resistance>",
-                                   .mujoco = "none"};
+                                   .mujoco = "none",
+                                   .needs = {.battery = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<SupplySag>{"resistance_ohm", "ohm", 0.0, 100, 0.1,
                                                  "total internal resistance, in place of the robot file's",
                                                  &SupplySag::resistance_ohm}};
   }
 
+  static double in_robot_file(const Robot& robot) { return robot.battery.internal_resistance_ohm; }
   void adjust(Robot& robot) const { robot.battery.internal_resistance_ohm = resistance_ohm; }
 };
 

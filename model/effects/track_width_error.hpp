@@ -17,7 +17,8 @@ struct TrackWidthError {
                                    .validity = "any",
                                    .source = "UMBmark (Borenstein and Feng)",
                                    .gazebo = "<wheel_separation> of the drive plugin",
-                                   .mujoco = "position of the wheel bodies"};
+                                   .mujoco = "position of the wheel bodies",
+                                   .needs = {.turns = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<TrackWidthError>{
         "fraction", "1", -0.5, 1, 0.02, "relative error of the half track", &TrackWidthError::fraction}};

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,10 +17,14 @@ struct TurningScrub {
                                    .validity = "wide tires, casters or tracks on a hard floor",
                                    .source = "Coulomb law at the contact patch",
                                    .gazebo = "<surface><friction><torsional>",
-                                   .mujoco = "torsional friction of the wheel geoms"};
+                                   .mujoco = "torsional friction of the wheel geoms",
+                                   .sign = Sign::nonnegative,
+                                   .pliability = Pliability::slow_turns,
+                                   .needs = {.turns = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<TurningScrub>{"moment_Nm", "N m", -100, 1000, 0.3,
-                                                    "moment against the turn", &TurningScrub::moment_Nm}};
+                                                    "moment against the turn", &TurningScrub::moment_Nm,
+                                                    ParameterRole::strength, kResistingMoment}};
   }
 
   template <class Real>

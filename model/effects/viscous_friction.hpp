@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -17,11 +17,12 @@ struct ViscousFriction {
                                    .validity = "as the motor model",
                                    .source = "[P1, Eq. (14)]",
                                    .gazebo = "<dynamics><damping> of the wheel joint",
-                                   .mujoco = "damping of the wheel joint"};
+                                   .mujoco = "damping of the wheel joint",
+                                   .family = kFrictionAgainstSpeed};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<ViscousFriction>{"coefficient_Nm_s_rad", "N m s/rad", -10, 10, 0.005,
-                                                       "change of the viscous friction at the wheel",
-                                                       &ViscousFriction::coefficient_Nm_s_rad}};
+    return std::array{EffectParameter<ViscousFriction>{
+        "coefficient_Nm_s_rad", "N m s/rad", -10, 10, 0.005, "change of the viscous friction at the wheel",
+        &ViscousFriction::coefficient_Nm_s_rad, ParameterRole::strength, kResistingDamping}};
   }
 
   void adjust(Robot& robot) const {

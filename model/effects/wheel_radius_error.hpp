@@ -17,7 +17,8 @@ struct WheelRadiusError {
                                    .validity = "any",
                                    .source = "[P1, Eqs. (2), (3)]",
                                    .gazebo = "<radius> of the wheel collision",
-                                   .mujoco = "size of the wheel geoms"};
+                                   .mujoco = "size of the wheel geoms",
+                                   .needs = {.pose = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<WheelRadiusError>{
         "fraction", "1", -0.5, 1, 0.01, "relative error of both radii", &WheelRadiusError::fraction}};

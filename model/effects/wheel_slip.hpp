@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/effect.hpp"
+#include "model/effects/yardsticks.hpp"
 
 namespace joulepath {
 
@@ -18,11 +18,14 @@ struct WheelSlip {
       .validity = "small creep, no sliding",
       .source = "linear creep (Kalker)",
       .gazebo = "<surface><friction><ode><slip1>",
-      .mujoco = "solref/solimp and slide friction of the contact"};
+      .mujoco = "solref/solimp and slide friction of the contact",
+      .sign = Sign::nonnegative,
+      .needs = {.pose = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<WheelSlip>{"creep_stiffness_N_s_m", "N s/m", 1.0, 1000000000.0, 2000,
                                                  "force per speed of creep; small = slippery",
-                                                 &WheelSlip::creep_stiffness_N_s_m}};
+                                                 &WheelSlip::creep_stiffness_N_s_m,
+                                                 ParameterRole::inverse_strength, kEmptyMass}};
   }
 
   double creep_m_s_N() const { return 1.0 / creep_stiffness_N_s_m; }

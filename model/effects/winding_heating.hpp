@@ -20,13 +20,24 @@ struct WindingHeating {
       .validity = "a day of similar work",
       .source = "first-order thermal model of the winding",
       .gazebo = "none",
-      .mujoco = "none"};
+      .mujoco = "none",
+      .sign = Sign::nonnegative,
+      .needs = {.time_of_day = true}};
+  static constexpr std::array kTimeConstants_s{25.0, 60.0, 140.0, 330.0, 1200.0};
   static constexpr auto parameters() {
     return std::array{
         EffectParameter<WindingHeating>{"final_fraction", "1", -0.5, 2, 0.1, "relative rise when warm",
                                         &WindingHeating::final_fraction},
-        EffectParameter<WindingHeating>{"time_constant_s", "s", 1, 100000.0, 200, "of the warming",
-                                        &WindingHeating::time_constant_s}};
+        EffectParameter<WindingHeating>{"time_constant_s",
+                                        "s",
+                                        1,
+                                        100000.0,
+                                        200,
+                                        "of the warming",
+                                        &WindingHeating::time_constant_s,
+                                        ParameterRole::shape,
+                                        {},
+                                        kTimeConstants_s}};
   }
 
   double resistance_factor(double time_of_day_s) const {

@@ -17,7 +17,9 @@ struct YawInertiaError {
                                    .validity = "any",
                                    .source = "[P1, Eq. (12)]",
                                    .gazebo = "<inertial><inertia><izz>",
-                                   .mujoco = "diaginertia of the chassis body"};
+                                   .mujoco = "diaginertia of the chassis body",
+                                   .pliability = Pliability::anywhere,
+                                   .needs = {.turns = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<YawInertiaError>{"fraction", "1", -0.95, 10, 0.1,
                                                        "relative error of the chassis yaw inertia",

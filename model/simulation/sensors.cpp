@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "model/effects/time_misalignment.hpp"
+#include "model/channel_delay.hpp"
 
 namespace joulepath {
 namespace {
@@ -69,7 +69,7 @@ Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings
     log.payload_kg.push_back(now.payload_kg);
   }
   if (settings.electrical_delay_s != 0.0 && log.size() > 1)
-    TimeMisalignment{.delay_s = settings.electrical_delay_s}.distort(log);
+    delay_motor_channels(log, settings.electrical_delay_s);
   return log;
 }
 

@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/patch_edge.hpp"
+#include "diagnosis/prediction/region_edge.hpp"
 
 #include <array>
 #include <cmath>
@@ -18,13 +18,17 @@ Site moved_along(Site site, double distance_m) {
 
 bool edge_within(const Plant& plant, const Site& site, double reach_m) {
   for (const Effect& effect : plant.effects) {
-    const auto* patch = std::get_if<FloorPatch>(&effect);
-    if (!patch) continue;
-    const auto inside = [&](double distance_m) {
-      const Pose pose = moved_along(site, distance_m).pose;
-      return patch->contains(pose.x_m, pose.y_m);
-    };
-    if (inside(kParts.front() * reach_m) != inside(kParts.back() * reach_m)) return true;
+    const bool crossed = std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { e.contains(0.0, 0.0); }) {
+            const Pose first = moved_along(site, kParts.front() * reach_m).pose,
+                       last = moved_along(site, kParts.back() * reach_m).pose;
+            return e.contains(first.x_m, first.y_m) != e.contains(last.x_m, last.y_m);
+          }
+          return false;
+        },
+        effect);
+    if (crossed) return true;
   }
   return false;
 }

@@ -1,4 +1,4 @@
-#include "diagnosis/evidence/floor_patch_search.hpp"
+#include "diagnosis/evidence/region_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kBin_m = 0.1;
 constexpr double kFewestSamples = 15;
-constexpr const char* kName = "floor_patch";
 
 /// Rolling coefficient that a sample asks for beyond the model, and where.
 struct PlacedSample {
@@ -23,8 +22,10 @@ struct Rectangle {
 };
 
 std::vector<PlacedSample> placed_samples(const std::vector<RunSignals>& signals, const Robot& robot,
-                                         const std::vector<Nuisance>& nuisances, ModelState state) {
-  std::erase_if(state.effects, [](const ActiveEffect& e) { return e.candidate.shape.name == kName; });
+                                         const std::vector<Nuisance>& nuisances, ModelState state,
+                                         const EffectDescription& effect) {
+  std::erase_if(state.effects,
+                [&](const ActiveEffect& e) { return e.candidate.shape.name == effect.info.name; });
   std::vector<PlacedSample> samples;
   for (const RunSignals& run : signals) {
     if (run.x_m.size() == 0) return {};
@@ -90,29 +91,31 @@ Rectangle search(const std::vector<PlacedSample>& samples, int first_axis) {
   return rectangle;
 }
 
-Candidate candidate_of(const Rectangle& rectangle) {
-  const ParameterDescription& first = find_effect(kName)->parameters.front();
-  return {.shape = {.name = kName,
-                    .parameters = {{"x_min_m", rectangle.low_m[0]},
-                                   {"x_max_m", rectangle.high_m[0]},
-                                   {"y_min_m", rectangle.low_m[1]},
-                                   {"y_max_m", rectangle.high_m[1]}}},
-          .amplitude = {first.name},
-          .step = {first.typical},
-          .nonnegative = true};
+Candidate candidate_of(const EffectDescription& effect, const Rectangle& rectangle, const Robot& robot) {
+  Candidate candidate = bare_candidate(effect, robot);
+  const std::array edges_m{rectangle.low_m[0], rectangle.high_m[0], rectangle.low_m[1], rectangle.high_m[1]};
+  std::size_t next = 0;
+  for (const ParameterDescription& parameter : effect.parameters) {
+    if (parameter.role == ParameterRole::edge) candidate.shape.parameters[parameter.name] = edges_m[next++];
+    if (parameter.role == ParameterRole::shape)
+      candidate.shape.parameters[parameter.name] = typical_size(parameter, robot);
+  }
+  return candidate;
 }
 
 }  // namespace
 
-std::vector<Candidate> floor_patch_candidates(const std::vector<RunSignals>& signals, const Robot& robot,
-                                              const std::vector<Nuisance>& nuisances,
-                                              const ModelState& state) {
-  const std::vector<PlacedSample> samples = placed_samples(signals, robot, nuisances, state);
+std::vector<Candidate> region_candidates(const std::vector<RunSignals>& signals, const Robot& robot,
+                                         const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                         const std::set<std::string>& without) {
   std::vector<Candidate> candidates;
-  for (int axis : {0, 1}) {
-    const Rectangle rectangle = search(samples, axis);
-    if (rectangle.contrast <= 0) continue;
-    candidates.push_back(candidate_of(rectangle));
+  for (const EffectDescription& effect : effect_catalog()) {
+    if (!effect.has_region || without.contains(std::string(effect.info.name))) continue;
+    const std::vector<PlacedSample> samples = placed_samples(signals, robot, nuisances, state, effect);
+    for (int axis : {0, 1}) {
+      const Rectangle rectangle = search(samples, axis);
+      if (rectangle.contrast > 0) candidates.push_back(candidate_of(effect, rectangle, robot));
+    }
   }
   return candidates;
 }
