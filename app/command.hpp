@@ -8,10 +8,10 @@ namespace joulepath {
 
 class CommandLine;
 
-/// What the program tells its caller; the same for every command.
+/// Exit codes of the program; the same for every command.
 enum ExitCode : int {
   kDone = 0,
-  kInfeasibleOrFailed = 1,  ///< also: a gap found where --fail-on-gap asks
+  kInfeasibleOrFailed = 1,  ///< also: a gap found with --fail-on-gap
   kBadInput = 2,            ///< usage, input, or output exists
   kInternalError = 3,
   kEnvironment = 4,  ///< disk, permission, memory
@@ -32,7 +32,7 @@ class UsageError : public std::runtime_error {
 
 /// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
 /// options bound to its members; `run` reads, calculates, prints results on stdout and talk on stderr, and
-/// gives the exit code; errors are thrown (main.cpp tells them).
+/// gives the exit code; errors are thrown (main.cpp reports them).
 class Command {
  public:
   Command() = default;

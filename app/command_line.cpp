@@ -144,7 +144,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, const Co
   try {
     app->parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
-    // What is missing may be what was mistyped: an unknown argument is told first.
+    // A missing argument may be a mistyped one: an unknown argument is reported first.
     return usage_error(app->remaining(true).empty() ? error.what() : unknown_argument(*app), *app);
   } catch (const CLI::Success& success) {
     std::ostringstream output;

@@ -54,7 +54,7 @@ class CommandLine {
 
 using Commands = std::vector<std::unique_ptr<Command>>;
 
-/// What the arguments ask for: a command to run, or a text to print and the exit code.
+/// The meaning of the arguments: a command to run, or a text to print and the exit code.
 struct ParsedCommandLine {
   Command* command{};    ///< its members hold the options' values; null: nothing to run
   std::string output{};  ///< help or version: for stdout, or for stderr where exit_code is not kDone

@@ -18,7 +18,7 @@ void add_common_flags(CommandLine& line, CommonOptions& options, const std::stri
   if (wants('j')) line.flag("--json", options.json, "results as JSON on stdout");
   if (wants('q')) line.flag("-q,--quiet", options.quiet, "no progress and no summary");
   if (wants('u'))
-    line.flag("--untrusted", options.untrusted, "names inside of the input may not leave the input's folder");
+    line.flag("--untrusted", options.untrusted, "refuse file names that lead outside the input's folder");
 }
 
 }  // namespace joulepath

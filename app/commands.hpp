@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// The commands, in the order of the help; each name stands for a function make_NAME_command().
+/// The commands, in the order of the help; each name has a function make_NAME_command().
 #define JOULEPATH_COMMANDS(COMMAND) \
   COMMAND(init)                     \
   COMMAND(plan)                     \

@@ -15,7 +15,7 @@ class Interrupted : public std::exception {
 /// program.
 void install_interrupt_handler();
 
-/// While it lives, the command itself asks whether Ctrl-C was pressed.
+/// During its lifetime the command itself checks whether Ctrl-C was pressed.
 class PoliteInterrupt {
  public:
   PoliteInterrupt();

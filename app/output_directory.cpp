@@ -11,7 +11,7 @@
 #include "app/command.hpp"
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
-
+// Design: docs/decisions/0012-results-are-renamed-into-place.md
 namespace joulepath {
 namespace {
 
@@ -82,7 +82,7 @@ fs::path without_trailing_slash(const std::string& directory) {
 
 OutputDirectory::OutputDirectory(std::string directory, std::vector<std::string> names, bool force)
     : directory_(without_trailing_slash(directory).string()), names_(std::move(names)) {
-  if (directory_.empty()) throw UsageError("--out needs the name of a directory");
+  if (directory_.empty()) throw UsageError("--out needs a directory");
   std::error_code error;
   if (fs::exists(directory_, error) && !fs::is_directory(directory_, error))
     throw ConfigError({{directory_, 0, 0}, "", "a file", "a directory for the results", ""});

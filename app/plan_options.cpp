@@ -13,11 +13,12 @@ void add_mission_source(CommandLine& line, MissionSource& source, bool with_time
   line.option("mission", source.file,
               "mission (YAML); or a VDA 5050 order (JSON) or a path (YAML, CSV), with --robot")
       .required();
-  line.option("--robot", source.robot_file, "robot file in place of the mission's");
-  line.option("--map", source.map_file, "map in place of the mission's");
+  line.option("--robot", source.robot_file, "robot file; replaces the mission's");
+  line.option("--map", source.map_file, "map; replaces the mission's");
   line.option("--payload", source.payload_kg, "kg on board along a path; default 0").not_negative();
   if (with_time)
-    line.option("--time", source.duration_s, "seconds for a path; default: where the energy is least")
+    line.option("--time", source.duration_s,
+                "duration for a path in seconds; default: the duration of least energy")
         .positive();
 }
 

@@ -72,8 +72,18 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery) {
   stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
          << figure(100 * battery.end_fraction, 5) << " % (95 %: " << figure(100 * battery.interval_95[0], 5)
          << " to " << figure(100 * battery.interval_95[1], 5) << "), needs "
-         << figure(battery.required_capacity_Wh, 4) << " Wh with 95 % certainty, "
+         << figure(battery.required_capacity_Wh, 4) << " Wh (95 % upper bound), "
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
+}
+
+/// Five significant digits, rounded to the feasible side: down for speeds at the ends and clearances, up for
+/// limits and times. Positions keep all digits: a rounded one may be blocked.
+std::string relaxed_figure(const std::string& key, double value) {
+  if (key == "x_m" || key == "y_m" || value == 0) return figure(value, 10);
+  const bool lower =
+      key.rfind("start_speed", 0) == 0 || key.rfind("end_speed", 0) == 0 || key == "clearance_m";
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4);
+  return figure(lower ? std::floor(value / step) * step : std::ceil(value / step) * step, 5);
 }
 
 void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict) {
@@ -83,7 +93,7 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
          << "), by " << figure(reason.amount) << " " << reason.unit << "\n";
   if (!reason.message.empty()) stream << "  " << reason.message << "\n";
   for (const auto& [key, value] : reason.relaxation)
-    stream << "  would do: " << key << " = " << figure(value + 1e-9 * std::abs(value), 10) << "\n";
+    stream << "  smallest change that works: " << key << " = " << relaxed_figure(key, value) << "\n";
 }
 
 }  // namespace

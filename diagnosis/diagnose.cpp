@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std:
 
 std::vector<std::string> taken_out(const std::set<std::string>& effects) {
   std::vector<std::string> notes;
-  for (const std::string& effect : effects) notes.push_back(effect + " is taken out of the catalog");
+  for (const std::string& effect : effects) notes.push_back(effect + " is removed from the catalog");
   return notes;
 }
 

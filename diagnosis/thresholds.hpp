@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-
+// Design: docs/decisions/0130-thresholds-in-one-header.md
 namespace joulepath {
 
 // Every number that decides what a diagnosis says, with its origin:
@@ -93,7 +93,7 @@ inline constexpr int kBeamWidth = 14;
 inline constexpr std::size_t kMostReconsidered = 300;
 /// Rounds of linearize, search, refit. Chosen.
 inline constexpr int kRelinearizations = 4;
-/// For an effect below the materiality floor. Chosen (0045).
+/// Log evidence needed to name an effect below the materiality floor. Chosen (0045).
 inline constexpr double kSmallEffectEvidence = 10.0;
 /// The same from fewer than kRunsForSmallEffects. Chosen (0045).
 inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;

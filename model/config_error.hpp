@@ -5,14 +5,14 @@
 
 namespace joulepath {
 
-/// Where something stands in a file that a user wrote; line and column count from 1, 0 = unknown.
+/// A position in a file that a user wrote; line and column count from 1, 0 = unknown.
 struct SourceMark {
   std::string file{};
   int line{};
   int column{};
 };
 
-/// A mistake in the input, told so that the user can mend it. `what()` is the whole message:
+/// An error in the input, with what the user needs to correct it. `what()` is the whole message:
 /// `file:line:column: key: found X, accepted Y (hint)`.
 class ConfigError : public std::runtime_error {
  public:

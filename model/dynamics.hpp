@@ -35,7 +35,7 @@ struct Wrench {
   Real moment_Nm{};
 };
 
-/// What the inertia asks for: with mu forward of P0, the equations of motion of [P1, Eqs. (13)-(23)],
+/// Wheel torques of the inertia: with mu forward of P0, the equations of motion of [P1, Eqs. (13)-(23)],
 /// projected on the motions that the wheels allow (SᵀMS, SᵀM S_dot), read at the body:
 ///
 ///   F = m v' - mu omega^2,     M = I omega' + mu v omega

@@ -19,7 +19,7 @@ inline constexpr double kDefaultReach_s = 0.15;
 /// What a motion takes, by the model. Nothing but the motion is looked at.
 struct EnergyEstimate {
   Trajectory power{};         ///< estimated wheel speed, torque, current, voltage, power over time
-  Sided<double> motor_J{};    ///< V i as it is: braking counts against driving
+  Sided<double> motor_J{};    ///< V i, signed: braking energy is subtracted
   Sided<double> counted_J{};  ///< with the robot's regeneration efficiency: max(P, eta P)
   EnergyByCause by_cause{};   ///< at the battery's terminals
   double battery_loss_J{};    ///< in the internal resistance

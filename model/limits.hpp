@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "model/robot.hpp"
-
+// Design: docs/decisions/0100-one-table-of-limits.md
 namespace joulepath {
 
 /// All that is known of one limit. State is LimitState (model/limit_table.hpp).

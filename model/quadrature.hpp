@@ -3,7 +3,7 @@
 #include <array>
 
 #include "model/energy.hpp"
-
+// Design: docs/decisions/0110-one-energy-integral.md
 namespace joulepath {
 
 /// A motion at an instant, as the power model asks for it: speeds and accelerations, and the site with the

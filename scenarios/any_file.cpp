@@ -125,7 +125,7 @@ FileSummary summary_of_output(const Document& document, const FileKind& kind) {
   return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
 }
 
-/// The kind as the document itself tells: by its schema line, else by a key that only one kind has.
+/// The kind of a document: from its schema line, else from a key that only one kind has.
 std::string kind_of(const Document& document) {
   const Node root = document.root();
   if (root.kind() != Value::Kind::map) return "";
@@ -179,10 +179,10 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
       {{file, 1, 1},
        "",
        empty                ? "an empty file"
-       : given_kind.empty() ? "a file of no known kind"
+       : given_kind.empty() ? "a file of unknown kind"
                             : "kind " + given_kind,
        "robot, map, mission, order, path, dataset, fleet, run log, route graph, plan or diagnosis",
-       "a first line like `schema: joulepath/robot/1` tells the kind"});
+       "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 
 }  // namespace joulepath

@@ -96,7 +96,7 @@ class CsvParser {
         fail(start, "", "a number in the header", "a first row with the columns' names");
       const bool want = !name.empty() && wanted(name);
       if (want && std::find(table_.header.begin(), table_.header.end(), name) != table_.header.end())
-        fail(start, name, "the column a second time", "each column once");
+        fail(start, name, "a duplicate column", "each column once");
       table_.header.push_back(name);
       wanted_.push_back(want);
     }

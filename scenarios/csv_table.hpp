@@ -20,7 +20,7 @@ struct CsvTable {
   [[nodiscard]] std::size_t rows() const { return line_of_row.size(); }
 };
 
-/// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (the header tells),
+/// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (as in the header),
 /// quotes, CRLF and a byte order mark are fine, lines that begin with # are comments. Throws ConfigError with
 /// line and column: no header, a name twice, a row of another length, text or a non-finite number in a wanted
 /// column.

@@ -74,9 +74,10 @@ class RunReader {
   static void read_energy_only(const Node& node, Run& run) {
     run.motion = read_motion(node["motion"]);
     if (!run.measured_energy_J && !run.battery_energy_Wh)
-      node.fail("measured_energy_J or battery_energy_Wh beside motion",
-                "a run without a log needs the energy that it took");
-    if (const auto predicted = node.find("predicted")) predicted->fail("nothing beside motion");
+      node.fail("motion together with measured_energy_J or battery_energy_Wh",
+                "a run without a log needs its measured energy");
+    if (const auto predicted = node.find("predicted"))
+      predicted->fail("no such key", "not allowed together with motion");
   }
 
   void read_log(const Node& node, Run& run) {
@@ -157,7 +158,7 @@ Dataset read_dataset(const std::string& file, const ReadOptions& options,
   const Node root = document.root();
   Dataset dataset{.file = file};
   if (!robot_file && !root.has("robot"))
-    root.fail_found("no robot", "robot: and the name of a robot file", "or give it with --robot");
+    root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
   dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
   dataset.robot = read_robot(dataset.robot_file, robot_file ? NamedBy{} : NamedBy(root["robot"]));
   const auto columns = root.find("columns");

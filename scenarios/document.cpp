@@ -92,7 +92,7 @@ std::vector<std::pair<std::string, Node>> Node::entries() const {
 
 double Node::number() const {
   if (kind() != Value::Kind::scalar) fail("a number");
-  if (value_->quoted) fail("a number", "leave the quotes away");
+  if (value_->quoted) fail("a number", "remove the quotes");
   if (const auto parsed = parse_number(value_->text)) return *parsed;
   const std::string& text = value_->text;
   std::string hint;
@@ -103,7 +103,7 @@ double Node::number() const {
     return copy;
   }();
   if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos)
-    hint = "leave the key away where there is no value or no limit";
+    hint = "omit the key if there is no value or no limit";
   else if (text.find_first_not_of("+-0123456789.eE") == std::string::npos)
     hint = "it is too large, or not written as a number";
   else if (comma != std::string::npos)

@@ -22,7 +22,7 @@ class TreeBuilder {
     if (depth > kMaxDepth || ++count_ > kMaxValues)
       fail(value.line, value.column, "",
            depth > kMaxDepth ? "lists and maps more than 64 deep" : "more than 2,000,000 values",
-           "a file of ordinary size");
+           "a smaller file");
     switch (node.Type()) {
       case YAML::NodeType::Scalar:
         value.kind = Value::Kind::scalar;
@@ -57,8 +57,8 @@ class TreeBuilder {
       const auto same = std::find_if(value.entries.begin(), value.entries.end(),
                                      [&](const Value::Entry& other) { return other.key == entry.key; });
       if (same != value.entries.end())
-        fail(entry.line, entry.column, full, "the key a second time", "each key once",
-             "it stands on line " + std::to_string(same->line) + " already");
+        fail(entry.line, entry.column, full, "a duplicate key", "each key once",
+             "the first one is on line " + std::to_string(same->line));
       entry.value = build(pair.second, depth + 1, full);
       if (entry.value.kind == Value::Kind::null)
         entry.value.line = entry.line, entry.value.column = entry.column;

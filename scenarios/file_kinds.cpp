@@ -12,15 +12,15 @@ const std::vector<FileKind>& file_kinds() {
   static const std::vector<FileKind> kinds{
       {"robot", robot_schema, "parameters, limits and uncertainty of a differential-drive robot"},
       {"map", map_schema, "Nav2 occupancy map, keep-out mask or speed mask"},
-      {"dataset", dataset_schema, "run logs, what they were measured with, and how to read their columns"},
-      {"mission", mission_schema, "what a robot is to do, where, and with which payload"},
+      {"dataset", dataset_schema, "run logs, their sensors, and the mapping of their columns"},
+      {"mission", mission_schema, "stops or legs of a robot, with payloads and deadlines"},
       {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
       {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
       {"plan", plan_schema, "result of plan: plan.json"},
       {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
       {"controller", controller_schema, "result of export --to controller"},
       {"edges", edges_schema, "result of export --to edges as JSON"},
-      {"loss", loss_schema, "joules lost by the settings of an export"},
+      {"loss", loss_schema, "energy lost by the settings of an export"},
   };
   return kinds;
 }

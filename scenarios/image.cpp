@@ -49,9 +49,9 @@ class ImageFile {
     for (; position_ < bytes_.size() && std::isdigit(static_cast<unsigned char>(bytes_[position_]));
          ++position_)
       if ((value = 10 * value + (bytes_[position_] - '0')) > 1'000'000'000)
-        fail("a number beyond all bounds", "a PGM image");
+        fail("a number that is too large", "a PGM image");
     if (position_ == first)
-      fail(position_ < bytes_.size() ? "a character that is no digit where a number stands"
+      fail(position_ < bytes_.size() ? "a character that is not a digit in a number"
                                      : "an image that ends too early",
            "a whole PGM image");
     return value;

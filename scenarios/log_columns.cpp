@@ -88,10 +88,10 @@ ColumnSources read_column_sources(const Node& node) {
     const bool of_wheel = name.rfind("motor_", 0) == 0;
     if (source.is_unsigned && !of_wheel)
       entry["unsigned"].fail("unsigned for motor_* columns only",
-                             "no other column has a wheel whose motion gives the sign");
+                             "the sign comes from the motion of the motor's wheel");
     if (name == "time_s")
       for (const char* key : {"derivative", "delay_s"})
-        if (const auto extra = entry.find(key)) extra->fail("nothing, for time_s");
+        if (const auto extra = entry.find(key)) extra->fail("no such key", "time_s does not support it");
     sources[name] = std::move(source);
   }
   return sources;

@@ -94,7 +94,7 @@ class LogFileReader {
                          file_.times[i - 1] - file_.times[i] > 0.5 * (file_.times[i - 1] - file_.times[0]) &&
                          file_.times[i] >= 0.0 && i > 2;
     fail_time(i, found, "times that increase strictly",
-              wrapped ? "does the clock start again at 0? Give columns: time_s: {wraps_at: ...}" : "");
+              wrapped ? "if the clock starts again at 0, set columns: time_s: {wraps_at: ...}" : "");
   }
 
   void read_channel(const std::string& name) {

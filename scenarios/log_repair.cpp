@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scenarios/log_columns.hpp"
-
+// Design: docs/decisions/0011-odd-logs-are-data.md
 namespace joulepath {
 namespace {
 
@@ -47,7 +47,7 @@ std::size_t distinct(std::vector<double> values) {
   return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
 }
 
-/// A sensor with coarse steps repeats its values honestly; one with fine steps hardly ever does.
+/// A sensor with coarse steps repeats its values regularly; one with fine steps hardly ever does.
 bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
   return 10 * distinct(values) > 9 * changes;
 }
@@ -90,12 +90,13 @@ void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<H
   }
   if (held.count == 0) return;
   held.kind = "held_value";
-  held.description = "the same value " + std::to_string(longest) +
-                     " samples in a row while the robot's speed changed: was the sensor or the logger stuck?";
+  held.description =
+      "the same value " + std::to_string(longest) +
+      " samples in a row while the robot's speed changed: the sensor or the logger may have stopped";
   artifacts.push_back(held);
 }
 
-/// A channel whose every value stands for several rows: sampled slower than it is logged.
+/// A channel that repeats every value in several rows: sampled slower than it is logged.
 void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogArtifact>& artifacts) {
   if (holds.size() < 30) return;
   const auto middle = holds.begin() + static_cast<long>(holds.size() / 2);

@@ -77,7 +77,7 @@ LegRequest read_leg(const Node& node, const std::map<std::string, Station>& stat
   if (leg.motion)
     for (const char* key : {"deadline_s", "duration_s", "start_speed_m_s", "end_speed_m_s"})
       if (const auto extra = node.find(key))
-        extra->fail("nothing beside motion", "a prescribed motion has its own times and speeds");
+        extra->fail("no such key", "a prescribed motion has its own times and speeds");
   return leg;
 }
 
@@ -94,9 +94,9 @@ VisitRequest read_visit(const Node& node, const std::map<std::string, Station>& 
                                                              : "go";
   visit.station = station_named(node[key], stations);
   if (visit.kind == VisitRequest::Kind::pick && !visit.payload_given)
-    node.fail("payload_kg beside pick", "how much is taken on here?");
+    node.fail("payload_kg together with pick", "payload_kg is the mass that the robot picks up here");
   if (visit.kind == VisitRequest::Kind::pass && visit.payload_given)
-    node["payload_kg"].fail("nothing beside go");
+    node["payload_kg"].fail("no such key", "go has no payload change");
   if (const auto window = node.find("window_s")) {
     const auto ends = window->items();
     visit.window_s = {ends[0].number(), ends[1].number()};
@@ -128,7 +128,7 @@ ChargingRequest read_charging(const Node& node, const std::map<std::string, Stat
     for (const auto& name : names->items()) {
       charging.stations.push_back(station_named(name, stations));
       if (stations.at(charging.stations.back()).charger_W <= 0)
-        name.fail("a station with charger_W", "how many watts does the charger there give?");
+        name.fail("a station with charger_W", "charger_W is the power of the charger there");
     }
     return charging;
   }
@@ -148,8 +148,9 @@ Objective read_objective(const Node& node) {
                                                    : Objective::Minimize::energy;
   const auto value = node.find("time_value_W");
   if (word == "energy_and_time" && !value)
-    node.fail("time_value_W beside energy_and_time", "how many watts is a second worth?");
-  if (word != "energy_and_time" && value) value->fail("nothing, unless minimize is energy_and_time");
+    node.fail("time_value_W together with energy_and_time", "time_value_W is the value of a second in watts");
+  if (word != "energy_and_time" && value)
+    value->fail("no such key", "only allowed with minimize: energy_and_time");
   return objective;
 }
 
@@ -169,13 +170,13 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
       !(root.has("visit") && mission.visit.empty()))
     root.fail_found("more than one of legs, visit, order", "one of them");
   for (const char* key : {"payload_by_action", "dwell_by_action_s"})
-    if (root.has(key) && !root.has("order")) root[key].fail("nothing, unless there is an order");
+    if (root.has(key) && !root.has("order")) root[key].fail("no such key", "only allowed with order:");
   const bool graph_or_map = !mission.map_file.empty() || !mission.route_graph_file.empty();
   for (const auto& leg : mission.legs)
     if (!leg.to.empty() && !graph_or_map)
       throw ConfigError({leg.marks.at("to"), leg.marks.key_path("to"), "a leg to a station, but no map",
-                         "map: and the name of a Nav2 map file",
-                         "without a map every leg gives its path or motion"});
+                         "map: with the name of a Nav2 map file",
+                         "without a map every leg needs its path or motion"});
   if (!mission.visit.empty() && !graph_or_map)
     root["visit"].fail("a mission with a map", "name it with map:");
 }
@@ -242,7 +243,7 @@ MissionRequest read_mission(const std::string& file, const ReadOptions& options)
 
 namespace {
 
-/// A payload that the robot may not carry is a mistake of the mission, told at the leg.
+/// A payload above the robot's limit is an error of the mission, reported at the leg.
 void check_payloads(const MissionRequest& request, const Robot& robot) {
   const double most_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
   const auto check = [&](double payload_kg, const ItemMarks& marks) {

@@ -41,7 +41,7 @@ Schema visit_schema() {
 
 Schema stations_schema() {
   return dictionary(map({required("x_m", number()), required("y_m", number()),
-                         optional("heading_rad", number(), "absent: any heading will do"),
+                         optional("heading_rad", number(), "absent: any heading"),
                          optional("charger_W", number(kNotNegative), "power of a charger here")}));
 }
 
@@ -89,14 +89,14 @@ Schema mission_schema() {
        optional("speed_zones", speed_zones_schema()), optional("stations", stations_schema()),
        optional("start", start_schema(), "default: the map's origin of coordinates, heading 0"),
        optional("legs", list(leg_schema())),
-       optional("visit", list(visit_schema()), "instead of legs: the order is the planner's to choose"),
+       optional("visit", list(visit_schema()), "instead of legs: the planner chooses the order"),
        optional("order", text(), "instead of legs: a VDA 5050 order (JSON)"),
        optional("payload_by_action", dictionary(number(kNotNegative)),
                 "with an order: kg that an action loads; `drop` unloads its figure, or all"),
        optional("dwell_by_action_s", dictionary(number(kNotNegative)),
                 "with an order: how long an action takes; its own parameter `duration` comes first"),
        optional("charging", charging_schema(),
-                "allows stops at chargers, put in where the battery's reserve would be touched"),
+                "allows charging stops, inserted where the mission would reach the battery's reserve"),
        optional("objective", objective_schema())});
 }
 

@@ -14,7 +14,7 @@ void need_robot(const MissionSource& source, const char* what) {
     throw ConfigError({{source.file, 1, 1},
                        "",
                        std::string(what) + ", which names no robot",
-                       "--robot and the name of a robot file",
+                       "--robot with the name of a robot file",
                        ""});
 }
 
@@ -35,9 +35,9 @@ void refuse_beside_mission(const char* option, const char* key, bool given) {
   if (given)
     throw ConfigError({{option, 0, 0},
                        "",
-                       "a value beside a mission or an order",
-                       "one beside a path only",
-                       std::string("a mission says it itself: ") + key});
+                       "a value together with a mission or an order",
+                       "a value only together with a path",
+                       std::string("the mission file has it: ") + key});
 }
 
 MissionRequest order_mission(const MissionSource& source) {

@@ -8,7 +8,7 @@
 
 namespace joulepath {
 
-/// What a command is given to plan: a mission, a VDA 5050 order or a path, and what stands beside it.
+/// The input of a planning command: a mission, a VDA 5050 order or a path, and its options.
 struct MissionSource {
   std::string file{};
   std::string robot_file{};            ///< takes the place of a mission's; orders and paths name none

@@ -19,7 +19,7 @@ Schema baselines_schema() {
   return list(
       open(map({required("name", text()), optional("feasible", boolean()), optional("energy_J", result()),
                 optional("motion_energy_J", result()), optional("duration_s", result()),
-                optional("later_s", result(), "beyond the plan's time, which no such profile keeps"),
+                optional("later_s", result(), "delay beyond the plan's time, which no such profile meets"),
                 optional("saving_percent", result()), optional("motion_saving_percent", result()),
                 optional("parameters", dictionary(result()))})));
 }
@@ -40,11 +40,11 @@ Schema leg_schema() {
   return open(
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
-           optional("charged_J", result(), "at the charger of a stop that was put in"),
+           optional("charged_J", result(), "at the charger of an inserted stop"),
            required("duration_s", result(), "without dwell"), required("distance_m", result()),
            required("payload_kg",
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
-           required("price_of_time_W", result(), "-dE/dT: what a second more would save"),
+           required("price_of_time_W", result(), "-dE/dT: the energy that one more second would save"),
            required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
            optional("alternatives", alternatives_schema(), "ways that were looked at, turns included"),
            optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));

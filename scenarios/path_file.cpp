@@ -25,7 +25,7 @@ Pose start_of(const std::vector<BezierPoints>& curves_m) {
   return start;
 }
 
-/// The cells of a column; a row without a number is an error unless `otherwise` stands for it.
+/// The cells of a column; a row without a number is an error unless `otherwise` replaces it.
 std::vector<double> column_of(const CsvTable& table, const char* name, std::optional<double> otherwise = {}) {
   const std::vector<double>* found = table.find(name);
   if (!found)

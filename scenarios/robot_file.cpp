@@ -68,7 +68,7 @@ std::vector<PayloadLimits> read_limits_by_payload(const Node& node) {
       if (const auto value = item.optional_number(limit.key))
         row.limit_by_key[std::string(limit.key)] = *value;
     if (!rows.empty() && row.payload_kg <= rows.back().payload_kg)
-      item["payload_kg"].fail("a payload greater than the row before", "the rows stand in order of payload");
+      item["payload_kg"].fail("a payload greater than the row before", "sort the rows by payload");
     rows.push_back(std::move(row));
   }
   return rows;

@@ -32,7 +32,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                        "time_s",
                        "times that do not overlap with those of " + files.front().table.file,
                        "files of one run on one clock",
-                       "map time_s so that all files count alike"});
+                       "map time_s so that all files use the same clock"});
   log.trajectory.time_s.assign(first, last);
   const auto skip = static_cast<std::size_t>(first - base.begin()),
              rows = static_cast<std::size_t>(last - first);
@@ -51,7 +51,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
     }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
-                             "several files, taken to the times of the first by linear interpolation",
+                             "several files, interpolated linearly to the times of the first",
                              files.size() - 1, log.trajectory.time_s.front()});
 }
 
@@ -150,7 +150,7 @@ void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
   if (std::abs(start_s) < kEpochClock_s) return;
   for (double& time_s : times) time_s -= start_s;
   char text[96];
-  std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are counted from there", start_s);
+  std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are relative to it", start_s);
   log.artifacts.push_back({"clock_origin", run, "time_s", text, 1, 0.0});
 }
 

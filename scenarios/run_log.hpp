@@ -11,7 +11,7 @@
 
 namespace joulepath {
 
-/// One run as its files tell it: the channels that are there, and what is odd about them.
+/// One run from its files: the present channels and their artifacts.
 struct RunLog {
   Trajectory trajectory{};
   std::vector<LogArtifact> artifacts{};

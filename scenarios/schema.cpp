@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
-
+// Design: docs/decisions/0010-one-schema-per-file.md
 namespace joulepath {
 namespace {
 
@@ -122,7 +122,7 @@ void check_map(const Node& node, const Schema& schema) {
     if (const auto* key = key_named(schema, name)) check_value(child, key->schema);
 }
 
-/// Alternatives are told apart by their shape; where two have the same, the last tells the mistake.
+/// Alternatives differ by their shape; where two have the same, the last one reports the error.
 void check_any_of(const Node& node, const Schema& schema) {
   std::vector<const Schema*> fitting;
   for (const auto& alternative : schema.parts)
@@ -252,7 +252,7 @@ std::string accepted_by(const Schema& schema) {
 void check_value(const Node& node, const Schema& schema) {
   if (node.kind() == Value::Kind::null && schema.nullable) return;
   if (node.kind() == Value::Kind::null)
-    node.fail(accepted_by(schema), "write a value, or leave the key away where it is optional");
+    node.fail(accepted_by(schema), "write a value, or omit the key if it is optional");
   switch (schema.kind) {
     case Schema::Kind::number:
     case Schema::Kind::integer:

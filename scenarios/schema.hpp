@@ -30,7 +30,7 @@ struct Schema {
   Range range{};                       ///< number, integer
   std::vector<std::string> choices{};  ///< choice
   std::vector<Schema>
-      parts{};              ///< list, dictionary: the item; any_of: alternatives, told apart by their shape
+      parts{};              ///< list, dictionary: the item; any_of: alternatives, each of a different shape
   std::size_t min_items{};  ///< list; map: how many keys at least
   std::size_t max_items{std::numeric_limits<std::size_t>::max()};
   std::vector<Key> keys;  ///< map

@@ -79,7 +79,7 @@ class BatchCommand : public Command {
   std::string examples() const override {
     return "  joulepath batch scenarios/missions --out out/batch -j 2\n"
            "  joulepath batch missions.jsonl --out out/batch --resume\n\n"
-           "Exit code 0: every mission has its line in results.jsonl, whatever it says; .status tells.\n";
+           "Exit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n";
   }
 
   void declare(CommandLine& line) override {
@@ -88,10 +88,11 @@ class BatchCommand : public Command {
         .required()
         .existing_path();
     line.option("--out", out_, "directory for results.jsonl, timings.jsonl, report.html").required();
-    line.option("-j,--jobs", jobs_, "missions planned at once").between(1, 256).shows_default();
+    line.option("-j,--jobs", jobs_, "number of missions planned in parallel").between(1, 256).shows_default();
     add_plan_options(line, options_);
-    line.flag("--baselines", options_.baselines, "compare every mission with trapezoids: half as fast");
-    line.flag("--resume", resume_, "continue an interrupted batch: what is done and unchanged is kept");
+    line.flag("--baselines", options_.baselines,
+              "compare every mission with trapezoids (takes twice the time)");
+    line.flag("--resume", resume_, "continue an interrupted batch: finished and unchanged missions are kept");
     add_common_flags(line, common_, "qjfu");
   }
 

@@ -80,11 +80,11 @@ class Calibrate : public Command {
 
   void declare(CommandLine& line) override {
     line.option("DATASET", dataset_, "dataset: the robot and its runs").required();
-    line.option("--robot", robot_, "robot file in place of the dataset's");
+    line.option("--robot", robot_, "robot file; replaces the dataset's");
     line.option("--out", out_, "robot file to write, with the calibrated values and their uncertainty");
     line.option(
             "--method", method_,
-            "full: whole runs, voltages and currents; steady: stretches of constant speed, friction alone")
+            "full: whole runs with voltages and currents; steady: stretches of constant speed, friction only")
         .one_of({"full", "steady"})
         .shows_default();
     add_common_flags(line, options_, "qjfu");

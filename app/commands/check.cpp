@@ -12,7 +12,7 @@ namespace {
 class Check : public Command {
  public:
   std::string name() const override { return "check"; }
-  std::string says() const override { return "validate input files and say what is wrong with them"; }
+  std::string says() const override { return "validate input files and report errors"; }
   std::string examples() const override {
     return "  joulepath check scenarios/missions/warehouse_pick.yaml\n"
            "  joulepath check robot.yaml dataset.yaml runs/run_01.csv\n"
@@ -23,7 +23,7 @@ class Check : public Command {
     line.option("FILE", files_,
                 "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
         .required();
-    line.option("--kind", kind_, "what the files are; default: as their schema line, name and keys tell");
+    line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     add_common_flags(line, options_, "qju");
   }
 

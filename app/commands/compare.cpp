@@ -53,7 +53,7 @@ class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
   std::string says() const override {
-    return "the plan of a mission or a path against every classic profile, at equal distance and time";
+    return "compare a plan with every classic profile on the same path in the same time";
   }
   std::string examples() const override {
     return "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"

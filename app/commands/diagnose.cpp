@@ -33,17 +33,17 @@ std::string cause_text(const Cause& cause) {
 std::string advice(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::no_gap:
-      return "Calibration and noise explain the runs: nothing to add to the model.";
+      return "Calibration errors and noise explain the runs. The model needs no correction.";
     case Verdict::explained:
-      return "The effects below explain the gap; plan with the corrected files.";
+      return "The effects below explain the gap. Plan with the corrected files.";
     case Verdict::partly_explained:
-      return "The effects below are there, and something that the catalog does not hold.";
+      return "The effects below explain a part of the gap. The rest is not in the catalog.";
     case Verdict::unexplained:
-      return "No effect of the catalog fits; nothing is corrected.";
+      return "No effect of the catalog fits. Nothing is corrected.";
     case Verdict::ambiguous:
-      return "These data cannot tell the effects below apart; run the experiment proposed.";
+      return "These runs cannot separate the effects below. Drive the proposed run.";
     case Verdict::too_little_data:
-      return "Too few runs to name a cause: candidates only.";
+      return "There are too few runs to name a cause. The list shows candidates only.";
   }
   return {};
 }
@@ -75,25 +75,25 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const Cause& cause : d.causes) {
     out << "cause: " << cause_text(cause) << "  probability " << figure(cause.probability, 3) << '\n';
     if (cause.indistinguishable_from.empty()) continue;
-    out << "  could also be:";
+    out << "  indistinguishable from:";
     for (const std::string& other : cause.indistinguishable_from) out << ' ' << other;
     out << '\n';
   }
-  if (!d.pinned_combination.empty()) out << "  the data pin: " << d.pinned_combination << '\n';
+  if (!d.pinned_combination.empty()) out << "  the data determine only: " << d.pinned_combination << '\n';
   if (d.causes.empty() && d.verdict != Verdict::no_gap)
     for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
   if (d.leftover_significant)
-    out << "left over: " << percent(d.leftover_share) << " of what could be explained, "
+    out << "leftover: " << percent(d.leftover_share) << " of what could be explained, "
         << d.leftover_description << '\n';
   if (d.decision_missions > 0)
-    out << "decisions: planning with the uncorrected model takes " << figure(d.joules_lost_percent, 2)
-        << " % more on " << d.decision_missions << " standard missions\n";
+    out << "decisions: plans with the uncorrected model need " << figure(d.joules_lost_percent, 2)
+        << " % more energy on " << d.decision_missions << " standard missions\n";
   if (!d.causes.empty())
-    out << "ceiling: any function of the signals shrinks the gap by " << percent(d.ceiling_shrink_fraction)
+    out << "ceiling: the most flexible model shrinks the gap by " << percent(d.ceiling_shrink_fraction)
         << '\n';
   if (!d.control_effect.empty())
-    out << "control: " << d.control_effect << " instead shrinks the gap by "
+    out << "control: " << d.control_effect << " (a wrong candidate) shrinks the gap by "
         << percent(d.control_shrink_fraction) << '\n';
   print_where(out, d);
   if (!d.next.motions.empty())
@@ -105,7 +105,7 @@ class Diagnose : public Command {
  public:
   std::string name() const override { return "diagnose"; }
   std::string says() const override {
-    return "where a sim-to-real gap lies, what causes it, how far it shrinks";
+    return "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it";
   }
   std::string examples() const override {
     return "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
@@ -116,10 +116,11 @@ class Diagnose : public Command {
     line.option("dataset", dataset_, "dataset file (YAML)").required();
     line.option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
         .required();
-    line.option("--robot", robot_, "robot file in place of the dataset's");
-    line.option("--without", without_, "effect to take out of the catalog (several: commas, or again)")
+    line.option("--robot", robot_, "robot file; replaces the dataset's");
+    line.option("--without", without_,
+                "remove an effect from the catalog (several: comma-separated, or repeat the option)")
         .comma_separated();
-    line.flag("--fail-on-gap", fail_on_gap_, "exit with 1 unless the verdict is no_gap");
+    line.flag("--fail-on-gap", fail_on_gap_, "exit code 1 unless the verdict is no_gap");
     add_common_flags(line, common_, "qjfu");
   }
 

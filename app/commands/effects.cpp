@@ -39,7 +39,7 @@ Json effect_json(const EffectDescription& effect) {
 class EffectsCommand : public Command {
  public:
   std::string name() const override { return "effects"; }
-  std::string says() const override { return "list the effects that model, simulator and diagnosis know"; }
+  std::string says() const override { return "list the catalog of effects"; }
   std::string examples() const override {
     return "  joulepath effects\n"
            "  joulepath effects --json | jq -r '.effects[].name'\n"
@@ -48,7 +48,7 @@ class EffectsCommand : public Command {
 
   void declare(CommandLine& line) override {
     line.flag("--json", json_, "as JSON");
-    line.flag("--markdown", markdown_, "as the document docs/effects.md");
+    line.flag("--markdown", markdown_, "as Markdown (docs/effects.md)");
   }
 
   int run() override {

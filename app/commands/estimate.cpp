@@ -82,18 +82,17 @@ class EstimateCommand : public Command {
 
   void declare(CommandLine& line) override {
     line.option("input", input_, "run log (CSV) or dataset (YAML)").required();
-    line.option("--robot", robot_, "robot file; a log needs it, a dataset's is replaced by it");
+    line.option("--robot", robot_, "robot file; required for a log, replaces a dataset's");
     line.option("--out", out_, "directory for estimate.json and the power over time of every run");
-    line.option(
-            "--smoothing-s", reach_s_,
-            "half width of the window in which speeds are smoothed; 0: none; default: as their noise asks")
+    line.option("--smoothing-s", reach_s_,
+                "half width of the smoothing window for speeds; 0: none; default: from their noise")
         .between(0.0, 5.0);
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
     const bool is_log = std::filesystem::path(input_).extension() == ".csv";
-    if (is_log && robot_.empty()) throw UsageError("a log does not name its robot: give --robot");
+    if (is_log && robot_.empty()) throw UsageError("a log has no robot: add --robot");
     const Dataset dataset =
         is_log ? dataset_of_log(input_, robot_)
                : read_dataset(input_, {.untrusted = common_.untrusted},
@@ -140,9 +139,9 @@ class EstimateCommand : public Command {
       std::cout << "fitness " << figure(100 * all.fitness, 4) << " % of " << all.compared
                 << " runs within 10 %; mean error " << figure(100 * all.mean_error, 3) << " %\n";
     std::cout
-        << "braking power counts with efficiency " << figure(all.regeneration_efficiency, 3)
-        << " (the robot file's), estimated and measured alike\n"
-        << "battery: what the task needs with 95 % probability, reserve kept; normal errors from the robot "
+        << "braking power counts with the robot file's efficiency " << figure(all.regeneration_efficiency, 3)
+        << ", for estimated and measured energy\n"
+        << "battery: 95 % upper bound of the task's energy, with the reserve; normal errors from the robot "
            "file's uncertainty"
         << (all.model_error ? " and the rms error of these runs" : "") << '\n';
   }

@@ -15,7 +15,7 @@ class Experiment : public Command {
  public:
   std::string name() const override { return "experiment"; }
   std::string says() const override {
-    return "write the run that would best separate what a diagnosis left open";
+    return "write the run that best separates the remaining candidates of a diagnosis";
   }
   std::string examples() const override {
     return "  joulepath experiment runs/dataset.yaml --out next_run.yaml\n"
@@ -25,7 +25,7 @@ class Experiment : public Command {
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_, "dataset file (YAML)").required();
     line.option("--out", out_, "mission file to write").required();
-    line.option("--robot", robot_, "robot file in place of the dataset's");
+    line.option("--robot", robot_, "robot file; replaces the dataset's");
     add_common_flags(line, common_, "qfu");
   }
 
@@ -35,7 +35,7 @@ class Experiment : public Command {
     const Diagnosis diagnosis = diagnose(dataset);
     if (diagnosis.next.motions.empty()) {
       if (!common_.quiet)
-        std::cout << "nothing to separate: the verdict is " << verdict_name(diagnosis.verdict) << '\n';
+        std::cout << "no candidates to separate: the verdict is " << verdict_name(diagnosis.verdict) << '\n';
       return kDone;
     }
     const std::filesystem::path folder = std::filesystem::absolute(out_).parent_path();

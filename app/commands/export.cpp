@@ -10,7 +10,7 @@
 #include "planner/mission/mission.hpp"
 #include "scenarios/export/exports.hpp"
 #include "scenarios/mission_file.hpp"
-
+// Design: docs/decisions/0091-exports-plan-again.md
 namespace joulepath {
 namespace {
 
@@ -23,7 +23,7 @@ void print_loss(const ControllerLoss& loss) {
   row("at its own time", loss.own_time);
   if (loss.plan_time) row("at the plan's time", *loss.plan_time);
   table.print(std::cout);
-  if (!loss.plan_time) std::cout << "later than the plan: no comparison at its time\n";
+  if (!loss.plan_time) std::cout << "later than the plan: no comparison at the plan's time\n";
   if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
 }
 
@@ -36,7 +36,7 @@ const ExportFormat& format_named(const std::string& name) {
 class ExportCommand : public Command {
  public:
   std::string name() const override { return "export"; }
-  std::string says() const override { return "plan a mission and write it for another program"; }
+  std::string says() const override { return "plan a mission and write it in the format of another program"; }
   std::string examples() const override {
     std::string text =
         "  joulepath export mission.yaml --to nav2_path --out path.json\n"
@@ -54,8 +54,8 @@ class ExportCommand : public Command {
     for (const ExportFormat& format : export_formats()) names.push_back(format.name);
     add_mission_source(line, source_);
     line.option("--to", format_, "format").required().one_of(names);
-    line.option("--out", out_, "file to write; further files take its name").required();
-    line.option("--rate", rate_Hz_, "samples per second, where the format has any").between(0.1, 1000.0);
+    line.option("--out", out_, "file to write; further files use its name").required();
+    line.option("--rate", rate_Hz_, "samples per second, for formats with samples").between(0.1, 1000.0);
     add_plan_options(line, options_);
     add_common_flags(line, common_, "qjfu");
   }
@@ -83,7 +83,7 @@ class ExportCommand : public Command {
   }
 
  private:
-  /// All or none: a name that exists is told before anything is written.
+  /// All or none: an existing file is reported before anything is written.
   void write_files(const Export& result) const {
     for (const ExportFile& file : result.files)
       if (!common_.force && std::filesystem::exists(file.name))

@@ -35,7 +35,7 @@ class FrontCommand : public Command {
  public:
   std::string name() const override { return "front"; }
   std::string says() const override {
-    return "the whole energy-time front of a mission or a path, with exact slopes";
+    return "compute the least energy for each duration of a mission or a path, with exact slopes";
   }
   std::string examples() const override {
     return "  joulepath front scenarios/missions/warehouse_pick.yaml --points 30\n"
@@ -45,10 +45,10 @@ class FrontCommand : public Command {
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult, false);
-    line.option("--points", points_, "points of the front; deadlines and durations are left aside")
+    line.option("--points", points_, "points of the front; deadlines and durations are ignored")
         .between(2, 2000)
         .shows_default();
-    line.option("--baselines", baseline_points_, "points beside which the classic profiles stand; 0: none")
+    line.option("--baselines", baseline_points_, "points with classic profiles for comparison; 0: none")
         .between(0, 2000)
         .shows_default();
     add_plan_options(line, study_.plan, "nodes on each stretch");

@@ -67,7 +67,9 @@ std::string simulated_log(const Robot& robot, int index) {
 class Init : public Command {
  public:
   std::string name() const override { return "init"; }
-  std::string says() const override { return "write a commented starter: robot, map, mission and dataset"; }
+  std::string says() const override {
+    return "write commented example files: robot, map, mission and dataset";
+  }
   std::string examples() const override {
     return "  joulepath init my_robot\n"
            "  joulepath plan my_robot/mission.yaml --out my_robot/out\n"

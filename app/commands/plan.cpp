@@ -38,15 +38,15 @@ class PlanCommand : public Command {
     add_mission_source(line, source_);
     line.option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
         .required();
-    line.option("--solver", solver_, "ipopt (reference) or fast (our own, hands over where it must)")
+    line.option("--solver", solver_, "ipopt (reference) or fast (built-in; falls back to ipopt)")
         .one_of({"ipopt", "fast"})
         .shows_default();
     add_plan_options(line, options_);
-    line.option("--accuracy", options_.accuracy, "relative accuracy of energy at which refinement stops")
+    line.option("--accuracy", options_.accuracy, "relative energy accuracy that ends grid refinement")
         .between(1e-7, 1e-1)
         .shows_default();
     line.option("--without", without_,
-                "leave out a step of choosing ways, for comparison: corners (stop, turn, go), routes (the "
+                "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
                 "shortest), stops (turn on the spot there), refinement; or baselines")
         .one_of({"corners", "routes", "stops", "refinement", "baselines"});
     add_common_flags(line, common_, "qjfu");

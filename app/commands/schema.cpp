@@ -19,7 +19,9 @@ class SchemaCommand : public Command {
            "  # yaml-language-server: $schema=robot.schema.json";
   }
 
-  void declare(CommandLine& line) override { line.option("KIND", kind_, "without it: list the kinds"); }
+  void declare(CommandLine& line) override {
+    line.option("KIND", kind_, "kind of file; without it: list the kinds");
+  }
 
   int run() override {
     if (kind_.empty()) {

@@ -102,26 +102,30 @@ class SimulateCommand : public Command {
         .required();
     line.option("--out", out_, "directory for the logs, dataset.yaml, robot.yaml, simulation.json")
         .required();
-    line.option("--robot", robot_, "robot file; wins over a mission's");
+    line.option("--robot", robot_, "robot file; replaces a mission's");
     line.option("--effect", effects_,
-                "NAME:PARAMETER=VALUE,... that the controller does not know (repeatable)")
+                "effect that the controller does not know, as NAME:PARAMETER=VALUE,... (repeatable)")
         .repeatable();
-    line.option("--repeat", repeat_, "runs of each input, with other noise").between(1, 1000);
+    line.option("--repeat", repeat_, "number of runs of each input, each with its own noise")
+        .between(1, 1000);
     line.option("--seed", seed_, "seed of the sensors' noise").shows_default();
-    line.option("--time-of-day-s", time_of_day_s_, "seconds since the robot was cold, at the first run");
+    line.option("--time-of-day-s", time_of_day_s_,
+                "operating time of the robot before the first run (heating)");
     line.option("--sample-rate-Hz", sensors_.sample_rate_Hz, "rows per second of the log")
         .between(1.0, 1000.0)
         .shows_default();
-    line.option("--delay-s", sensors_.electrical_delay_s, "age of the electrical readings").between(0.0, 5.0);
+    line.option("--delay-s", sensors_.electrical_delay_s, "delay of the electrical channels")
+        .between(0.0, 5.0);
     line.flag("--ideal-sensors", ideal_, "no noise, no quantization");
-    line.option("--inductance-H", inductance_H_, "of each armature; 0 neglects it").between(0.0, 1.0);
-    line.option("--control-period-s", controller_.period_s, "of the wheel-speed loops")
+    line.option("--inductance-H", inductance_H_, "inductance of each armature; 0: neglected")
+        .between(0.0, 1.0);
+    line.option("--control-period-s", controller_.period_s, "period of the wheel-speed loops")
         .between(1e-4, 0.1)
         .shows_default();
-    line.option("--bandwidth-per-s", controller_.bandwidth_per_s, "of the wheel-speed loops")
+    line.option("--bandwidth-per-s", controller_.bandwidth_per_s, "bandwidth of the wheel-speed loops")
         .between(0.1, 200.0)
         .shows_default();
-    line.flag("!--no-feed-forward", controller_.feed_forward, "feedback alone");
+    line.flag("!--no-feed-forward", controller_.feed_forward, "feedback only");
     add_common_flags(line, common_, "qjfu");
   }
 
@@ -199,9 +203,9 @@ class SimulateCommand : public Command {
            (change >= 0 ? "+" : "") + figure(change, 3) + " %", figure(run["executed"]["duration_s"]) + " s",
            figure(difference["position_m"], 3) + " m", figure(difference["heading_rad"], 3) + " rad"});
       if (run["battery_gave_way"])
-        std::cerr << run["file"] << ": the battery was asked for more power than it has\n";
+        std::cerr << run["file"] << ": the required power exceeds the battery's maximum\n";
       if (const double share = run["saturated_fraction"]; share > 0.001)
-        std::cerr << run["file"] << ": the drivers were at their limit for " << figure(100 * share, 2)
+        std::cerr << run["file"] << ": the motor drivers were saturated for " << figure(100 * share, 2)
                   << " % of the time\n";
     }
     table.print(std::cout);

@@ -49,7 +49,7 @@ std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diag
     const bool is_validation = std::ranges::count(diagnosis.validation_runs, signals.name) > 0;
     extras.runs.push_back(compared(signals, nominal, corrected, is_validation, is_corrected));
   }
-  // Runs that took no part in finding the cause come first.
+  // Held-out runs come first.
   std::ranges::stable_partition(extras.runs,
                                 [](const RunComparison& run) { return run.use == "validation"; });
   return diagnosis_report_html(nlohmann::json::parse(diagnosis_json), extras);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
+// Design: docs/decisions/0071-paper-benchmark.md
 namespace joulepath::bench {
 namespace {
 

@@ -4,7 +4,7 @@
 
 namespace joulepath::calibration {
 
-/// Quantities of a robot file that fitted values stand for.
+/// Robot file values in the fit's own parameters.
 struct DerivedInertia {
   double wheel_axle_kg_m2{};   ///< I_w + I_s = J - m r^2/2
   double chassis_yaw_kg_m2{};  ///< I_c, from D

@@ -38,9 +38,10 @@ constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow afte
   if (!logs) refuse(dataset, "no run with a log", accepted, "an energy-only run cannot calibrate a model");
   if (!currents)
     refuse(dataset, "no run with motor currents", accepted,
-           "torques are seen through currents; map the columns if they have other names");
+           "currents measure the torques; map the columns if they have other names");
   if (!speeds)
-    refuse(dataset, "no run with wheel speeds", accepted, "linear_speed_m_s and angular_speed_rad_s will do");
+    refuse(dataset, "no run with wheel speeds", accepted,
+           "linear_speed_m_s and angular_speed_rad_s are sufficient");
   refuse(dataset, "no run has both wheel speeds and motor currents over 20 samples", accepted, {});
 }
 
@@ -187,7 +188,7 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
       const double moved = center[p] - parameter.value, least = p < kFitParameters ? lower[p] : 0.0;
       for (double& end : parameter.interval_95) end = std::max(least, end + moved);
       parameter.note = source == kStraightInertia
-                           ? "the robot file's masses alone make up more than the data see"
+                           ? "the robot file's masses alone exceed the value in the data"
                            : "at its lower bound";
     }
     if (p >= kFitParameters && fit.can.free[source] && !fit.result.at_bound[source]) {
@@ -209,7 +210,7 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
     refuse(
         dataset,
         "wheels that turn one way in " + std::to_string(static_cast<long>(fit.all.torque_count)) + " samples",
-        "at least 100 samples above 0.3 rad/s", "friction has a sign, and rest has none");
+        "at least 100 samples above 0.3 rad/s", "the sign of friction is unknown at rest");
   fit.can = identifiable(fit.all, nominal);
   if (std::none_of(fit.can.free.begin(), fit.can.free.end(), [](bool free) { return free; }))
     refuse(dataset, "runs that excite no parameter", "runs with several speeds and accelerations", {});
@@ -239,7 +240,7 @@ CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
                        .key = "effects",
                        .found = std::to_string(dataset.robot.effects.size()) + " effects",
                        .accepted = "a robot without effects",
-                       .hint = "calibration fits the nominal model; effects would be calibrated away"});
+                       .hint = "calibration fits the nominal model and would absorb the effects"});
   const std::vector<SmoothedRun> runs = smooth_runs(dataset);
   if (runs.empty()) refuse_channels(dataset);
   CalibrationResult result =
@@ -247,12 +248,12 @@ CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
   for (const Run& run : dataset.runs)
     if (run.current_sign_from_motion) {
       result.notes.push_back(
-          "currents are unsigned in the logs: signs were taken from the motion and braking was left out");
+          "currents are unsigned in the logs: signs come from the motion, and braking is excluded");
       break;
     }
   for (const Run& run : dataset.runs)
     if (!run.payload_known) {
-      result.notes.push_back("the payload is not stated in every run: 0 kg was taken");
+      result.notes.push_back("the payload is not stated in every run: 0 kg is assumed");
       break;
     }
   return result;

@@ -18,7 +18,7 @@ enum class CalibrationMethod {
 enum class Visibility {
   seen,
   weak,   ///< the interval is wider than half of the value
-  unseen  ///< the data cannot tell it (or not apart from others): the robot file's value was kept
+  unseen  ///< the data do not determine it alone: the robot file's value was kept
 };
 
 struct CalibratedParameter {

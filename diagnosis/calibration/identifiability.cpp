@@ -81,8 +81,7 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
       const auto parameter = static_cast<std::size_t>(free[static_cast<std::size_t>(held)]);
       const std::string with = others(direction, free, held);
       result.free[parameter] = false;
-      result.why[parameter] =
-          with.empty() ? "the runs hardly excite it" : "cannot be told apart from " + with;
+      result.why[parameter] = with.empty() ? "the runs hardly excite it" : "cannot be separated from " + with;
       continue;
     }
     if (result.free[kPayloadFactor]) {

@@ -6,7 +6,7 @@
 
 namespace joulepath::calibration {
 
-/// What the data can tell apart.
+/// Which parameters the data can separate.
 struct Identifiability {
   FreeParameters free{};                          ///< to be fitted
   std::array<std::string, kFitParameters> why{};  ///< for those that are not: what is missing

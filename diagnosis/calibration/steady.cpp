@@ -96,7 +96,7 @@ void require_usable(const Dataset& dataset, const std::vector<SteadySegment>& se
                        .found = "steady stretches at one speed alone (" + std::to_string(slowest) + " to " +
                                 std::to_string(fastest) + " rad/s at the wheel)",
                        .accepted = "at least two speeds, the faster 1.2 times the slower",
-                       .hint = "one speed cannot tell Coulomb from viscous friction"});
+                       .hint = "one speed cannot separate Coulomb from viscous friction"});
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   if (friction_deviation > 0) result.robot.uncertainty["friction_torque_Nm"] = friction_deviation;
   if (viscous_deviation > 0) result.robot.uncertainty["viscous_friction_Nm_s_rad"] = viscous_deviation;
   result.current_rms_after_A = current_rms_A(result.robot, result.segments);
-  result.notes.push_back("constant speeds cannot see inertias; R and Kt n are taken from the robot file");
+  result.notes.push_back("constant speeds do not show inertias; R and Kt n are the robot file's");
   return result;
 }
 

@@ -28,7 +28,7 @@ PayloadInertia payload_inertia(const Robot& robot) {
   return {r * r / 2, (robot.inertia.payload_yaw_inertia_m2 + d_p * d_p) * r * r / (2 * l * l)};
 }
 
-/// Torque that a center of mass ahead of the axle asks for at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v
+/// Torque of a center of mass ahead of the axle at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v
 /// w.
 Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) {
   const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;

@@ -49,13 +49,13 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     survey.notes.push_back(std::string(share > 0 ? "some runs have no " : "no ") + channel + ": " +
                            consequence);
   };
-  lacks("motor_current", "mechanics show in the voltage alone, where winding and sensors mix in",
+  lacks("motor_current", "mechanics are visible in the voltage only, mixed with winding and sensor errors",
         [](const RunSignals& r) {
           return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
         });
   lacks("motor_voltage",
-        "winding, driver and magnet errors cannot be told from errors of the current sensor; energies are "
-        "those that the currents take by the robot file's winding",
+        "winding, driver and magnet errors cannot be separated from errors of the current sensor; energies "
+        "are computed from the currents and the robot file's winding",
         [](const RunSignals& r) {
           return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
         });
@@ -63,7 +63,7 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
         [](const RunSignals& r) { return r.battery_power_W.size() > 0; });
   lacks("pose", hidden_without(&Needs::pose),
         [](const RunSignals& r) { return r.x_m.size() > 0 && r.heading_measured; });
-  lacks("gyro", "yaw rates are seen through the pose alone",
+  lacks("gyro", "yaw rates are visible in the pose only",
         [](const RunSignals& r) { return r.gyro_yaw_rate_rad_s.size() > 0; });
   lacks("start_time", hidden_without(&Needs::time_of_day),
         [](const RunSignals& r) { return r.time_of_day_known; });
@@ -81,16 +81,17 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     }
   }
   if (payloads.size() < 2)
-    survey.notes.push_back("one payload only: what grows with the load looks like what does not");
+    survey.notes.push_back(
+        "one payload only: losses that grow with the load cannot be separated from constant ones");
   if (total > 0 && turning < kLeastManoeuvreShare * total)
     survey.notes.push_back("no turns: " + hidden_without(&Needs::turns));
   if (total > 0 && reverse < kLeastManoeuvreShare * total)
     survey.notes.push_back("no reversing: " + hidden_without(&Needs::reversing));
   if (total > 0 && still < kLeastStandstillShare * total)
-    survey.notes.push_back("no standstill: sensor offsets show less clearly");
+    survey.notes.push_back("no standstill: sensor offsets are less visible");
   for (const Run& run : dataset.runs)
     if (!run.payload_known) {
-      survey.notes.push_back("payload unknown in some runs: 0 kg is taken");
+      survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");
       break;
     }
   return survey;
@@ -111,7 +112,7 @@ std::vector<std::string> artifact_texts(const Dataset& dataset) {
     texts.push_back(runs_text(runs_with[finding], dataset.runs.size()) + finding);
   for (const Run& run : dataset.runs)
     if (run.current_sign_from_motion) {
-      texts.push_back("currents are unsigned: their sign is taken from the wheels' motion");
+      texts.push_back("currents are unsigned: they get the sign of the wheels' motion");
       break;
     }
   return texts;

@@ -27,7 +27,7 @@ Equations with_ridge(Equations equations, double width) {
   return equations;
 }
 
-/// Loss of diagnosis runs under fits that they took no part in.
+/// Loss of diagnosis runs under fits without them.
 double left_out_loss(const Equations& equations, const std::vector<int>& columns, double dispersion) {
   double loss = 0;
   for (std::size_t fold = 0; fold < kRidgeFolds; ++fold) {

@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-/// Labels that are named, or that the data cannot tell from a named one.
+/// Labels of named effects, and of effects that the data cannot separate from them.
 std::set<std::string> labels_spoken_for(const std::vector<ActiveEffect>& named,
                                         const std::vector<Cause>& causes) {
   std::set<std::string> labels;

@@ -7,10 +7,10 @@ namespace joulepath {
 Correction correction_of(const Examination& x, const Validation& v, const EnergyGap& gap) {
   if (v.judgment.named.empty()) return {};
   if (v.judgment.verdict == Verdict::ambiguous)
-    return {.notes = {"which effect of the group it is cannot be told: no correction is written"}};
+    return {.notes = {"these runs cannot separate the effects of the group: no correction is written"}};
   if (gap.after_J > kToleratedWorsening * gap.before_J &&
       gap.after_percent > kFloorsLeft * gap.noise_floor_percent)
-    return {.notes = {"the correction does not shrink the held-out energy gap: none is written"}};
+    return {.notes = {"the correction does not shrink the held-out energy gap: no correction is written"}};
   ModelState constants = v.state;
   constants.effects.clear();
   Robot robot = x.point_of(constants).robot;

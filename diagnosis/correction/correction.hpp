@@ -11,7 +11,7 @@ struct Correction {
   std::vector<std::string> notes{};
 };
 
-/// The robot as it seems to be, where one cause is told and the held-out energy does not get worse.
+/// The corrected robot, if the cause is unambiguous and the held-out energy gap does not grow.
 [[nodiscard]] Correction correction_of(const Examination& examination, const Validation& validation,
                                        const EnergyGap& gap);
 

@@ -14,8 +14,8 @@ namespace {
 /// Logs without any noise (a simulator's) have no floor to measure.
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
 
-/// Gap that the calibrated and corrected model leaves on the runs it was fitted to, yet no more than
-/// the scatter between runs allows: a wrong model must not pass its own error for noise.
+/// Gap that the calibrated and corrected model leaves on the runs it was fitted to, but at most
+/// what the scatter between runs allows: the error of a wrong model must not count as noise.
 double noise_floor_percent(const Examination& x, const Validation& v) {
   const ModelPoint point = x.point_of(v.state);
   const double left = energy_gap_percent(run_energies(v.fitted.signals, point));
@@ -24,7 +24,7 @@ double noise_floor_percent(const Examination& x, const Validation& v) {
                                                        x.id.equations.noise));
 }
 
-/// A constant that is far out is an effect: as the rival of a named one it stays within its box.
+/// A constant far outside its uncertainty is an effect: as the rival of a named one it stays within its box.
 ModelState within_calibration(const Examination& x, ModelState state) {
   for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
     const double most = kCalibrationBox * x.id.nuisances[k].sigma;
@@ -42,12 +42,12 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
   for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
   const double chance = kChanceLoss * x.id.dispersion;
   if (sum > 0 && (loss.size() < kFewHeldOut || sum * sum > square || sum > chance)) return true;
-  // Held-out runs that hardly show a certain effect (no turn, say) must only not speak against it.
+  // Held-out runs that hardly show a certain effect (for example no turn) must only not contradict it.
   return x.best().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
 }
 
-/// Without any effect, whether the calibrated model leaves much of the held-out energy; yes where nobody
-/// can tell.
+/// Without any effect, whether the calibrated model leaves much of the held-out energy; yes if that is
+/// unknown.
 bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated) {
   const double left =
       energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0), x.point_of(calibrated.state)));
@@ -94,7 +94,7 @@ double unexplained_energy_share(const Examination& x, const std::vector<RunSigna
   return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;
 }
 
-/// Names nothing any more; calibration alone is fitted.
+/// Withdraws all names and fits the calibration alone.
 void withdraw(const Examination& x, Validation& v, const std::string& why) {
   v.judgment.notes.push_back(why);
   v.judgment.named.clear();
@@ -147,7 +147,8 @@ Validation validate(const Examination& x, const Judgment& by_diagnosis_runs) {
   if (!named.empty()) keep_constants_that_fit(x, v);
   if (verdict == Verdict::no_gap && calibration_leaves_a_gap(x, v)) {
     verdict = Verdict::unexplained;
-    v.judgment.notes.push_back("calibration errors do not make up the gap, and no known effect holds");
+    v.judgment.notes.push_back(
+        "calibration errors do not explain the gap, and no effect of the catalog holds");
   }
   return v;
 }

@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// What the held-out runs leave of a judgment, and the model that stands for it.
+/// The judgment after the held-out runs, and its fitted model.
 struct Validation {
   Judgment judgment{};
   double energy_left_share{};  ///< of the held-out gap, where the names explain a part only

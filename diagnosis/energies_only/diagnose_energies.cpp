@@ -11,7 +11,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0044-energies-alone.md
 namespace joulepath {
 namespace {
 
@@ -35,10 +35,10 @@ void tell_limits(EnergyExamination& x) {
   std::vector<std::string>& notes = x.report.notes;
   x.report.missing_channels = {"time series"};
   notes.push_back(
-      "no run has a log: the motions are taken as prescribed, braking rates and entry speeds as "
+      "no run has a log: the motions count as prescribed, with braking rates and entry speeds "
       "known to 20 %");
-  notes.push_back("negative power counts as lost at each wheel but for the robot file's regeneration");
-  if (!x.problem.hidden.empty()) notes.push_back("cannot be seen in these runs: " + listed(x.problem.hidden));
+  notes.push_back("negative power counts as lost at each wheel except for the robot file's regeneration");
+  if (!x.problem.hidden.empty()) notes.push_back("not visible in these runs: " + listed(x.problem.hidden));
 }
 
 void rank(EnergyExamination& x) {
@@ -48,7 +48,7 @@ void rank(EnergyExamination& x) {
   if (x.report.ranking.size() > kLongestRanking) x.report.ranking.resize(kLongestRanking);
 }
 
-/// Before and after on rows that took no part.
+/// Before and after on held-out rows.
 void measure(EnergyExamination& x, const HeldOutGaps& gaps) {
   EnergyGap& energy = x.report.gap.energy;
   double measured_J = 0, bias_before_J = 0, bias_after_J = 0;
@@ -97,7 +97,7 @@ void withdraw(EnergyExamination& x) {
   x.report.verdict = is_left(energy, energy.before_percent) ? Verdict::unexplained : Verdict::too_little_data;
 }
 
-/// Names that chance or the robot file itself would do for are not given.
+/// Names are withdrawn if chance or the robot file itself explains the gap as well.
 void judge(EnergyExamination& x) {
   EnergyGap& energy = x.report.gap.energy;
   const std::vector<int>& best = x.explanations.front().candidates;
@@ -142,7 +142,7 @@ void report_causes(EnergyExamination& x) {
   const std::vector<std::size_t> all = every(x.problem.runs.size());
   const EnergyFit fit = fit_energies(x.problem, all, x.named);
   const Explanation& best = x.explanations.front();
-  // The motion was not recorded: a part that is left may be its doing, and so may the part explained.
+  // The motion was not recorded: it may cause the leftover, and also the explained part.
   const EnergyGap& energy = x.report.gap.energy;
   const double left = is_left(energy, energy.after_percent) ? energy.after_J / energy.before_J : 0.0;
   bool sure = left == 0;
@@ -177,7 +177,7 @@ void report_causes(EnergyExamination& x) {
   }
 }
 
-/// What the shrink is held against: any smooth function of the circumstances, and a wrong candidate.
+/// References for the shrink: any smooth function of the circumstances, and a wrong candidate.
 void report_controls(EnergyExamination& x) {
   x.report.ceiling_shrink_fraction = shrink_fraction(smooth_held_out_gaps(x.problem, x.folds));
   std::set<std::string> spoken_for;
@@ -225,9 +225,9 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
   const HeldOutGaps gaps = held_out_gaps(x.problem, x.folds);
   measure(x, gaps);
   for (std::size_t r : gaps.runs) x.report.validation_runs.push_back(x.problem.runs[r].name);
-  x.report.validation_method =
-      x.folds.size() == 1 ? "held-out rows, never used to choose or fit"
-                          : "each row in turn, its effects chosen and fitted on the other folds' rows";
+  x.report.validation_method = x.folds.size() == 1
+                                   ? "held-out rows, never used to choose or fit"
+                                   : "each row once, with effects chosen and fitted on the other folds";
   judge(x);
   if (x.named.empty())
     correct_nothing(x.report.gap.energy);
@@ -251,7 +251,7 @@ std::string told_by_energies(const Dataset& dataset, const Correction& correctio
   }
   char text[200];
   std::snprintf(text, sizeof text,
-                "%zu runs without a log took no part; their energy gap is %.3g %% before the correction and "
+                "%zu runs without a log were held out; their energy gap is %.3g %% before the correction and "
                 "%.3g %% after it",
                 runs.size(), 100 * before_J / measured_J, 100 * after_J / measured_J);
   return text;

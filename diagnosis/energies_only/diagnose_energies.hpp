@@ -9,7 +9,7 @@ namespace joulepath {
 ///
 /// Each run is two numbers (sum of the wheels, right less left), so names are rare: the motion was not
 /// recorded, and braking rate and entry speed are nuisances of 20 %. How far the gap shrinks is measured on
-/// rows that took no part in choosing or fitting: `use: validation` where the dataset says it, else every run
+/// held-out rows, not used to choose or fit: `use: validation` where the dataset has it, else every run
 /// in turn (four folds). Throws ConfigError where a motion cannot be driven.
 [[nodiscard]] Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& options);
 

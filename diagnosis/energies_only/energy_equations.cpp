@@ -34,7 +34,7 @@ Eigen::VectorXd features_of(const EnergyRun& run) {
 /// Ridge regression of a relative error on the runs' circumstances.
 struct SmoothFit {
   Eigen::VectorXd coefficient{};
-  double left_square{};  ///< mean square of what is left, degrees of freedom taken off
+  double left_square{};  ///< mean square of the residual, corrected for degrees of freedom
   double freedom{};
 };
 

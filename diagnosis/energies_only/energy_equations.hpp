@@ -7,18 +7,18 @@
 
 namespace joulepath {
 
-/// What is compared of a run: sum of the wheels, right less left; or the battery's energy alone (J).
+/// Compared quantities of a run: sum of the wheels, right minus left; or the battery's energy alone (J).
 [[nodiscard]] Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules);
 [[nodiscard]] Eigen::VectorXd measured_rows(const EnergyRun& run);
 
-/// How much energies scatter from run to run for no reason that the runs tell, relative to a run's energy.
+/// Unexplained scatter of energies from run to run, relative to a run's energy.
 struct EnergyNoise {
   double sum{};         ///< of both wheels, or of the battery
-  double difference{};  ///< right less left
+  double difference{};  ///< right minus left
 };
 
-/// Scatter about a smooth function of payload, acceleration and kind of path, degrees of freedom taken off;
-/// a usual value where there are too few runs to tell.
+/// Scatter about a smooth function of payload, acceleration and kind of path, corrected for degrees of
+/// freedom; a typical value where there are too few runs.
 [[nodiscard]] EnergyNoise estimate_energy_noise(const std::vector<EnergyRun>& runs, const Robot& robot);
 
 /// Expected |gap| (percent of the measured energy) of a model that is right.
@@ -30,9 +30,9 @@ struct EnergyNoise {
                                            const std::vector<std::size_t>& fitted,
                                            const std::vector<std::size_t>& judged, const Robot& robot);
 
-/// The linear problem about a state: of each run two rows (sum of the wheels, right less left; or the battery
-/// alone) over their scatter. `doubts` are the values of kMotionDoubts that the state assumes, in sigmas;
-/// their columns come right after the nuisances'.
+/// The linear problem about a state: of each run two rows (sum of the wheels, right minus left; or the
+/// battery alone) over their scatter. `doubts` are the values of kMotionDoubts that the state assumes, in
+/// sigmas; their columns come right after the nuisances'.
 [[nodiscard]] Equations build_energy_equations(const std::vector<EnergyRun>& runs, const Robot& robot,
                                                const std::vector<Nuisance>& nuisances,
                                                const ModelState& state, const Eigen::VectorXd& doubts,

@@ -12,7 +12,7 @@ namespace {
 constexpr int kIterations = 3;
 constexpr int kNoiseRounds = 4;
 
-/// Where on the floor, when in the day and at which sample something happened, energies do not say.
+/// Energies do not contain the place on the floor, the time of day and the sample of an event.
 std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
   const bool dated =
       std::ranges::all_of(runs, [](const EnergyRun& run) { return run.motion.signals.time_of_day_known; });
@@ -43,7 +43,7 @@ void find_visible(EnergyProblem& problem) {
   for (const std::string& label : seen) problem.hidden.erase(label);
 }
 
-/// Amplitude of each candidate that changes the runs' energy by as much as matters.
+/// Amplitude of each candidate that changes the runs' energy by a material amount.
 std::vector<double> least_amplitudes(const EnergyProblem& problem) {
   const Equations& equations = problem.equations;
   const LinearProblem all = sum_runs(equations.runs, every(problem.runs.size()), equations.prior_sd);
@@ -76,8 +76,8 @@ void linearize(EnergyProblem& problem, const std::vector<Candidate>& candidates)
                              no_doubts(), candidates, problem.noise);
 }
 
-/// What the best explanation leaves is not noise of the readings, but it says how far the model can be
-/// believed: the scatter grows until the best explanation is as good as it claims.
+/// The residual of the best explanation is not noise of the readings, but it limits the confidence in the
+/// model: the scatter grows until the best explanation is as good as it claims.
 void add_model_error(EnergyProblem& problem) {
   for (int round = 0; round < kNoiseRounds; ++round) {
     const Explanation best = explain_energies(problem, every(problem.runs.size())).front();

@@ -16,7 +16,7 @@ struct EnergyFold {
 [[nodiscard]] std::vector<EnergyFold> energy_folds(const Dataset& dataset,
                                                    const std::vector<EnergyRun>& runs);
 
-/// Gaps (J) of judged runs under models that they took no part in, run by run.
+/// Gaps (J) of judged runs under models fitted without them, run by run.
 struct HeldOutGaps {
   std::vector<std::size_t> runs{};
   std::vector<double> before_J{};  ///< the robot file

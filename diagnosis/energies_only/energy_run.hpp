@@ -22,7 +22,7 @@ struct DrivenMotion {
   Eigen::VectorXd step_s{};
 };
 
-/// How a prescription may have been driven other than it says; each a common factor of all runs.
+/// How a drive may differ from its prescription; each a common factor of all runs.
 enum class MotionDoubt { deceleration, start_speed };
 inline constexpr std::array kMotionDoubts{MotionDoubt::deceleration, MotionDoubt::start_speed};
 
@@ -51,7 +51,7 @@ struct EnergyRun {
 /// cannot be driven.
 [[nodiscard]] std::vector<EnergyRun> energy_runs(const Dataset& dataset);
 
-/// What a model says that a motion takes.
+/// The energy of a motion by a model.
 [[nodiscard]] RunJoules joules_of(const DrivenMotion& motion, const ModelPoint& point);
 
 }  // namespace joulepath

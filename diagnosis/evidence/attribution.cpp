@@ -24,7 +24,7 @@ bool sizes_hold(const Equations& equations, const std::vector<int>& columns, con
   return true;
 }
 
-/// Amplitude of each candidate of an explanation, as a multiple of what just matters.
+/// Amplitude of each candidate of an explanation, as a multiple of the just material amplitude.
 std::vector<double> sizes_of(const Equations& equations, const Explanation& explanation,
                              const Eigen::VectorXd& mean, const std::vector<double>& least_amplitude) {
   std::vector<double> sizes;

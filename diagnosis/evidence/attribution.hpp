@@ -10,7 +10,7 @@
 
 namespace joulepath {
 
-/// One set of effects as an explanation, with what speaks for it.
+/// One set of effects as an explanation, with its evidence.
 struct Explanation {
   std::vector<int> candidates{};  ///< of the equations, in order of index
   std::vector<int> columns{};
@@ -18,7 +18,7 @@ struct Explanation {
   Eigen::MatrixXd covariance{};
   double score{};  ///< log evidence and log prior, relative to "nothing"
   double loss{};
-  std::vector<double> size{};  ///< of each candidate, in amplitudes that just matter
+  std::vector<double> size{};  ///< of each candidate, in just material amplitudes
   bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
 };
 
@@ -27,16 +27,16 @@ struct SearchOptions {
   double dispersion{1.0};
   std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
-  /// Evidence that makes an effect below the materiality floor be named all the same. Infinite: smaller
-  /// ones are passed over.
+  /// Log evidence needed to name an effect below the materiality floor. Infinite: such effects are
+  /// skipped.
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
   /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
 };
 
-/// How far an effect of an explanation may be the others' inexact form, 0 to 1: what they can draw of its
-/// signature, their strengths free to vary as their forms allow. Near 0 where they act on other channels
-/// or at other times.
+/// How far an effect of an explanation may be the others' inexact form, 0 to 1: the part of its
+/// signature that they reproduce with strengths free to vary as their forms allow. Near 0 where they act on
+/// other channels or at other times.
 [[nodiscard]] double ghost_share(const LinearProblem& problem, const Equations& equations,
                                  const Explanation& explanation, int candidate);
 

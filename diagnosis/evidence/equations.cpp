@@ -36,7 +36,7 @@ std::vector<Candidate> candidates_about(const Robot& robot, const ModelState& st
   return list;
 }
 
-/// Parameters are absolute: what the state has already explained is put back.
+/// Parameters are absolute: the part that the state already explains is added.
 void make_absolute(const std::vector<Column>& columns, RunRows& rows) {
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (columns[k].current != 0) rows.residual.value += columns[k].current * rows.columns[k];
@@ -86,7 +86,7 @@ std::vector<RunEquations> marginalize_all(const std::vector<RawRunEquations>& ra
   return runs;
 }
 
-/// The fit of everything at once: what it leaves is taken for noise.
+/// The fit of everything at once: its residual counts as noise.
 Eigen::VectorXd rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
   const LinearProblem problem = sum_runs(runs, every(runs.size()), prior_sd);
   std::vector<int> columns(static_cast<std::size_t>(prior_sd.size()));
@@ -133,7 +133,7 @@ Eigen::VectorXd prior_sd_of(const std::vector<Column>& columns) {
   return sd;
 }
 
-/// Left and right come from one workshop: they share the variance.
+/// Left and right are of the same make: they share the variance.
 Eigen::VectorXd shared_sides(Eigen::VectorXd variance) {
   variance[0] = variance[1] = 0.5 * (variance[0] + variance[1]);
   variance[2] = variance[3] = 0.5 * (variance[2] + variance[3]);
@@ -189,8 +189,8 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     raw = compress_all(rows, equations.noise);
     set_dictionary_prior(raw, equations.columns);
   } else {
-    // The gap itself must not pass for noise: the first fit takes the rows for white, and only what a
-    // fit of everything leaves is asked for its memory.
+    // The gap itself must not count as noise: the first fit assumes white rows, and only the residual of
+    // a fit of everything determines the memory.
     std::vector<ResidualRows> left(rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
     const std::array<double, kChannelCount> floor = resolution_floor(signals);

@@ -11,7 +11,7 @@
 
 namespace joulepath {
 
-/// What a column of the linear problem stands for.
+/// Meaning of a column of the linear problem.
 struct Column {
   enum class Kind { nuisance, amplitude, shape, form, dictionary };
   Kind kind{};
@@ -42,7 +42,7 @@ struct EquationOptions {
   const NoiseModel* noise{};  ///< reuse instead of estimating
   const Eigen::VectorXd* run_variance{};
   const NoiseModel* first_noise{};  ///< where the estimate starts; absent: white
-  std::set<std::string> without{};  ///< effects that the catalog is taken to lack
+  std::set<std::string> without{};  ///< effects removed from the catalog
 };
 
 /// Linearizes the model at a state and compresses every run. `extra` are candidates beyond the

@@ -9,12 +9,12 @@
 namespace joulepath {
 
 /// Probability of each effect (by label, side included) of being among the causes, from the scores of all
-/// explanations, flattened as calibration on development cases asks.
+/// explanations, flattened as calibrated on development cases.
 [[nodiscard]] std::map<std::string, double> effect_probabilities(
     const Equations& equations, const std::vector<Explanation>& explanations);
 
-/// Labels that could stand in for one effect of the best explanation, usual sizes weighed in: all that
-/// energies alone can tell.
+/// Labels that could stand in for one effect of the best explanation, typical sizes included: the only
+/// information in energies alone.
 [[nodiscard]] std::vector<std::string> stand_ins_by_score(const Equations& equations,
                                                           const std::vector<Explanation>& explanations,
                                                           int candidate);
@@ -25,13 +25,13 @@ struct StandIn {
   double loss_more{};  ///< of the data, beyond the named effect's: -2 log of the likelihood ratio
 };
 
-/// Effects that could stand in for one of the best explanation: the data hardly mind, whatever sizes are
-/// usual. Laws are compared without the room that forms give the best one.
+/// Effects that could stand in for one of the best explanation with nearly the same likelihood, whatever
+/// their typical sizes. Laws are compared without the room that forms give the best one.
 [[nodiscard]] std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                              const std::vector<Explanation>& explanations, int candidate,
                                              double dispersion);
 
-/// The combination of two candidates' amplitudes that the data pin although neither is: "a + k b = c".
+/// The combination of two candidates' amplitudes that the data determine, neither alone: "a + k b = c".
 [[nodiscard]] std::string pinned_combination(const LinearProblem& problem, const Equations& equations,
                                              const Explanation& best, const std::string& label,
                                              const std::string& other, double dispersion);

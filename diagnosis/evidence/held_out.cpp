@@ -8,7 +8,7 @@ std::vector<double> held_out_losses(const LogSet& validation, const Identificati
                                     const ModelState& state) {
   const Robot& robot = validation.dataset->robot;
   const std::vector<RunSignals> signals = read_signals(validation, channel_delay_s(state));
-  ModelState bare = state;  // the rows' residual alone is wanted: no column, nothing to put back
+  ModelState bare = state;  // only the residual of the rows is needed: no column, no offset
   const EquationOptions options{.whole_catalog = false,
                                 .dictionary = false,
                                 .noise = &id.equations.noise,

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// How a model does on runs that took no part: loss of the whitened rows per run, own deviations of the
+/// Loss of a model on held-out runs: loss of the whitened rows per run, own deviations of the
 /// run integrated out.
 [[nodiscard]] std::vector<double> held_out_losses(const LogSet& validation,
                                                   const Identification& identification,

@@ -10,7 +10,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0040-diagnosis-by-joint-evidence.md
 namespace joulepath {
 namespace {
 
@@ -65,9 +65,8 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
   for (int round = 0;; ++round) {
     const std::vector<Candidate> regions =
         region_candidates(result.signals, robot, result.nuisances, result.state, without);
-    result.equations =
-        build_equations(result.signals, robot, result.nuisances, result.state, regions,
-                        {.first_noise = round > 0 ? &noise : nullptr, .without = without});
+    result.equations = build_equations(result.signals, robot, result.nuisances, result.state, regions,
+                                       {.first_noise = round > 0 ? &noise : nullptr, .without = without});
     noise = result.equations.noise;
     result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
                         (few ? kFewRunsDispersion : 1.0);
@@ -89,7 +88,7 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
                          result.equations.noise, result.equations.run_variance, result.dispersion, 2);
     result.state = fitted.state;
     result.signals = std::move(fitted.signals);
-    if (round == kRelinearizations) break;  // did not settle: the last answer stands, refitted
+    if (round == kRelinearizations) break;  // no convergence: the last answer, refitted
   }
   return result;
 }

@@ -8,8 +8,8 @@
 
 namespace joulepath {
 
-/// What the diagnosis runs say about the cause: the converged state, and every explanation that was
-/// weighed about it.
+/// Result of the search on the diagnosis runs: the converged state, and every explanation that was
+/// compared about it.
 struct Identification {
   std::vector<Nuisance> nuisances{};
   ModelState state{};                       ///< of the best explanation

@@ -9,21 +9,21 @@
 #include "diagnosis/evidence/left_out_gain.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0045-unseen-runs-and-boxes.md
 namespace joulepath {
 namespace {
 
-/// Voltages go with acceleration where stamps or a winding's inductance are a little off: no finding.
+/// Errors of time stamps or of a winding's inductance correlate voltage with acceleration: no finding.
 const std::set<std::string> kOfTheLogger{"acceleration (voltage)"};
 
-/// What calibration errors explain inside their box, and which of them it holds back.
+/// What calibration errors explain inside their box, and which of them are at its border.
 struct BoxedFit {
   double loss{};
   std::vector<int> held{};  ///< columns, the one furthest out first
 };
 
-/// Loss without any effect, calibration errors kept inside their box: one that may go on for ever makes
-/// any gap that looks like it seem small.
+/// Loss without any effect, with calibration errors inside their box: an unbounded one makes any gap with
+/// its signature seem small.
 BoxedFit fit_within_calibration(const Identification& id) {
   const Equations& equations = id.equations;
   LinearProblem problem = sum_runs(equations.runs, every(equations.runs.size()), equations.prior_sd);
@@ -74,7 +74,7 @@ FamilyFinding strongest_family(const Identification& id, const std::vector<int>&
   return strongest;
 }
 
-/// The families that explain most of what is left, strongest first.
+/// The families that explain most of the leftover, strongest first.
 std::string depends_on(const LinearProblem& problem, const std::vector<int>& columns,
                        const DictionaryFamilies& families, double explained, double dispersion) {
   std::vector<std::pair<double, std::string>> gains;
@@ -127,7 +127,7 @@ Leftover find_leftover(const Identification& id, const std::vector<int>& columns
     leftover.evidence = std::max(leftover.evidence, nothing.loss - explained);
     leftover.share = 1.0;
     leftover.description = "goes with " + calibration_name(id, nothing.held.front()) +
-                           ", further out than calibration errors are";
+                           ", further from its value than calibration errors";
   } else if (leftover.significant) {
     leftover.description = depends_on(problem, columns, families, explained, id.dispersion);
   }

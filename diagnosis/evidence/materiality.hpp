@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// How much an effect changes what a user sees, whatever the statistics say.
+/// How much an effect changes the results that a user sees, independent of statistics.
 struct Impact {
   double motor_power{};    ///< sum |change| / sum |power|, over wheels and samples
   double battery_power{};  ///< the same at the battery's terminals

@@ -118,7 +118,7 @@ class Differencer {
   }
 
   /// The effect's whole contribution, stronger where the variable is large. Poses are sums over the
-  /// way: there the form is left as it is.
+  /// way: there the form is unchanged.
   Eigen::MatrixXd form(const Candidate& candidate, int variable) const {
     std::size_t index;
     if (!is_active(candidate, state_, index)) return {};

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0041-noise-is-what-a-fit-of-everything-leaves.md
 namespace joulepath {
 namespace {
 

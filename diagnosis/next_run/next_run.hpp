@@ -11,8 +11,8 @@ namespace joulepath {
 /// The safe manoeuvre that best separates what is still ambiguous: among a library (standing, driving both
 /// ways, two payloads, spins both ways, crawling, fast runs, hard stops, coasting), the one whose
 /// prediction differs most between the closest pair of rivals, each fitted to the data at hand.
-/// Rivals are the causes with what these runs cannot tell them from; without any, where the verdict leaves
-/// the cause open, the best of the ranking.
+/// Rivals are the causes and the effects that these runs cannot separate from them. Without any, and with an
+/// open verdict, they are the best of the ranking.
 [[nodiscard]] NextExperiment propose_run(const Identification& identification, const Robot& robot,
                                          const std::vector<Cause>& causes,
                                          const std::vector<RankedEffect>& ranking, Verdict verdict);

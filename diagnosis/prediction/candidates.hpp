@@ -15,7 +15,7 @@ struct Candidate {
   std::vector<std::string> amplitude{};  ///< names of the amplitudes: one, or two components of a vector
   std::vector<double> step{};            ///< for differencing, and the size worth noticing
   bool nonnegative{};                    ///< physics allows one sign only
-  std::string label() const;             ///< name and side: what is told apart in a result
+  std::string label() const;             ///< name and side: the identity in a result
   const EffectDescription& effect() const;
 };
 

@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// What a leftover may depend on. No physics: hats and harmonics of everything that was measured, to
-/// tell how much of a gap anything at all could explain, and what it goes with.
+/// tell how much of a gap anything at all could explain, and what it depends on.
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
   std::string channel{};  ///< "current", "voltage", "battery power", "battery voltage" or "motion"

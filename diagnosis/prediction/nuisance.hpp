@@ -5,7 +5,7 @@
 
 namespace joulepath {
 
-/// Two things that every robot has and no robot file tells: tires creep a little under force, and the
+/// Two errors that every robot has and no robot file contains: tires creep a little under force, and the
 /// electrical channels' time stamps are good to a part of a sample only.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";

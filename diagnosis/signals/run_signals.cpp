@@ -14,7 +14,7 @@ namespace {
 
 using Samples = std::vector<double>;
 
-/// The log on a uniform grid: as it is when its period is steady, else by interpolation.
+/// The log on a uniform grid: unchanged if its period is steady, else by interpolation.
 struct UniformLog {
   Samples time_s{};
   double period_s{};

@@ -80,7 +80,7 @@ struct NextExperiment {
   double expected_evidence{};
 };
 
-/// All that `diagnose` found out.
+/// The result of `diagnose`.
 struct Diagnosis {
   GapReport gap{};
   std::vector<WhereCell> where{};
@@ -98,7 +98,7 @@ struct Diagnosis {
   std::vector<std::string> artifacts{};
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};  ///< what the runs cannot show
-  std::size_t decision_missions{};   ///< planned with both models; filled by whoever can plan
+  std::size_t decision_missions{};   ///< planned with both models; filled by the caller
   double joules_lost_percent{};      ///< by planning with the nominal model
   std::vector<std::string> validation_runs{};
   std::string validation_method{};

@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// What every step after the identification reads and none changes.
+/// Input of every step after the identification; no step changes it.
 struct Examination {
   const Dataset& dataset;
   const RunsByUse& runs;

@@ -6,7 +6,7 @@
 
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0043-small-effects-and-foreign-forms.md
 namespace joulepath {
 namespace {
 
@@ -15,7 +15,6 @@ namespace {
 bool vague_at_slow_turns(const Candidate& candidate) {
   return candidate.effect().info.pliability == Pliability::slow_turns;
 }
-
 
 Judgment withdrawn(const Examination& x, Judgment judgment, const std::string& note,
                    const std::string& depends_on) {
@@ -33,9 +32,9 @@ Judgment withdrawn(const Examination& x, Judgment judgment, const std::string& n
   return judgment;
 }
 
-/// How far the data pull a law away from the catalog's form. Each effect's strength may vary with speed,
-/// yaw rate, payload, acceleration and time of day by a share that laws are usually inexact by; the sum
-/// of squares of what the data ask for, in those shares, is chi-squared with 5 degrees for a true law.
+/// Deviation of a law from the catalog's form in the data. Each effect's strength may vary with speed,
+/// yaw rate, payload, acceleration and time of day by the typical error of a law's form; the sum
+/// of squares of the fitted variations, in units of that error, is chi-squared with 5 degrees for a true law.
 struct FormDoubt {
   double chi_squared{};
   std::string depends_on{};  ///< what the strength varies with most
@@ -84,9 +83,9 @@ Judgment judge_forms(const Examination& x, Judgment judgment) {
     const FormDoubt doubt = form_doubt(x.id, label);
     if (doubt.chi_squared < kInexactLaw) continue;
     const std::string text = label + " fits only with a strength that depends on " + doubt.depends_on +
-                             ", as the catalog's law does not";
+                             ", which the catalog's law does not have";
     if (judgment.named.size() > 1 && gain_share_of(x, label) < kMinorGain) {
-      judgment.notes.push_back(text + ": not named beside a greater effect");
+      judgment.notes.push_back(text + ": not named, small compared with a greater effect");
       std::erase_if(judgment.named, [&](const ActiveEffect& e) { return e.candidate.label() == label; });
       continue;
     }

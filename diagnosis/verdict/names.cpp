@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-/// How far a named effect may be the others' inexact form.
+/// Share of a named effect that the inexact form of the others could produce.
 double ghost_share_of(const Examination& x, const std::string& label) {
   const Identification& id = x.id;
   for (int c : id.explanations.front().candidates)
@@ -34,8 +34,8 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
   return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kMinorGain;
 }
 
-/// Effects that the data cannot tell apart share their probability by what the data say, not by which
-/// size is usual.
+/// Effects that the data cannot separate share their probability by their likelihood, not by their typical
+/// size.
 void share_probabilities(const Identification& id, Names& names) {
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
@@ -95,8 +95,8 @@ Names choose_names(const Examination& x) {
   }
   for (const std::string& label : doubted) {
     names.probabilities[label] = std::min(names.probabilities[label], kFormErrorProbability);
-    names.notes.push_back(label +
-                          " is not named: small beside a greater effect, it may stand for that one's form");
+    names.notes.push_back(
+        label + " is not named: it is small compared with a greater effect, whose inexact form may cause it");
   }
   return names;
 }

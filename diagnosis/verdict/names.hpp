@@ -5,21 +5,21 @@
 
 namespace joulepath {
 
-/// The effects that the evidence speaks for, before any test of them.
+/// The effects with sufficient evidence, before any test of them.
 struct Names {
   std::vector<ActiveEffect> named{};
   std::map<std::string, double> probabilities{};                ///< of effects by label
-  std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label, what may be meant instead
+  std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
   std::vector<std::string> notes{};
 };
 
-/// The best set's effects, less those that may only make up for the inexact form of a greater one.
+/// The best set's effects, without those that may only compensate the inexact form of a greater one.
 [[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
 [[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities);
 
-/// Probability of a named effect, bounded by the share of sure names that were right on development cases.
+/// Probability of a named effect, bounded by the share of correct sure names on development cases.
 [[nodiscard]] double probability_of(const Examination& examination, const Names& names,
                                     const ActiveEffect& effect);
 

@@ -4,7 +4,7 @@
 
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/verdict/forms.hpp"
-
+// Design: docs/decisions/0042-a-laws-form-is-uncertain.md
 namespace joulepath {
 namespace {
 

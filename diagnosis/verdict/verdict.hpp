@@ -5,7 +5,7 @@
 
 namespace joulepath {
 
-/// What the diagnosis claims, and what it leaves.
+/// Claims of the diagnosis, and the leftover.
 struct Judgment {
   Verdict verdict{Verdict::too_little_data};
   std::vector<ActiveEffect> named{};
@@ -13,7 +13,7 @@ struct Judgment {
   std::vector<std::string> notes{};
 };
 
-/// Verdict and names by the diagnosis runs, before the held-out runs have a say.
+/// Verdict and names by the diagnosis runs, before the validation on held-out runs.
 [[nodiscard]] Judgment judge(const Examination& examination, const Names& names);
 
 }  // namespace joulepath

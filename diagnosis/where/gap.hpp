@@ -34,14 +34,14 @@ struct GapInput {
   ModelPoint after{};
   double noise_floor_percent{};
   std::size_t bootstrap{};
-  /// Runs that the correction was fitted to, at its delay: where few were held out, they tell how much
+  /// Runs that the correction was fitted to, at its delay: with few held-out runs, they show how much
   /// the shrink differs from run to run.
   const std::vector<RunSignals>& fitted_signals;
 };
 
 /// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run
 /// to run, together with the readings' noise: what no model of the robot can take away. The variances
-/// come from the fit of everything, so that a wrong explanation does not pass for scatter.
+/// come from the fit of everything, so that a wrong explanation does not count as scatter.
 [[nodiscard]] double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
                                          const Eigen::VectorXd& run_variance, const NoiseModel& noise);
 

@@ -19,7 +19,7 @@ struct GapAmount {
   void add(const GapAmount& more);
 };
 
-/// Books the gap by axis, cell and run, and shares it out: what noise gives is taken off, shares over one
+/// Books the gap by axis, cell and run, and shares it out: the share of noise is subtracted, shares over one
 /// axis add up to 1, intervals come from resampling whole runs.
 class GapLedger {
  public:

@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// Where the power gap lies: per axis (phase, wheel, speed, payload, floor, heading, direction, time of
-/// day, run, channel) the share of the summed absolute gap, what noise alone would give taken off,
+/// day, run, channel) the share of the summed absolute gap, with the expected share of noise subtracted,
 /// with an interval over runs. Shares over one axis add up to 1. Runs that carry another simulator's
 /// prediction (`others`, one entry per run) are held against that one.
 [[nodiscard]] std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,

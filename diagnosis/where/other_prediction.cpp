@@ -81,8 +81,8 @@ std::string told_by_others(const std::vector<RunSignals>& signals,
   if (gap.runs == 0 || gap.measured_J == 0) return {};
   char text[320];
   std::snprintf(text, sizeof text,
-                "%zu of %zu runs carry another simulator's prediction: where the gap lies is about that one "
-                "(energy gap %.3g %%, bias %.3g %%); which effect and how far it shrinks are about ours",
+                "%zu of %zu runs have another simulator's prediction: the location of the gap refers to it "
+                "(energy gap %.3g %%, bias %.3g %%); causes and shrink refer to this model",
                 gap.runs, signals.size(), 100 * gap.gap_J / gap.measured_J,
                 100 * gap.bias_J / gap.measured_J);
   return text;

@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "model/config_error.hpp"
-
+// Design: docs/decisions/0003-effects.md
+// Design: docs/decisions/0120-effects-say-what-the-diagnosis-must-know.md
 namespace joulepath {
 namespace {
 

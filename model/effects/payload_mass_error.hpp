@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The payload weighs other than stated.
+/// The payload mass differs from the stated mass.
 struct PayloadMassError {
   double fraction{};
 

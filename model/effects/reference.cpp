@@ -14,17 +14,17 @@ std::string cell(std::string_view text) {  // a pipe would end a table's cell
 }
 
 const char* const kHead = R"(# Effects
-Everything that a robot may do beyond its file, and that planner, simulator and diagnosis know. An effect is added to a
-robot file's `effects:`, or to a simulation alone (`joulepath simulate --effect NAME:PARAMETER=VALUE,...`). This page is
-written by `joulepath effects --markdown` from the catalog in `model/effects/`; a test keeps the two alike.
+This catalog lists deviations of a robot from its file. Planner, simulator and diagnosis use the same catalog. Add an effect
+to a robot file's `effects:`, or to a simulation alone (`joulepath simulate --effect NAME:PARAMETER=VALUE,...`).
+`joulepath effects --markdown` writes this page from the catalog in `model/effects/`; a test compares both.
 
 Resistances oppose the motion of the wheel or of the robot. N = m g / 2 is the load on a wheel, with wheels and payload.
-"Change" and "error" are relative to the robot file. `stage` says where in the chain from body to battery an effect acts:
+"Change" and "error" are relative to the robot file. `stage` is the place of an effect in the chain from body to battery:
 parameters (a constant differs), body (force and moment on the robot), wheel (torque at the wheel's shaft), gear, contact
-(between wheel and floor), winding, driver, supply, instrument (the log only: planning and motion do not feel it).
+(between wheel and floor), winding, driver, supply, instrument (the log only, without influence on planning and motion).
 
 ## Counterparts in other simulators
-What to set there to give a simulated robot the same flaw; "none" means that a plugin of one's own would be needed.
+Settings that give a simulated robot the same effect; "none" means that it needs a plugin of your own.
 
 | effect | Gazebo (SDFormat) | MuJoCo (MJCF) |
 |---|---|---|

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// Computer and sensors draw other than the robot file says.
+/// The standby power differs from the robot file.
 struct StandbyPowerError {
   double power_W{};
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
+// Design: docs/decisions/0062-controller-knows-the-file-only.md
 namespace joulepath {
 namespace {
 

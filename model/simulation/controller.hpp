@@ -16,7 +16,7 @@ struct ControllerSettings {
   bool feed_forward{true};  ///< voltage of the nominal model, effects of the robot file included
 };
 
-/// One PI loop per wheel on its speed, beside the voltage that the nominal model asks for.
+/// One PI loop per wheel on its speed, added to the voltage of the nominal model.
 ///
 ///   V = V_model(v, omega, v', omega') + k_p e + k_i \int e dt,   e = q'_ref - q'
 ///

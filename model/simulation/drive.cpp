@@ -8,7 +8,7 @@
 namespace joulepath {
 namespace {
 
-/// Speed (m/s) below which a course is no longer told apart from standing: casters neither swivel nor push.
+/// Speed (m/s) below which the robot counts as standing: casters neither swivel nor push.
 constexpr double kCourseSpeed_m_s = 1e-3;
 
 /// Memories as the effects may use them: near standstill what they remember fades into the course.

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "model/channel_delay.hpp"
-
+// Design: docs/decisions/0061-logs-are-means.md
 namespace joulepath {
 namespace {
 

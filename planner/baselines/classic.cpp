@@ -215,7 +215,7 @@ std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double 
 BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request, double duration_s) {
   BaselineResult in_time = baseline(request, duration_s);
   if (in_time.feasible) return in_time;
-  if (in_time.name == kFastest) {  // one drive whatever the time, dear to find: late by its own time or never
+  if (in_time.name == kFastest) {  // one drive for any time, expensive to find: late by its own time or never
     const auto moving_s = in_time.parameters.find("moving_s");
     const bool late = moving_s != in_time.parameters.end() && moving_s->second > duration_s;
     return late ? baseline(request, moving_s->second) : in_time;

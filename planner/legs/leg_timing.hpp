@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// A leg's stretches together: they share one price of time, because the seconds of one are as good as
-/// those of another. Solutions are kept, so that a search over prices asks each question once.
+/// those of another. Solutions are kept, so that a search over prices solves each problem once.
 class LegTiming {
  public:
   explicit LegTiming(std::vector<ProfileRequest> stretches) : stretches_(std::move(stretches)) {}

@@ -34,7 +34,7 @@ struct PlanOptions {
                                                   const std::optional<SpeedMask>& mask,
                                                   double speed_limit_m_s);
 
-/// What a leg asks of the profile optimizer, a request per piece; the effects' memories run on from piece to
+/// The requests of a leg to the profile optimizer, one per piece; the effects' memories run on from piece to
 /// piece, from `memory` at the departure. The time goals are left to the caller.
 [[nodiscard]] std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg,
                                                        std::size_t leg_index, const MissionRequest& mission,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
+// Design: docs/decisions/0006-charging-stops.md
 namespace joulepath {
 namespace {
 

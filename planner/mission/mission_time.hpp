@@ -11,7 +11,7 @@ namespace joulepath {
 [[nodiscard]] double lowest_price_W(const Objective& objective);
 
 /// Times of all legs: fixed durations on their own, all others at equal prices within the deadlines. Where
-/// windings warm up, every stretch is told the time of day at which it begins.
+/// windings warm up, every stretch gets the time of day at which it begins.
 [[nodiscard]] TimeSplit share_time(Draft& draft, const MissionRequest& mission, const Plant& plant,
                                    SolverChoice solver);
 

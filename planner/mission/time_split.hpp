@@ -11,7 +11,7 @@ namespace joulepath {
 struct TimeSplitRequest {
   std::size_t legs{};
   /// Driving time (s) of a leg that pays this price (W) for a second; falls as the price rises. An
-  /// infinite price asks for the minimum time.
+  /// infinite price gives the minimum time.
   std::function<double(std::size_t leg, double price_W)> duration_s{};
   std::vector<double> latest_arrival_s{};    ///< per leg; infinite where there is no deadline
   std::vector<double> earliest_arrival_s{};  ///< per leg; 0 where there is none: waiting happens at the stop

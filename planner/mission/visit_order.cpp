@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
-
+// Design: docs/decisions/0005-order-of-visits.md
 namespace joulepath {
 namespace {
 
@@ -34,7 +34,7 @@ struct Label {
   std::vector<std::size_t> order{};
 };
 
-/// What a search may ignore, to find out what stands in the way.
+/// What a search may ignore, to find the constraint that prevents an order.
 struct Relaxed {
   std::optional<std::size_t> window{};  ///< the end of this stop's
   bool capacity{};
@@ -221,7 +221,7 @@ std::string seconds(double value) {
   return text;
 }
 
-/// The verdict of a stop that stands in the way.
+/// The verdict of a stop whose window prevents an order.
 Infeasibility at_stop(const MissionRequest& mission, std::size_t visit, std::string constraint) {
   const Station& place = mission.stations.at(mission.visit[visit].station);
   return {.constraint = std::move(constraint), .x_m = place.x_m, .y_m = place.y_m};

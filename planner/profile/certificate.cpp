@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/nlp/transcription/segment_jets.hpp"
-
+// Design: docs/decisions/0052-certificate.md
 namespace joulepath::nlp {
 namespace {
 
@@ -91,7 +91,7 @@ class Certifier {
  private:
   const Problem& p_;
   const Solution& solution_;
-  double gain_cost_{};  ///< taken off every segment: over all of them it adds up to a constant
+  double gain_cost_{};  ///< subtracted from every segment: over all of them it adds up to a constant
 };
 
 Certificate certify_with(const Problem& problem, const Solution& solution, const std::vector<double>& fastest,

@@ -21,7 +21,7 @@ struct Certificate {
 /// that curvature can bring over the box, and `convex` is false.
 ///
 /// Copper loss has a part c (sqrt(b_{k+1}) - sqrt(b_k)), which is not convex but telescopes: where it is in
-/// the way it is taken off every l_k, with one c for all, and added as the constant that it sums up to.
+/// the way it is subtracted from every l_k, with one c for all, and added as the constant that it sums up to.
 [[nodiscard]] Certificate certify(const Problem& problem, const Solution& solution,
                                   const std::vector<double>& fastest);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLooks = 8;         ///< per segment
 constexpr double kWorthALook = 1 - 1e-3;  ///< a limit used less does not peak above 1 between two looks
 constexpr double kTolerated = 3e-7;       ///< relative
-constexpr double kCoarse = 5e-3;  ///< a violation beyond this asks for a node, not for tightening alone
+constexpr double kCoarse = 5e-3;          ///< a violation beyond this needs a node, not only tightening
 
 /// Looks at the limits of one segment, and between the looks at where a parabola through three of them peaks.
 class SegmentLook {

@@ -11,7 +11,7 @@ namespace joulepath::nlp {
 /// What a look between the nodes finds.
 struct DenseCheck {
   double worst_ratio{};               ///< of any limit; above 1 is a violation
-  std::vector<Tightening> tighten{};  ///< limits to take back, by segment
+  std::vector<Tightening> tighten{};  ///< limits to tighten, by segment
   std::vector<bool> cut{};            ///< segments that need a node inside
   double energy_J{};                  ///< exact, standby left out
   double energy_error_J{};            ///< |sum of (transcribed - exact)|

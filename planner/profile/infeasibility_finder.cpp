@@ -128,7 +128,7 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   Infeasibility verdict = at_place(request, std::string(name), problem.s[blocked.node]);
   verdict.amount = std::sqrt(std::max(0.0, blocked.needed)) - std::sqrt(std::max(0.0, blocked.allowed));
   verdict.unit = is_turn(request.piece) ? "rad/s" : "m/s";
-  verdict.message = sentence(verdict) + "; no single limit that is relaxed lets the robot pass";
+  verdict.message = sentence(verdict) + "; no relaxation of a single limit is sufficient";
   return verdict;
 }
 

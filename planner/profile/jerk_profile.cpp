@@ -57,7 +57,7 @@ std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
   return good;
 }
 
-/// The verdict for a jerk limit with which no profile was found: which one would do, or how much time.
+/// The verdict for a jerk limit with which no profile was found: the smallest one that works, or the time.
 ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result, std::optional<double> least_s) {
   Infeasibility verdict = explain_request(request, "jerk", result.summary.message);
   verdict.amount = std::abs(request.limits.jerk_m_s3);
@@ -67,12 +67,12 @@ ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result, st
   if (const std::optional<double> enough = jerk_that_would_do(request)) {
     verdict.amount = *enough - request.limits.jerk_m_s3;
     verdict.relaxation["jerk_m_s3"] = *enough;
-    text << "; jerk_m_s3 " << *enough << " would do";
+    text << "; smallest change that works: jerk_m_s3 = " << *enough;
   }
   if (least_s) {
     const char* key = request.time.mode == TimeMode::fixed_time ? "duration_s" : "deadline_s";
     verdict.relaxation[key] = *least_s;
-    text << "; " << key << " " << *least_s << " would do";
+    text << "; smallest change that works: " << key << " = " << *least_s;
   }
   verdict.message = text.str();
   result.summary.status = SolveStatus::infeasible;

@@ -16,7 +16,7 @@
 #include "planner/profile/jerk_profile.hpp"
 #include "planner/profile/request_check.hpp"
 #include "planner/values/profile.hpp"
-
+// Design: docs/decisions/0001-path-domain.md
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,7 @@
 
 namespace joulepath {
 
-/// Why a profile cannot exist: the limit that stands in the way, where, by how much, and the smallest
+/// Why no profile exists: the limit that prevents it, where, by how much, and the smallest
 /// change found that would make it possible.
 struct Infeasibility {
   std::string constraint{};  ///< a key of Limits without its unit, or deadline, duration, start_speed,
@@ -15,7 +15,7 @@ struct Infeasibility {
   double y_m{};
   double amount{};  ///< by which the limit is missed, in `unit`
   std::string unit{};
-  std::map<std::string, double> relaxation{};  ///< key -> value that would do, one key
+  std::map<std::string, double> relaxation{};  ///< key -> smallest change that works, one key
   std::string message{};                       ///< one sentence for people
 };
 

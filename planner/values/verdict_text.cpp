@@ -9,7 +9,8 @@ std::string sentence(const Infeasibility& verdict) {
   text.precision(4);
   text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
        << " m) is missed by " << verdict.amount << " " << verdict.unit;
-  for (const auto& [name, value] : verdict.relaxation) text << "; " << name << " " << value << " would do";
+  for (const auto& [name, value] : verdict.relaxation)
+    text << "; smallest change that works: " << name << " = " << value;
   return text.str();
 }
 

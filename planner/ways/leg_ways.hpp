@@ -18,7 +18,7 @@ struct Way {
   bool stops_at_corners{};
   bool bends_at_ends{};  ///< leaves or reaches a stop along a given heading, on a lead
   Path path{};
-  SmoothPath shape{};   ///< what the path was made of: the control points' first guess
+  SmoothPath shape{};   ///< the shape behind the path: first guess of the control points
   double leaves_rad{};  ///< heading at the path's start
   double arrives_rad{};
   PathScore score{};

@@ -2,7 +2,7 @@
 
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/search/graph_route.hpp"
-
+// Design: docs/decisions/0004-ways-by-energy.md
 namespace joulepath {
 
 std::optional<LegRoutes> MissionWays::routes_of(std::size_t leg, const LegStart& start,

@@ -73,7 +73,7 @@ class RunChoice {
   const Way& way(std::size_t k, const std::vector<ChainChoice>& chain) const {
     return ways_[k][chain[k].way];
   }
-  /// Ways that no step asks for are not made; a quick choice looks at the largest blends alone.
+  /// Only ways that a step needs are made; a quick choice uses the largest blends alone.
   Variety variety(std::size_t k) const {
     Variety variety{.stop_turn_go = !run_.quick || !steps_.corners,
                     .blends = steps_.corners,

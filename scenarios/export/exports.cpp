@@ -38,11 +38,12 @@ const std::vector<ExportFormat>& export_formats() {
       {"edges",
        "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
        export_edges},
-      {"controller", "speed, acceleration and deceleration for each leg, with the joules they lose (JSON)",
+      {"controller",
+       "speed, acceleration and deceleration for each leg, with the energy that they lose (JSON)",
        export_controller},
-      {"vda5050", "the order with a maximum speed on each edge (JSON), and the joules it loses",
+      {"vda5050", "the order with a maximum speed on each edge (JSON), and the energy that it loses",
        export_vda5050},
-      {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the joules it loses", export_speed_mask},
+      {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the energy that it loses", export_speed_mask},
   };
   return formats;
 }

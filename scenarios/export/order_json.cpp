@@ -138,8 +138,7 @@ Json order_of_plan(const ExportInput& input, const PartSpeeds& speeds) {
     const LegPlan& leg = input.plan.legs[k];
     if (leg.prescribed)
       throw ConfigError({input.mission.marks.at("legs"), "legs[" + std::to_string(k) + "].motion",
-                         "a prescribed motion",
-                         "legs with to: or path:", "an order holds ways, not motions"});
+                         "a prescribed motion", "legs with to: or path:", "an order has paths, not motions"});
     if (!begun) {
       const bool open = leg.stretches.empty();
       const Pose first = open ? start : piece_point(leg.stretches.front().request.piece, 0).pose;

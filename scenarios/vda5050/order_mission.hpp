@@ -13,7 +13,7 @@ namespace joulepath {
 /// edge it is done before the edge. Without `start:` the robot stands on the first node. Throws ConfigError.
 void follow_order(MissionRequest& mission, const NamedBy& named_by = {});
 
-/// How long the robot stands for actions (s): one after the other where one is HARD or SINGLE, else together.
+/// Standing time for actions (s): one after the other where one is HARD or SINGLE, else together.
 [[nodiscard]] double standing_s(const std::vector<OrderAction>& actions,
                                 const std::map<std::string, double>& dwell_by_action_s);
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "planner/path/shape/corner_blend.hpp"
-
+// Design: docs/decisions/0090-orders-are-paths.md
 namespace joulepath {
 namespace {
 

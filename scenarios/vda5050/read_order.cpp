@@ -114,8 +114,7 @@ Nurbs read_trajectory(const Node& node) {
   }
   for (const RationalBezier& piece : bezier_pieces(nurbs))
     if (!(least_speed(piece) > 1e-6))
-      node["controlPoints"].fail_found("a curve that stands still or turns back in a point",
-                                       "a trajectory without cusps",
+      node["controlPoints"].fail_found("a curve with a standstill or a cusp", "a trajectory without cusps",
                                        "control points that coincide are a frequent cause");
   return nurbs;
 }

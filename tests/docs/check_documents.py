@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Documents that stay true: links lead somewhere, the README's program is the one that is compiled, versions agree.
+"""Checks of documents: links and cited files exist, decisions have a status and are cited, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -16,7 +16,8 @@ def slug(heading):
 
 
 def broken_links(source):
-    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md")]
+    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md"),
+                 source / "benchmarks/README.md"]
     for document in documents:
         for target in LINK.findall(re.sub(r"```.*?```", "", document.read_text(), flags=re.DOTALL)):
             if re.match(r"[a-z]+:", target):
@@ -34,10 +35,50 @@ def broken_links(source):
 def missing_paths(source):
     """Paths in code spans that look like files of this repository."""
     tops = "|".join(entry.name for entry in source.iterdir() if entry.is_dir() and not entry.name.startswith((".", "build", "out")))
-    for document in [source / "README.md", source / "CONTRIBUTING.md", *source.glob("docs/*.md")]:
+    for document in [source / "README.md", source / "CONTRIBUTING.md", *source.glob("docs/*.md"),
+                     source / "benchmarks/README.md"]:
         for path in re.findall(rf"`((?:{tops})/[\w./-]+)`", document.read_text()):
             if not (source / path).exists():
                 yield f"{document.relative_to(source)}: {path} does not exist"
+
+
+CODE = ["*.cpp", "*.hpp", "*.py", "*.js", "*.cmake", "CMakeLists.txt", "run"]
+ROOMS = ["model", "planner", "diagnosis", "scenarios", "app", "benchmarks", "tests", "cmake"]
+DOCUMENT = re.compile(r"(?<![\w./-])(?:docs|benchmarks/results)/[\w/-]+\.(?:md|svg|png)")
+
+
+def cited_documents(source):
+    """Each document that code or a comment cites, with the file that cites it."""
+    for room in ROOMS:
+        for pattern in CODE:
+            for file in sorted((source / room).rglob(pattern)):
+                for cited in DOCUMENT.findall(file.read_text(errors="replace")):
+                    if not (file.name == "run" and cited.startswith("benchmarks/results/")):  # it writes that file
+                        yield file.relative_to(source), cited
+    for file in ("CMakeLists.txt", "dev"):
+        for cited in DOCUMENT.findall((source / file).read_text()):
+            yield file, cited
+
+
+def missing_documents(source):
+    for file, cited in cited_documents(source):
+        if not (source / cited).exists():
+            yield f"{file}: {cited} does not exist"
+
+
+def decisions(source):
+    """Each decision has a status; code cites each one that stands."""
+    folder = source / "docs/decisions"
+    numbers = {file.name[:4] for file in folder.glob("*.md")}
+    cited = {name for _, name in cited_documents(source)}
+    for file in sorted(folder.glob("*.md")):
+        status = re.search(r"^\W*Status\W+(?:(accepted)\b|superseded by (\d{4})\b)", file.read_text(), re.MULTILINE)
+        if not status:
+            yield f"docs/decisions/{file.name}: no line 'Status: accepted' or 'Status: superseded by NNNN'"
+        elif status[2] and status[2] not in numbers:
+            yield f"docs/decisions/{file.name}: superseded by {status[2]}, which does not exist"
+        elif status[1] and f"docs/decisions/{file.name}" not in cited:
+            yield f"docs/decisions/{file.name}: accepted, but no code cites it"
 
 
 def differences(source, version):
@@ -52,7 +93,8 @@ def differences(source, version):
 
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
-    problems = [*broken_links(source), *missing_paths(source), *differences(source, sys.argv[2])]
+    problems = [*broken_links(source), *missing_paths(source), *missing_documents(source), *decisions(source),
+                *differences(source, sys.argv[2])]
     print("\n".join(problems) or "documents: links, paths, program and versions agree")
     return 1 if problems else 0
 

@@ -44,7 +44,7 @@ jp.draw_compare = function (data) {
   const over = jp.overlaid_profiles(data.profiles || []);
   const bars = (key) => jp.bar_rows(counted.filter((one) => jp.is_number(one[key])).map((one, k) => ({label: jp.profile_name(one), value: one[key], text: jp.with_unit(one[key], "J"), color: k ? "var(--second)" : "var(--plan)"})));
   jp.page(jp.header(data.title || "Comparison", data.subtitle || "Same path, same time.", null, true),
-    jp.section("Energy", jp.h("div", {class: "columns"}, jp.h("div", {}, jp.h("h3", {}, "Motion, standby left out"), bars("motion_energy_J")), jp.h("div", {}, jp.h("h3", {}, "At the battery, standby included"), bars("energy_J"))),
+    jp.section("Energy", jp.h("div", {class: "columns"}, jp.h("div", {}, jp.h("h3", {}, "Motion, without standby"), bars("motion_energy_J")), jp.h("div", {}, jp.h("h3", {}, "At the battery, with standby"), bars("energy_J"))),
       jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least"}, "settings"], listed.map((one) => one.feasible === false
         ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
         : [jp.profile_name(one), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
@@ -62,19 +62,19 @@ jp.draw_front = function (data) {
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && jp.is_number(one[key]) ? one[key] : null; });
   const cursor = jp.cursor(x.length, (row) => {
     const one = points.find((entry) => entry.duration_s === x[row]);
-    return `${jp.number(x[row])} s` + (one ? ` · ${jp.with_unit(one.energy_J, "J")}` + (jp.is_number(one.price_of_time_W) ? ` · a second is worth ${jp.with_unit(one.price_of_time_W, "W")}` : "") : "");
+    return `${jp.number(x[row])} s` + (one ? ` · ${jp.with_unit(one.energy_J, "J")}` + (jp.is_number(one.price_of_time_W) ? ` · value of a second ${jp.with_unit(one.price_of_time_W, "W")}` : "") : "");
   });
   const make = (title, key) => jp.plot({title, unit: "J", x, x_label: "duration, s", cursor, tall: true, series: [{name: "optimal", values: find(points, key), color: "plan", points: 3},
     ...names.map((name, k) => ({name: jp.words(name), values: find(near.filter((one) => one.name === name), key), color: kSeriesColors[1 + k % 5], dash: kDashes[1 + k % 5], points: 2}))]});
-  const plots = [make("Energy at the battery, standby included", "energy_J")];
-  if (points.some((one) => jp.is_number(one.motion_energy_J))) plots.push(make("Motion energy, standby left out", "motion_energy_J"));
+  const plots = [make("Energy at the battery, with standby", "energy_J")];
+  if (points.some((one) => jp.is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
   const over = jp.overlaid_profiles(data.profiles || []);
   const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, same time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "more than the optimum"}], others.map((one) => [jp.profile_name(one), {n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.percent(100 * (one.energy_J / one.optimum_J - 1), 3)}]))) : null;
   const least = points.reduce((best, one) => (one.energy_J < best.energy_J ? one : best), points[0]);
-  jp.page(jp.header(data.title || "Energy against time", data.subtitle || "What a second costs: each point is the least energy for its duration.", null, true),
+  jp.page(jp.header(data.title || "Energy against time", data.subtitle || "Each point is the least energy for its duration. The slope is the price of a second.", null, true),
     points.length ? jp.h("div", {class: "tiles"}, jp.tile("Least energy", jp.with_unit(least.energy_J, "J"), `at ${jp.with_unit(least.duration_s, "s")}`), jp.tile("Fastest", jp.with_unit(points[0].duration_s, "s"), jp.with_unit(points[0].energy_J, "J")), jp.tile("Points", String(points.length))) : null,
     jp.section("The front", cursor.element, plots.map((plot) => plot.element)), over ? over.section : null,
-    jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "a second is worth W"}, "status"], points.map((one) => [{n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.price_of_time_W, 4)}, jp.words(one.status || "")]))), beside);
+    jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "value of a second, W"}, "status"], points.map((one) => [{n: jp.number(one.duration_s, 5)}, {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.price_of_time_W, 4)}, jp.words(one.status || "")]))), beside);
   jp.draw_plots(plots);
   if (over) over.ready();
 };

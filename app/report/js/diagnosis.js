@@ -1,12 +1,12 @@
 /* The report of `joulepath diagnose`. Data: {diagnosis, runs: [{name, use, time_s, measured_power_W, predicted_power_W, corrected_power_W}], map, title}. */
 
 const kVerdicts = {
-  no_gap: ["No gap", "Nothing beyond calibration and noise.", true],
-  explained: ["Explained", "The causes named below account for the gap.", true],
-  partly_explained: ["Partly explained", "The causes named below account for a part; something more is left.", false],
-  unexplained: ["Unexplained", "There is a gap, and no effect of the catalog fits it.", false],
-  ambiguous: ["Ambiguous", "These runs cannot tell the effects of the set below apart.", false],
-  too_little_data: ["Too little data", "Where the gap lies and what might cause it, but no name.", false],
+  no_gap: ["No gap", "Calibration errors and noise explain the runs.", true],
+  explained: ["Explained", "The causes below explain the gap.", true],
+  partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is not in the catalog.", false],
+  unexplained: ["Unexplained", "No effect of the catalog fits the gap.", false],
+  ambiguous: ["Ambiguous", "These runs cannot separate the effects of the group below.", false],
+  too_little_data: ["Too little data", "The report shows the location of the gap and candidates, but names no cause.", false],
 };
 
 jp.cause_name = (cause) => jp.words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
@@ -14,7 +14,7 @@ jp.cause_name = (cause) => jp.words(cause.effect) + (cause.parameters && cause.p
 jp.diagnosis_tiles = function (d) {
   const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
   return jp.h("div", {class: "tiles"}, [
-    jp.tile("Energy gap before", jp.percent(energy.before_percent), jp.is_number(energy.bias_before_percent) ? `bias ${jp.percent(energy.bias_before_percent)} (negative: the model is too low)` : jp.with_unit(energy.before_J, "J")),
+    jp.tile("Energy gap before", jp.percent(energy.before_percent), jp.is_number(energy.bias_before_percent) ? `bias ${jp.percent(energy.bias_before_percent)} (negative: the model predicts too little)` : jp.with_unit(energy.before_J, "J")),
     !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : jp.is_number(energy.after_percent) ? jp.tile("After the correction", jp.percent(energy.after_percent), jp.with_unit(energy.after_J, "J")) : null,
     jp.is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", jp.percent(energy.noise_floor_percent), "no model gets below it") : null,
     (d.causes || []).length && jp.is_number(energy.shrink_fraction) ? jp.tile("Gap closed", jp.fraction(energy.shrink_fraction), interval ? `95 %: ${jp.fraction(interval[0])} to ${jp.fraction(interval[1])}` : null) : null].filter(Boolean));
@@ -50,10 +50,10 @@ jp.how_far_section = function (d) {
   const energy = gap.energy || {}, rows = [];
   const share = (label, value, interval, color) => jp.is_number(value) && rows.push({label, value: Math.max(0, value), text: jp.fraction(value), interval, color});
   share("this diagnosis", energy.shrink_fraction, energy.shrink_interval_95, "var(--plan)");
-  share("ceiling: any function of the signals", (d.ceiling || {}).shrink_fraction, null, "var(--third)");
+  share("ceiling: the most flexible model", (d.ceiling || {}).shrink_fraction, null, "var(--third)");
   share(`control: ${jp.words((d.control || {}).effect) || "a wrong candidate"}`, (d.control || {}).shrink_fraction, null, "var(--fourth)");
   const validation = d.validation || {};
-  return jp.section("How far: the gap before and after", jp.h("p", {class: "soft"}, (validation.method ? `On ${validation.method}` : "On held-out runs") + (validation.runs && validation.runs.length ? `: ${validation.runs.join(", ")}.` : ".")),
+  return jp.section("How much: the gap before and after", jp.h("p", {class: "soft"}, (validation.method ? `On ${validation.method}` : "On held-out runs") + (validation.runs && validation.runs.length ? `: ${validation.runs.join(", ")}.` : ".")),
     jp.h("div", {class: "columns"}, blocks), rows.length ? [jp.h("h3", {}, "Fraction of the energy gap closed"), jp.bar_rows(rows, {most: 1})] : null);
 };
 
@@ -90,7 +90,7 @@ jp.where_section = function (data) {
     const ramp = jp.h("span", {class: "ramp", style: "background:linear-gradient(90deg, transparent, var(--second))"});
     blocks.push(jp.h("div", {}, jp.h("h3", {}, "on the floor"), map.element, jp.h("div", {class: "scale"}, "0", ramp, jp.fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap")));
   }
-  const section = jp.section("Where it lies", jp.h("p", {class: "soft"}, "Shares of the summed absolute power gap, noise taken off; over one axis they add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted less measured, of the cell's own energy."), jp.h("div", {class: "columns"}, blocks));
+  const section = jp.section("Where", jp.h("p", {class: "soft"}, "Shares of the summed absolute power gap, with the expected noise subtracted. The shares of one axis add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted minus measured, relative to the cell's own energy."), jp.h("div", {class: "columns"}, blocks));
   section.classList.add("long");
   return {section, ready() { if (map) map.draw(); }};
 };
@@ -104,11 +104,11 @@ jp.which_section = function (d) {
     return jp.key_value(key, entry.value) + interval;
   }).join("; ");
   const rows = causes.map((cause) => [jp.cause_name(cause), {n: jp.fraction(cause.probability, 3)}, parameters(cause), {n: jp.fraction(cause.energy_share, 3)}, {n: jp.fraction(cause.shrink_fraction_alone, 3)}, (cause.indistinguishable_from || []).map(jp.words).join(", ") || "–"]);
-  return jp.section("Which effect", rows.length ? jp.table(["cause", {n: "probability"}, "parameters, 95 % interval", {n: "share of the gap's energy"}, {n: "closes alone"}, "cannot be told from"], rows)
+  return jp.section("Which effect", rows.length ? jp.table(["cause", {n: "probability"}, "parameters, 95 % interval", {n: "share of the gap's energy"}, {n: "closes alone"}, "indistinguishable from"], rows)
     : jp.h("p", {}, "No cause is named."),
   d.pinned_combination ? jp.h("p", {}, "What the data do pin: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
   ranking.length ? [jp.h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: jp.words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: jp.fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
-    grouped.size ? jp.h("p", {class: "soft small"}, "◇ one group: these runs cannot tell its members apart.") : null] : null);
+    grouped.size ? jp.h("p", {class: "soft small"}, "◇ one group: these runs cannot separate its members.") : null] : null);
 };
 
 jp.runs_section = function (data) {
@@ -123,7 +123,7 @@ jp.runs_section = function (data) {
     const with_correction = run.corrected_power_W && run.corrected_power_W.length;
     plots = [jp.plot({title: "Motor power", unit: "W", x: t, x_label: "time, s", cursor, tall: true, series: [{name: "measured", values: run.measured_power_W, color: "soft", width: 1.1}, {name: "predicted", values: run.predicted_power_W, color: "second"},
       ...(with_correction ? [{name: "corrected", values: run.corrected_power_W, color: "plan"}] : [])]}),
-    jp.plot({title: "Residual: model less measured", unit: "W", x: t, x_label: "time, s", cursor, series: [{name: "predicted", values: residual("predicted_power_W"), color: "second"}, ...(with_correction ? [{name: "corrected", values: residual("corrected_power_W"), color: "plan"}] : [])]})];
+    jp.plot({title: "Residual: model minus measured", unit: "W", x: t, x_label: "time, s", cursor, series: [{name: "predicted", values: residual("predicted_power_W"), color: "second"}, ...(with_correction ? [{name: "corrected", values: residual("corrected_power_W"), color: "plan"}] : [])]})];
     holder.replaceChildren(cursor.element, ...plots.map((plot) => plot.element));
     plots.forEach((plot) => plot.draw());
   };

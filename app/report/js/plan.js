@@ -51,7 +51,7 @@ jp.infeasibility_box = function (plan) {
   const relax = Object.entries(why.relaxation || {}).map(([key, value]) => jp.key_value(key, value)).join(", ");
   return jp.h("div", {class: "notice", role: "alert"}, jp.h("b", {}, `No plan: ${jp.words(why.constraint)}`),
     jp.h("div", {}, why.message || "", ` Leg ${why.leg ?? 0}, at ${jp.with_unit(why.arc_length_m, "m")} of its path (x ${jp.number(why.x_m)}, y ${jp.number(why.y_m)}), missed by ${jp.with_unit(why.amount, why.unit || "")}.`),
-    relax ? jp.h("div", {}, "Smallest change that would do: " + relax + ".") : null);
+    relax ? jp.h("div", {}, "Smallest change that works: " + relax + ".") : null);
 };
 
 jp.energy_section = function (plan) {
@@ -83,20 +83,20 @@ jp.baseline_section = function (plan) {
   if (!baselines.length) return null;
   const counted = baselines.filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
   const rows = [{name: "this plan", energy_J: plan.energy_J, motion_energy_J: plan.motion_energy_J, duration_s: plan.duration_s}, ...baselines];
-  return jp.section("Against classic profiles", jp.h("p", {class: "soft"}, "Same path, same time (or as soon as such a profile can be there). Savings are of the model's energy; the model's own error is what a diagnosis of measured runs tells."),
-    jp.h("h3", {}, "Motion energy, standby left out"),
+  return jp.section("Against classic profiles", jp.h("p", {class: "soft"}, "Same path, same time (or the least time of that profile). Savings are of the model's energy; a diagnosis measures the model's own error."),
+    jp.h("h3", {}, "Motion energy, without standby"),
     jp.bar_rows(rows.filter((one) => one === rows[0] || counted.includes(one)).map((one, k) => ({label: jp.words(one.name), value: one.motion_energy_J, text: jp.with_unit(one.motion_energy_J, "J"), color: k ? "var(--second)" : "var(--plan)"}))),
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
       ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
-        [one.later_s ? jp.number(one.later_s, 2) + " s later than the plan, whose time none keeps" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
+        [one.later_s ? jp.number(one.later_s, 2) + " s later than the plan (the plan's time is infeasible for this profile)" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
 };
 
 /** Settings of the baselines for controllers that follow nothing else: per leg and stretch. */
 jp.settings_details = function (plan) {
   const rows = (plan.legs || []).flatMap((leg, k) => (leg.baselines || []).flatMap((one) => (one.stretches || []).map((settings, n) =>
     [jp.leg_name(leg, k), {n: String(n + 1)}, jp.words(((leg.stretches || [])[n] || {}).kind || ""), jp.words(one.name), Object.entries(settings).map(([key, value]) => jp.key_value(key, value)).join(", ")])));
-  return rows.length ? jp.h("details", {}, jp.h("summary", {}, "Settings of the trapezoids, stretch by stretch"), jp.table(["leg", {n: "stretch"}, "", "profile", "settings"], rows)) : null;
+  return rows.length ? jp.h("details", {}, jp.h("summary", {}, "Settings of the trapezoids for each stretch"), jp.table(["leg", {n: "stretch"}, "", "profile", "settings"], rows)) : null;
 };
 
 jp.legs_section = function (plan) {
@@ -105,9 +105,9 @@ jp.legs_section = function (plan) {
   const payload = (value) => (value && typeof value === "object" ? `${jp.number(value.from)} to ${jp.number(value.to)}` : jp.number(value));
   const weighed = legs.flatMap((leg, k) => (leg.alternatives || []).map((way) => [jp.leg_name(leg, k), jp.words(way.name) + (way.chosen ? " (chosen)" : ""), {n: jp.number(way.energy_J, 5)}, {n: jp.number(way.duration_s)}, {n: jp.number(way.distance_m)}]));
   const band = (ends) => (ends && jp.is_number(ends[0]) && ends[1] > ends[0] ? `${jp.number(ends[0], 5)} to ${jp.number(ends[1], 5)}` : "");
-  return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "time s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "a second is worth W"}],
+  return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "time s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "value of a second, W"}],
     legs.map((leg, k) => [jp.leg_name(leg, k), jp.words(leg.status), {n: payload(leg.payload_kg)}, {n: jp.number(leg.distance_m)}, {n: jp.number(leg.duration_s)}, {n: jp.number(leg.energy_J, 5)}, {n: band(leg.energy_interval_95_J)}, {n: jp.number(leg.price_of_time_W, 3)}])),
-    weighed.length ? jp.h("details", {}, jp.h("summary", {}, "Ways that were weighed"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
+    weighed.length ? jp.h("details", {}, jp.h("summary", {}, "Candidate ways"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
 };
 
 /* The mission after each step of choosing its ways: sums over the legs, at their prices of a second. */
@@ -117,7 +117,7 @@ jp.ways_section = function (plan) {
   const says = {shortest_route: "shortest route, stop, turn, go", corners: "arcs at corners", routes: "route by energy", stops: "arcs at stops", refinement: "control points moved"};
   const sum = (step, key) => legs.reduce((all, leg) => all + ((leg.improvements.find((one) => one.step === step) || {})[key] || 0), 0);
   const steps = legs[0].improvements.map((one) => one.step);
-  return jp.section("Choice of ways", jp.table(["after", {n: "energy J"}, {n: "time s"}, {n: "energy and time at its price J"}],
+  return jp.section("Choice of ways", jp.table(["after", {n: "energy J"}, {n: "time s"}, {n: "energy plus time at its price, J"}],
     steps.map((step) => [says[step] || jp.words(step), {n: jp.number(sum(step, "energy_J"), 5)}, {n: jp.number(sum(step, "duration_s"))}, {n: jp.number(sum(step, "cost_J"), 5)}])));
 };
 
@@ -132,16 +132,16 @@ jp.battery_section = function (plan) {
       jp.is_number(battery.required_capacity_Wh) ? `Capacity needed: ${jp.with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
       jp.is_number(battery.missions_per_charge) ? `Missions per charge: ${jp.short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
       battery.charged_J > 0 ? `Charged on the way: ${jp.with_unit(battery.charged_J, "J")}. ` : "",
-      jp.is_number(plan.battery_loss_J) ? `Lost inside of the battery: ${jp.with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
+      jp.is_number(plan.battery_loss_J) ? `Lost inside the battery: ${jp.with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
 };
 
 jp.trust_section = function (plan) {
   const rows = [["status", jp.words(plan.status)]];
   if (jp.is_number(plan.optimality_gap_percent)) rows.push(["optimality gap", jp.percent(plan.optimality_gap_percent, 2)]);
-  if (plan.replay) rows.push(["energy by the independent replay", jp.with_unit(plan.replay.energy_J, "J", 7)],
+  if (plan.replay) rows.push(["energy by the replay (its own integrator)", jp.with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", jp.number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${jp.words(plan.replay.limit)})` : "")]);
   if (plan.solver) rows.push(["solver", `${plan.solver.name}, ${plan.solver.iterations} iterations`]);
-  return jp.section("How far to trust it", jp.table(["", ""], rows));
+  return jp.section("Verification", jp.table(["", ""], rows));
 };
 
 jp.motion_section = function (data) {

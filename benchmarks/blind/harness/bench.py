@@ -1,4 +1,7 @@
-"""benchmarks/blind/run: the blind benchmark from sealing to the report. See benchmarks/blind/README.md."""
+"""benchmarks/blind/run: the blind benchmark from sealing to the report. See benchmarks/blind/README.md.
+
+Design: docs/decisions/0031-blind-harness-in-python.md
+"""
 import argparse
 import json
 import os

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "case.hpp"
-
+// Design: docs/decisions/0032-blind-detectable.md
 namespace blind {
 namespace {
 

@@ -1,7 +1,10 @@
 """Real logs whose cause is known from their folder's name: calibrate on the normal condition, diagnose the others.
 
 Writes benchmarks/results/blind_real.md. The logs are found by JOULEPATH_DATA_DIR (the folder that holds
-kobuki_wheelslip/ and husky_borealtc/); sources, commits and licenses stand in ../README.md."""
+kobuki_wheelslip/ and husky_borealtc/); sources, commits and licenses stand in ../README.md.
+
+Design: docs/decisions/0033-real-logs.md
+"""
 import os
 import pathlib
 import sys

@@ -6,7 +6,7 @@
 
 #include "planner/nlp/fast/coarse_problem.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
-
+// Design: docs/decisions/0051-fast-solver.md
 namespace joulepath::nlp {
 namespace {
 

@@ -12,7 +12,7 @@ namespace joulepath::nlp {
 struct Blocked {
   std::size_t node{};
   std::string_view limit{};
-  double needed{};   ///< square of the rate that the rest of the path asks for at least
+  double needed{};   ///< least square of the rate that the rest of the path needs
   double allowed{};  ///< square of the rate that is possible at most
 };
 

@@ -25,7 +25,7 @@ class Curve {
   static constexpr double kHeadingTolerance_rad = 1e-6;
   static constexpr double kCurvatureTolerance_per_m = 1e-3;
 
-  /// The segments must meet within the tolerances (asserted: whoever builds them checks the input).
+  /// The segments must meet within the tolerances (asserted: the caller checks the input).
   explicit Curve(std::vector<CurveSegment> segments, Direction direction = Direction::forward);
 
   double length_m() const { return breakpoints_m_.back(); }

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// A travel cost looked up by place and heading, filled as it is asked: searches ask the same places a
+/// A travel cost looked up by place and heading, filled on demand: searches query the same places a
 /// million times, and a rate may take a microsecond. It is constant over cells of 0.25 m and 22.5 degrees,
 /// which is fine for finding a way; what a way costs is scored with the exact rate. For one thread.
 class RateTable {

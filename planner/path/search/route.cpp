@@ -37,7 +37,7 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
-/// A place where there is no map at all is told as such.
+/// A place outside the map gets a message of its own.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
   if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;

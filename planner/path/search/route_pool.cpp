@@ -12,7 +12,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kCorridor_m = 0.8;  // half width of what is made dear about an earlier route
+constexpr double kCorridor_m = 0.8;  // half width of the penalty zone around an earlier route
 constexpr double kNearEnd_m = 1.5;   // all routes share these neighborhoods
 constexpr double kDearer = 1.0;      // added to the price of a metre each time
 constexpr double kMergeWithin_m = 2.5;

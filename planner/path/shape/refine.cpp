@@ -96,7 +96,7 @@ std::vector<SplineCorner> Refinement::corners_of(const std::vector<double>& x) c
   return corners;
 }
 
-/// The path at x and its clearance; NLopt asks for cost and constraints at the same x in turn.
+/// The path at x and its clearance; NLopt evaluates cost and constraints at the same x in turn.
 const Refinement::Trial& Refinement::trial(const std::vector<double>& x) {
   if (last_.x != x) {
     last_ = {.x = x, .path = spline_path(start_m_, corners_of(x), goal_m_)};
