@@ -32,9 +32,16 @@ struct CasterSwivel {
     return std::array{EffectParameter<CasterSwivel>{
                           "moment_Nm", "N m", -100, 1000, 0.5, "moment against a full change of course",
                           &CasterSwivel::moment_Nm, ParameterRole::strength, kResistingMoment},
-                      EffectParameter<CasterSwivel>{
-                          "trail_m", "m", 0.005, 10, 0.1, "distance over which the casters come round",
-                          &CasterSwivel::trail_m, ParameterRole::shape, kHalfTrack, kTrails_m}};
+                      EffectParameter<CasterSwivel>{"trail_m",
+                                                    "m",
+                                                    0.005,
+                                                    10,
+                                                    0.1,
+                                                    "distance over which the casters come round",
+                                                    &CasterSwivel::trail_m,
+                                                    ParameterRole::shape,
+                                                    {},
+                                                    kTrails_m}};
   }
 
   double memory_rate_per_m(double memory, double course) const { return (course - memory) / trail_m; }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/yardsticks.hpp"
+#include "model/effects/effect.hpp"
 
 namespace joulepath {
 
@@ -20,9 +20,9 @@ struct CenterOfMassOffset {
                                    .mujoco = "inertial pos of the chassis body",
                                    .needs = {.turns = true}};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<CenterOfMassOffset>{
-        "offset_m", "m", -1, 1, 0.02, "forward of where the robot file puts it",
-        &CenterOfMassOffset::offset_m, ParameterRole::strength, kHalfTrack}};
+    return std::array{EffectParameter<CenterOfMassOffset>{"offset_m", "m", -1, 1, 0.02,
+                                                          "forward of where the robot file puts it",
+                                                          &CenterOfMassOffset::offset_m}};
   }
 
   void adjust(Robot& robot) const {

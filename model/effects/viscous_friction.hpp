@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/yardsticks.hpp"
+#include "model/effects/effect.hpp"
 
 namespace joulepath {
 
@@ -20,9 +20,9 @@ struct ViscousFriction {
                                    .mujoco = "damping of the wheel joint",
                                    .family = kFrictionAgainstSpeed};
   static constexpr auto parameters() {
-    return std::array{EffectParameter<ViscousFriction>{
-        "coefficient_Nm_s_rad", "N m s/rad", -10, 10, 0.005, "change of the viscous friction at the wheel",
-        &ViscousFriction::coefficient_Nm_s_rad, ParameterRole::strength, kResistingDamping}};
+    return std::array{EffectParameter<ViscousFriction>{"coefficient_Nm_s_rad", "N m s/rad", -10, 10, 0.005,
+                                                       "change of the viscous friction at the wheel",
+                                                       &ViscousFriction::coefficient_Nm_s_rad}};
   }
 
   void adjust(Robot& robot) const {

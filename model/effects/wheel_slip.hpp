@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/effects/yardsticks.hpp"
+#include "model/effects/effect.hpp"
 
 namespace joulepath {
 
@@ -25,7 +25,7 @@ struct WheelSlip {
     return std::array{EffectParameter<WheelSlip>{"creep_stiffness_N_s_m", "N s/m", 1.0, 1000000000.0, 2000,
                                                  "force per speed of creep; small = slippery",
                                                  &WheelSlip::creep_stiffness_N_s_m,
-                                                 ParameterRole::inverse_strength, kEmptyMass}};
+                                                 ParameterRole::inverse_strength}};
   }
 
   double creep_m_s_N() const { return 1.0 / creep_stiffness_N_s_m; }

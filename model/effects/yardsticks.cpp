@@ -33,14 +33,6 @@ double resisting_current_A(const Robot& robot) {
   return sum_A;
 }
 
-double resisting_damping_Nm_s(const Robot& robot) {
-  double sum = 0;
-  for (Side side : kSides) sum += 0.5 * torque_at_wheel_Nm(robot, side) * robot.geometry.wheel_radius_m[side];
-  return sum;
-}
-
-double half_track_m(const Robot& robot) { return robot.geometry.half_track_m; }
-double empty_mass_kg(const Robot& robot) { return robot.total_mass_kg(0.0); }
 double standby_W(const Robot& robot) { return robot.power.standby_W; }
 
 }  // namespace joulepath::robot_measures

@@ -8,12 +8,9 @@ namespace robot_measures {
 /// Mean torque at a wheel that a level floor and the drive's own friction ask for: T_m + c N r, with the
 /// rolling coefficient c = 0.01 of a hard tire.
 double resisting_torque_Nm(const Robot& robot);
-double resisting_force_N(const Robot& robot);       ///< sum of these torques over r
-double resisting_moment_Nm(const Robot& robot);     ///< the force at half the track
-double resisting_current_A(const Robot& robot);     ///< mean motor current that these torques take
-double resisting_damping_Nm_s(const Robot& robot);  ///< torque per wheel speed at 1 m/s: torque times r
-double half_track_m(const Robot& robot);
-double empty_mass_kg(const Robot& robot);
+double resisting_force_N(const Robot& robot);    ///< sum of these torques over r
+double resisting_moment_Nm(const Robot& robot);  ///< the force at half the track
+double resisting_current_A(const Robot& robot);  ///< mean motor current that these torques take
 double standby_W(const Robot& robot);
 }  // namespace robot_measures
 
@@ -21,9 +18,6 @@ inline constexpr Yardstick kResistingTorque{robot_measures::resisting_torque_Nm,
 inline constexpr Yardstick kResistingForce{robot_measures::resisting_force_N, 9.27};
 inline constexpr Yardstick kResistingMoment{robot_measures::resisting_moment_Nm, 1.53};
 inline constexpr Yardstick kResistingCurrent{robot_measures::resisting_current_A, 0.27};
-inline constexpr Yardstick kResistingDamping{robot_measures::resisting_damping_Nm_s, 0.0463386};
-inline constexpr Yardstick kHalfTrack{robot_measures::half_track_m, 0.165};
-inline constexpr Yardstick kEmptyMass{robot_measures::empty_mass_kg, 23.98};
 inline constexpr Yardstick kStandby{robot_measures::standby_W, 10.0};
 
 }  // namespace joulepath
