@@ -152,8 +152,6 @@ inline constexpr double kUnexplainedShare = 0.45;
 inline constexpr double kScoreFlattening = 0.7;
 /// -2 log likelihood ratio that tells two effects apart. Derived: 2 ln 20.
 inline constexpr double kStandInLoss = 6.0;
-/// The same in log units of evidence, for energies alone. Chosen.
-inline constexpr double kStandInLogOdds = 4.0;
 /// Explanations compared with a named one. Declared: bounds time.
 inline constexpr std::size_t kMostRivals = 100;
 /// Prior widths that leave an amplitude to the data. Chosen.
@@ -257,10 +255,6 @@ inline constexpr double kMotionDoubtSigma = 0.2;
 inline constexpr int kMostEffectsOfEnergies = 2;
 /// Sigmas by which a large effect must move the data beyond calibration to be a candidate. Derived: 95 %.
 inline constexpr double kVisibleSigmas = 2.0;
-/// A less probable cause leaves the verdict ambiguous and is not corrected. Chosen (0044).
-inline constexpr double kSureOfEnergies = 0.9;
-/// Greatest probability of a cause. Chosen.
-inline constexpr double kSurestOfEnergies = 0.995;
 /// Of the runs, where the dataset says nothing about their use. Chosen (0044).
 inline constexpr std::size_t kEnergyFolds = 4;
 

@@ -43,7 +43,7 @@ std::string advice(const Diagnosis& d) {
     case Verdict::ambiguous:
       return "These runs cannot separate the effects below. Drive the proposed run.";
     case Verdict::too_little_data:
-      return "There are too few runs to name a cause. The list shows candidates only.";
+      return "There is too little data to name a cause. The list shows candidates only.";
   }
   return {};
 }

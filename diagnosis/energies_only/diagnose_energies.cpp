@@ -3,27 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
+#include <numeric>
 
-#include "diagnosis/energies_only/energy_folds.hpp"
+#include "diagnosis/energies_only/energy_problem.hpp"
 #include "diagnosis/energies_only/energy_where.hpp"
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "diagnosis/verdict/names.hpp"
+
 // Design: docs/decisions/0044-energies-alone.md
 namespace joulepath {
 namespace {
 
-/// One diagnosis of energies under way.
-struct EnergyExamination {
-  const DiagnoseOptions& options;
-  EnergyProblem problem;
-  std::vector<EnergyFold> folds{};
-  std::vector<Explanation> explanations{};
-  std::vector<Candidate> named{};
-  Diagnosis report{};
-};
+constexpr const char* kLogSome = "candidates only; log speed, voltage and current of some";
 
 std::string listed(const std::set<std::string>& words) {
   std::string text;
@@ -31,211 +25,106 @@ std::string listed(const std::set<std::string>& words) {
   return text;
 }
 
-void tell_limits(EnergyExamination& x) {
-  std::vector<std::string>& notes = x.report.notes;
-  x.report.missing_channels = {"time series"};
-  notes.push_back(
-      "no run has a log: the motions count as prescribed, with braking rates and entry speeds "
-      "known to 20 %");
-  notes.push_back("negative power counts as lost at each wheel except for the robot file's regeneration");
-  if (!x.problem.hidden.empty()) notes.push_back("not visible in these runs: " + listed(x.problem.hidden));
+std::vector<std::string> limits_of(const EnergyProblem& problem) {
+  std::vector<std::string> notes{
+      "no run has a log: the motions are taken as prescribed, braking rates and entry speeds as known to 20 "
+      "%",
+      "negative power counts as lost at each wheel but for the robot file's regeneration"};
+  if (!problem.hidden.empty()) notes.push_back("not visible in these runs: " + listed(problem.hidden));
+  return notes;
 }
 
-void rank(EnergyExamination& x) {
-  for (const auto& [label, probability] : effect_probabilities(x.problem.equations, x.explanations))
-    if (probability > kLeastProbabilityRanked) x.report.ranking.push_back({label, probability});
-  std::ranges::stable_sort(x.report.ranking, std::ranges::greater{}, &RankedEffect::probability);
-  if (x.report.ranking.size() > kLongestRanking) x.report.ranking.resize(kLongestRanking);
+double sum_of_sizes(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0,
+                         [](double sum, double value) { return sum + std::abs(value); });
 }
 
-/// Before and after on held-out rows.
-void measure(EnergyExamination& x, const HeldOutGaps& gaps) {
-  EnergyGap& energy = x.report.gap.energy;
-  double measured_J = 0, bias_before_J = 0, bias_after_J = 0;
-  for (std::size_t i = 0; i < gaps.runs.size(); ++i) {
-    measured_J += std::abs(gaps.measured_J[i]);
-    bias_before_J += gaps.before_J[i], bias_after_J += gaps.after_J[i];
-  }
-  energy.before_J = gaps.sum_before_J(), energy.after_J = gaps.sum_after_J();
-  energy.before_percent = 100 * energy.before_J / measured_J;
-  energy.after_percent = 100 * energy.after_J / measured_J;
-  energy.bias_before_percent = 100 * bias_before_J / measured_J;
-  energy.bias_after_percent = 100 * bias_after_J / measured_J;
-  energy.noise_floor_percent = noise_floor_percent(x.problem.repeatability);
-  const auto shrink = [&](const std::vector<std::size_t>& rows) {
-    double before = 0, after = 0;
-    for (std::size_t i : rows) before += std::abs(gaps.before_J[i]), after += std::abs(gaps.after_J[i]);
-    return before > 0 ? 1 - after / before : 0.0;
+/// The gap on held-out runs; nothing is corrected.
+EnergyGap gap_of(const HeldOutEnergies& held_out, const EnergyNoise& repeatability) {
+  const double measured_J = sum_of_sizes(held_out.measured_J), gap_J = sum_of_sizes(held_out.before_J),
+               signed_J = std::accumulate(held_out.before_J.begin(), held_out.before_J.end(), 0.0);
+  EnergyGap gap{.before_percent = 100 * gap_J / measured_J,
+                .bias_before_percent = 100 * signed_J / measured_J,
+                .noise_floor_percent = noise_floor_percent(repeatability),
+                .before_J = gap_J};
+  gap.after_percent = gap.before_percent, gap.bias_after_percent = gap.bias_before_percent;
+  gap.after_J = gap.before_J;
+  return gap;
+}
+
+/// A gap that is more than the readings' noise and worth a search.
+bool is_left(const EnergyGap& gap, double percent) {
+  return percent > std::max(kFloorsLeft * gap.noise_floor_percent, kMaterialGap_percent);
+}
+
+/// Whether the candidates shrink the gap of held-out runs: the 95 % interval of the shrink lies above 0.
+bool candidates_help(const HeldOutEnergies& held_out, std::size_t bootstrap) {
+  const auto shrink_J = [&](const std::vector<std::size_t>& rows) {
+    double sum = 0;
+    for (std::size_t i : rows) sum += std::abs(held_out.before_J[i]) - std::abs(held_out.after_J[i]);
+    return sum;
   };
-  energy.shrink_fraction = shrink(every(gaps.runs.size()));
-  energy.shrink_interval_95 = bootstrap_interval(gaps.runs.size(), x.options.bootstrap, shrink);
+  return bootstrap_interval(held_out.runs.size(), bootstrap, shrink_J).first > 0;
 }
 
-double shrink_fraction(const HeldOutGaps& gaps) {
-  return gaps.sum_before_J() > 0 ? 1 - gaps.sum_after_J() / gaps.sum_before_J() : 0.0;
-}
+struct Finding {
+  Verdict verdict{};
+  double left_share{1};  ///< of the held-out gap, beside the candidates
+  std::string note{};
+};
 
-bool is_left(const EnergyGap& energy, double percent) {
-  return percent > std::max(kFloorsLeft * energy.noise_floor_percent, kMaterialGap_percent);
-}
-
-/// Nothing is corrected; the candidates stay in the ranking.
-void correct_nothing(EnergyGap& energy) {
-  energy.after_J = energy.before_J, energy.after_percent = energy.before_percent;
-  energy.bias_after_percent = energy.bias_before_percent;
-  energy.shrink_fraction = 0, energy.shrink_interval_95 = {};
-}
-
-void withdraw(EnergyExamination& x) {
-  EnergyGap& energy = x.report.gap.energy;
+/// Energies alone name nothing: the motion was not recorded, and a part of the gap may be its doing.
+Finding judge_energies(std::size_t runs, const HeldOutEnergies& held_out, const EnergyGap& gap,
+                       bool any_candidate, std::size_t bootstrap) {
+  if (runs < kRunsForSmallEffects)
+    return {Verdict::too_little_data, 1,
+            "fewer than " + std::to_string(kRunsForSmallEffects) + " runs: " + kLogSome};
+  const Verdict unexplained = is_left(gap, gap.before_percent) ? Verdict::unexplained : Verdict::no_gap;
+  if (!any_candidate) return {unexplained};
+  const double after_J = sum_of_sizes(held_out.after_J);
+  const bool help = candidates_help(held_out, bootstrap);
   char text[160];
-  std::snprintf(text, sizeof text,
-                "the best explanation turns a gap of %.3g %% on held-out rows into one of %.3g %% and was "
-                "withdrawn",
-                energy.before_percent, energy.after_percent);
-  x.report.notes.emplace_back(text);
-  x.report.verdict = is_left(energy, energy.before_percent) ? Verdict::unexplained : Verdict::too_little_data;
+  std::snprintf(
+      text, sizeof text, "the best candidates turn a gap of %.3g %% on held-out runs into one of %.3g %%: %s",
+      gap.before_percent, gap.before_percent * after_J / gap.before_J, help ? kLogSome : "they do not hold");
+  if (help) return {Verdict::too_little_data, after_J / gap.before_J, text};
+  return {unexplained == Verdict::no_gap ? Verdict::too_little_data : Verdict::unexplained, 1, text};
 }
 
-/// Names are withdrawn if chance or the robot file itself explains the gap as well.
-void judge(EnergyExamination& x) {
-  EnergyGap& energy = x.report.gap.energy;
-  const std::vector<int>& best = x.explanations.front().candidates;
-  if (x.problem.runs.size() < kRunsForSmallEffects) {
-    x.report.verdict = Verdict::too_little_data;
-    x.report.notes.push_back("fewer than " + std::to_string(kRunsForSmallEffects) +
-                             " runs: candidates only; log speed, voltage and current of some");
-    return;
-  }
-  if (best.empty()) {
-    x.report.verdict = is_left(energy, energy.before_percent) ? Verdict::unexplained : Verdict::no_gap;
-    return;
-  }
-  if (energy.shrink_interval_95.first <= 0) {
-    withdraw(x);
-    return;
-  }
-  x.named = candidates_of(x.problem, x.explanations.front());
-  x.report.verdict = Verdict::explained;  // or less, as report_causes() finds
-}
-
-std::vector<FoundParameter> parameters_of(const EnergyFit& fit, std::size_t e, const Robot& robot) {
-  const ActiveEffect& effect = fit.state.effects[e];
-  const EffectSetting setting = setting_of(effect.candidate, effect.amplitude, robot);
-  const auto at = [&](double amplitude) {
-    return setting_of(effect.candidate, {amplitude}, robot).parameters.at(effect.candidate.amplitude[0]);
-  };
-  std::vector<FoundParameter> found;
-  for (const auto& [name, value] : setting.parameters) {
-    FoundParameter parameter{.name = name, .value = value, .interval_95 = {value, value}};
-    if (name == effect.candidate.amplitude[0]) {
-      const double a = effect.amplitude[0], width = 1.96 * fit.sd[e][0];
-      parameter.interval_95 = std::minmax({at(a - width), at(a + width)});
-    }
-    found.push_back(parameter);
-  }
-  return found;
-}
-
-void report_causes(EnergyExamination& x) {
-  const auto probabilities = effect_probabilities(x.problem.equations, x.explanations);
-  const std::vector<std::size_t> all = every(x.problem.runs.size());
-  const EnergyFit fit = fit_energies(x.problem, all, x.named);
-  const Explanation& best = x.explanations.front();
-  // The motion was not recorded: it may cause the leftover, and also the explained part.
-  const EnergyGap& energy = x.report.gap.energy;
-  const double left = is_left(energy, energy.after_percent) ? energy.after_J / energy.before_J : 0.0;
-  bool sure = left == 0;
-  double changes_J = 0;
-  for (std::size_t e = 0; e < x.named.size(); ++e) {
-    const std::string label = x.named[e].label();
-    Cause cause{
-        .effect = setting_of(x.named[e], fit.state.effects[e].amplitude, x.problem.robot),
-        .probability = (1 - left) * std::min(kSurestOfEnergies, probabilities.at(label)),
-        .indistinguishable_from = stand_ins_by_score(x.problem.equations, x.explanations, best.candidates[e]),
-        .parameters = parameters_of(fit, e, x.problem.robot)};
-    if (!cause.indistinguishable_from.empty() && x.report.pinned_combination.empty())
-      x.report.pinned_combination =
-          pinned_combination(without_calibration(x.problem.equations, all), x.problem.equations, best, label,
-                             cause.indistinguishable_from.front(), 1.0);
-    sure = sure && cause.probability >= kSureOfEnergies && cause.indistinguishable_from.empty();
-    EnergyFit without = fit;
-    without.state.effects.erase(without.state.effects.begin() + static_cast<std::ptrdiff_t>(e));
-    cause.energy_share =
-        (energy_gaps_J(x.problem, fit, all) - energy_gaps_J(x.problem, without, all)).cwiseAbs().sum();
-    changes_J += cause.energy_share;
-    cause.shrink_fraction_alone = shrink_fraction(held_out_gaps(x.problem, x.folds, {x.named[e]}));
-    x.report.causes.push_back(std::move(cause));
-  }
-  for (Cause& cause : x.report.causes) cause.energy_share /= std::max(1e-9, changes_J);
-  if (!sure) x.report.verdict = Verdict::ambiguous;
-  if (sure) {
-    x.report.corrected_robot = x.problem.robot;
-    for (const EffectSetting& setting : settings_of(x.problem.robot, fit.state))
-      (is_instrument(setting.name) ? x.report.corrected_instruments : x.report.corrected_robot->effects)
-          .push_back(setting);
-  }
-}
-
-/// References for the shrink: any smooth function of the circumstances, and a wrong candidate.
-void report_controls(EnergyExamination& x) {
-  x.report.ceiling_shrink_fraction = shrink_fraction(smooth_held_out_gaps(x.problem, x.folds));
-  std::set<std::string> spoken_for;
-  for (const Cause& cause : x.report.causes)
-    spoken_for.insert(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-  for (const Candidate& candidate : x.named) spoken_for.insert(candidate.label());
-  for (const Explanation& e : x.explanations) {
-    if (x.named.empty() || e.candidates.size() != 1) continue;
-    const Candidate& candidate =
-        x.problem.equations.candidates[static_cast<std::size_t>(e.candidates.front())];
-    if (spoken_for.contains(candidate.label())) continue;
-    x.report.control_effect = candidate.label();
-    x.report.control_shrink_fraction = shrink_fraction(held_out_gaps(x.problem, x.folds, {candidate}));
-    return;
-  }
-}
-
-void describe_leftover(EnergyExamination& x) {
-  const EnergyGap& energy = x.report.gap.energy;
-  if (!is_left(energy, energy.after_percent)) return;
-  x.report.leftover_significant = true;
-  x.report.leftover_share = energy.before_J > 0 ? std::min(1.0, energy.after_J / energy.before_J) : 0.0;
-  x.report.leftover_description = "depends on";
-  const char* separator = " ";
-  for (const char* axis : {"path", "payload", "acceleration"}) {
-    const auto cells = std::ranges::count(x.report.where, axis, &WhereCell::axis);
-    if (cells > 1) x.report.leftover_description += separator + std::string(axis), separator = ", ";
-  }
+std::vector<std::string> names_of(const EnergyProblem& problem, const std::vector<std::size_t>& runs) {
+  std::vector<std::string> names;
+  for (std::size_t r : runs) names.push_back(problem.runs[r].name);
+  return names;
 }
 
 }  // namespace
 
 Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& options) {
-  EnergyExamination x{.options = options,
-                      .problem = pose_energy_problem(dataset.robot, energy_runs(dataset), options.without)};
-  tell_limits(x);
-  x.report.where =
-      localize_energy_gap(x.problem.runs, dataset.robot, x.problem.repeatability, options.bootstrap);
-  x.folds = energy_folds(dataset, x.problem.runs);
-  x.explanations =
-      explain_energies(x.problem, x.folds.size() == 1 && x.problem.runs.size() >= kRunsForSmallEffects
-                                      ? x.folds.front().fitted
-                                      : every(x.problem.runs.size()));
-  rank(x);
-  const HeldOutGaps gaps = held_out_gaps(x.problem, x.folds);
-  measure(x, gaps);
-  for (std::size_t r : gaps.runs) x.report.validation_runs.push_back(x.problem.runs[r].name);
-  x.report.validation_method = x.folds.size() == 1
-                                   ? "held-out rows, never used to choose or fit"
-                                   : "each row once, with effects chosen and fitted on the other folds";
-  judge(x);
-  if (x.named.empty())
-    correct_nothing(x.report.gap.energy);
-  else
-    report_causes(x);
-  describe_leftover(x);
-  report_controls(x);
-  return std::move(x.report);
+  const EnergyProblem problem = pose_energy_problem(dataset.robot, energy_runs(dataset), options.without);
+  const std::vector<EnergyFold> folds = energy_folds(dataset, problem.runs);
+  const bool told = folds.size() == 1 && problem.runs.size() > 1;
+  const std::vector<Explanation> explanations =
+      explain_energies(problem, told ? folds.front().fitted : every(problem.runs.size()));
+  const HeldOutEnergies held_out = judge_held_out(problem, folds);
+  const EnergyGap gap = gap_of(held_out, problem.repeatability);
+  const Finding finding = judge_energies(problem.runs.size(), held_out, gap,
+                                         !explanations.front().candidates.empty(), options.bootstrap);
+  std::vector<std::string> notes = limits_of(problem);
+  if (!finding.note.empty()) notes.push_back(finding.note);
+  return {
+      .gap = {.energy = gap},
+      .where = localize_energy_gap(problem.runs, dataset.robot, problem.repeatability, options.bootstrap),
+      .verdict = finding.verdict,
+      .ranking = rank_effects(effect_probabilities(problem.equations, explanations)),
+      .leftover_significant = is_left(gap, finding.left_share * gap.before_percent),
+      .leftover_share =
+          is_left(gap, finding.left_share * gap.before_percent) ? std::min(1.0, finding.left_share) : 0.0,
+      .ceiling_shrink_fraction = gap.before_J > 0 ? 1 - sum_of_sizes(held_out.smooth_J) / gap.before_J : 0.0,
+      .missing_channels = {"time series"},
+      .notes = notes,
+      .validation_runs = names_of(problem, held_out.runs),
+      .validation_method = told ? "held-out rows, never used to choose or fit"
+                                : "each row in turn, its effects chosen and fitted on the other folds' rows"};
 }
 
 std::string told_by_energies(const Dataset& dataset, const Correction& correction) {
@@ -251,7 +140,7 @@ std::string told_by_energies(const Dataset& dataset, const Correction& correctio
   }
   char text[200];
   std::snprintf(text, sizeof text,
-                "%zu runs without a log were held out; their energy gap is %.3g %% before the correction and "
+                "%zu runs without a log took no part; their energy gap is %.3g %% before the correction and "
                 "%.3g %% after it",
                 runs.size(), 100 * before_J / measured_J, 100 * after_J / measured_J);
   return text;

@@ -145,4 +145,15 @@ RunJoules joules_of(const DrivenMotion& motion, const ModelPoint& point) {
   return joules;
 }
 
+Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules) {
+  if (!run.wheel_J) return Eigen::VectorXd::Constant(1, joules.battery_J);
+  return Eigen::Vector2d(joules.wheel_J.left + joules.wheel_J.right,
+                         joules.wheel_J.right - joules.wheel_J.left);
+}
+
+Eigen::VectorXd measured_rows(const EnergyRun& run) {
+  return energy_rows(
+      run, {.wheel_J = run.wheel_J.value_or(Sided<double>{}), .battery_J = run.battery_J.value_or(0.0)});
+}
+
 }  // namespace joulepath

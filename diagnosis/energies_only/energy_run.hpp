@@ -54,4 +54,8 @@ struct EnergyRun {
 /// The energy of a motion by a model.
 [[nodiscard]] RunJoules joules_of(const DrivenMotion& motion, const ModelPoint& point);
 
+/// What is compared of a run: sum of the wheels, right less left; or the battery's energy alone (J).
+[[nodiscard]] Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules);
+[[nodiscard]] Eigen::VectorXd measured_rows(const EnergyRun& run);
+
 }  // namespace joulepath

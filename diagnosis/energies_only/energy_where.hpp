@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/energies_only/energy_equations.hpp"
+#include "diagnosis/energies_only/energy_noise.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {

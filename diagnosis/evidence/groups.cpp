@@ -72,17 +72,6 @@ std::map<std::string, double> effect_probabilities(const Equations& equations,
   return weight;
 }
 
-std::vector<std::string> stand_ins_by_score(const Equations& equations,
-                                            const std::vector<Explanation>& explanations, int candidate) {
-  std::vector<std::string> found;
-  for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
-    if (e.score >= explanations.front().score - kStandInLogOdds &&
-        std::find(found.begin(), found.end(), label) == found.end())
-      found.push_back(label);
-  });
-  return found;
-}
-
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                const std::vector<Explanation>& explanations, int candidate,
                                double dispersion) {

@@ -13,12 +13,6 @@ namespace joulepath {
 [[nodiscard]] std::map<std::string, double> effect_probabilities(
     const Equations& equations, const std::vector<Explanation>& explanations);
 
-/// Labels that could stand in for one effect of the best explanation, typical sizes included: the only
-/// information in energies alone.
-[[nodiscard]] std::vector<std::string> stand_ins_by_score(const Equations& equations,
-                                                          const std::vector<Explanation>& explanations,
-                                                          int candidate);
-
 /// An effect that could stand in for a named one, the rest kept.
 struct StandIn {
   std::string label{};

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
+#include "diagnosis/numerics/folds.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -46,13 +46,10 @@ RunSplit split_runs(const Dataset& dataset, const std::vector<std::size_t>& usab
   if (!told) {
     std::vector<Stratum> strata;
     for (std::size_t r : open) strata.push_back(stratum_of(dataset.runs[r]));
-    std::vector<std::size_t> order(open.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return strata[a] < strata[b]; });
-    for (std::size_t k = 0; k < order.size(); ++k)
-      (k % kHeldOutEvery == 2 && usable.size() >= kLeastRunsToName ? split.validation : split.diagnosis)
-          .push_back(open[order[k]]);
+    const std::vector<std::size_t> fold_of = dealt_folds(strata, kHeldOutEvery);
+    for (std::size_t k = 0; k < open.size(); ++k)
+      (fold_of[k] == 2 && usable.size() >= kLeastRunsToName ? split.validation : split.diagnosis)
+          .push_back(open[k]);
   } else {
     split.diagnosis.insert(split.diagnosis.end(), open.begin(), open.end());
   }
