@@ -8,12 +8,12 @@ std::vector<double> held_out_losses(const LogSet& validation, const Identificati
                                     const ModelState& state) {
   const Robot& robot = validation.dataset->robot;
   const std::vector<RunSignals> signals = read_signals(validation, channel_delay_s(state));
-  ModelState bare = state;  // only the residual of the rows is needed: no column, no offset
   const EquationOptions options{.whole_catalog = false,
                                 .dictionary = false,
                                 .noise = &id.equations.noise,
                                 .run_variance = &id.equations.run_variance};
-  const Equations equations = build_equations(signals, robot, id.nuisances, bare, {}, options);
+  // The residual of the rows alone is wanted: no group of columns is put back.
+  const Equations equations = build_equations(signals, robot, id.nuisances, state, {}, options);
   Eigen::VectorXd at_state = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equations.columns.size()));
   for (std::size_t k = 0; k < equations.columns.size(); ++k)
     at_state[static_cast<Eigen::Index>(k)] = equations.columns[k].current;
