@@ -36,10 +36,15 @@ Schema improvements_schema() {
                         required("cost_J", result(), "energy, and time at the leg's price")})));
 }
 
+constexpr const char* kBoundMeans =
+    "no profile of these paths within the limits takes less; null where one is driven in the least time";
+
 Schema leg_schema() {
   return open(
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
+           optional("lower_bound_J", result(), kBoundMeans),
+           optional("optimality_gap_percent", result(), "of its energy; in the least time, of its time"),
            optional("charged_J", result(), "at the charger of an inserted stop"),
            required("duration_s", result(), "without dwell"), required("distance_m", result()),
            required("payload_kg",
@@ -104,7 +109,7 @@ Schema plan_schema() {
            optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
            optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
            optional("duration_s", result()), optional("distance_m", result()),
-           optional("optimality_gap_percent", result()),
+           optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
            optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
            optional("solver", open(map({required("name", text()), required("iterations", number())}))),
            optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),

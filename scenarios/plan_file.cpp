@@ -74,6 +74,8 @@ Json stretch_json(const StretchPlan& stretch) {
           {"solver", stretch.summary.solver},
           {"iterations", stretch.summary.iterations},
           {"nodes", stretch.summary.nodes},
+          {"lower_bound_J", number(stretch.summary.lower_bound_J)},
+          {"lower_bound_s", number(stretch.summary.lower_bound_s)},
           {"optimality_gap_percent", number(stretch.summary.gap_percent)},
           {"local", stretch.summary.local},
           {"replay_energy_J", stretch.replay.energy_J},
@@ -112,6 +114,8 @@ Json leg_json(const LegPlan& leg) {
             {"energy_J", leg.energy.total_J()},
             {"energy_interval_95_J", interval_95_J(leg.energy.total_J(), leg.energy_sigma_J)},
             {"motion_energy_J", leg.energy.motion_J()},
+            {"lower_bound_J", number(leg.lower_bound_J)},
+            {"optimality_gap_percent", number(leg.gap_percent)},
             {"start_s", leg.start_s},
             {"duration_s", leg.duration_s},
             {"dwell_s", leg.dwell_s},
@@ -170,6 +174,7 @@ void add_results(const Plan& plan, Json& json) {
   json["battery_loss_J"] = plan.battery ? plan.battery->loss_J : 0.0;
   json["duration_s"] = plan.duration_s;
   json["distance_m"] = plan.distance_m;
+  json["lower_bound_J"] = number(plan.lower_bound_J);
   json["optimality_gap_percent"] = number(plan.gap_percent);
   json["local"] = plan.local;
   json["energy_by_cause_J"] = cause_json(plan.energy);

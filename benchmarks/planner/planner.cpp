@@ -123,9 +123,9 @@ Campaign run_campaign(int count) {
 std::string campaign_section(Campaign& c) {
   std::string text = format(
       "| solved, replay within every limit (1e-6) | %d of %d | 100 %% |\n"
-      "| of these: optimal by certificate (gap <= 0.01 %%), local, handed over to Ipopt | %d, %d, %d | |\n"
+      "| of these: optimal by its bound (gap <= 0.01 %%), local, handed over to Ipopt | %d, %d, %d | |\n"
       "| certified optimality gap: median, p95, max | %.5f, %.4f, %.3g %% | |\n"
-      "| whole solve (grid, refinement, limits between nodes, certificate), fast solver: median, p95 | %.1f, "
+      "| whole solve (grid, refinement, limits between nodes, bound), fast solver: median, p95 | %.1f, "
       "%.1f ms | |\n",
       c.valid, c.problems, c.optimal, c.local, c.handed_over, c.gap.share(0.5), c.gap.share(0.95),
       c.gap.share(1), c.whole_ms.share(0.5), c.whole_ms.share(0.95));

@@ -49,11 +49,24 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
-/// Gap in joules, of energy and the price of its time (of a minimum-time stretch none: its value is a time).
-double gap_J(const StretchPlan& stretch) {
-  const double cost_J =
-      stretch.energy.total_J() + stretch.summary.price_of_time_W * stretch.profile.duration_s();
-  return 0.01 * stretch.summary.gap_percent * std::abs(cost_J);
+/// A leg's bound, gap and status from those of its stretches. Of seconds that it waits at its stop a slower
+/// drive could make use, at what they cost here.
+void judge_leg(LegPlan& leg, double standby_W, double accuracy) {
+  leg.lower_bound_J = leg.energy.total_J();
+  if (leg.prescribed) return;
+  double slow_s = 0, gap_J = 0;
+  for (const StretchPlan& stretch : leg.stretches) {
+    const double wait_s = stretch.profile.wait_s, price_W = leg.price_of_time_W;
+    gap_J += stretch.energy.total_J() - standby_W * wait_s - stretch.summary.lower_bound_J +
+             std::max(0.0, price_W + standby_W) * wait_s;
+    if (!std::isnan(stretch.summary.lower_bound_s))
+      slow_s += stretch.profile.duration_s() - wait_s - stretch.summary.lower_bound_s;
+  }
+  leg.lower_bound_J -= gap_J;
+  leg.gap_percent = std::isnan(gap_J) ? 100 * slow_s / leg.duration_s
+                                      : 100 * gap_J / std::max(1e-9, std::abs(leg.energy.total_J()));
+  if (leg.status <= SolveStatus::feasible)
+    leg.status = leg.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
 }
 
 std::string seconds(double value) {
@@ -87,17 +100,18 @@ std::vector<BaselineTotal> leg_baselines(const LegPlan& leg) {
 
 void sum_up(Plan& plan, const Plant& plant, double accuracy) {
   const double standby_W = plant.robot.power.standby_W;
-  double gap_sum_J = 0.0;
+  double slowest_percent = 0.0;  // gap of legs that are driven in the least time
   for (LegPlan& leg : plan.legs) {
+    judge_leg(leg, standby_W, accuracy);
+    plan.lower_bound_J += leg.lower_bound_J;
+    if (std::isnan(leg.lower_bound_J)) slowest_percent = std::max(slowest_percent, leg.gap_percent);
     plan.energy += leg.energy;
     plan.duration_s += leg.duration_s + leg.dwell_s;
     plan.distance_m += leg.distance_m;
     plan.status = std::max(plan.status, leg.status);
     add_replay(plan, leg, standby_W);
-    for (const StretchPlan& stretch : leg.stretches) {
-      gap_sum_J += gap_J(stretch);
+    for (const StretchPlan& stretch : leg.stretches)
       if (plan.solver.empty()) plan.solver = stretch.summary.solver;
-    }
     for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
       BaselineTotal& of_leg = leg.baselines[b];
       if (!leg.prescribed) of_leg.energy_J += standby_W * leg.dwell_s;
@@ -107,14 +121,14 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
     }
   }
   const double energy_J = plan.energy.total_J();
-  plan.gap_percent = energy_J > 0 ? 100.0 * gap_sum_J / energy_J : 0.0;
+  plan.gap_percent = std::isnan(plan.lower_bound_J)
+                         ? slowest_percent
+                         : 100 * (energy_J - plan.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
   if (plan.worst_violation > 1e-6) {
     plan.status = SolveStatus::failed;
     plan.message = "the replay found " + plan.worst_limit + " exceeded";
-  } else if (plan.status == SolveStatus::optimal && plan.gap_percent > 100.0 * std::max(accuracy, 1e-3)) {
-    plan.status = SolveStatus::feasible;
-  } else if (plan.status == SolveStatus::feasible && !plan.local && plan.gap_percent <= 100.0 * accuracy) {
-    plan.status = SolveStatus::optimal;  // what one stretch lacks is little of the whole
+  } else if (plan.status <= SolveStatus::feasible) {
+    plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
   }
 }
 

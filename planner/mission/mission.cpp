@@ -28,7 +28,7 @@ void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration
     return;
   }
   constexpr double kNoWait = 1e-6;  ///< relative
-  // A duration longer than any use: the certificate is to know that there is no more of it. The times that
+  // A duration longer than any use: the bound is to know that there is no more of it. The times that
   // were shared are the fast solver's, so Ipopt has not been asked yet.
   if (price_W <= 0 && timing.duration_s(price_W, SolverChoice::fast) < duration_s * (1 - kNoWait))
     timing.give(duration_s);

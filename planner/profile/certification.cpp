@@ -3,75 +3,83 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/path_motion.hpp"
+#include "planner/motion/segment_energy.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
-#include "planner/profile/certificate.hpp"
 #include "planner/profile/first_guess.hpp"
-#include "planner/values/profile.hpp"
-#include "planner/values/profile_result.hpp"
 
 namespace joulepath {
 namespace {
 
-void set_bound(const nlp::Certificate& certificate, double discretization, SolveSummary& summary) {
-  const double size = std::max(1e-9, std::abs(certificate.objective));
-  summary.lower_bound_J = certificate.lower_bound - discretization;
-  summary.gap_percent = 100 * (certificate.objective - summary.lower_bound_J) / size;
-  summary.local = !certificate.convex;
+constexpr double kLocal =
+    0.1;  ///< share of a gap from cheaper rates elsewhere that makes it one of convexity
+
+/// Relative to the value alone, not to what its time costs.
+void set_gap(double value, double gap, const DualGap& parts, SolveSummary& summary) {
+  summary.gap_percent = 100 * gap / std::max(1e-9, std::abs(value));
+  summary.local = parts.elsewhere > kLocal * gap;
 }
 
-/// Where the Lagrangian is not convex at the solution's own price of time, another price is a bound too:
-/// E(b) >= min (E + price T)(b) - price T wherever T(b) <= T, and with a price the problem is convex.
-void raise_bound(const nlp::Problem& problem, const nlp::RateEnvelope& envelope, const std::vector<double>& b,
-                 nlp::Certificate& certificate) {
-  if (problem.duration_row == nlp::DurationRow::none) return;
-  for (double price_W : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
-    nlp::Problem priced = problem;
-    priced.duration_row = nlp::DurationRow::none;
-    priced.time_weight_W = price_W;
-    if (problem.duration_row == nlp::DurationRow::at_most && price_W < problem.time_weight_W) continue;
-    const nlp::Solution solution = nlp::solve_fast(priced, b);
-    if (!solution.converged) continue;
-    const nlp::Certificate other = nlp::certify(priced, solution, envelope.fastest);
-    const double bound = other.lower_bound + (problem.time_weight_W - price_W) * problem.duration_s;
-    if (other.convex) certificate.lower_bound = std::max(certificate.lower_bound, bound);
-  }
-  certificate.lower_bound = std::min(certificate.lower_bound, certificate.objective);
+void set_energy_bound(double energy_J, double gap_J, const DualGap& parts, SolveSummary& summary) {
+  summary.lower_bound_J = energy_J - gap_J;
+  set_gap(energy_J, gap_J, parts, summary);
 }
 
-/// By how much every second node alone costs more; the error of constant accelerations falls with the
-/// square of the spacing, so a third of it is what this grid still costs too much.
-double coarse_excess(const nlp::Problem& problem, const PathMotion& motion, const nlp::Solution& solution,
-                     const Profile& profile) {
-  std::vector<double> s, b;
-  for (std::size_t k = 0; k < problem.node_count(); k += 2)
-    s.push_back(problem.s[k]), b.push_back(solution.b[k]);
-  if (problem.node_count() % 2 == 0) s.push_back(problem.s.back()), b.push_back(solution.b.back());
-  if (s.size() < 4) return 0.0;
-  const nlp::Problem coarse = nlp::transcribe(*problem.request, motion, s, {}, &profile);
-  const nlp::Solution coarser = nlp::solve_fast(coarse, b);
-  return coarser.converged ? std::max(0.0, coarser.objective - solution.objective) : 0.0;
+/// Energy (J) at the terminals, standby included.
+double energy_J(const PathMotion& motion, const Profile& profile) {
+  double sum_J = motion.plant().robot.power.standby_W * profile.duration_s();
+  for (std::size_t k = 0; k + 1 < profile.s.size(); ++k) sum_J += segment_energy_J(motion, profile, k);
+  return sum_J;
+}
+
+/// The bound (J) for exactly the time asked where a second is worth less than nothing: creeping would be
+/// cheaper than any bound. What is proven is the least energy without any price, and the standby of that
+/// time.
+double bound_without_price_J(const nlp::Problem& problem, const PathMotion& motion,
+                             const nlp::Solution& solution) {
+  nlp::Problem free = problem;
+  free.time_weight_W = 0;
+  free.duration_row = nlp::DurationRow::none;
+  const nlp::Solution cheapest = nlp::solve_fast(free, solution.b);
+  if (!cheapest.converged) return -kNoLimit;
+  const Profile profile = profile_from_squares(free.s, cheapest.b);
+  const CostModel model(*free.request, motion, {free.energy_weight, 0.0});
+  const DualGap gap = dual_gap(model, costate_of(free, cheapest, profile, model), profile);
+  const double standby_W = motion.plant().robot.power.standby_W, duration_s = profile.duration_s();
+  return energy_J(motion, profile) - gap.total() + standby_W * (problem.duration_s - duration_s);
 }
 
 }  // namespace
 
-void certify_energy(const nlp::Problem& problem, const PathMotion& motion, const nlp::RateEnvelope& envelope,
-                    const nlp::Solution& solution, const Profile& profile, SolveSummary& summary) {
-  nlp::Certificate certificate = nlp::certify(problem, solution, envelope.fastest);
-  if (!certificate.convex) raise_bound(problem, envelope, solution.b, certificate);
-  set_bound(certificate, coarse_excess(problem, motion, solution, profile) / 3, summary);
+DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, const nlp::Solution& solution,
+                       const Profile& profile, SolveSummary& summary) {
+  const double time_W = problem.time_weight_W + solution.price_W, value_J = energy_J(motion, profile);
+  if (time_W < 0) {
+    set_energy_bound(value_J, value_J - bound_without_price_J(problem, motion, solution),
+                     {.elsewhere = kNoLimit}, summary);
+    return {};
+  }
+  const CostModel model(*problem.request, motion, {problem.energy_weight, time_W});
+  const DualGap gap = dual_gap(model, costate_of(problem, solution, profile, model), profile);
+  const bool timed = problem.duration_row != nlp::DurationRow::none;
+  const double unused_s = timed ? std::max(0.0, problem.duration_s - profile.duration_s()) : 0.0;
+  set_energy_bound(value_J, gap.total() + solution.price_W * unused_s, gap, summary);
+  return gap;
 }
 
-void certify_time(const nlp::Problem& problem, const nlp::RateEnvelope& envelope, const Profile& profile,
-                  SolveSummary& summary) {
-  const double duration_s = profile.duration_s();
+DualGap certify_time(const nlp::Problem& problem, const PathMotion& motion, const nlp::RateEnvelope& envelope,
+                     const Profile& profile, SolveSummary& summary) {
   const nlp::Problem timed = nlp::with_time_as_objective(problem);
-  if (timed.unknown_count() == 0) return set_bound({duration_s, duration_s, true}, 0.0, summary);
+  if (timed.unknown_count() == 0) {  // a grid without inner nodes has no multipliers
+    summary.lower_bound_s = 0;
+    set_gap(profile.duration_s(), profile.duration_s(), {}, summary);
+    return {};
+  }
   const nlp::Solution fastest = nlp::solve_fast(timed, blend(envelope, 0.95));
-  nlp::Certificate certificate = nlp::certify(timed, fastest, envelope.fastest);
-  certificate.objective = duration_s;
-  certificate.lower_bound = std::min(certificate.lower_bound, duration_s);
-  set_bound(certificate, 0.0, summary);
+  const CostModel model(*problem.request, motion, {0.0, 1.0});
+  const DualGap gap = dual_gap(model, costate_of(timed, fastest, profile, model), profile);
+  summary.lower_bound_s = profile.duration_s() - gap.total();
+  set_gap(profile.duration_s(), gap.total(), gap, summary);
+  return gap;
 }
 
 }  // namespace joulepath

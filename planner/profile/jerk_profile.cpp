@@ -86,12 +86,17 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
   const Profile& profile = *result.profile;
   SolveSummary& summary = result.summary;
   const double duration_s = profile.duration_s();
-  double value = energy_by_cause(path_motion(request), profile).total_J();
-  if (request.time.mode == TimeMode::time_price) value += request.time.price_W * duration_s;
-  if (request.time.mode == TimeMode::minimum_time) value = duration_s;
-  summary.lower_bound_J = std::min(bound.summary.lower_bound_J, value);
-  summary.gap_percent = 100 * (value - summary.lower_bound_J) / std::max(1e-9, std::abs(value));
-  const bool closed = summary.gap_percent <= 100 * request.accuracy && !bound.summary.local;
+  double value = duration_s, gap = value - bound.summary.lower_bound_s;
+  if (request.time.mode == TimeMode::minimum_time) {
+    summary.lower_bound_s = bound.summary.lower_bound_s;
+  } else {
+    const double price_W = request.time.mode == TimeMode::time_price ? request.time.price_W : 0.0;
+    value = energy_by_cause(path_motion(request), profile).total_J();
+    gap = value - bound.summary.lower_bound_J + price_W * (duration_s - bound.profile->duration_s());
+    summary.lower_bound_J = value - gap;
+  }
+  summary.gap_percent = 100 * gap / std::max(1e-9, std::abs(value));
+  const bool closed = summary.gap_percent <= 100 * request.accuracy;
   summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
   summary.local = !closed;
   summary.message = "jerk limit: a local optimum; the bound is that of the problem without it";

@@ -22,12 +22,16 @@ namespace {
 
 using nlp::Problem;
 
-constexpr int kRounds = 12;         ///< of tightening and refinement
-constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
-constexpr double kSameTime = 2e-6;  ///< a deadline this close to the minimum time leaves no choice
-constexpr double kMetTime = 1e-7;   ///< relative: a deadline missed by less is met
-constexpr int kSharpenings = 16;    ///< cuts of the grid for a deadline that it misses by little
-constexpr double kWorthACut = 0.2;  ///< share of the largest excess
+constexpr int kRounds = 12;           ///< of tightening and refinement
+constexpr double kSettled = 7e-7;     ///< relative violation that a plan may have, short of the replay's 1e-6
+constexpr double kSameTime = 2e-6;    ///< a deadline this close to the minimum time leaves no choice
+constexpr double kMetTime = 1e-7;     ///< relative: a deadline missed by less is met
+constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that it misses by little
+constexpr double kWorthACut = 0.2;    ///< share of the largest excess
+constexpr double kProven = 0.04;      ///< gap aimed at, of the accuracy asked for
+constexpr double kWorthAProof = 0.7;  ///< of the gap before: a finer grid that closes less is the last
+constexpr std::size_t kMostNodes = 4;  ///< times the nodes asked for: a grid beyond is not cut again
+constexpr int kMostParts = 4;          ///< of a segment that is cut
 constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
@@ -52,7 +56,16 @@ class ProfileSolver {
       const bool accurate =
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool last = round + 1 == kRounds;
-      if (check.worst_ratio <= 1 + kSettled && (accurate || last)) return finish(problem);
+      if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
+        std::vector<int> parts = prove(problem);
+        if (parts.empty() && to_settle()) {
+          settling_ = true;
+          continue;
+        }
+        if (last || parts.empty()) return finish();
+        s = nlp::divide_segments(s, parts);
+        continue;
+      }
       last_ratio_ = check.worst_ratio;
       tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
       s = nlp::cut_segments(s, check.cut);
@@ -107,12 +120,13 @@ class ProfileSolver {
     const std::vector<double> start = first_guess(problem, envelope, aim_s);
     SolveSummary& summary = result_.summary;
     const char* solver = "fast";
-    if (request_.solver == SolverChoice::fast && summary.handed_over.empty()) {
+    if (!settling_ && !given_over_) {
       solution_ = nlp::solve_fast(problem, start);
       summary.iterations += solution_.iterations;
-      if (!solution_.converged) summary.handed_over = solution_.message;
+      given_over_ = !solution_.converged;
+      if (given_over_ && request_.solver == SolverChoice::fast) summary.handed_over = solution_.message;
     }
-    if (request_.solver == SolverChoice::ipopt || !summary.handed_over.empty()) {
+    if (settling_ || given_over_) {
       solver = "ipopt";
       solution_ = nlp::solve_with_ipopt(problem, start);
       summary.iterations += solution_.iterations;
@@ -126,6 +140,11 @@ class ProfileSolver {
     const bool priced = request_.time.mode == TimeMode::time_price;
     summary.price_of_time_W = solution_.price_W + (priced ? request_.time.price_W : 0.0);
     return take(problem, solution_.b, solver);
+  }
+
+  /// The fast solver finds the grid; where Ipopt is asked for it has the last word on it.
+  bool to_settle() const {
+    return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
   }
 
   bool take(const Problem& problem, const std::vector<double>& b, const char* solver) {
@@ -142,25 +161,41 @@ class ProfileSolver {
     return false;
   }
 
-  /// The objective stands where a plan has its lower bound.
   ProfileResult sketch() {
+    const bool priced = request_.time.mode == TimeMode::time_price;
     result_.summary.status = SolveStatus::feasible;
-    result_.summary.lower_bound_J = solution_.objective;
+    result_.summary.counted_J =
+        solution_.objective - (priced ? request_.time.price_W * best_->duration_s() : 0.0);
     result_.profile = std::move(best_);
     return std::move(result_);
   }
 
-  /// The certificate, and what it makes of the profile.
-  ProfileResult finish(const Problem& problem) {
+  /// The dual gap, and in how many parts each segment is to be cut for a smaller one; empty where that is
+  /// not worth it.
+  std::vector<int> prove(const Problem& problem) {
     SolveSummary& summary = result_.summary;
-    summary.status = SolveStatus::feasible;
-    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    if (summary.solver == kFastestSolver)
-      certify_time(problem, envelope, *best_, summary);
-    else
-      certify_energy(problem, motion_, envelope, solution_, *best_, summary);
-    if (summary.gap_percent <= 100 * request_.accuracy && !summary.local)
-      summary.status = SolveStatus::optimal;
+    const DualGap gap = summary.solver == kFastestSolver
+                            ? certify_time(problem, motion_, nlp::rate_envelope(problem), *best_, summary)
+                            : certify_energy(problem, motion_, solution_, *best_, summary);
+    const double share = 0.01 * summary.gap_percent, aim = kProven * request_.accuracy;
+    const bool better = share < kWorthAProof * least_gap_;
+    least_gap_ = std::min(least_gap_, share);
+    if (share <= aim || !better || settling_ || summary.local || gap.of_segment.empty() ||
+        problem.node_count() > kMostNodes * request_.nodes)
+      return {};
+    const double allowed = gap.total() * aim / share / static_cast<double>(gap.of_segment.size());
+    std::vector<int> parts;
+    for (double part : gap.of_segment)
+      parts.push_back(
+          std::clamp(static_cast<int>(std::ceil(std::cbrt(part / allowed) - 0.3)), 1, kMostParts));
+    return parts;
+  }
+
+  /// The status that follows from the bound.
+  ProfileResult finish() {
+    SolveSummary& summary = result_.summary;
+    const bool closed = summary.gap_percent <= 100 * request_.accuracy;
+    summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
     result_.profile = std::move(best_);
     return std::move(result_);
   }
@@ -171,7 +206,10 @@ class ProfileSolver {
   std::vector<double> best_b_{};  ///< squares of the rate
   std::optional<Profile> best_{};
   nlp::Solution solution_{};
+  bool given_over_{};  ///< the fast solver did not converge: Ipopt does the rest
+  bool settling_{};    ///< on the last grid, by Ipopt
   double last_ratio_{};
+  double least_gap_{kNoLimit};
   int sharpened_{};
 };
 

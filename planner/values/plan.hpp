@@ -73,6 +73,8 @@ struct LegPlan {
   double turned_rad{};
   double price_of_time_W{};
   EnergyByCause energy{};   ///< driving and dwell
+  double lower_bound_J{};   ///< no profiles of these stretches take less between departure and departure
+  double gap_percent{};     ///< of its energy; where it is driven in the least time, of its time
   double energy_sigma_J{};  ///< 1-sigma from the robot file's uncertainty
   double charger_W{};       ///< of the charger at its stop, where it was put in to charge
   double charged_J{};       ///< taken up there
@@ -122,6 +124,7 @@ struct Plan {
   double energy_sigma_J{};  ///< 1-sigma of energy from the robot file's uncertainty
   double duration_s{};
   double distance_m{};
+  double lower_bound_J{};  ///< no profiles of these paths take less; no number with a leg of least time
   double gap_percent{};
   bool local{};
   std::string solver{};

@@ -51,7 +51,7 @@ struct ProfileRequest {
   std::size_t nodes{200};
   double accuracy{1e-4};  ///< relative: NLP energy against replay, and the gap that counts as optimal
   SolverChoice solver{SolverChoice::ipopt};
-  /// For comparing paths: one grid, limits kept at its nodes alone, jerk left out, no certificate.
+  /// For comparing paths: one grid, limits kept at its nodes alone, jerk left out, no bound.
   bool draft{};
   double time_of_day_s{};  ///< at the start
   EffectMemory memory{};   ///< of the effects, at the start

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -14,13 +15,17 @@ enum class SolveStatus { optimal, feasible, infeasible, failed };
 
 struct SolveSummary {
   SolveStatus status{SolveStatus::failed};
-  std::string solver{};       ///< ipopt | fast | forward_backward
-  int iterations{};           ///< over all refinements
-  std::size_t nodes{};        ///< of the last grid
-  double price_of_time_W{};   ///< -dE/dT: multiplier of the time row (standby included), 0 where time is free
-  double lower_bound_J{};     ///< of the energy (of E + price T with time_price, of T with minimum_time)
-  double gap_percent{};       ///< (value - lower bound)/value, discretization estimate included
-  bool local{};               ///< the problem is not convex here: the bound is the best known, not a proof
+  std::string solver{};      ///< ipopt | fast | forward_backward
+  int iterations{};          ///< over all refinements
+  std::size_t nodes{};       ///< of the last grid
+  double price_of_time_W{};  ///< -dE/dT: multiplier of the time row (standby included), 0 where time is free
+  /// No profile within the limits as asked takes less energy (J, standby included) in the time asked for;
+  /// with a price of time, in this profile's time. No number for a profile of least time.
+  double lower_bound_J{std::nan("")};
+  double lower_bound_s{std::nan("")};  ///< no profile takes less time; of a profile of least time
+  double gap_percent{};                ///< (value - lower bound)/value, of energy or time
+  bool local{};               ///< the bound is not closed because the problem is not convex: a local optimum
+  double counted_J{};         ///< energy as the problem counts it, of a draft
   std::string handed_over{};  ///< why the fast solver gave over to Ipopt; empty if it did not
   std::string message{};
 };

@@ -26,7 +26,7 @@ PathScore score_stretches(std::vector<ProfileRequest> stretches, double price_W)
     const double duration_s = results[k].profile->duration_s();
     const bool optimized = results[k].summary.solver != "forward_backward";
     score.energy_J +=
-        optimized ? results[k].summary.lower_bound_J - price_W * duration_s
+        optimized ? results[k].summary.counted_J
                   : energy_by_cause(path_motion(timing.stretches()[k]), *results[k].profile).total_J();
     score.duration_s += duration_s;
   }

@@ -205,13 +205,19 @@ std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& re
   return without_doubles(std::move(grid), length);
 }
 
-std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut) {
+std::vector<double> divide_segments(const std::vector<double>& s, const std::vector<int>& parts) {
   std::vector<double> grid{s.front()};
   for (std::size_t k = 0; k + 1 < s.size(); ++k) {
-    if (cut[k]) grid.push_back(0.5 * (s[k] + s[k + 1]));
+    for (int i = 1; i < parts[k]; ++i) grid.push_back(s[k] + (s[k + 1] - s[k]) * i / parts[k]);
     grid.push_back(s[k + 1]);
   }
   return grid;
+}
+
+std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut) {
+  std::vector<int> parts;
+  for (bool in_two : cut) parts.push_back(in_two ? 2 : 1);
+  return divide_segments(s, parts);
 }
 
 }  // namespace joulepath::nlp

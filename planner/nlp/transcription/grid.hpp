@@ -20,6 +20,10 @@ namespace joulepath::nlp {
 [[nodiscard]] std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request,
                                             std::size_t count);
 
+/// The grid with every segment cut in as many equal parts.
+[[nodiscard]] std::vector<double> divide_segments(const std::vector<double>& s,
+                                                  const std::vector<int>& parts);
+
 /// The grid with every marked segment cut in two.
 [[nodiscard]] std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut);
 

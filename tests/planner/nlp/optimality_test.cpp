@@ -10,7 +10,6 @@
 #include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/nlp/transcription/problem.hpp"
-#include "planner/profile/certificate.hpp"
 #include "planner/profile/front.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "tests/support/random_profiles.hpp"
@@ -73,6 +72,7 @@ TEST(Optimality, DynamicProgrammingFindsNothingBetterAndComesClose) {
     }
     const double dynamic_J = dynamic_programming_J(problem, 300);
     EXPECT_GE(dynamic_J, planned_J * (1 - 1e-4)) << i;
+    EXPECT_GE(dynamic_J, result.summary.lower_bound_J) << i;
     EXPECT_LE(dynamic_J, planned_J * (1 + 5e-3)) << i;
   }
 }
@@ -89,28 +89,26 @@ TEST(Optimality, CertificateCoversTheExcessOverAFineGrid) {
     const PathMotion motion = path_motion(request);
     const double fine_J = energy_by_cause(motion, *fine.profile).total_J();
     const double coarse_J = energy_by_cause(motion, *coarse.profile).total_J();
-    EXPECT_GE(fine_J, coarse.summary.lower_bound_J * (1 - 2e-4)) << i;
+    EXPECT_GE(fine_J, coarse.summary.lower_bound_J) << i;
     EXPECT_LE(coarse_J, fine_J * (1 + 1e-3)) << i;
   }
 }
 
 /// More time than any speed is worth: without a price of time only friction's standing loss holds the robot
 /// to its speed, and parts of copper loss that are not convex alone have to be seen together.
-ProfileRequest long_drive(double start_rate, double end_rate) {
+ProfileRequest long_drive() {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;
   return {.piece = straight_piece({}, 4.24),
           .plant = make_plant(robot),
           .limits = *robot.limits,
           .payload = {5, 5},
-          .start_rate = start_rate,
-          .end_rate = end_rate,
           .time = {.mode = TimeMode::time_price, .duration_s = 12, .price_W = 1e-3},
           .solver = SolverChoice::fast};
 }
 
 TEST(Optimality, ALongDriveIsCertifiedAndNoClassicProfileIsBelowItsBound) {
-  const ProfileRequest request = long_drive(0, 0);
+  const ProfileRequest request = long_drive();
   const ProfileResult result = solve_profile(request);
   ASSERT_TRUE(result.profile) << result.summary.message;
   EXPECT_EQ(result.summary.status, SolveStatus::optimal);
@@ -118,28 +116,6 @@ TEST(Optimality, ALongDriveIsCertifiedAndNoClassicProfileIsBelowItsBound) {
   for (const BaselineResult& baseline : all_baselines(request, 12)) {
     if (!baseline.feasible) continue;
     EXPECT_GE(baseline.motion_energy_J + 1e-3 * 12, result.summary.lower_bound_J) << baseline.name;
-  }
-}
-
-/// The bound holds for multipliers and places that are not the optimum's, and between speeds at the ends.
-TEST(Optimality, ABoundFromBesideTheOptimumIsBelowIt) {
-  for (const auto& [start, end] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.0, 0.5}}) {
-    const ProfileRequest request = long_drive(start, end);
-    const PathMotion motion = path_motion(request);
-    const nlp::Problem problem =
-        nlp::transcribe(request, motion, nlp::make_grid(motion, request, 100), {}, nullptr);
-    const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    std::vector<double> guess = envelope.fastest;
-    for (std::size_t k = 1; k + 1 < guess.size(); ++k) guess[k] *= 0.5;
-    const nlp::Solution optimum = nlp::solve_fast(problem, guess);
-    ASSERT_TRUE(optimum.converged) << optimum.message;
-    nlp::Solution beside = optimum;
-    for (std::size_t k = 1; k + 1 < beside.b.size(); ++k) beside.b[k] *= 1 + 1e-4 * std::sin(0.1 * k);
-    const nlp::Certificate bound = nlp::certify(problem, beside, envelope.fastest);
-    EXPECT_LE(bound.lower_bound, optimum.objective * (1 + 1e-6)) << start << " to " << end;
-    EXPECT_GT(bound.objective, optimum.objective) << start << " to " << end;
-    EXPECT_TRUE(bound.convex) << start << " to " << end;
-    EXPECT_GT(bound.lower_bound, optimum.objective * (1 - 1e-3)) << start << " to " << end;
   }
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/nlp/transcription/problem.hpp"
+#include "planner/nlp/transcription/solution.hpp"
+#include "planner/profile/place_cost.hpp"
+#include "planner/values/profile.hpp"
+
+namespace joulepath {
+
+/// The price of the square of the rate along a path, p(s) = psi/(2 u) with psi linear in the profile's time
+/// on each segment, u the profile's rate (p itself has a pole where the robot rests). It may jump at nodes.
+struct Costate {
+  std::vector<double> psi_start{}, psi_end{};  ///< per segment
+  std::vector<double> jump{};                  ///< of p, per node; 0 at both ends
+};
+
+/// The costate that a discrete solution's multipliers stand for: with l_k a segment's part of the Lagrangian,
+///   p(s_k+) = -d l_k / d b_k,   p(s_{k+1}-) = d l_k / d b_{k+1}.
+/// Where a cap holds the rate on neighboring nodes, the steps between their segments are spread over them.
+/// At rest H = psi a.
+[[nodiscard]] Costate costate_of(const nlp::Problem& problem, const nlp::Solution& solution,
+                                 const Profile& profile, const CostModel& model);
+
+}  // namespace joulepath

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "model/plant.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/interval/range.hpp"
+#include "planner/nlp/interval/segment.hpp"
+#include "planner/profile/wheel_power.hpp"
+#include "planner/values/profile_request.hpp"
+
+namespace joulepath {
+
+/// What a second costs beside the drives' energy (standby, price and multiplier of the time), and what a
+/// joule counts (0 in a problem of least time).
+struct CostWeights {
+  double energy{1.0};
+  double time_W{};
+};
+
+/// What a path's places share: the request, and the plant without the parts that bend its law.
+struct CostModel {
+  CostModel(const ProfileRequest& request, const PathMotion& motion, const CostWeights& weights);
+
+  const ProfileRequest& request;
+  const PathMotion& motion;
+  CostWeights weights{};
+  Plant unbent{};             ///< without gear loss and driver drop
+  bool bent{};                ///< the plant has one of them
+  bool warms_up{};            ///< winding resistance depends on the time
+  double least_resistance{};  ///< time of the day (s) at which the windings resist least
+};
+
+/// The cost per second and the limits as asked at one place of a path, for any rate u and acceleration a:
+///   H(u, a) = energy sum max(P, eta P) + time_W.
+class PlaceCost {
+ public:
+  PlaceCost(const CostModel& model, double s, double time_s);
+
+  /// H of a planned state, at its own time of the day.
+  double at(double u, double a) const;
+
+  /// Smallest H(u, a) - q a over the accelerations that every limit allows at the rate u; infinite where none
+  /// does. At a fixed rate powers are convex and piecewise quadratic in a, so the minimum is exact. Limits
+  /// that are not convex in a, and those of current, voltage and power behind a bent law, are left out: the
+  /// minimum gets smaller.
+  double least(double u, double q) const;
+
+  /// Largest rate: caps, and what the accelerations reach from both ends.
+  double fastest() const { return fastest_; }
+
+ private:
+  Sided<WheelPower> wheels_at(double u) const;
+  nlp::Range accelerations(double u, const Sided<WheelPower>& wheels) const;
+  void cut_by_ratings(nlp::Range& range, const Sided<WheelPower>& wheels) const;
+
+  const CostModel* model_{};
+  PathRates rates_{};
+  Site planned_{};  ///< at the planned time
+  Site site_{};     ///< at the time of least resistance
+  bool affine_{};
+  Sided<nlp::AffineWheel> wheel_{};
+  double fastest_{};
+};
+
+}  // namespace joulepath
