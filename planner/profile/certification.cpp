@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/segment_energy.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/profile/first_guess.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "planner/profile/costate.hpp"
 
+// Design: docs/decisions/0160-a-bound-by-weak-duality.md
 namespace joulepath {
 
 /// By how much a profile's cost may be above the least one.

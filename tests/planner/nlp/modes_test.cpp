@@ -163,7 +163,9 @@ TEST(Modes, ProgramAndReplayAgreeToTheAccuracyAsked) {
     const double error = std::abs(transcribed_J(request, *result.profile) / again.energy_J - 1);
     EXPECT_LE(error, 1.05 * accuracy) << accuracy;
     if (accuracy == 1e-2) coarse = error, nodes = result.summary.nodes;
-    if (accuracy == 1e-5) EXPECT_GT(result.summary.nodes, nodes) << "a finer grid for finer accuracy";
+    if (accuracy == 1e-5) {
+      EXPECT_GT(result.summary.nodes, nodes) << "a finer grid for finer accuracy";
+    }
   }
   EXPECT_GT(coarse, 1e-4) << "a grid this coarse has to be refined";
 }
