@@ -12,6 +12,7 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
+#include "planner/profile/holding_limit.hpp"
 
 namespace joulepath {
 namespace {
@@ -100,6 +101,19 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
   return timed;
 }
 
+/// Which limit holds the fastest drive of a leg.
+std::string held_by(LegTiming& leg) {
+  HoldingLimits limits;
+  double before_m = 0.0;
+  const std::vector<ProfileResult>& fastest = leg.solve(kInfinite, SolverChoice::fast);
+  for (std::size_t k = 0; k < fastest.size(); ++k) {
+    const ProfileRequest& stretch = leg.stretches()[k];
+    if (fastest[k].profile) limits.add(stretch, *fastest[k].profile, before_m);
+    before_m += is_turn(stretch.piece) ? 0.0 : piece_length(stretch.piece);
+  }
+  return limits.sentence();
+}
+
 /// The verdict where a deadline or a duration cannot be met.
 std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionRequest& mission) {
   TimeSplit& split = timed.split;
@@ -107,13 +121,17 @@ std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionReques
     const std::size_t leg = split.late->leg;
     const auto [s_m, pose] = place_after(timed.draft.timing[leg],
                                          split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
-    return PlanInfeasibility{late_arrival(mission, leg, split.late->amount_s, s_m, pose), leg, s_m};
+    Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
+    reason.message += held_by(timed.draft.timing[leg]);
+    return PlanInfeasibility{std::move(reason), leg, s_m};
   }
   for (std::size_t k = 0; k < timed.draft.legs.size(); ++k) {
     const std::optional<double>& asked_s = mission.legs[k].duration_s;
     if (!asked_s || split.duration_s[k] <= *asked_s * (1 + 1e-9) + 1e-9) continue;
     const auto [s_m, pose] = place_after(timed.draft.timing[k], *asked_s, SolverChoice::fast);
-    return PlanInfeasibility{too_short(*asked_s, split.duration_s[k], s_m, pose), k, s_m};
+    Infeasibility reason = too_short(*asked_s, split.duration_s[k], s_m, pose);
+    reason.message += held_by(timed.draft.timing[k]);
+    return PlanInfeasibility{std::move(reason), k, s_m};
   }
   return std::nullopt;
 }

@@ -5,7 +5,6 @@
 
 #include "planner/motion/motion_energy.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
-#include "planner/profile/first_guess.hpp"
 
 namespace joulepath {
 namespace {
@@ -42,7 +41,7 @@ double bound_without_price_J(const nlp::Problem& problem, const PathMotion& moti
   const nlp::Solution cheapest = nlp::solve_fast(free, solution.b);
   if (!cheapest.converged) return -kNoLimit;
   const Profile profile = profile_from_squares(free.s, cheapest.b);
-  const CostModel model(*free.request, motion, {free.energy_weight, 0.0});
+  const CostModel model(*free.request, motion);
   const DualGap gap = dual_gap(model, costate_of(free, cheapest, profile, model), profile);
   const double standby_W = motion.plant().robot.power.standby_W, duration_s = profile.duration_s();
   return energy_J(motion, profile) - gap.total() + standby_W * (problem.duration_s - duration_s);
@@ -58,7 +57,7 @@ DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, co
                      {.elsewhere = kNoLimit}, summary);
     return {};
   }
-  const CostModel model(*problem.request, motion, {problem.energy_weight, time_W});
+  const CostModel model(*problem.request, motion, time_W);
   const DualGap gap = dual_gap(model, costate_of(problem, solution, profile, model), profile);
   const bool timed = problem.duration_row != nlp::DurationRow::none;
   const double unused_s = timed ? std::max(0.0, problem.duration_s - profile.duration_s()) : 0.0;
@@ -66,20 +65,12 @@ DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, co
   return gap;
 }
 
-DualGap certify_time(const nlp::Problem& problem, const PathMotion& motion, const nlp::RateEnvelope& envelope,
-                     const Profile& profile, SolveSummary& summary) {
-  const nlp::Problem timed = nlp::with_time_as_objective(problem);
-  if (timed.unknown_count() == 0) {  // a grid without inner nodes has no multipliers
-    summary.lower_bound_s = 0;
-    set_gap(profile.duration_s(), profile.duration_s(), {}, summary);
-    return {};
-  }
-  const nlp::Solution fastest = nlp::solve_fast(timed, blend(envelope, 0.95));
-  const CostModel model(*problem.request, motion, {0.0, 1.0});
-  const DualGap gap = dual_gap(model, costate_of(timed, fastest, profile, model), profile);
-  summary.lower_bound_s = profile.duration_s() - gap.total();
-  set_gap(profile.duration_s(), gap.total(), gap, summary);
-  return gap;
+LeastTime certify_time(const nlp::Problem& problem, const PathMotion& motion, const Profile& profile,
+                       SolveSummary& summary) {
+  LeastTime bound = least_time(CostModel(*problem.request, motion), problem.s);
+  summary.lower_bound_s = std::min(bound.lower_s, profile.duration_s());
+  set_gap(profile.duration_s(), profile.duration_s() - summary.lower_bound_s, {}, summary);
+  return bound;
 }
 
 }  // namespace joulepath

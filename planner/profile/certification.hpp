@@ -1,8 +1,8 @@
 #pragma once
 
 #include "planner/motion/path_motion.hpp"
-#include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/nlp/transcription/solution.hpp"
+#include "planner/profile/least_time.hpp"
 #include "planner/profile/lower_bound.hpp"
 #include "planner/values/profile.hpp"
 #include "planner/values/profile_result.hpp"
@@ -13,8 +13,8 @@ namespace joulepath {
 DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, const nlp::Solution& solution,
                        const Profile& profile, SolveSummary& summary);
 
-/// The same for a profile of least time: by the multipliers of the same problem with time as its objective.
-DualGap certify_time(const nlp::Problem& problem, const PathMotion& motion, const nlp::RateEnvelope& envelope,
-                     const Profile& profile, SolveSummary& summary);
+/// The same for a profile of least time.
+LeastTime certify_time(const nlp::Problem& problem, const PathMotion& motion, const Profile& profile,
+                       SolveSummary& summary);
 
 }  // namespace joulepath

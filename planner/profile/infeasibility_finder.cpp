@@ -6,6 +6,8 @@
 
 #include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/profile/holding_limit.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
@@ -132,7 +134,7 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   return verdict;
 }
 
-Infeasibility explain_duration(const ProfileRequest& request, double possible_s) {
+Infeasibility explain_long(const ProfileRequest& request, double possible_s) {
   const bool fixed = request.time.mode == TimeMode::fixed_time;
   Infeasibility verdict = at_place(request, fixed ? "duration" : "deadline", piece_length(request.piece));
   const double asked_s = std::isnan(request.time.duration_s) ? 0.0 : request.time.duration_s;
@@ -140,6 +142,19 @@ Infeasibility explain_duration(const ProfileRequest& request, double possible_s)
   verdict.unit = "s";
   verdict.relaxation[fixed ? "duration_s" : "deadline_s"] = possible_s;
   verdict.message = sentence(verdict);
+  return verdict;
+}
+
+Infeasibility explain_late(const ProfileRequest& request, double least_s) {
+  ProfileRequest trial = request;
+  trial.time = {.mode = TimeMode::minimum_time};
+  const ProfileResult fastest = solve_profile(trial);
+  Infeasibility verdict =
+      explain_long(request, fastest.profile ? std::max(least_s, fastest.profile->duration_s()) : least_s);
+  if (!fastest.profile) return verdict;
+  HoldingLimits limits;
+  limits.add(request, *fastest.profile);
+  verdict.message += limits.sentence();
   return verdict;
 }
 

@@ -10,8 +10,12 @@ namespace joulepath {
 [[nodiscard]] Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                                             const nlp::Blocked& blocked);
 
-/// The verdict for a time that is shorter than the minimum time, or longer than the maximum.
-[[nodiscard]] Infeasibility explain_duration(const ProfileRequest& request, double possible_s);
+/// The verdict for a time that is longer than the slowest profile takes.
+[[nodiscard]] Infeasibility explain_long(const ProfileRequest& request, double possible_s);
+
+/// The verdict for a time below `least_s`, the proven least: how long the fastest drive takes, and which
+/// limit holds it.
+[[nodiscard]] Infeasibility explain_late(const ProfileRequest& request, double least_s);
 
 /// A path or a number of the request that makes no sense by itself.
 [[nodiscard]] Infeasibility explain_request(const ProfileRequest& request, std::string constraint,

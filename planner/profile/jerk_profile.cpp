@@ -7,12 +7,16 @@
 
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
+#include "planner/profile/s_curve.hpp"
 
 namespace joulepath {
 namespace {
+
+constexpr double kSame = 1e-9;  ///< relative, of times
 
 ProfileRequest without_jerk(const ProfileRequest& request) {
   ProfileRequest free = request;
@@ -57,8 +61,8 @@ std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
   return good;
 }
 
-/// The verdict for a jerk limit with which no profile was found: the smallest one that works, or the time.
-ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result, std::optional<double> least_s) {
+/// The verdict for a jerk limit with which no profile was found: the smallest one that works.
+ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result) {
   Infeasibility verdict = explain_request(request, "jerk", result.summary.message);
   verdict.amount = std::abs(request.limits.jerk_m_s3);
   verdict.unit = "m/s^3";
@@ -69,16 +73,20 @@ ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result, st
     verdict.relaxation["jerk_m_s3"] = *enough;
     text << "; smallest change that works: jerk_m_s3 = " << *enough;
   }
-  if (least_s) {
-    const char* key = request.time.mode == TimeMode::fixed_time ? "duration_s" : "deadline_s";
-    verdict.relaxation[key] = *least_s;
-    text << "; smallest change that works: " << key << " = " << *least_s;
-  }
   verdict.message = text.str();
   result.summary.status = SolveStatus::infeasible;
   result.summary.message = verdict.message;
   result.infeasibility = std::move(verdict);
   return result;
+}
+
+/// The fastest drive that the largest rate, acceleration and jerk of a stretch from rest to rest allow;
+/// nothing where one of them is not limited, or the stretch begins or ends at speed.
+std::optional<Profile> fastest_by_jerk(const ProfileRequest& request) {
+  const Limits& limits = request.limits;
+  const double acceleration = std::max(limits.acceleration_m_s2, limits.deceleration_m_s2);
+  if (request.start_rate > 0 || request.end_rate > 0 || !std::isfinite(acceleration)) return std::nullopt;
+  return fastest_s_curve(piece_length(request.piece), limits.speed_m_s, acceleration, limits.jerk_m_s3);
 }
 
 /// What a profile is worth beside the bound of the problem without the jerk limit.
@@ -88,7 +96,10 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
   const double duration_s = profile.duration_s();
   double value = duration_s, gap = value - bound.summary.lower_bound_s;
   if (request.time.mode == TimeMode::minimum_time) {
-    summary.lower_bound_s = bound.summary.lower_bound_s;
+    const std::optional<Profile> fastest = fastest_by_jerk(request);
+    const double by_jerk_s = fastest ? fastest->duration_s() * (1 - kSame) : 0.0;
+    summary.lower_bound_s = std::min(duration_s, std::max(bound.summary.lower_bound_s, by_jerk_s));
+    gap = duration_s - summary.lower_bound_s;
   } else {
     const double price_W = request.time.mode == TimeMode::time_price ? request.time.price_W : 0.0;
     value = energy_by_cause(path_motion(request), profile).total_J();
@@ -102,7 +113,49 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
   summary.message = "jerk limit: a local optimum; the bound is that of the problem without it";
 }
 
-/// No profile was found: is there none, and why?
+/// The same request with the jerk limit, to 1e-6, whose fastest drive takes the time asked for.
+ProfileRequest with_enough_jerk(ProfileRequest request) {
+  constexpr double kLargest = 1e6, kClose = 1 + 1e-6;
+  double bad = request.limits.jerk_m_s3, good = kLargest;
+  while (good > kClose * bad) {
+    request.limits.jerk_m_s3 = std::sqrt(bad * good);
+    const bool enough = fastest_by_jerk(request)->duration_s() <= request.time.duration_s;
+    (enough ? good : bad) = request.limits.jerk_m_s3;
+  }
+  request.limits.jerk_m_s3 = good;
+  return request;
+}
+
+/// The verdict for a time before the fastest drive that the jerk limit allows. That drive, and the jerk limit
+/// with which it is fast enough, are offered where it keeps all other limits too.
+ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
+  const double asked_s = request.time.duration_s, least_s = fastest.duration_s();
+  std::ostringstream text;
+  text.precision(7);
+  text << "within the jerk limit the fastest drive takes at least " << least_s << " s, " << least_s - asked_s
+       << " s too long";
+  Infeasibility verdict = explain_request(request, "jerk", "");
+  verdict.amount = least_s - asked_s;
+  verdict.unit = "s";
+  if (replay(request, fastest).valid()) {
+    const char* key = request.time.mode == TimeMode::fixed_time ? "duration_s" : "deadline_s";
+    verdict.relaxation[key] = least_s;
+    text << "; " << key << " " << least_s << " would do";
+  }
+  const ProfileRequest enough = with_enough_jerk(request);
+  if (replay(enough, *fastest_by_jerk(enough)).valid()) {
+    verdict.relaxation["jerk_m_s3"] = enough.limits.jerk_m_s3;
+    text << "; jerk_m_s3 " << enough.limits.jerk_m_s3 << " would do";
+  }
+  verdict.message = text.str();
+  ProfileResult result;
+  result.summary.status = SolveStatus::infeasible;
+  result.summary.message = verdict.message;
+  result.infeasibility = std::move(verdict);
+  return result;
+}
+
+/// No profile was found: is there none, and why? A deadline that no bound excludes is not refused.
 ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
   const std::optional<double> least_s = least_time_s(request, request.limits.jerk_m_s3);
   std::ostringstream text;
@@ -110,11 +163,25 @@ ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
     text << "no profile is found within the jerk limit from start to end speed";
   else if (has_deadline(request) && *least_s > request.time.duration_s)
     text << "within the jerk limit the fastest profile found takes " << *least_s << " s, "
-         << *least_s - request.time.duration_s << " s too long";
-  else
-    return failed;
-  failed.summary.message = text.str();
-  return blame_jerk(request, std::move(failed), least_s);
+         << *least_s - request.time.duration_s << " s too long; whether there is a faster one is not known";
+  if (!text.str().empty()) failed.summary.message = text.str();
+  if (least_s) return failed;
+  return blame_jerk(request, std::move(failed));
+}
+
+/// The closed form in place of a profile: as it is for the least time, slowed down to a time asked for.
+void take_s_curve(const ProfileRequest& request, Profile fastest, ProfileResult& result) {
+  const double slower = has_deadline(request) ? request.time.duration_s / fastest.duration_s() : 1.0;
+  for (std::size_t k = 0; k < fastest.time_s.size(); ++k) {
+    fastest.time_s[k] *= slower;
+    fastest.rate[k] /= slower;
+  }
+  for (double& acceleration : fastest.acceleration) acceleration /= slower * slower;
+  for (double& jerk : fastest.jerk) jerk /= slower * slower * slower;
+  if (!replay(request, fastest).valid()) return;
+  result.summary.solver = "s_curve";
+  result.summary.nodes = fastest.s.size();
+  result.profile = std::move(fastest);
 }
 
 }  // namespace
@@ -127,10 +194,17 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   if (!(request.limits.jerk_m_s3 > 0)) {
     ProfileResult none;
     none.summary.message = "a jerk limit of 0 or less allows no change of acceleration: nothing can start";
-    return blame_jerk(request, std::move(none), std::nullopt);
+    return blame_jerk(request, std::move(none));
   }
-  ProfileResult result = find_profile_with_jerk_limit(request);
-  if (request.solver == SolverChoice::fast)
+  const std::optional<Profile> fastest = fastest_by_jerk(request);
+  if (fastest && has_deadline(request) && request.time.duration_s < fastest->duration_s() * (1 - kSame))
+    return too_soon(request, *fastest);
+  const bool exact =
+      fastest && request.time.mode == TimeMode::minimum_time && replay(request, *fastest).valid();
+  ProfileResult result;
+  if (!exact) result = find_profile_with_jerk_limit(request);
+  if (!result.profile && fastest) take_s_curve(request, *fastest, result);
+  if (request.solver == SolverChoice::fast && result.summary.solver == "ipopt")
     result.summary.handed_over = "a jerk limit couples more than the rates of neighboring nodes";
   if (!result.profile) return explain(request, std::move(result));
   judge(result, request, bound);

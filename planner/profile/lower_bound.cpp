@@ -95,27 +95,14 @@ class SegmentGap {
   std::size_t k_{};
 };
 
-/// Square of the largest rate at which some acceleration is allowed at a place.
-double largest_square(const CostModel& model, double s, double time_s) {
-  const PlaceCost place(model, s, time_s);
-  const auto allowed = [&](double u) { return place.least(u, 0.0) < kNoLimit; };
-  double low = 0, high = place.fastest();
-  if (!std::isfinite(high) || allowed(high)) return high * high;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (allowed(middle) ? low : high) = middle;
-  }
-  return high * high;
-}
-
 /// What a jump of p could bring: the square of the rate may be anything from 0 to the largest there.
 double at_node(const CostModel& model, const Profile& profile, std::size_t k, double jump) {
   if (jump == 0) return 0.0;
   const double own = profile.rate[k] * profile.rate[k];
   if (jump < 0) return -jump * own;
   const double s = profile.s[k], inset = 1e-9 * profile.s.back();
-  const double largest = std::min(largest_square(model, s - inset, profile.time_s[k]),
-                                  largest_square(model, s + inset, profile.time_s[k]));
+  const double largest = std::min(PlaceCost(model, s - inset, profile.time_s[k]).largest_square(),
+                                  PlaceCost(model, s + inset, profile.time_s[k]).largest_square());
   return jump * std::max(0.0, largest - own);
 }
 

@@ -9,7 +9,7 @@ namespace joulepath {
 
 /// By how much a profile's cost may be above the least one.
 struct DualGap {
-  std::vector<double> of_segment{};  ///< J (s in a problem of least time), each >= 0
+  std::vector<double> of_segment{};  ///< J, each >= 0
   double at_nodes{};                 ///< where the costate jumps
   double elsewhere{};                ///< of the sum: cheapest rates are not those around the profile's
   double total() const;

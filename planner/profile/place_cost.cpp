@@ -57,15 +57,11 @@ Quadratic sum(double x_weight, const Quadratic& x, double y_weight, const Quadra
 /// its pieces is stationary.
 class LeastCost {
  public:
-  LeastCost(const PowerSupply& supply, const Sided<WheelPower>& wheels, double weight, double q, Range range)
-      : supply_(supply), wheels_(wheels), weight_(weight), q_(q), range_(range) {}
+  LeastCost(const PowerSupply& supply, const Sided<WheelPower>& wheels, double q, Range range)
+      : supply_(supply), wheels_(wheels), q_(q), range_(range) {}
 
   double find() {
     if (!(range_.low <= range_.high)) return kNoLimit;
-    if (weight_ == 0) {
-      const double end = q_ > 0 ? range_.high : range_.low;
-      return q_ == 0 ? 0.0 : -q_ * end;
-    }
     look(std::isfinite(range_.low) ? range_.low : std::min(0.0, range_.high));
     look(std::isfinite(range_.high) ? range_.high : std::max(0.0, range_.low));
     for (Side side : kSides) look(wheels_[side].kink);
@@ -97,19 +93,19 @@ class LeastCost {
 
   void look_stationary(double left_weight, const Quadratic& left, double right_weight,
                        const Quadratic& right) {
-    const Quadratic s = sum(weight_ * left_weight, left, weight_ * right_weight, right);
+    const Quadratic s = sum(left_weight, left, right_weight, right);
     if (s.c2 > 0) look(std::clamp((q_ - s.c1) / (2 * s.c2), range_.low, range_.high));
   }
 
   void look(double a) {
     if (!(a >= range_.low && a <= range_.high) || !std::isfinite(a)) return;
     const double supply_W = supply_power_W(supply_, {wheels_.left(a), wheels_.right(a)});
-    least_ = std::min(least_, weight_ * supply_W - q_ * a);
+    least_ = std::min(least_, supply_W - q_ * a);
   }
 
   const PowerSupply& supply_;
   const Sided<WheelPower>& wheels_;
-  double weight_{}, q_{};
+  double q_{};
   Range range_{};
   double least_{kNoLimit};
 };
@@ -134,8 +130,8 @@ void bend(WheelPower& wheel, const Plant& plant, Side side, const Site& site, co
 
 }  // namespace
 
-CostModel::CostModel(const ProfileRequest& asked, const PathMotion& along, const CostWeights& w)
-    : request(asked), motion(along), weights(w), unbent(along.plant()) {
+CostModel::CostModel(const ProfileRequest& asked, const PathMotion& along, double seconds_W)
+    : request(asked), motion(along), time_W(seconds_W), unbent(along.plant()) {
   bent = unbent.torque_loss_fraction != 0 || unbent.driver_voltage_drop_V != 0;
   unbent.torque_loss_fraction = unbent.driver_voltage_drop_V = 0;
   const double start_s = motion.time_of_day_start_s(), end_s = start_s + kLongAfter_s;
@@ -162,20 +158,30 @@ PlaceCost::PlaceCost(const CostModel& model, double s, double time_s) : model_(&
 }
 
 double PlaceCost::at(double u, double a) const {
-  const CostWeights& weights = model_->weights;
-  if (weights.energy == 0) return weights.time_W;
   const Plant& plant = model_->motion.plant();
   const Sided<WheelState<double>> wheels =
       operating_point(plant, PathMotion::body_motion(rates_, u, a), planned_);
-  return weights.time_W +
-         weights.energy * supply_power_W(plant.robot.power, {wheels.left.power_W, wheels.right.power_W});
+  return model_->time_W + supply_power_W(plant.robot.power, {wheels.left.power_W, wheels.right.power_W});
 }
 
 double PlaceCost::least(double u, double q) const {
   const Sided<WheelPower> wheels = wheels_at(u);
   const Range range = accelerations(u, wheels);
-  const CostWeights& weights = model_->weights;
-  return weights.time_W + LeastCost(model_->unbent.robot.power, wheels, weights.energy, q, range).find();
+  return model_->time_W + LeastCost(model_->unbent.robot.power, wheels, q, range).find();
+}
+
+double PlaceCost::largest_square() const {
+  const auto allowed = [&](double u) {
+    const Range range = accelerations(u);
+    return range.low <= range.high;
+  };
+  double low = 0, high = fastest_;
+  if (!std::isfinite(high) || allowed(high)) return high * high;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (allowed(middle) ? low : high) = middle;
+  }
+  return high * high;
 }
 
 Sided<WheelPower> PlaceCost::wheels_at(double u) const {

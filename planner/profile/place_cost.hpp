@@ -9,20 +9,13 @@
 
 namespace joulepath {
 
-/// What a second costs beside the drives' energy (standby, price and multiplier of the time), and what a
-/// joule counts (0 in a problem of least time).
-struct CostWeights {
-  double energy{1.0};
-  double time_W{};
-};
-
 /// What a path's places share: the request, and the plant without the parts that bend its law.
 struct CostModel {
-  CostModel(const ProfileRequest& request, const PathMotion& motion, const CostWeights& weights);
+  CostModel(const ProfileRequest& request, const PathMotion& motion, double time_W = 0.0);
 
   const ProfileRequest& request;
   const PathMotion& motion;
-  CostWeights weights{};
+  double time_W{};
   Plant unbent{};             ///< without gear loss and driver drop
   bool bent{};                ///< the plant has one of them
   bool warms_up{};            ///< winding resistance depends on the time
@@ -30,7 +23,7 @@ struct CostModel {
 };
 
 /// The cost per second and the limits as asked at one place of a path, for any rate u and acceleration a:
-///   H(u, a) = energy sum max(P, eta P) + time_W.
+///   H(u, a) = sum max(P, eta P) + time_W,   time_W: standby, price and multiplier of the time.
 class PlaceCost {
  public:
   PlaceCost(const CostModel& model, double s, double time_s);
@@ -46,6 +39,12 @@ class PlaceCost {
 
   /// Largest rate: caps, and what the accelerations reach from both ends.
   double fastest() const { return fastest_; }
+
+  /// Accelerations that the limits leave at a rate; empty (low above high) where they leave none.
+  nlp::Range accelerations(double u) const { return accelerations(u, wheels_at(u)); }
+
+  /// Square of the largest rate at which they leave some.
+  double largest_square() const;
 
  private:
   Sided<WheelPower> wheels_at(double u) const;

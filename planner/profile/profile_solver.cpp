@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
@@ -27,11 +26,10 @@ constexpr double kSettled = 7e-7;     ///< relative violation that a plan may ha
 constexpr double kSameTime = 2e-6;    ///< a deadline this close to the minimum time leaves no choice
 constexpr double kMetTime = 1e-7;     ///< relative: a deadline missed by less is met
 constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that it misses by little
-constexpr double kWorthACut = 0.2;    ///< share of the largest excess
 constexpr double kProven = 0.04;      ///< gap aimed at, of the accuracy asked for
+constexpr double kProvenTime = 0.01;  ///< the same for a profile of least time
 constexpr double kWorthAProof = 0.7;  ///< of the gap before: a finer grid that closes less is the last
 constexpr std::size_t kMostNodes = 4;  ///< times the nodes asked for: a grid beyond is not cut again
-constexpr int kMostParts = 4;          ///< of a segment that is cut
 constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
@@ -45,7 +43,10 @@ class ProfileSolver {
     for (int round = 0; round < kRounds; ++round) {
       const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
       result_.summary.nodes = problem.node_count();
-      if (sharpen(problem, s)) {
+      if (late(problem)) {
+        std::vector<double> finer = towards_least_time(problem);
+        if (finer.empty()) return std::move(result_);
+        s = std::move(finer);
         --round;
         continue;
       }
@@ -57,13 +58,13 @@ class ProfileSolver {
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool last = round + 1 == kRounds;
       if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
-        std::vector<int> parts = prove(problem);
-        if (parts.empty() && to_settle()) {
+        std::vector<double> finer = prove(problem);
+        if (finer.empty() && to_settle()) {
           settling_ = true;
           continue;
         }
-        if (last || parts.empty()) return finish();
-        s = nlp::divide_segments(s, parts);
+        if (last || finer.empty()) return finish();
+        s = std::move(finer);
         continue;
       }
       last_ratio_ = check.worst_ratio;
@@ -77,22 +78,39 @@ class ProfileSolver {
   }
 
  private:
-  /// A grid takes longer than the path needs: the fastest profile bends within its segments. Where that may
-  /// be why a deadline is missed, the grid is cut there; false where it needs no cut.
-  bool sharpen(const Problem& problem, std::vector<double>& s) {
-    if (problem.duration_row == nlp::DurationRow::none || sharpened_ == kSharpenings) return false;
+  /// Whether the fastest profile of a grid is after the deadline.
+  static bool late(const Problem& problem) {
+    if (problem.duration_row == nlp::DurationRow::none) return false;
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    if (envelope.blocked) return false;
-    const double late_s = duration_of(problem, envelope.fastest) - problem.duration_s;
-    if (!(late_s > kMetTime * problem.duration_s)) return false;
-    const std::vector<double> excess_s = nlp::time_excess_s(problem, envelope.fastest);
-    const double sum_s = std::accumulate(excess_s.begin(), excess_s.end(), 0.0);
-    if (2 * sum_s < late_s) return false;
-    const double worth_s = kWorthACut * *std::max_element(excess_s.begin(), excess_s.end());
-    std::vector<bool> cut;
-    for (double each_s : excess_s) cut.push_back(each_s > worth_s);
-    s = nlp::cut_segments(s, cut);
-    return ++sharpened_ > 0;
+    return !envelope.blocked && duration_of(problem, envelope.fastest) > problem.duration_s * (1 + kMetTime);
+  }
+
+  /// A grid whose fastest profile takes less: a profile is slower than the path asks for where what holds it
+  /// changes within a segment. Empty where the deadline is before the least time, or no grid comes close
+  /// enough to it; result_ then says which.
+  std::vector<double> towards_least_time(const Problem& problem) {
+    const LeastTime bound = least_time(CostModel(request_, motion_), problem.s);
+    if (problem.duration_s < bound.lower_s) {
+      give_up(explain_late(request_, bound.lower_s));
+      return {};
+    }
+    const Profile fastest = profile_from_squares(problem.s, nlp::rate_envelope(problem).fastest);
+    if (sharpened_++ == kSharpenings) {
+      result_.summary.status = SolveStatus::failed;
+      result_.summary.message = "the fastest profile found takes " + std::to_string(fastest.duration_s()) +
+                                " s; the proven least time is " + std::to_string(bound.lower_s) + " s";
+      return {};
+    }
+    const double late_s = fastest.duration_s() - problem.duration_s;
+    return nlp::cut_by_excess(problem.s, time_excess_s(fastest, bound),
+                              0.5 * late_s / static_cast<double>(problem.segment_count()), bound.switches);
+  }
+
+  static std::vector<double> time_excess_s(const Profile& fastest, const LeastTime& bound) {
+    std::vector<double> excess_s;
+    for (std::size_t k = 0; k + 1 < fastest.s.size(); ++k)
+      excess_s.push_back(fastest.time_s[k + 1] - fastest.time_s[k] - bound.of_segment_s[k]);
+    return excess_s;
   }
 
   /// Fills best_; false when the request is infeasible or the solver failed (result_ then says so).
@@ -101,14 +119,13 @@ class ProfileSolver {
     if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
     const double minimum_s = duration_of(problem, envelope.fastest);
     const bool limited = problem.duration_row != nlp::DurationRow::none;
-    if (std::isnan(problem.duration_s) || (limited && problem.duration_s < minimum_s * (1 - kMetTime)))
-      return give_up(explain_duration(request_, minimum_s));
+    if (std::isnan(problem.duration_s)) return give_up(explain_late(request_, minimum_s));
     const bool no_choice = limited && problem.duration_s <= minimum_s * (1 + kSameTime);
     if (request_.time.mode == TimeMode::minimum_time || no_choice || problem.unknown_count() == 0)
       return take(problem, envelope.fastest, kFastestSolver);
     if (problem.duration_row == nlp::DurationRow::equal) {
       const double maximum_s = duration_of(problem, blend(envelope, 1e-12));
-      if (problem.duration_s > maximum_s) return give_up(explain_duration(request_, maximum_s));
+      if (problem.duration_s > maximum_s) return give_up(explain_long(request_, maximum_s));
     }
     return optimize(problem, envelope, minimum_s);
   }
@@ -170,25 +187,28 @@ class ProfileSolver {
     return std::move(result_);
   }
 
-  /// The dual gap, and in how many parts each segment is to be cut for a smaller one; empty where that is
-  /// not worth it.
-  std::vector<int> prove(const Problem& problem) {
+  /// The bound, and a grid on which it will be closer; empty where that is not worth it.
+  std::vector<double> prove(const Problem& problem) {
     SolveSummary& summary = result_.summary;
-    const DualGap gap = summary.solver == kFastestSolver
-                            ? certify_time(problem, motion_, nlp::rate_envelope(problem), *best_, summary)
-                            : certify_energy(problem, motion_, solution_, *best_, summary);
-    const double share = 0.01 * summary.gap_percent, aim = kProven * request_.accuracy;
+    const bool fastest = summary.solver == kFastestSolver;
+    LeastTime least{};
+    DualGap gap{};
+    if (fastest)
+      least = certify_time(problem, motion_, *best_, summary);
+    else
+      gap = certify_energy(problem, motion_, solution_, *best_, summary);
+    const double share = 0.01 * summary.gap_percent;
+    const double aim = (fastest ? kProvenTime : kProven) * request_.accuracy;
     const bool better = share < kWorthAProof * least_gap_;
     least_gap_ = std::min(least_gap_, share);
-    if (share <= aim || !better || settling_ || summary.local || gap.of_segment.empty() ||
+    if (share <= aim || !better || settling_ || summary.local ||
         problem.node_count() > kMostNodes * request_.nodes)
       return {};
-    const double allowed = gap.total() * aim / share / static_cast<double>(gap.of_segment.size());
-    std::vector<int> parts;
-    for (double part : gap.of_segment)
-      parts.push_back(
-          std::clamp(static_cast<int>(std::ceil(std::cbrt(part / allowed) - 0.3)), 1, kMostParts));
-    return parts;
+    const std::vector<double> excess = fastest ? time_excess_s(*best_, least) : gap.of_segment;
+    if (excess.empty()) return {};
+    const double total = fastest ? best_->duration_s() - least.lower_s : gap.total();
+    return nlp::cut_by_excess(problem.s, excess, total * aim / share / static_cast<double>(excess.size()),
+                              least.switches);
   }
 
   /// The status that follows from the bound.

@@ -15,7 +15,7 @@ enum class SolveStatus { optimal, feasible, infeasible, failed };
 
 struct SolveSummary {
   SolveStatus status{SolveStatus::failed};
-  std::string solver{};      ///< ipopt | fast | forward_backward
+  std::string solver{};      ///< ipopt | fast | forward_backward | s_curve
   int iterations{};          ///< over all refinements
   std::size_t nodes{};       ///< of the last grid
   double price_of_time_W{};  ///< -dE/dT: multiplier of the time row (standby included), 0 where time is free

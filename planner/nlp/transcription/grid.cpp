@@ -205,19 +205,33 @@ std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& re
   return without_doubles(std::move(grid), length);
 }
 
-std::vector<double> divide_segments(const std::vector<double>& s, const std::vector<int>& parts) {
+std::vector<double> cut_by_excess(const std::vector<double>& s, const std::vector<double>& excess,
+                                  double allowed, const std::vector<double>& places) {
+  constexpr double kMostParts = 4;
+  constexpr double kNear = 1e-3;  // of a segment: a place this close to a node is there already
   std::vector<double> grid{s.front()};
   for (std::size_t k = 0; k + 1 < s.size(); ++k) {
-    for (int i = 1; i < parts[k]; ++i) grid.push_back(s[k] + (s[k + 1] - s[k]) * i / parts[k]);
+    const double ds = s[k + 1] - s[k];
+    const std::size_t before = grid.size();
+    if (excess[k] > allowed)
+      for (double place : places)
+        if (place > grid.back() + kNear * ds && place < s[k + 1] - kNear * ds) grid.push_back(place);
+    // What a part is above the least cost falls with the cube of its length.
+    const double parts = std::clamp(std::ceil(std::cbrt(excess[k] / allowed) - 0.3), 1.0, kMostParts);
+    if (grid.size() == before)
+      for (double i = 1; i < parts; ++i) grid.push_back(s[k] + ds * i / parts);
     grid.push_back(s[k + 1]);
   }
   return grid;
 }
 
 std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut) {
-  std::vector<int> parts;
-  for (bool in_two : cut) parts.push_back(in_two ? 2 : 1);
-  return divide_segments(s, parts);
+  std::vector<double> grid{s.front()};
+  for (std::size_t k = 0; k + 1 < s.size(); ++k) {
+    if (cut[k]) grid.push_back(0.5 * (s[k] + s[k + 1]));
+    grid.push_back(s[k + 1]);
+  }
+  return grid;
 }
 
 }  // namespace joulepath::nlp

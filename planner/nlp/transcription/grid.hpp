@@ -20,9 +20,11 @@ namespace joulepath::nlp {
 [[nodiscard]] std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request,
                                             std::size_t count);
 
-/// The grid with every segment cut in as many equal parts.
-[[nodiscard]] std::vector<double> divide_segments(const std::vector<double>& s,
-                                                  const std::vector<int>& parts);
+/// The grid with the segments cut in equal parts whose excess (of cost or time) is above what each may have;
+/// one that holds some of `places` is cut there instead.
+[[nodiscard]] std::vector<double> cut_by_excess(const std::vector<double>& s,
+                                                const std::vector<double>& excess, double allowed,
+                                                const std::vector<double>& places = {});
 
 /// The grid with every marked segment cut in two.
 [[nodiscard]] std::vector<double> cut_segments(const std::vector<double>& s, const std::vector<bool>& cut);

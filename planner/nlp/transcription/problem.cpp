@@ -199,26 +199,4 @@ double duration_of(const Problem& problem, const std::vector<double>& b) {
   return sum_s;
 }
 
-std::vector<double> time_excess_s(const Problem& problem, const std::vector<double>& b) {
-  std::vector<double> excess_s(problem.segment_count(), 0.0);
-  const auto slope = [&](std::size_t k) { return (b[k + 1] - b[k]) / problem.segments[k].ds; };
-  for (std::size_t k = 0; k + 1 < problem.segment_count(); ++k) {
-    const double change = std::abs(slope(k + 1) - slope(k));
-    for (std::size_t at : {k, k + 1}) {
-      const double middle = 0.5 * (b[at] + b[at + 1]), missing = change * problem.segments[at].ds / 8;
-      const double dt = plain_interval(problem.segments[at], b[at], b[at + 1]).dt;
-      if (middle > 0) excess_s[at] = std::max(excess_s[at], dt * missing / (2 * middle));
-    }
-  }
-  return excess_s;
-}
-
-Problem with_time_as_objective(Problem problem) {
-  problem.channels = 0;
-  problem.energy_weight = 0;
-  problem.time_weight_W = 1;
-  problem.duration_row = DurationRow::none;
-  return problem;
-}
-
 }  // namespace joulepath::nlp

@@ -73,11 +73,4 @@ struct Problem {
 /// Exact duration of squares of the rate.
 [[nodiscard]] double duration_of(const Problem& problem, const std::vector<double>& b);
 
-/// An estimate of the time (s), per segment, that squares of the rate lose by being straight in s between
-/// nodes: where their slope changes, they could be larger in between.
-[[nodiscard]] std::vector<double> time_excess_s(const Problem& problem, const std::vector<double>& b);
-
-/// The same problem with the least time as its objective.
-[[nodiscard]] Problem with_time_as_objective(Problem problem);
-
 }  // namespace joulepath::nlp

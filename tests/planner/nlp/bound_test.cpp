@@ -83,7 +83,7 @@ TEST(Bound, HoldsForCostatesThatBelongToNoOptimum) {
     const double best_J = replay(optimum.request, best).energy_J;
     for (std::size_t k = 1; k + 1 < b.size(); ++k) b[k] *= 1 - 0.05 * random.uniform(0, 1);
     const Profile beside = profile_from_squares(optimum.problem.s, b);
-    const CostModel model(optimum.request, optimum.motion, {1.0, optimum.problem.time_weight_W});
+    const CostModel model(optimum.request, optimum.motion, optimum.problem.time_weight_W);
     Costate costate = costate_of(optimum.problem, optimum.solution, beside, model);
     for (std::size_t k = 0; k < costate.psi_start.size(); ++k) {
       costate.psi_start[k] *= random.uniform(0.97, 1.03);
@@ -100,7 +100,7 @@ TEST(Bound, HoldsForCostatesThatBelongToNoOptimum) {
 
 void expect_least(const ProfileRequest& request, testing::RandomProfiles& random) {
   const PathMotion motion = path_motion(request);
-  const CostModel model(request, motion, {1.0, 3.0});
+  const CostModel model(request, motion, 3.0);
   for (int i = 0; i < 2000; ++i) {
     const double s = motion.length() * random.uniform(0.001, 0.999);
     const double time_s = random.uniform(0, 100), u = random.uniform(0, 1.2), a = random.uniform(-0.6, 0.6);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "planner/values/profile.hpp"
+#include "planner/values/profile_request.hpp"
+
+namespace joulepath {
+
+/// Which limits hold a fastest drive, for how long, and where first: why it takes its time.
+class HoldingLimits {
+ public:
+  /// Adds a stretch; `offset_m` is the arc length before it.
+  void add(const ProfileRequest& request, const Profile& fastest, double offset_m = 0.0);
+
+  /// "; acceleration holds the fastest drive for 62 % of its time, first at s = 0.1 m": the limit that holds
+  /// longest. Empty where none does.
+  [[nodiscard]] std::string sentence() const;
+
+ private:
+  struct Hold {
+    double time_s{};
+    double first_s{};
+    bool turn{};
+  };
+  std::map<std::string, Hold, std::less<>> holds_{};
+  double time_s_{};
+};
+
+}  // namespace joulepath
