@@ -45,12 +45,12 @@ class ProfileSolver {
       result_.summary.nodes = problem.node_count();
       if (late(problem)) {
         std::vector<double> finer = towards_least_time(problem);
-        if (finer.empty()) return std::move(result_);
+        if (finer.empty()) return answer();
         s = std::move(finer);
         --round;
         continue;
       }
-      if (!solve_on(problem)) return std::move(result_);
+      if (!solve_on(problem)) return answer();
       if (request_.draft) return sketch();
       const nlp::DenseCheck check = nlp::check_densely(
           problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), request_.accuracy);
@@ -59,12 +59,10 @@ class ProfileSolver {
       const bool last = round + 1 == kRounds;
       if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
         std::vector<double> finer = prove(problem);
-        if (finer.empty() && to_settle()) {
-          settling_ = true;
-          continue;
-        }
-        if (last || finer.empty()) return finish();
-        s = std::move(finer);
+        keep();
+        if (finer.empty() && !to_settle()) return answer();
+        settling_ = finer.empty();
+        if (!settling_) s = std::move(finer);
         continue;
       }
       last_ratio_ = check.worst_ratio;
@@ -74,7 +72,7 @@ class ProfileSolver {
     result_.summary.status = SolveStatus::failed;
     result_.summary.message =
         "limits do not settle between nodes (worst use " + std::to_string(last_ratio_) + ")";
-    return std::move(result_);
+    return answer();
   }
 
  private:
@@ -211,20 +209,23 @@ class ProfileSolver {
                               least.switches);
   }
 
-  /// The status that follows from the bound.
-  ProfileResult finish() {
-    SolveSummary& summary = result_.summary;
-    const bool closed = summary.gap_percent <= 100 * request_.accuracy;
-    summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
-    result_.profile = std::move(best_);
-    return std::move(result_);
+  /// Keeps a profile within the limits, with the status that follows from its bound.
+  void keep() {
+    const bool closed = result_.summary.gap_percent <= 100 * request_.accuracy;
+    kept_ = result_;
+    kept_->summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
+    kept_->profile = best_;
   }
+
+  /// The last profile within the limits, whatever became of a finer grid; else the verdict.
+  ProfileResult answer() { return kept_ ? std::move(*kept_) : std::move(result_); }
 
   const ProfileRequest& request_;
   PathMotion motion_;
   ProfileResult result_{};
   std::vector<double> best_b_{};  ///< squares of the rate
   std::optional<Profile> best_{};
+  std::optional<ProfileResult> kept_{};
   nlp::Solution solution_{};
   bool given_over_{};  ///< the fast solver did not converge: Ipopt does the rest
   bool settling_{};    ///< on the last grid, by Ipopt
