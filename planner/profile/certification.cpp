@@ -9,13 +9,10 @@
 namespace joulepath {
 namespace {
 
-constexpr double kLocal =
-    0.1;  ///< share of a gap from cheaper rates elsewhere that makes it one of convexity
-
 /// Relative to the value alone, not to what its time costs.
 void set_gap(double value, double gap, const DualGap& parts, SolveSummary& summary) {
   summary.gap_percent = 100 * gap / std::max(1e-9, std::abs(value));
-  summary.local = parts.elsewhere > kLocal * gap;
+  summary.local = parts.is_elsewhere();
 }
 
 void set_energy_bound(double energy_J, double gap_J, const DualGap& parts, SolveSummary& summary) {
@@ -51,17 +48,19 @@ double bound_without_price_J(const nlp::Problem& problem, const PathMotion& moti
 
 DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, const nlp::Solution& solution,
                        const Profile& profile, SolveSummary& summary) {
-  const double time_W = problem.time_weight_W + solution.price_W, value_J = energy_J(motion, profile);
-  if (time_W < 0) {
-    set_energy_bound(value_J, value_J - bound_without_price_J(problem, motion, solution),
-                     {.elsewhere = kNoLimit}, summary);
-    return {};
+  const double value_J = energy_J(motion, profile);
+  const CostModel model(*problem.request, motion, problem.time_weight_W + solution.price_W);
+  DualGap gap = dual_gap(model, costate_of(problem, solution, profile, model), profile);
+  if (gap.is_elsewhere()) {
+    const DualGap other = dual_gap(model, costate_of(problem, solution, profile, model, true), profile);
+    if (other.total() < gap.total()) gap = other;
   }
-  const CostModel model(*problem.request, motion, time_W);
-  const DualGap gap = dual_gap(model, costate_of(problem, solution, profile, model), profile);
   const bool timed = problem.duration_row != nlp::DurationRow::none;
   const double unused_s = timed ? std::max(0.0, problem.duration_s - profile.duration_s()) : 0.0;
-  set_energy_bound(value_J, gap.total() + solution.price_W * unused_s, gap, summary);
+  double gap_J = gap.total() + std::max(0.0, solution.price_W) * unused_s;
+  if (gap.is_elsewhere() && problem.duration_row == nlp::DurationRow::equal)
+    gap_J = std::min(gap_J, value_J - bound_without_price_J(problem, motion, solution));
+  set_energy_bound(value_J, gap_J, gap, summary);
   return gap;
 }
 

@@ -64,6 +64,20 @@ double psi_at_rest(const CostModel& model, double s, double time_s, double accel
   return acceleration != 0 ? H / acceleration : 0.0;
 }
 
+/// Mean over the time of dH/da at rest.
+double mean_slope_at_rest(const CostModel& model, const Profile& profile) {
+  constexpr double kStep = 1e-3;  // of acceleration: the power is quadratic
+  constexpr std::size_t kLooks = 20;
+  double sum = 0;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    const ProfileState state =
+        profile.at_time(profile.time_s.back() * (static_cast<double>(i) + 0.5) / kLooks);
+    const PlaceCost place(model, state.s, state.time_s);
+    sum += (place.at(0, kStep) - place.at(0, -kStep)) / (2 * kStep * kLooks);
+  }
+  return sum;
+}
+
 /// Spreads the steps of neighboring nodes that are held over the segment between them.
 void spread_jumps(const std::vector<bool>& held, const std::vector<double>& jump, std::vector<double>& start,
                   std::vector<double>& end) {
@@ -92,8 +106,9 @@ bool is_fastest(const CostModel& model, const Profile& profile, std::size_t k) {
 }  // namespace
 
 Costate costate_of(const Problem& problem, const Solution& solution, const Profile& profile,
-                   const CostModel& model) {
+                   const CostModel& model, bool priced_rate) {
   const std::size_t count = problem.segment_count();
+  const double of_rate = priced_rate ? mean_slope_at_rest(model, profile) : 0.0;
   std::vector<double> start(count), end(count), jump(count + 1, 0.0);
   std::vector<bool> held(count + 1, false);
   for (std::size_t k = 0; k < count; ++k) {
@@ -116,7 +131,7 @@ Costate costate_of(const Problem& problem, const Solution& solution, const Profi
     if (held[k] && !is_fastest(model, profile, k)) start[k] = end[k - 1] = 0.5 * (start[k] + end[k - 1]);
     jump[k] = start[k] - end[k - 1];
   }
-  Costate costate{.psi_start = start, .psi_end = end, .jump = jump};
+  Costate costate{.psi_start = start, .psi_end = end, .jump = jump, .of_rate = of_rate};
   for (std::size_t k = 0; k < count; ++k) {
     costate.psi_start[k] *= 2 * profile.rate[k];
     costate.psi_end[k] *= 2 * profile.rate[k + 1];

@@ -14,22 +14,24 @@ constexpr std::array<double, 5> kShares{1e-4, 0.25, 0.5, 0.75, 1 - 1e-4};  ///< 
 constexpr double kSlowest = 1e-3;    ///< rate looked at, as a share of the profile's
 constexpr int kBits = 16;            ///< of the minimum's place
 constexpr double kRounding = 1e-10;  ///< of the minimum, relative: what these bits leave over
+constexpr double kElsewhere = 0.1;   ///< share of a gap
 constexpr double kSame = 1e-6;       ///< relative to H
 
-/// The integrand at one place, scaled by the profile's rate u0: for x = u/u0,
-///   G(x, a) = H(x u0, a)/x - bend x^2 - psi a,   bend = (u0 dpsi/dt - psi a0)/2.
+/// The integrand at one place, scaled by the profile's rate u0: for x = u/u0, psi = psi_u2 + c,
+///   G(x, a) = (H(x u0, a) - c a)/x - bend x^2 - psi_u2 a,   bend = (u0 dpsi/dt - psi_u2 a0)/2.
 class Place {
  public:
-  Place(const CostModel& model, const ProfileState& state, double psi, double psi_per_second)
+  Place(const CostModel& model, const ProfileState& state, double psi, double psi_per_second, double of_rate)
       : cost_(model, state.s, state.time_s),
         rate_(state.rate),
-        psi_(psi),
-        bend_(0.5 * (psi_per_second * state.rate - psi * state.acceleration)),
+        psi_(psi - of_rate),
+        of_rate_(of_rate),
+        bend_(0.5 * (psi_per_second * state.rate - psi_ * state.acceleration)),
         planned_(cost_.at(state.rate, state.acceleration) - bend_ - psi * state.acceleration),
         size_(std::abs(planned_) + std::abs(bend_) + std::abs(psi * state.acceleration)),
         most_(cost_.fastest() / rate_) {}
 
-  double at(double x) const { return cost_.least(x * rate_, x * psi_) / x - bend_ * x * x; }
+  double at(double x) const { return cost_.least(x * rate_, x * psi_ + of_rate_) / x - bend_ * x * x; }
   double planned() const { return planned_; }
   double size() const { return size_; }
 
@@ -52,9 +54,12 @@ class Place {
     return best;
   }
 
+  /// Whether G falls without end towards standstill.
+  bool creeps() const { return cost_.least(0.0, of_rate_) < -kSame * size_; }
+
  private:
   PlaceCost cost_;
-  double rate_{}, psi_{}, bend_{}, planned_{}, size_{}, most_{};
+  double rate_{}, psi_{}, of_rate_{}, bend_{}, planned_{}, size_{}, most_{};
 };
 
 class SegmentGap {
@@ -66,6 +71,10 @@ class SegmentGap {
   void add_to(DualGap& gap) const {
     const double dt = profile_.time_s[k_ + 1] - profile_.time_s[k_];
     const Place middle = place(0.5);
+    if (middle.creeps()) {
+      gap.of_segment[k_] = gap.elsewhere = kNoLimit;
+      return;
+    }
     const double best = middle.scan(), around = middle.near(1.0), there = middle.near(best);
     const bool elsewhere = there < around - kSame * middle.size();
     std::array<double, 5> excess;
@@ -86,7 +95,7 @@ class SegmentGap {
     const double begin = profile_.time_s[k_], dt = profile_.time_s[k_ + 1] - begin;
     const double psi0 = costate_.psi_start[k_], psi1 = costate_.psi_end[k_];
     return Place(model_, profile_.at_time(begin + share * dt), psi0 + share * (psi1 - psi0),
-                 (psi1 - psi0) / dt);
+                 (psi1 - psi0) / dt, costate_.of_rate);
   }
 
   const CostModel& model_;
@@ -110,10 +119,13 @@ double at_node(const CostModel& model, const Profile& profile, std::size_t k, do
 
 double DualGap::total() const { return std::accumulate(of_segment.begin(), of_segment.end(), at_nodes); }
 
+bool DualGap::is_elsewhere() const { return elsewhere > 0 && elsewhere >= kElsewhere * total(); }
+
 DualGap dual_gap(const CostModel& model, const Costate& costate, const Profile& profile) {
   const std::size_t count = profile.s.size() - 1;
   DualGap gap{.of_segment = std::vector<double>(count, 0.0)};
-  for (std::size_t k = 0; k < count; ++k) SegmentGap(model, costate, profile, k).add_to(gap);
+  for (std::size_t k = 0; k < count && std::isfinite(gap.elsewhere); ++k)
+    SegmentGap(model, costate, profile, k).add_to(gap);
   for (std::size_t k = 1; k < count; ++k) gap.at_nodes += at_node(model, profile, k, costate.jump[k]);
   return gap;
 }

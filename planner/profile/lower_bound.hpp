@@ -13,6 +13,8 @@ struct DualGap {
   double at_nodes{};                 ///< where the costate jumps
   double elsewhere{};                ///< of the sum: cheapest rates are not those around the profile's
   double total() const;
+  /// Whether that is much of the gap: the problem is not convex here.
+  bool is_elsewhere() const;
 };
 
 /// The dual gap of a profile in the continuous problem as asked, valid for every costate p(s):
