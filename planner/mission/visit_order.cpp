@@ -6,16 +6,29 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+
+#include "planner/mission/time_front.hpp"
+
 // Design: docs/decisions/0005-order-of-visits.md
 namespace joulepath {
 namespace {
 
-/// Energy and time of a leg at three payloads.
+/// Energy and time of a leg at three payloads, at each price of time from the highest to the mission's own.
 struct LegCost {
+  struct Drive {
+    std::array<double, 3> energy_J{};
+    std::array<double, 3> duration_s{};
+  };
   bool reachable{};
-  std::array<double, 3> energy_J{};
-  std::array<double, 3> duration_s{};
+  std::vector<Drive> drives{};
 };
+
+/// Prices (W) above the mission's at which legs are measured where windows ask for faster drives.
+constexpr std::array<double, 6> kPrices_W{kNoLimit, 100, 30, 10, 3, 1};
+
+/// How much later than its window a stop may be in the table (share of the arrival's time) for an order still
+/// to be planned: routes of the table are rough.
+constexpr double kRough = 0.1;
 
 double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes 0, 1/2, 1
   return at[0] * (1 - fraction) * (1 - 2 * fraction) + at[1] * 4 * fraction * (1 - fraction) +
@@ -27,10 +40,9 @@ struct Label {
   std::uint64_t visited{};
   std::size_t last{};  ///< visit index; visits.size() = the start
   double payload_kg{};
-  double time_s{};
-  double cost_J{};
-  double heaviest_kg{};  ///< carried so far
-  double late_s{};       ///< at the stop whose window is relaxed
+  TimeFront front{{0.0, 0.0}};  ///< of the departure
+  double heaviest_kg{};         ///< carried so far
+  double late_s{};              ///< at the stop whose window is relaxed
   std::vector<std::size_t> order{};
 };
 
@@ -38,6 +50,7 @@ struct Label {
 struct Relaxed {
   std::optional<std::size_t> window{};  ///< the end of this stop's
   bool capacity{};
+  double late_share{};  ///< of the arrival's time, at every window
 };
 
 class VisitSearch {
@@ -56,8 +69,9 @@ class VisitSearch {
     relaxed_ = relaxed;
     std::vector<Label> layer{{.last = count_}};
     for (std::size_t step = 0; step < count_ && !layer.empty(); ++step) layer = next_layer(layer);
-    const auto least = std::min_element(layer.begin(), layer.end(),
-                                        [](const Label& a, const Label& b) { return a.cost_J < b.cost_J; });
+    const auto least = std::min_element(layer.begin(), layer.end(), [](const Label& a, const Label& b) {
+      return std::pair(a.late_s, a.front.least_J()) < std::pair(b.late_s, b.front.least_J());
+    });
     return least == layer.end() ? std::nullopt : std::optional(*least);
   }
 
@@ -69,7 +83,7 @@ class VisitSearch {
     std::optional<Label> label = Label{.last = count_};
     for (std::size_t k = 0; k < count_ && label; ++k)
       label = allowed(*label, k) ? extend(*label, k) : std::nullopt;
-    return label ? std::optional(label->cost_J) : std::nullopt;
+    return label ? std::optional(label->front.least_J()) : std::nullopt;
   }
 
   double lower_bound_J() const {
@@ -77,7 +91,8 @@ class VisitSearch {
     for (std::size_t to = 0; to < count_; ++to) {
       double least_J = kNoLimit;
       for (std::size_t from = 0; from <= count_; ++from)
-        if (from != to && cost(from, to).reachable) least_J = std::min(least_J, cost(from, to).energy_J[0]);
+        if (from != to && cost(from, to).reachable)
+          least_J = std::min(least_J, cost(from, to).drives.back().energy_J[0]);
       sum_J += least_J + standby_W() * visits_[to].dwell_s;
     }
     return sum_J;
@@ -114,15 +129,45 @@ class VisitSearch {
     const RouteResult route =
         quick_route(route_request(leg, start_of(from), context_.mission, context_.options));
     LegCost result{.reachable = route.found()};
-    for (std::size_t k = 0; k < 3 && result.reachable; ++k) {
-      const double payload_kg = 0.5 * static_cast<double>(k) * heaviest_kg_;
-      leg.payload = {payload_kg, payload_kg};
-      const PathScore score = score_path(route.path, leg, to, context_);
-      result.reachable = score.drivable;
-      result.energy_J[k] = score.energy_J;
-      result.duration_s[k] = score.duration_s;
+    for (double price_W : prices_W()) {
+      if (!result.reachable) break;
+      ChoiceContext priced = context_;
+      priced.price_W = price_W;
+      LegCost::Drive drive;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double payload_kg = 0.5 * static_cast<double>(k) * heaviest_kg_;
+        leg.payload = {payload_kg, payload_kg};
+        const PathScore score = score_path(route.path, leg, to, priced);
+        result.reachable &= score.drivable;
+        drive.energy_J[k] = score.energy_J;
+        drive.duration_s[k] = score.duration_s;
+      }
+      result.drives.push_back(drive);
     }
     return result;
+  }
+
+  /// Without a window the cheapest drive is enough.
+  std::vector<double> prices_W() const {
+    std::vector<double> prices_W;
+    if (std::any_of(visits_.begin(), visits_.end(),
+                    [](const VisitRequest& visit) { return visit.window_s.has_value(); }))
+      for (double price_W : kPrices_W)
+        if (price_W > context_.price_W) prices_W.push_back(price_W);
+    prices_W.push_back(context_.price_W);
+    return prices_W;
+  }
+
+  /// Cost of a leg over its time, at the mission's own price, for a payload.
+  TimeFront front_of(const LegCost& leg, double payload_kg) const {
+    const double fraction = heaviest_kg_ > 0 ? payload_kg / heaviest_kg_ : 0.0;
+    const double price_W = std::isfinite(context_.price_W) ? context_.price_W : 1e6;
+    std::vector<TimeFront::Point> points;
+    for (const LegCost::Drive& drive : leg.drives) {
+      const double time_s = interpolate(drive.duration_s, fraction);
+      points.push_back({time_s, interpolate(drive.energy_J, fraction) + price_W * time_s});
+    }
+    return TimeFront::below(std::move(points));
   }
 
   /// By the lattice alone: energies of the table need percents, and there are many pairs.
@@ -148,22 +193,16 @@ class VisitSearch {
     const LegCost& leg = cost(label.last, next);
     if (!leg.reachable) return std::nullopt;
     const VisitRequest& visit = visits_[next];
-    const double fraction = heaviest_kg_ > 0 ? label.payload_kg / heaviest_kg_ : 0.0;
     Label after = label;
-    const double driving_s = interpolate(leg.duration_s, fraction);
-    after.time_s += driving_s;
-    double waiting_s = 0.0;
+    after.front = label.front + front_of(leg, label.payload_kg);
     if (visit.window_s) {
-      waiting_s = std::max(0.0, visit.window_s->first - after.time_s);
-      after.time_s += waiting_s;
-      const double late_s = after.time_s - visit.window_s->second;
-      if (late_s > 0 && relaxed_.window != next) return std::nullopt;
+      after.front.wait_until(visit.window_s->first, standby_W());
+      const double first_s = after.front.soonest_s(), late_s = first_s - visit.window_s->second;
+      if (late_s > relaxed_.late_share * first_s && relaxed_.window != next) return std::nullopt;
       after.late_s = std::max(after.late_s, late_s);
+      after.front.end_at(visit.window_s->second);
     }
-    after.time_s += visit.dwell_s;
-    const double price_W = std::isfinite(context_.price_W) ? context_.price_W : 1e6;
-    after.cost_J +=
-        interpolate(leg.energy_J, fraction) + standby_W() * (waiting_s + visit.dwell_s) + price_W * driving_s;
+    after.front.shift(visit.dwell_s, standby_W() * visit.dwell_s);
     if (visit.kind == VisitRequest::Kind::pick) after.payload_kg += visit.payload_kg;
     if (visit.kind == VisitRequest::Kind::drop)
       after.payload_kg = visit.payload_given ? after.payload_kg - visit.payload_kg : 0.0;
@@ -188,7 +227,7 @@ class VisitSearch {
         std::vector<Label>& rivals =
             best[{after->visited, after->last, std::lround(1e6 * after->payload_kg)}];
         const auto beats = [](const Label& a, const Label& b) {
-          return a.cost_J <= b.cost_J && a.time_s <= b.time_s;
+          return a.late_s <= b.late_s && a.front.is_below(b.front);
         };
         if (std::any_of(rivals.begin(), rivals.end(),
                         [&](const Label& rival) { return beats(rival, *after); }))
@@ -200,7 +239,7 @@ class VisitSearch {
     for (auto& [key, labels] : best) std::move(labels.begin(), labels.end(), std::back_inserter(all));
     if (count_ > kExactStops && all.size() > kBeam) {
       std::stable_sort(all.begin(), all.end(),
-                       [](const Label& a, const Label& b) { return a.cost_J < b.cost_J; });
+                       [](const Label& a, const Label& b) { return a.front.least_J() < b.front.least_J(); });
       all.resize(kBeam);
     }
     return all;
@@ -279,13 +318,14 @@ VisitOrder order_visits(const ChoiceContext& context) {
   const MissionRequest& mission = context.mission;
   VisitSearch search(context);
   VisitOrder result{.exact = mission.visit.size() <= kExactStops};
-  const std::optional<Label> best = search.best();
+  std::optional<Label> best = search.best();
+  if (!best) best = search.best({.late_share = kRough});  // the plan itself has the last word
   if (!best) {
     result.infeasibility = no_order(mission, search);
     return result;
   }
   result.order = best->order;
-  result.energy_J = best->cost_J;
+  result.energy_J = best->front.least_J();
   result.given_order_J = search.given_order_J();
   result.lower_bound_J = search.lower_bound_J();
   double payload_kg = 0.0;

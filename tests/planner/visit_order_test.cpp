@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "planner/mission/mission.hpp"
+#include "planner/mission/time_front.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -39,8 +40,8 @@ MissionRequest round_trip() {
   return mission;
 }
 
-Plan plan_of(const MissionRequest& mission) {
-  return plan_mission(mission, {.robot = testing::nomad(), .map = empty_floor()},
+Plan plan_of(const MissionRequest& mission, const Robot& robot = testing::nomad()) {
+  return plan_mission(mission, {.robot = robot, .map = empty_floor()},
                       {.solver = SolverChoice::fast, .nodes = 40, .baselines = false});
 }
 
@@ -77,6 +78,59 @@ TEST(VisitOrder, AWindowTurnsTheOrderRound) {
   ASSERT_FALSE(plan.infeasibility) << plan.message;
   EXPECT_EQ(plan.visit->order.front(), other);
   EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
+}
+
+/// A window that the most economical drive misses and a faster one keeps, as the same stops as legs do.
+TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 0;
+  MissionRequest as_legs = round_trip();
+  as_legs.visit.clear();
+  as_legs.legs = {{.to = "far"}, {.to = "side"}};
+  const Plan free = plan_of(as_legs, robot);
+  as_legs.objective.minimize = Objective::Minimize::time;
+  const Plan fastest = plan_of(as_legs, robot);
+  ASSERT_LT(fastest.duration_s, 0.97 * free.duration_s);
+  for (double share : {0.1, 0.5, 0.9}) {
+    const double latest_s = fastest.duration_s + share * (free.duration_s - fastest.duration_s);
+    MissionRequest mission = round_trip();
+    mission.visit = {
+        {.kind = VisitRequest::Kind::pass, .station = "far", .window_s = {{0.0, 0.8 * latest_s}}},
+        {.kind = VisitRequest::Kind::pass, .station = "side", .window_s = {{0.0, latest_s}}}};
+    const Plan plan = plan_of(mission, robot);
+    ASSERT_FALSE(plan.infeasibility) << share << ": " << plan.message;
+    EXPECT_LE(plan.duration_s, latest_s * (1 + 1e-6)) << share;
+    EXPECT_LE(plan.energy.total_J(), 1.05 * fastest.energy.total_J()) << share;
+  }
+}
+
+/// Costs of two drives in a row, by trying every way of sharing the time.
+TEST(TimeFront, SumSharesTheTimeAtBest) {
+  const TimeFront first = TimeFront::below({{4, 90}, {5, 60}, {7, 40}, {6, 80}, {9, 39}});
+  const TimeFront second = TimeFront::below({{2, 30}, {3, 22}, {6, 20}, {7, 25}});
+  const TimeFront sum = first + second;
+  for (double time_s = 6; time_s < 18; time_s += 0.25) {
+    double least_J = kNoLimit;
+    for (double share_s = 4; share_s <= time_s - 2; share_s += 0.0625)
+      least_J = std::min(least_J, first.at(share_s) + second.at(time_s - share_s));
+    EXPECT_NEAR(sum.at(time_s), least_J, 1e-9) << time_s;
+  }
+  EXPECT_TRUE(sum.is_below(sum));
+  TimeFront later = sum;
+  later.shift(1, 0);
+  EXPECT_TRUE(sum.is_below(later));
+  EXPECT_FALSE(later.is_below(sum));
+}
+
+TEST(TimeFront, WindowsCutItAndWaitingCostsStandby) {
+  TimeFront front = TimeFront::below({{4, 90}, {5, 60}, {7, 40}});
+  front.wait_until(6, 10);
+  EXPECT_DOUBLE_EQ(front.soonest_s(), 6);
+  EXPECT_DOUBLE_EQ(front.at(6), 50);
+  front.end_at(6.5);
+  EXPECT_DOUBLE_EQ(front.least_J(), 45);
+  front.wait_until(8, 10);
+  EXPECT_DOUBLE_EQ(front.least_J(), 60);
 }
 
 TEST(VisitOrder, MoreThanTheRobotCarriesHasNoOrder) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace joulepath {
+
+/// Least cost over a time: convex, falling and linear between points, from the soonest to the cheapest; later
+/// costs the same as the cheapest.
+class TimeFront {
+ public:
+  struct Point {
+    double time_s{};
+    double cost_J{};
+  };
+
+  TimeFront(std::initializer_list<Point> points) : points_(points) {}
+  /// The largest front below some points.
+  [[nodiscard]] static TimeFront below(std::vector<Point> points);
+
+  [[nodiscard]] double soonest_s() const { return points_.front().time_s; }
+  [[nodiscard]] double least_J() const { return points_.back().cost_J; }
+  /// No time before the soonest: infinite.
+  [[nodiscard]] double at(double time_s) const;
+
+  /// One drive after the other: seconds go where they save most.
+  friend TimeFront operator+(const TimeFront& first, const TimeFront& second);
+  /// Nothing counts before a time; who comes before it waits.
+  void wait_until(double time_s, double waiting_W);
+  /// No time after this one; the soonest stays.
+  void end_at(double time_s);
+  void shift(double time_s, double cost_J);
+
+  /// Whether it is nowhere above the other.
+  [[nodiscard]] bool is_below(const TimeFront& other) const;
+
+ private:
+  std::vector<Point> points_{};
+};
+
+}  // namespace joulepath
