@@ -143,7 +143,8 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
     text << "; " << key << " " << least_s << " would do";
   }
   const ProfileRequest enough = with_enough_jerk(request);
-  if (replay(enough, *fastest_by_jerk(enough)).valid()) {
+  const Profile enough_fast = *fastest_by_jerk(enough);
+  if (enough_fast.duration_s() <= request.time.duration_s && replay(enough, enough_fast).valid()) {
     verdict.relaxation["jerk_m_s3"] = enough.limits.jerk_m_s3;
     text << "; jerk_m_s3 " << enough.limits.jerk_m_s3 << " would do";
   }
@@ -190,15 +191,23 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   ProfileRequest relaxed = without_jerk(request);
   relaxed.solver = SolverChoice::fast;
   ProfileResult bound = solve_profile(relaxed);
-  if (!bound.profile) return bound;
+  const std::optional<Profile> fastest =
+      request.limits.jerk_m_s3 > 0 ? fastest_by_jerk(request) : std::nullopt;
+  const bool soon =
+      fastest && has_deadline(request) && request.time.duration_s < fastest->duration_s() * (1 - kSame);
+  if (!bound.profile) {
+    // What would do without the jerk limit does not do with it.
+    const bool by_time =
+        has_deadline(request) && bound.infeasibility &&
+        (bound.infeasibility->constraint == "deadline" || bound.infeasibility->constraint == "duration");
+    return by_time && soon ? too_soon(request, *fastest) : bound;
+  }
   if (!(request.limits.jerk_m_s3 > 0)) {
     ProfileResult none;
     none.summary.message = "a jerk limit of 0 or less allows no change of acceleration: nothing can start";
     return blame_jerk(request, std::move(none));
   }
-  const std::optional<Profile> fastest = fastest_by_jerk(request);
-  if (fastest && has_deadline(request) && request.time.duration_s < fastest->duration_s() * (1 - kSame))
-    return too_soon(request, *fastest);
+  if (soon) return too_soon(request, *fastest);
   const bool exact =
       fastest && request.time.mode == TimeMode::minimum_time && replay(request, *fastest).valid();
   ProfileResult result;

@@ -170,6 +170,23 @@ TEST(Jerk, NoDeadlineThatAnSCurveMakesIsRefused) {
   EXPECT_NEAR(result.infeasibility->relaxation.at("deadline_s"), exact_s, 1e-4 * exact_s);
 }
 
+/// A deadline far before the least time: what would do without the jerk limit is not offered.
+TEST(Jerk, WhatIsOfferedForAnImpossibleDeadlineIsPlanned) {
+  for (double share : {0.3, 0.95}) {
+    ProfileRequest request = straight(3, 0.8);
+    const double exact_s =
+        s_curve_duration_s(3, request.limits.speed_m_s, request.limits.acceleration_m_s2, 0.8);
+    request.time = {.mode = TimeMode::time_budget, .duration_s = share * exact_s};
+    const ProfileResult result = solve_profile(request);
+    ASSERT_TRUE(result.infeasibility);
+    for (const auto& [key, value] : result.infeasibility->relaxation) {
+      ProfileRequest relaxed = request;
+      (key == "jerk_m_s3" ? relaxed.limits.jerk_m_s3 : relaxed.time.duration_s) = value;
+      EXPECT_TRUE(solve_profile(relaxed).profile) << share << ": " << key << " = " << value;
+    }
+  }
+}
+
 TEST(Jerk, LeavesATurnInPlaceAlone) {
   ProfileRequest request = straight(1, 0.5);
   request.piece = TurnInPlace{{}, 1.5};
