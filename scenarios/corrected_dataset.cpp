@@ -67,7 +67,7 @@ Distortion distortion_of(const std::vector<EffectSetting>& instruments, Side sid
   const auto add = [&](const auto& effect) {
     if constexpr (requires { effect.current_reading(side); }) {
       const CurrentReading reading = effect.current_reading(side);
-      distortion.offset_A = reading.gain * distortion.offset_A + reading.offset_A;
+      distortion.offset_A += reading.offset_A;
       distortion.gain *= reading.gain;
     }
     if constexpr (requires { effect.channel_delay_s(); }) distortion.delay_s += effect.channel_delay_s();

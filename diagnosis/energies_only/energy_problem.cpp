@@ -8,18 +8,21 @@
 #include "diagnosis/numerics/folds.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/effects/catalog.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr int kNoiseRounds = 4;
 
-/// Where on the floor, when in the day and at which sample something happened, energies do not say.
+/// Effects that show only in the samples of a log, or in the time of day where runs do not state it.
 std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
-  std::set<std::string> names{"floor_slope", "floor_patch", "time_misalignment"};
   const bool dated =
       std::ranges::all_of(runs, [](const EnergyRun& run) { return run.motion.signals.time_of_day_known; });
-  if (!dated) names.insert("winding_heating");
+  std::set<std::string> names;
+  for (const EffectDescription& effect : effect_catalog())
+    if (effect.info.needs.samples || (effect.info.needs.time_of_day && !dated))
+      names.emplace(effect.info.name);
   return names;
 }
 
