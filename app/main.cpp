@@ -9,6 +9,7 @@
 #include "app/terminal.hpp"
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
+#include "model/printable.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -16,7 +17,7 @@ namespace {
 
 int tell(const std::string& message, int code, const std::string& hint = {}) {
   std::cout.flush();
-  std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << message << '\n';
+  std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(message) << '\n';
   if (!hint.empty()) std::cerr << hint << '\n';
   return code;
 }
@@ -54,6 +55,8 @@ int run(int argc, char** argv) {
   if (!parsed.error.empty()) return tell(parsed.error, parsed.exit_code, parsed.hint);
   if (parsed.command) return guarded(*parsed.command);
   (parsed.exit_code == kDone ? std::cout : std::cerr) << parsed.output;
+  std::cout.flush();
+  if (!std::cout) return tell("cannot write to the standard output", kEnvironment);
   return parsed.exit_code;
 }
 

@@ -73,6 +73,15 @@ class TemporaryDirectory {
   fs::path path_;
 };
 
+/// Throws EnvironmentError when a file cannot be made in the directory, or the directory itself.
+void check_writable(const fs::path& directory) {
+  std::error_code error;
+  fs::path nearest = fs::absolute(directory, error);
+  while (!fs::exists(nearest, error) && nearest.has_relative_path()) nearest = nearest.parent_path();
+  if (!fs::is_directory(nearest, error)) fail(directory, "create", nearest.string() + " is no directory");
+  if (::access(nearest.c_str(), W_OK | X_OK) != 0) fail(directory, "write", std::strerror(errno));
+}
+
 fs::path without_trailing_slash(const std::string& directory) {
   fs::path path = fs::path(directory).lexically_normal();
   return path.has_filename() ? path : path.parent_path();
@@ -86,6 +95,7 @@ OutputDirectory::OutputDirectory(std::string directory, std::vector<std::string>
   std::error_code error;
   if (fs::exists(directory_, error) && !fs::is_directory(directory_, error))
     throw ConfigError({{directory_, 0, 0}, "", "a file", "a directory for the results", ""});
+  if (!names_.empty()) check_writable(directory_);
   if (force) return;
   for (const auto& name : names_)
     if (fs::exists(fs::path(directory_) / name, error)) refuse_existing(fs::path(directory_) / name);

@@ -27,6 +27,9 @@ inline constexpr std::size_t kRunsForSmallEffects = 8;
 inline constexpr std::size_t kLeastSamples = 40;
 /// Of all runs together; longer logs are thinned out more. Declared: bounds memory and time.
 inline constexpr double kMostRows = 12000.0;
+/// Between rows, at most; longer logs have more rows. Derived: a delay is a difference over three rows
+/// on each side, and rows farther apart do not resolve it.
+inline constexpr double kCoarsestPeriod_s = 0.4;
 /// Of the Gaussian that smooths every channel. Chosen.
 inline constexpr double kKernelSigma_s = 0.06;
 /// Between samples after smoothing. Chosen.

@@ -9,6 +9,7 @@
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/path_file.hpp"
+#include "scenarios/robot_check.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
@@ -43,7 +44,7 @@ std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
 
 FileSummary summary_of_robot(const std::string& file) {
   const Robot robot = read_robot(file);
-  FileSummary summary{"robot", robot.name, {}};
+  FileSummary summary{"robot", robot.name, robot_notes(robot)};
   if (!robot.limits)
     summary.notes.push_back("no limits: diagnose, estimate and calibrate work, plan does not");
   if (!robot.effects.empty()) summary.text += ", " + counted(robot.effects.size(), "effect");

@@ -1,9 +1,12 @@
 #include "scenarios/dataset_file.hpp"
 
 #include <algorithm>
+#include <iterator>
 
+#include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/physical_bounds.hpp"
 #include "scenarios/plausible.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
@@ -61,10 +64,22 @@ class RunReader {
     else
       read_log(node, run);
     fill_payload(run);
-    dataset_.runs.push_back(std::move(run));
+    add(node, std::move(run));
   }
 
  private:
+  void add(const Node& node, Run run) {
+    std::vector<Run> stretches = split_at_clock_jumps(std::move(run), dataset_.artifacts);
+    if (stretches.empty())
+      node.fail_found("a log with a jump of the clock at every sample", "a clock in seconds");
+    if (stretches.size() > 1)
+      for (const char* key : {"measured_energy_J", "battery_energy_Wh", "predicted"})
+        if (const auto whole = node.find(key))
+          whole->fail_found("a value of the whole run", "no such value for a log whose clock jumps",
+                            "split the log at the jump, or correct time_s");
+    std::move(stretches.begin(), stretches.end(), std::back_inserter(dataset_.runs));
+  }
+
   static void read_energy(const Node& node, Run& run) {
     if (const auto energy = node.find("measured_energy_J"))
       run.measured_energy_J = Sided<double>{(*energy)["left"].number(), (*energy)["right"].number()};
@@ -94,6 +109,7 @@ class RunReader {
     refuse_repeated(run.name, named_by);
     RunLog log = read_run_log(files, sources_, dataset_.robot.geometry, run.name);
     run.log = std::move(log.trajectory);
+    refuse_same_samples(run, named_by);
     run.current_sign_from_motion = log.current_sign_from_motion;
     check_plausible(run, dataset_.robot, named_by);
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
@@ -106,6 +122,19 @@ class RunReader {
       if (dataset_.runs[r].name == name)
         named_by.fail_found("\"" + name + "\", which runs[" + std::to_string(r) + "] has already",
                             "a log that no other run has", "remove one of them");
+  }
+
+  /// Two names of one file, by a link or by a copy.
+  void refuse_same_samples(const Run& run, const Node& named_by) const {
+    for (std::size_t r = 0; r < dataset_.runs.size(); ++r) {
+      const Trajectory &one = dataset_.runs[r].log, &other = run.log;
+      if (one.time_s == other.time_s && one.wheel_speed_rad_s.left == other.wheel_speed_rad_s.left &&
+          one.wheel_speed_rad_s.right == other.wheel_speed_rad_s.right &&
+          one.motor_current_A.left == other.motor_current_A.left &&
+          one.battery_current_A == other.battery_current_A)
+        named_by.fail_found("\"" + run.name + "\", with the same samples as runs[" + std::to_string(r) + "]",
+                            "a log that no other run has", "remove one of them if both are the same file");
+    }
   }
 
   /// Another simulator writes the format's own names (then `columns:` is not for it), or the log's.
@@ -144,10 +173,11 @@ Schema run_schema() {
 }  // namespace
 
 Schema dataset_schema() {
-  return map({optional("schema", text(), "joulepath/dataset/1"), optional("name", text()),
-              optional("robot", text(), "robot file"),
-              optional("columns", column_sources_schema(), "only where the log's own names or units differ"),
-              required("runs", list(run_schema(), 1))});
+  return with_physical_bounds(
+      map({optional("schema", text(), "joulepath/dataset/1"), optional("name", text()),
+           optional("robot", text(), "robot file"),
+           optional("columns", column_sources_schema(), "only where the log's own names or units differ"),
+           required("runs", list(run_schema(), 1))}));
 }
 
 Dataset read_dataset(const std::string& file, const ReadOptions& options,
@@ -173,8 +203,8 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
   RunLog log = read_run_log(log_file, dataset.robot.geometry);
   Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
   fill_payload(run);
-  dataset.runs.push_back(std::move(run));
   dataset.artifacts = std::move(log.artifacts);
+  dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
   return dataset;
 }
 

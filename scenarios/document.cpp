@@ -4,14 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "model/printable.hpp"
+
 namespace joulepath {
 namespace {
 
-std::string shortened(const std::string& text) {
-  std::string clean;
-  for (const char c : text) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  return clean.size() > 60 ? clean.substr(0, 57) + "..." : clean;
-}
+std::string shortened(const std::string& text) { return printable_start(text, 60); }
 
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -56,6 +54,18 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
+std::string path_of_key(const std::string& path, std::string_view key, PathStyle style) {
+  if (style == PathStyle::dotted) return (path.empty() ? "" : path + ".") + std::string(key);
+  std::string pointer = path + "/";
+  for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return pointer;
+}
+
+std::string path_of_item(const std::string& path, std::size_t index, PathStyle style) {
+  const std::string number = std::to_string(index);
+  return style == PathStyle::dotted ? path + "[" + number + "]" : path + "/" + number;
+}
+
 SourceMark Node::mark() const { return {std::string(file_), value_->line, value_->column}; }
 
 bool Node::has(std::string_view key) const { return find(key).has_value(); }
@@ -63,21 +73,20 @@ bool Node::has(std::string_view key) const { return find(key).has_value(); }
 std::optional<Node> Node::find(std::string_view key) const {
   for (const auto& entry : value_->entries)
     if (entry.key == key && entry.value.kind != Value::Kind::null)
-      return Node(entry.value, file_, path_.empty() ? entry.key : path_ + "." + entry.key);
+      return Node(entry.value, file_, path_of(entry.key), style_);
   return std::nullopt;
 }
 
 Node Node::operator[](std::string_view key) const {
   if (auto node = find(key)) return *std::move(node);
-  const std::string full = path_.empty() ? std::string(key) : path_ + "." + std::string(key);
-  throw ConfigError({mark(), full, "nothing", "this key is required", ""});
+  throw ConfigError({mark(), path_of(key), "nothing", "this key is required", ""});
 }
 
 std::vector<Node> Node::items() const {
   if (kind() != Value::Kind::list) fail("a list");
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < value_->items.size(); ++i)
-    nodes.emplace_back(value_->items[i], file_, path_ + "[" + std::to_string(i) + "]");
+    nodes.emplace_back(value_->items[i], file_, path_of_item(path_, i, style_), style_);
   return nodes;
 }
 
@@ -85,8 +94,7 @@ std::vector<std::pair<std::string, Node>> Node::entries() const {
   if (kind() != Value::Kind::map) fail("a map (key: value)");
   std::vector<std::pair<std::string, Node>> nodes;
   for (const auto& entry : value_->entries)
-    nodes.emplace_back(entry.key,
-                       Node(entry.value, file_, path_.empty() ? entry.key : path_ + "." + entry.key));
+    nodes.emplace_back(entry.key, Node(entry.value, file_, path_of(entry.key), style_));
   return nodes;
 }
 

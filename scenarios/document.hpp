@@ -32,16 +32,22 @@ struct Value::Entry {
   Value value{};
 };
 
-/// A value seen from a reader: typed access whose errors name file, line, column and dotted path.
+/// How errors name a place inside of a file: `legs[2].to`, or `/legs/2/to` (RFC 6901) in JSON.
+enum class PathStyle { dotted, pointer };
+[[nodiscard]] std::string path_of_key(const std::string& path, std::string_view key, PathStyle style);
+[[nodiscard]] std::string path_of_item(const std::string& path, std::size_t index, PathStyle style);
+
+/// A value seen from a reader: typed access whose errors name file, line, column and path.
 /// It points into a Document, which must outlive it.
 class Node {
  public:
-  Node(const Value& value, std::string_view file, std::string path)
-      : value_(&value), file_(file), path_(std::move(path)) {}
+  Node(const Value& value, std::string_view file, std::string path, PathStyle style)
+      : value_(&value), file_(file), path_(std::move(path)), style_(style) {}
 
   [[nodiscard]] Value::Kind kind() const { return value_->kind; }
   [[nodiscard]] const Value& value() const { return *value_; }
   [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string path_of(std::string_view key) const { return path_of_key(path_, key, style_); }
   [[nodiscard]] SourceMark mark() const;
 
   [[nodiscard]] bool has(std::string_view key) const;
@@ -70,6 +76,7 @@ class Node {
   const Value* value_;
   std::string_view file_;
   std::string path_;
+  PathStyle style_;
 };
 
 /// Where a file is named in another one, for the errors that its absence or its content make; empty: on the
@@ -95,17 +102,19 @@ struct ReadOptions {
 /// One parsed file.
 class Document {
  public:
-  /// Parses YAML (JSON is YAML too). Throws ConfigError: syntax, duplicate key, several documents, too large.
+  /// Parses JSON where the file's name ends with .json, .geojson, .jsonl or .ndjson, YAML otherwise. Throws
+  /// ConfigError: syntax, not UTF-8, control character, duplicate key, several documents, too large.
   static Document parse(std::string_view text, std::string file, int first_line = 1);
   /// Reads and parses a file. Throws ConfigError when it cannot be read; `named_by` is where its name stands.
   static Document load(const std::string& file, const NamedBy& named_by = {});
 
-  [[nodiscard]] Node root() const { return {*root_, *file_, ""}; }
+  [[nodiscard]] Node root() const { return {*root_, *file_, "", style_}; }
   [[nodiscard]] const std::string& file() const { return *file_; }
 
  private:
   std::unique_ptr<const std::string> file_;
   std::unique_ptr<const Value> root_;
+  PathStyle style_{};
 };
 
 /// A file's whole content. Throws ConfigError when it cannot be read.

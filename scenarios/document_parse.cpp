@@ -1,94 +1,45 @@
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <sstream>
+#include <filesystem>
 
-#include "scenarios/document.hpp"
+#include "model/printable.hpp"
+#include "scenarios/value_builder.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxValues = 2'000'000;
+// A scanned YAML token takes about 120 bytes of memory, so that a whole file of one flow list stays below
+// 1 GiB; a plan of a long mission in JSON has some ten megabytes.
+constexpr std::size_t kMostYamlBytes = std::size_t{8} << 20;
+constexpr std::size_t kMostJsonBytes = std::size_t{128} << 20;
 
-/// Copies yaml-cpp's tree into ours; finds duplicate keys, cycles and bombs of aliases.
-class TreeBuilder {
- public:
-  TreeBuilder(const std::string& file, int first_line) : file_(file), first_line_(first_line) {}
+bool is_json_name(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  for (const char* json : {".json", ".geojson", ".jsonl", ".ndjson"})
+    if (extension == json) return true;
+  return false;
+}
 
-  Value build(const YAML::Node& node, int depth, const std::string& path = "") {
-    Value value;
-    set_mark(node.Mark(), value.line, value.column);
-    if (depth > kMaxDepth || ++count_ > kMaxValues)
-      fail(value.line, value.column, "",
-           depth > kMaxDepth ? "lists and maps more than 64 deep" : "more than 2,000,000 values",
-           "a smaller file");
-    switch (node.Type()) {
-      case YAML::NodeType::Scalar:
-        value.kind = Value::Kind::scalar;
-        value.text = node.Scalar();
-        value.quoted = node.Tag() == "!";
-        break;
-      case YAML::NodeType::Sequence:
-        value.kind = Value::Kind::list;
-        for (const auto& item : node)
-          value.items.push_back(
-              build(item, depth + 1, path + "[" + std::to_string(value.items.size()) + "]"));
-        break;
-      case YAML::NodeType::Map:
-        build_map(node, depth, path, value);
-        break;
-      default:
-        value.kind = Value::Kind::null;
-    }
-    return value;
-  }
+void refuse_larger(std::size_t bytes, std::size_t most, const std::string& file, const NamedBy& named_by) {
+  if (bytes > most)
+    throw named_by.error(file, std::to_string(bytes) + " bytes",
+                         "at most " + std::to_string(most) + " bytes in a file of this format");
+}
 
- private:
-  void build_map(const YAML::Node& node, int depth, const std::string& path, Value& value) {
-    value.kind = Value::Kind::map;
-    for (const auto& pair : node) {
-      Value::Entry entry;
-      set_mark(pair.first.Mark(), entry.line, entry.column);
-      if (!pair.first.IsScalar())
-        fail(entry.line, entry.column, "", "a key that is a list or a map", "a word as key");
-      entry.key = pair.first.Scalar();
-      const std::string full = path.empty() ? entry.key : path + "." + entry.key;
-      const auto same = std::find_if(value.entries.begin(), value.entries.end(),
-                                     [&](const Value::Entry& other) { return other.key == entry.key; });
-      if (same != value.entries.end())
-        fail(entry.line, entry.column, full, "a duplicate key", "each key once",
-             "the first one is on line " + std::to_string(same->line));
-      entry.value = build(pair.second, depth + 1, full);
-      if (entry.value.kind == Value::Kind::null)
-        entry.value.line = entry.line, entry.value.column = entry.column;
-      value.entries.push_back(std::move(entry));
-    }
-  }
-
-  void set_mark(const YAML::Mark& mark, int& line, int& column) const {
-    line = mark.line < 0 ? 0 : mark.line + first_line_;
-    column = mark.column < 0 ? 0 : mark.column + 1;
-  }
-
-  [[noreturn]] void fail(int line, int column, std::string key, std::string found, std::string accepted,
-                         std::string hint = {}) const {
-    throw ConfigError(
-        {{file_, line, column}, std::move(key), std::move(found), std::move(accepted), std::move(hint)});
-  }
-
-  const std::string& file_;
-  int first_line_;
-  std::size_t count_{};
-};
-
-std::string syntax_hint(const std::string& text, int line) {
-  std::istringstream lines(text);
-  std::string current;
-  for (int i = 0; i <= line && std::getline(lines, current); ++i) {
-  }
-  if (current.find('\t') != std::string::npos) return "YAML indents with spaces; this line holds a tab";
-  return "is a bracket, quote, comma or colon missing here or on the line above?";
+/// Throws at the first byte that belongs to no UTF-8 text.
+void check_characters(const std::string& text, const std::string& file, int first_line) {
+  if (text.find('\0') != std::string::npos)
+    throw ConfigError({{file, 0, 0}, "", "binary data", "a text file in YAML or JSON", ""});
+  const auto bad = first_byte_not_utf8(text);
+  if (!bad) return;
+  const auto before = text.begin() + static_cast<std::ptrdiff_t>(*bad);
+  const auto line_end = text.rfind('\n', *bad);
+  const std::size_t line_begin = line_end == std::string::npos ? 0 : line_end + 1;
+  throw ConfigError({{file, first_line + static_cast<int>(std::count(text.begin(), before, '\n')),
+                      static_cast<int>(*bad - line_begin) + 1},
+                     "",
+                     "the byte " + printable(std::string_view(text).substr(*bad, 1)),
+                     "text in UTF-8",
+                     "the file may be stored in another encoding, Latin-1 for example"});
 }
 
 }  // namespace
@@ -96,31 +47,20 @@ std::string syntax_hint(const std::string& text, int line) {
 Document Document::parse(std::string_view text, std::string file, int first_line) {
   Document document;
   document.file_ = std::make_unique<const std::string>(std::move(file));
-  const std::string copy(text);
-  if (copy.find('\0') != std::string::npos)
-    throw ConfigError({{document.file(), 0, 0}, "", "binary data", "a text file in YAML", ""});
-  try {
-    const std::vector<YAML::Node> roots = YAML::LoadAll(copy);
-    if (roots.size() > 1)
-      throw ConfigError({{document.file(), 0, 0},
-                         "",
-                         std::to_string(roots.size()) + " YAML documents",
-                         "one",
-                         "remove the --- lines"});
-    TreeBuilder builder(document.file(), first_line);
-    document.root_ = std::make_unique<const Value>(roots.empty() ? Value{} : builder.build(roots.front(), 0));
-  } catch (const YAML::Exception& error) {
-    const int line = error.mark.line < 0 ? 0 : error.mark.line;
-    throw ConfigError({{document.file(), line + first_line, std::max(0, error.mark.column) + 1},
-                       "",
-                       "text that is not YAML (" + error.msg + ")",
-                       "YAML",
-                       syntax_hint(copy, line)});
-  }
+  const std::string copy(text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0));
+  const bool json = is_json_name(document.file());
+  refuse_larger(copy.size(), json ? kMostJsonBytes : kMostYamlBytes, document.file(), {});
+  check_characters(copy, document.file(), first_line);
+  document.style_ = json ? PathStyle::pointer : PathStyle::dotted;
+  document.root_ = std::make_unique<const Value>(json ? read_json_text(copy, document.file(), first_line)
+                                                      : read_yaml_text(copy, document.file(), first_line));
   return document;
 }
 
 Document Document::load(const std::string& file, const NamedBy& named_by) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  if (!error) refuse_larger(bytes, is_json_name(file) ? kMostJsonBytes : kMostYamlBytes, file, named_by);
   return parse(read_text_file(file, named_by), file);
 }
 

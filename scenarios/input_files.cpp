@@ -35,7 +35,12 @@ ConfigError NamedBy::error(const std::string& file, std::string found, std::stri
 
 std::string read_text_file(const std::string& file, const NamedBy& named_by) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw named_by.error(file, "a directory", "a file");
+  const auto kind = std::filesystem::status(file, error).type();
+  if (kind == std::filesystem::file_type::directory) throw named_by.error(file, "a directory", "a file");
+  // A FIFO or a device may have no end, or none to write to it.
+  if (std::filesystem::exists(std::filesystem::file_status(kind)) &&
+      kind != std::filesystem::file_type::regular)
+    throw named_by.error(file, "a pipe, a socket or a device", "a regular file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream && errno == EACCES) throw std::system_error(errno, std::generic_category(), file);
   if (!stream)

@@ -15,7 +15,9 @@ Json number_json(const Schema& schema) {
   if (std::isfinite(schema.range.min))
     json[schema.range.above_min ? "exclusiveMinimum" : "minimum"] = schema.range.min;
   if (std::isfinite(schema.range.max)) json["maximum"] = schema.range.max;
-  return json;
+  if (schema.range.min != 0.0 || schema.range.above_min || schema.range.least_size == 0.0) return json;
+  json["minimum"] = schema.range.least_size;
+  return {{"anyOf", Json::array({{{"enum", {0}}}, json})}};
 }
 
 /// Choices that YAML reads as a number or a boolean are listed as such too.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenarios/image.hpp"
+#include "scenarios/physical_bounds.hpp"
 
 namespace joulepath {
 namespace {
@@ -46,7 +47,7 @@ Interpretation read_interpretation(const Node& root) {
 }  // namespace
 
 Schema map_schema() {
-  return map(
+  return with_physical_bounds(map(
       {optional("schema", text(), "joulepath/map/1; Nav2's maps have no such line"),
        required("image", text(), "PGM or PNG, relative to this file"),
        optional("mode", choice({"trinary", "scale", "raw"}), "default trinary"),
@@ -54,7 +55,11 @@ Schema map_schema() {
        required("origin", list(number(), 3, 3), "[x, y, yaw] of the image's lower left corner, m and rad"),
        optional("negate", choice({"0", "1", "false", "true", "False", "True", "FALSE", "TRUE"}),
                 "white is occupied"),
-       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))});
+       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))}));
+}
+
+std::string map_image_file(const std::string& file, const ReadOptions& options) {
+  return resolve_file(Document::load(file).root()["image"], options);
 }
 
 OccupancyGrid read_map(const std::string& file, const NamedBy& named_by, const ReadOptions& options) {

@@ -16,4 +16,7 @@ namespace joulepath {
 [[nodiscard]] OccupancyGrid read_map(const std::string& file, const NamedBy& named_by = {},
                                      const ReadOptions& options = {});
 
+/// The image that a map file names. Throws ConfigError.
+[[nodiscard]] std::string map_image_file(const std::string& file, const ReadOptions& options = {});
+
 }  // namespace joulepath

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "model/printable.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
 #include "scenarios/robot_file.hpp"
@@ -197,17 +198,18 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
     const auto node = root.find(key);
     return node ? resolve_file(*node, options) : std::string();
   };
-  MissionRequest mission{.file = document.file(),
-                         .name = root.text_or("name", std::filesystem::path(document.file()).stem().string()),
-                         .robot_file = file_named("robot"),
-                         .map_file = file_named("map"),
-                         .keepout_file = file_named("keepout"),
-                         .route_graph_file = file_named("route_graph"),
-                         .clearance_m = root.number_or("clearance_m", 0.0),
-                         .order_file = file_named("order"),
-                         .payload_by_action = figures_by_name(root, "payload_by_action"),
-                         .dwell_by_action_s = figures_by_name(root, "dwell_by_action_s"),
-                         .marks = marks_of(root)};
+  MissionRequest mission{
+      .file = document.file(),
+      .name = root.text_or("name", printable(std::filesystem::path(document.file()).stem().string())),
+      .robot_file = file_named("robot"),
+      .map_file = file_named("map"),
+      .keepout_file = file_named("keepout"),
+      .route_graph_file = file_named("route_graph"),
+      .clearance_m = root.number_or("clearance_m", 0.0),
+      .order_file = file_named("order"),
+      .payload_by_action = figures_by_name(root, "payload_by_action"),
+      .dwell_by_action_s = figures_by_name(root, "dwell_by_action_s"),
+      .marks = marks_of(root)};
   if (const auto mask = root.find("speed_mask"))
     mission.speed_mask = SpeedMaskRequest{
         resolve_file((*mask)["file"], options),
@@ -274,6 +276,19 @@ MissionWorld read_world(const MissionRequest& request, const ReadOptions& option
   if (!request.route_graph_file.empty())
     world.route_graph = read_route_graph(request.route_graph_file, named("route_graph"));
   return world;
+}
+
+std::vector<std::string> files_read_by(const MissionRequest& request, const ReadOptions& options) {
+  std::vector<std::string> files;
+  for (const std::string& file : {request.robot_file, request.order_file, request.route_graph_file})
+    if (!file.empty()) files.push_back(file);
+  for (const std::string& file : {request.map_file, request.keepout_file,
+                                  request.speed_mask ? request.speed_mask->file : std::string()}) {
+    if (file.empty()) continue;
+    files.push_back(file);
+    files.push_back(map_image_file(file, options));
+  }
+  return files;
 }
 
 }  // namespace joulepath

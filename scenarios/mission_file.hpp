@@ -19,6 +19,11 @@ namespace joulepath {
 /// Reads the files that a mission names. Throws ConfigError at the key that names a broken one.
 [[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {});
 
+/// Every file beside the mission's own that its plan depends on: robot, order, route graph, and maps with
+/// their images. Throws ConfigError where a map file cannot be read.
+[[nodiscard]] std::vector<std::string> files_read_by(const MissionRequest& request,
+                                                     const ReadOptions& options = {});
+
 /// Where a map of the file and each of its keys stand.
 [[nodiscard]] ItemMarks marks_of(const Node& node);
 

@@ -1,5 +1,6 @@
 #include "scenarios/mission_file.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/physical_bounds.hpp"
 
 namespace joulepath {
 namespace {
@@ -78,26 +79,26 @@ Schema objective_schema() {
 }  // namespace
 
 Schema mission_schema() {
-  return map(
-      {optional("schema", text(), "joulepath/mission/1"), optional("name", text()),
-       required("robot", text(), "robot file"),
-       optional("map", text(), "Nav2 map file; needed where a leg goes to a station"),
-       optional("keepout", text(), "Nav2 keep-out mask"),
-       optional("speed_mask", speed_mask_schema(), "Nav2 speed mask"),
-       optional("route_graph", text(), "Nav2 route graph (GeoJSON)"),
-       optional("clearance_m", number(kNotNegative), "kept between footprint and obstacles; default 0"),
-       optional("speed_zones", speed_zones_schema()), optional("stations", stations_schema()),
-       optional("start", start_schema(), "default: the map's origin of coordinates, heading 0"),
-       optional("legs", list(leg_schema())),
-       optional("visit", list(visit_schema()), "instead of legs: the planner chooses the order"),
-       optional("order", text(), "instead of legs: a VDA 5050 order (JSON)"),
-       optional("payload_by_action", dictionary(number(kNotNegative)),
-                "with an order: kg that an action loads; `drop` unloads its figure, or all"),
-       optional("dwell_by_action_s", dictionary(number(kNotNegative)),
-                "with an order: how long an action takes; its own parameter `duration` comes first"),
-       optional("charging", charging_schema(),
-                "allows charging stops, inserted where the mission would reach the battery's reserve"),
-       optional("objective", objective_schema())});
+  return with_physical_bounds(
+      map({optional("schema", text(), "joulepath/mission/1"), optional("name", text()),
+           required("robot", text(), "robot file"),
+           optional("map", text(), "Nav2 map file; needed where a leg goes to a station"),
+           optional("keepout", text(), "Nav2 keep-out mask"),
+           optional("speed_mask", speed_mask_schema(), "Nav2 speed mask"),
+           optional("route_graph", text(), "Nav2 route graph (GeoJSON)"),
+           optional("clearance_m", number(kNotNegative), "kept between footprint and obstacles; default 0"),
+           optional("speed_zones", speed_zones_schema()), optional("stations", stations_schema()),
+           optional("start", start_schema(), "default: the map's origin of coordinates, heading 0"),
+           optional("legs", list(leg_schema())),
+           optional("visit", list(visit_schema()), "instead of legs: the planner chooses the order"),
+           optional("order", text(), "instead of legs: a VDA 5050 order (JSON)"),
+           optional("payload_by_action", dictionary(number(kNotNegative)),
+                    "with an order: kg that an action loads; `drop` unloads its figure, or all"),
+           optional("dwell_by_action_s", dictionary(number(kNotNegative)),
+                    "with an order: how long an action takes; its own parameter `duration` comes first"),
+           optional("charging", charging_schema(),
+                    "allows charging stops, inserted where the mission would reach the battery's reserve"),
+           optional("objective", objective_schema())}));
 }
 
 }  // namespace joulepath

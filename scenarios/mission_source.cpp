@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "model/printable.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/path_file.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
@@ -18,10 +19,15 @@ void need_robot(const MissionSource& source, const char* what) {
                        ""});
 }
 
+/// The file's name without its extension; a name that is not UTF-8 is shown as such.
+std::string name_of(const std::string& file) {
+  return printable(std::filesystem::path(file).stem().string());
+}
+
 /// A mission of one leg along a path.
 MissionRequest along_path(const MissionSource& source, Path path) {
   need_robot(source, "a path");
-  MissionRequest mission{.file = source.file, .name = std::filesystem::path(source.file).stem().string()};
+  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
   mission.start.pose = path.start();
   LegRequest leg{.path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)},
                  .duration_s = source.duration_s,
@@ -42,9 +48,7 @@ void refuse_beside_mission(const char* option, const char* key, bool given) {
 
 MissionRequest order_mission(const MissionSource& source) {
   need_robot(source, "a VDA 5050 order");
-  MissionRequest mission{.file = source.file,
-                         .name = std::filesystem::path(source.file).stem().string(),
-                         .order_file = source.file};
+  MissionRequest mission{.file = source.file, .name = name_of(source.file), .order_file = source.file};
   follow_order(mission);
   return mission;
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/physical_bounds.hpp"
 
 namespace joulepath {
 namespace {
@@ -36,6 +38,15 @@ std::vector<double> column_of(const CsvTable& table, const char* name, std::opti
                        "optional: corner_radius_m"});
   std::vector<double> cells = *found;
   for (std::size_t row = 0; row < cells.size(); ++row) {
+    if (std::abs(cells[row]) > kFarthest_m) {
+      char far_m[32];
+      std::snprintf(far_m, sizeof far_m, "%.6g", cells[row]);
+      throw ConfigError({{table.file, table.line_of_row[row], 1},
+                         name,
+                         far_m,
+                         "at most 1e6 m from the origin",
+                         "millimeters, or degrees of latitude?"});
+    }
     if (!std::isnan(cells[row])) continue;
     if (!otherwise)
       throw ConfigError({{table.file, table.line_of_row[row], 1}, name, "an empty cell", "a number", ""});
@@ -59,9 +70,10 @@ std::vector<double> radii_of(const CsvTable& table) {
 }  // namespace
 
 Schema path_schema() {
-  return map({optional("schema", text(), "joulepath/path/1"),
-              required("bezier_m", bezier_schema(),
-                       "chain of cubic Bezier curves in the map frame, four control points each")});
+  return with_physical_bounds(
+      map({optional("schema", text(), "joulepath/path/1"),
+           required("bezier_m", bezier_schema(),
+                    "chain of cubic Bezier curves in the map frame, four control points each")}));
 }
 
 bool is_path(const Document& document) {

@@ -5,6 +5,7 @@
 
 #include "model/limit_table.hpp"
 #include "scenarios/effect_list.hpp"
+#include "scenarios/robot_check.hpp"
 
 namespace joulepath {
 namespace {
@@ -127,6 +128,7 @@ Robot robot_from(const Document& document) {
   if (const auto effects = root.find("effects")) robot.effects = read_effect_list(*effects);
   if (const auto uncertainty = root.find("uncertainty"))
     for (const auto& [key, value] : uncertainty->entries()) robot.uncertainty[key] = value.number();
+  check_robot(root, robot);
   return robot;
 }
 

@@ -1,5 +1,6 @@
 #include "model/limit_table.hpp"
 #include "scenarios/effect_list.hpp"
+#include "scenarios/physical_bounds.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -79,8 +80,8 @@ Schema battery_schema() {
 }
 
 Schema footprint_schema() {
-  return map({optional("radius_m", number(kPositive), "a disc about the axle midpoint"),
-              optional("polygon_m", list(list(number(), 2, 2), 3),
+  return map({optional("radius_m", number({1e-3, 100}), "a disc about the axle midpoint"),
+              optional("polygon_m", list(list(number({-100, 100}), 2, 2), 3, 1000),
                        "corners [x, y], x forward, y left, origin at the axle midpoint")})
       .with_exactly_one({"radius_m", "polygon_m"});
 }
@@ -98,7 +99,7 @@ Schema uncertainty_schema() {
 }  // namespace
 
 Schema robot_schema() {
-  return map(
+  return with_physical_bounds(map(
       {optional("schema", text(), "joulepath/robot/1"), optional("name", text()),
        required("geometry", geometry_schema()), required("inertia", inertia_schema()),
        required("motor", motor_schema(), "each value once, or as {left: , right: }"),
@@ -109,7 +110,7 @@ Schema robot_schema() {
        optional("power", power_schema()), optional("battery", battery_schema()),
        optional("footprint", footprint_schema()),
        optional("effects", effect_list_schema(), "effects added to the nominal model"),
-       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: exact")});
+       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: exact")}));
 }
 
 }  // namespace joulepath

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -137,8 +138,8 @@ std::string robot_text(const Robot& robot) {
   text += footprint_line(robot.footprint);
   if (!robot.effects.empty()) text += "effects:\n";
   for (const auto& effect : robot.effects) text += effect_line(effect);
-  Section uncertainty("uncertainty");
-  for (const auto& [key, value] : robot.uncertainty) uncertainty.number(key, value);
+  Section uncertainty("uncertainty");  // 1 says that a value is not known at all; files accept no more
+  for (const auto& [key, value] : robot.uncertainty) uncertainty.number(key, std::min(value, 1.0));
   return text + uncertainty.line();
 }
 

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "scenarios/mission_file.hpp"
+#include "scenarios/physical_bounds.hpp"
 
 namespace joulepath {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 std::array<double, 2> read_point(const Node& node) {
   const auto xy = node.items();
   if (xy.size() < 2) node.fail("[x, y]");
+  for (std::size_t i = 0; i < 2; ++i)
+    if (std::abs(xy[i].number()) > kFarthest_m) xy[i].fail("at most 1e6 m from the origin");
   return {xy[0].number(), xy[1].number()};
 }
 

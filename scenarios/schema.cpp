@@ -1,6 +1,7 @@
 #include "scenarios/schema.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 // Design: docs/decisions/0010-one-schema-per-file.md
@@ -48,7 +49,10 @@ void check_number(const Node& node, const Schema& schema) {
       schema.kind == Schema::Kind::integer ? static_cast<double>(node.integer()) : node.number();
   const Range& range = schema.range;
   if (value < range.min || value > range.max || (range.above_min && value <= range.min))
-    node.fail(accepted_by(schema));
+    node.fail(accepted_by(schema), range.why == nullptr ? "" : range.why);
+  if (value != 0.0 && std::abs(value) < range.least_size)
+    node.fail("0, or a size of at least " + number_text(range.least_size),
+              range.why == nullptr ? "" : range.why);
 }
 
 void check_choice(const Node& node, const Schema& schema) {
@@ -73,10 +77,6 @@ const Schema::Key* key_named(const Schema& schema, const std::string& name) {
   return nullptr;
 }
 
-std::string dotted(const Node& node, const std::string& key) {
-  return node.path().empty() ? key : node.path() + "." + key;
-}
-
 void check_unknown_keys(const Node& node, const Schema& schema) {
   for (const auto& entry : node.value().entries) {
     if (key_named(schema, entry.key)) continue;
@@ -87,7 +87,7 @@ void check_unknown_keys(const Node& node, const Schema& schema) {
     }
     const std::string near = nearest_word(entry.key, missing.empty() ? names : missing);
     throw ConfigError({{node.mark().file, entry.line, entry.column},
-                       dotted(node, entry.key),
+                       node.path_of(entry.key),
                        "an unknown key",
                        joined(names),
                        near.empty() ? "" : "did you mean " + near + "?"});
@@ -113,7 +113,7 @@ void check_map(const Node& node, const Schema& schema) {
                                      [&](const auto& entry) { return entry.key == key.name; });
     if (key.required && !present)
       throw ConfigError(
-          {node.mark(), dotted(node, key.name), "nothing", accepted_by(key.schema), "this key is required"});
+          {node.mark(), node.path_of(key.name), "nothing", accepted_by(key.schema), "this key is required"});
   }
   check_groups(node, schema);
   if (node.value().entries.size() < schema.min_items || node.value().entries.size() > schema.max_items)

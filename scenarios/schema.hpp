@@ -12,7 +12,9 @@ namespace joulepath {
 struct Range {
   double min{-std::numeric_limits<double>::infinity()};
   double max{std::numeric_limits<double>::infinity()};
-  bool above_min{};  ///< min itself is not accepted
+  bool above_min{};     ///< min itself is not accepted
+  double least_size{};  ///< a value other than 0 has at least this size
+  const char* why{};    ///< the reason of the bounds, for the message; null: none
 };
 
 inline constexpr Range kAny{};

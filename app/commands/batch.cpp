@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -8,6 +7,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/commands/batch_journal.hpp"
 #include "app/commands/batch_run.hpp"
 #include "app/interrupt.hpp"
 #include "app/output_directory.hpp"
@@ -20,57 +20,6 @@ namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Results as they come, one line each, flushed at once: what survives a kill. A line holds the index, the
-/// fingerprint of its mission, the time it took and the result.
-class Journal {
- public:
-  Journal(std::string file, bool keep) : file_(std::move(file)) {
-    if (keep) read();
-    stream_.open(file_, keep ? std::ios::app : std::ios::trunc);
-    if (!stream_) throw EnvironmentError("cannot write " + file_);
-  }
-
-  void add(const BatchResult& result, const std::string& fingerprint) {
-    stream_ << Json{{"index", result.index},
-                    {"fingerprint", fingerprint},
-                    {"seconds", result.seconds},
-                    {"result", Json::parse(result.line)}}
-                   .dump()
-            << "\n"
-            << std::flush;
-    if (!stream_) throw EnvironmentError("cannot write " + file_);
-  }
-
-  /// The earlier result of a mission, if it was the same mission.
-  const Json* find(std::size_t index, const std::string& fingerprint) const {
-    const auto found = earlier_.find(index);
-    return found != earlier_.end() && found->second["fingerprint"] == fingerprint ? &found->second : nullptr;
-  }
-
-  void remove() {
-    stream_.close();
-    std::filesystem::remove(file_);
-  }
-
- private:
-  void read() {
-    std::ifstream in(file_);
-    std::string line, whole;
-    while (std::getline(in, line)) {
-      const Json entry = Json::parse(line, nullptr, false);  // the last line may be cut
-      if (entry.is_discarded() || !entry.contains("index")) continue;
-      earlier_[entry["index"].get<std::size_t>()] = entry;
-      whole += line + "\n";
-    }
-    in.close();
-    std::ofstream(file_, std::ios::trunc) << whole;
-  }
-
-  std::string file_;
-  std::ofstream stream_{};
-  std::map<std::size_t, Json> earlier_{};
-};
 
 class BatchCommand : public Command {
  public:
@@ -99,19 +48,26 @@ class BatchCommand : public Command {
   int run() override {
     const std::vector<BatchItem> items = batch_items(source_);
     OutputDirectory out(out_, {"results.jsonl", "timings.jsonl", "report.html"}, common_.force || resume_);
+    const std::string partial = out_ + "/results.partial.jsonl";
+    if (std::filesystem::exists(partial) && !resume_ && !common_.force)
+      throw ConfigError({{partial, 0, 0},
+                         "",
+                         "the results of an unfinished batch",
+                         "--resume, which continues it",
+                         "--force deletes them and starts again"});
     std::filesystem::create_directories(out_);
     options_.solver = SolverChoice::fast;
     BatchPlanner planner(options_, {.untrusted = common_.untrusted});
-    Journal journal(out_ + "/results.partial.jsonl", resume_);
+    BatchJournal journal(partial, resume_ ? BatchJournal::Use::resume : BatchJournal::Use::anew);
     lines_.resize(items.size());
     seconds_.resize(items.size());
     std::vector<std::string> fingerprints;
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < items.size(); ++k) {
       fingerprints.push_back(planner.fingerprint(items[k]));
-      if (const Json* earlier = journal.find(k, fingerprints[k])) {
-        lines_[k] = (*earlier)["result"].dump();
-        seconds_[k] = (*earlier)["seconds"];
+      if (const BatchResult* earlier = journal.find(k, fingerprints[k])) {
+        lines_[k] = earlier->line;
+        seconds_[k] = earlier->seconds;
       } else {
         open.push_back(k);
       }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,7 +30,7 @@ struct BatchItem {
 struct BatchResult {
   std::size_t index{};
   std::string line{};    ///< one JSON object
-  std::string status{};  ///< a plan's status, or `bad_input`
+  std::string status{};  ///< a plan's status, or `bad_input`, `environment_error`, `internal_error`
   double seconds{};
 };
 
@@ -41,8 +42,9 @@ class BatchPlanner {
 
   [[nodiscard]] BatchResult plan(const BatchItem& item, std::size_t index);
 
-  /// Identifies a mission and all that its result depends on beside the files that it names.
-  [[nodiscard]] std::string fingerprint(const BatchItem& item) const;
+  /// Identifies a mission and all that its result depends on: the content of every file that it reads, the
+  /// options and the program's version. Empty when a file cannot be read. Not for several threads.
+  [[nodiscard]] std::string fingerprint(const BatchItem& item);
 
  private:
   struct Place {
@@ -50,15 +52,18 @@ class BatchPlanner {
     std::optional<RouteSpace> space{};
   };
   const Place& place_of(const MissionRequest& mission);
+  std::uint64_t content_digest(const std::string& file);
 
   PlanOptions options_;
   ReadOptions reading_;
   std::mutex mutex_{};
   std::map<std::string, std::unique_ptr<Place>> places_{};
+  std::map<std::string, std::uint64_t> digests_{};
 };
 
 /// Runs `work(k)` for the given indices on `threads` threads and hands each result to `done` on the calling
-/// thread's behalf (never two at once). Stops early when `stop` says so.
+/// thread's behalf (never two at once). Stops early when `stop` says so. The first exception of `work` or
+/// `done` stops it too, and is thrown when all threads are joined.
 void run_batch(const std::vector<std::size_t>& indices, unsigned threads,
                const std::function<BatchResult(std::size_t)>& work,
                const std::function<void(const BatchResult&)>& done, const std::function<bool()>& stop);

@@ -4,6 +4,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "model/printable.hpp"
 #include "scenarios/any_file.hpp"
 
 namespace joulepath {
@@ -54,7 +55,7 @@ class Check : public Command {
                              {"hint", d.hint},
                              {"message", error.what()}}}});
         if (!options_.json)
-          std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << error.what() << '\n';
+          std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
       }
     }
     if (options_.json)
@@ -64,10 +65,10 @@ class Check : public Command {
 
  private:
   void tell(const std::string& file, const FileSummary& summary) const {
-    std::cout << file << ": " << paint(std::cout, Paint::good, "ok") << " (" << summary.kind
+    std::cout << printable(file) << ": " << paint(std::cout, Paint::good, "ok") << " (" << summary.kind
               << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
     if (!options_.quiet)
-      for (const auto& note : summary.notes) std::cerr << "  note: " << note << '\n';
+      for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
   }
 
   std::vector<std::string> files_{};

@@ -97,6 +97,9 @@ class EstimateCommand : public Command {
         is_log ? dataset_of_log(input_, robot_)
                : read_dataset(input_, {.untrusted = common_.untrusted},
                               robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    if (!common_.quiet)
+      for (const LogArtifact& artifact : dataset.artifacts)
+        if (artifact.kind == "cut") std::cerr << "note: " << artifact.description << '\n';
     std::optional<OutputDirectory> out;
     if (!out_.empty()) out.emplace(out_, file_names(dataset.runs.size()), common_.force);
     const DatasetEstimate all = estimate_dataset(dataset, {.reach_s = reach_s_});

@@ -40,7 +40,7 @@ class ExportCommand : public Command {
   std::string examples() const override {
     std::string text =
         "  joulepath export mission.yaml --to nav2_path --out path.json\n"
-        "  joulepath export path.csv --robot robot.yaml --time 30 --to nav2_trajectory --out "
+        "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out "
         "trajectory.json\n"
         "  joulepath export mission.yaml --to controller --out controller.json\n"
         "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
@@ -63,6 +63,7 @@ class ExportCommand : public Command {
   int run() override {
     const ReadOptions reading{.untrusted = common_.untrusted};
     const ExportFormat& format = format_named(format_);
+    check_extension();
     const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
@@ -83,6 +84,14 @@ class ExportCommand : public Command {
   }
 
  private:
+  /// A table is written as CSV or JSON, as the name's ending says.
+  void check_extension() const {
+    const std::string extension = std::filesystem::path(out_).extension().string();
+    if (format_ == "edges" && extension != ".csv" && extension != ".json")
+      throw ConfigError(
+          {{out_, 0, 0}, "", "a name that ends neither with .csv nor .json", "one of them", ""});
+  }
+
   /// All or none: an existing file is reported before anything is written.
   void write_files(const Export& result) const {
     for (const ExportFile& file : result.files)

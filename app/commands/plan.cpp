@@ -77,6 +77,8 @@ class PlanCommand : public Command {
       std::cout << json;
     else if (!common_.quiet)
       print_plan_summary(std::cout, plan, out.path());
+    else if (!valid)
+      std::cerr << solve_status_name(plan.status) << ": " << plan.message << "\n";
     return valid ? kDone : kInfeasibleOrFailed;
   }
 

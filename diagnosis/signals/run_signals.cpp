@@ -21,6 +21,9 @@ struct UniformLog {
   bool resampled{};
 };
 
+/// A uniform grid has at most this many times the samples of the log, whatever its clock says.
+constexpr double kMostGrowth = 50.0;
+
 UniformLog uniform_grid(const Samples& time_s) {
   Samples steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
@@ -30,6 +33,8 @@ UniformLog uniform_grid(const Samples& time_s) {
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i)
     grid.resampled |= std::abs(time_s[i + 1] - time_s[i] - grid.period_s) > kUnevenPeriod * grid.period_s;
   if (!grid.resampled) return grid;
+  const double length_s = time_s.back() - time_s.front();
+  grid.period_s = std::max(grid.period_s, length_s / (kMostGrowth * static_cast<double>(time_s.size())));
   grid.time_s.clear();
   for (double t = time_s.front(); t <= time_s.back() + 1e-9; t += grid.period_s) grid.time_s.push_back(t);
   return grid;

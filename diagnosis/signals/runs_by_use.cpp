@@ -64,7 +64,7 @@ SignalOptions sampling(const Dataset& dataset, const std::vector<std::size_t>& u
   for (std::size_t r : usable)
     duration_s += dataset.runs[r].log.time_s.back() - dataset.runs[r].log.time_s.front();
   SignalOptions options;
-  options.period_s = std::max(options.period_s, duration_s / kMostRows);
+  options.period_s = std::clamp(duration_s / kMostRows, options.period_s, kCoarsestPeriod_s);
   return options;
 }
 

@@ -8,6 +8,9 @@
 namespace joulepath {
 namespace {
 
+/// A plan of more than 2.8 hours at 50 Hz is sampled more slowly, so that its memory is bounded.
+constexpr double kMostSamples = 5e5;
+
 /// What one sample of the trajectory holds, whatever it comes from.
 struct Sample {
   BodyMotion<double> motion{};
@@ -108,6 +111,7 @@ Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz)
     return plan.legs[k].start_s + plan.legs[k].duration_s + plan.legs[k].dwell_s;
   };
   const double end_s = end_of(plan.legs.size() - 1);
+  rate_Hz = std::min(rate_Hz, kMostSamples / end_s);
   const auto count = static_cast<std::size_t>(std::floor(end_s * rate_Hz * (1 - 1e-12)));
   for (std::size_t k = 0; k <= count + 1; ++k) {
     const double time_s = std::min(end_s, static_cast<double>(k) / rate_Hz);

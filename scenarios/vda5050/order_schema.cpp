@@ -1,9 +1,12 @@
+#include "scenarios/physical_bounds.hpp"
 #include "scenarios/vda5050/order.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr Range kHalfTurn{-3.1416, 3.1416};
+constexpr Range kCoordinate_m{-kFarthest_m, kFarthest_m};
+constexpr Range kSpeed{1e-3, 1e4};
 
 Schema action_schema() {
   return open(map({required("actionType", text()), optional("actionId", text()),
@@ -19,7 +22,7 @@ Schema deviation_schema() {
 
 Schema position_schema() {
   return open(
-      map({required("x", number(), "m"), required("y", number(), "m"),
+      map({required("x", number(kCoordinate_m), "m"), required("y", number(kCoordinate_m), "m"),
            optional("theta", number(kHalfTurn), "rad"), optional("mapId", text()),
            optional("allowedDeviationXY", deviation_schema(), "m; an ellipse {a, b, theta} since version 3"),
            optional("allowedDeviationTheta", number(kNotNegative), "rad")}));
@@ -32,8 +35,9 @@ Schema node_schema() {
 }
 
 Schema trajectory_schema() {
-  const Schema point = open(map({required("x", number(), "m"), required("y", number(), "m"),
-                                 optional("weight", number(kPositive), "default 1")}));
+  const Schema point =
+      open(map({required("x", number(kCoordinate_m), "m"), required("y", number(kCoordinate_m), "m"),
+                optional("weight", number(kPositive), "default 1")}));
   return open(map({optional("degree", integer({1, RationalBezier::kMostDegree}), "default 1"),
                    optional("knotVector", list(number())), required("controlPoints", list(point, 2))}));
 }
@@ -41,10 +45,10 @@ Schema trajectory_schema() {
 Schema edge_schema() {
   return open(map({required("edgeId", text()), required("sequenceId", integer(kNotNegative)),
                    required("released", boolean()), optional("startNodeId", text()),
-                   optional("endNodeId", text()), optional("maxSpeed", number(kPositive), "m/s, version 2"),
-                   optional("maximumSpeed", number(kPositive), "m/s, version 3"),
-                   optional("maxRotationSpeed", number(kPositive), "rad/s"),
-                   optional("maximumRotationSpeed", number(kPositive), "rad/s"),
+                   optional("endNodeId", text()), optional("maxSpeed", number(kSpeed), "m/s, version 2"),
+                   optional("maximumSpeed", number(kSpeed), "m/s, version 3"),
+                   optional("maxRotationSpeed", number(kSpeed), "rad/s"),
+                   optional("maximumRotationSpeed", number(kSpeed), "rad/s"),
                    optional("orientation", number(kHalfTurn), "rad"),
                    optional("orientationType", choice({"TANGENTIAL", "GLOBAL"})),
                    optional("trajectory", trajectory_schema(), "a NURBS; absent: straight"),

@@ -7,22 +7,6 @@
 namespace joulepath {
 namespace {
 
-/// `nodes[2].nodePosition.x` as a JSON pointer (RFC 6901): `/nodes/2/nodePosition/x`.
-std::string json_pointer(const std::string& dotted) {
-  std::string pointer = dotted.empty() ? "" : "/";
-  for (const char c : dotted) {
-    if (c == ']') continue;
-    pointer += c == '.' || c == '[' ? '/' : c;
-  }
-  return pointer;
-}
-
-ItemMarks pointed(const Node& node) {
-  ItemMarks marks = marks_of(node);
-  marks.path = json_pointer(marks.path);
-  return marks;
-}
-
 constexpr double kLongestAction_s = 86400;
 
 std::optional<double> duration_of(const Node& action) {
@@ -72,7 +56,7 @@ OrderNode read_node(const Node& node) {
           .deviation_m = read_deviation(position),
           .deviation_rad = position.number_or("allowedDeviationTheta", 0.0),
           .actions = read_actions(node["actions"]),
-          .marks = pointed(node)};
+          .marks = marks_of(node)};
 }
 
 /// Knots of a clamped uniform curve, for a trajectory that gives none.
@@ -134,7 +118,7 @@ OrderEdge read_edge(const Node& node) {
                  .orientation_rad = node.number_or("orientation", 0.0),
                  .orientation_is_global = node.text_or("orientationType", "TANGENTIAL") == "GLOBAL",
                  .actions = read_actions(node["actions"]),
-                 .marks = pointed(node)};
+                 .marks = marks_of(node)};
   if (const auto trajectory = node.find("trajectory")) edge.trajectory = read_trajectory(*trajectory);
   return edge;
 }
@@ -211,13 +195,7 @@ bool is_order(const Document& document) {
 }
 
 Order read_order(const std::string& file, const NamedBy& named_by) {
-  try {
-    return order_from(Document::load(file, named_by));
-  } catch (const ConfigError& error) {
-    ConfigError::Detail detail = error.detail();
-    if (detail.mark.file == file) detail.key = json_pointer(detail.key);
-    throw ConfigError(detail);
-  }
+  return order_from(Document::load(file, named_by));
 }
 
 }  // namespace joulepath

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/corner_blend.hpp"
@@ -11,6 +12,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kSamePlace_m = 1e-6;
+constexpr double kTurnsBack_rad = 1e-6;  ///< a corner this close to half a turn leads back along its line
 
 std::string metres(double value_m) {
   char text[32];
@@ -101,20 +103,49 @@ std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
                         "at most " + metres(proposed_m(most_m)) + " between its neighbors"};
 }
 
+/// The next waypoint lies exactly behind: a smooth curve would have to stop and reverse its heading here.
+bool turns_back(const std::vector<Point2>& points_m, std::size_t i) {
+  return std::abs(corner_angle_rad(points_m, i)) > std::numbers::pi - kTurnsBack_rad;
+}
+
+/// Appends the spline through the waypoints first to last, after a turn in place to its heading.
+void append_stretch(const std::vector<Point2>& waypoints_m, std::size_t first, std::size_t last,
+                    WaypointPath& along) {
+  const auto at = [&](std::size_t i) { return waypoints_m.begin() + static_cast<std::ptrdiff_t>(i); };
+  const std::vector<Point2> points_m(at(first), at(last + 1));
+  Path stretch;
+  if (points_m.size() == 2) {
+    stretch = blended_polyline(points_m, {0.0, 0.0});
+  } else {
+    std::vector<CurveSegment> segments;
+    const std::vector<BezierPoints> curves = spline_m(points_m);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      if (const auto defects = bezier_defects(curves[i], i); !defects.empty()) {
+        along.defect = WaypointDefect{first + i + 1, false, defects.front().message,
+                                      "waypoints that a smooth curve can follow"};
+        return;
+      }
+      segments.push_back(BezierSegment(curves[i]));
+    }
+    stretch.pieces.push_back(Curve(std::move(segments)));
+  }
+  if (first > 0) append_turn_to(along.path, {}, stretch.start().heading_rad);
+  for (PathPiece& piece : stretch.pieces) along.path.pieces.push_back(std::move(piece));
+}
+
 }  // namespace
 
 WaypointPath curve_through(const std::vector<Point2>& waypoints_m) {
   if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
-  if (waypoints_m.size() == 2) return {.path = blended_polyline(waypoints_m, {0.0, 0.0})};
-  std::vector<CurveSegment> segments;
-  const std::vector<BezierPoints> curves = spline_m(waypoints_m);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (const auto defects = bezier_defects(curves[i], i); !defects.empty())
-      return {.defect = WaypointDefect{i + 1, false, defects.front().message,
-                                       "waypoints that a smooth curve can follow"}};
-    segments.push_back(BezierSegment(curves[i]));
+  WaypointPath along;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < waypoints_m.size() && !along.defect; ++i) {
+    if (i + 1 < waypoints_m.size() && !turns_back(waypoints_m, i)) continue;
+    append_stretch(waypoints_m, first, i, along);
+    first = i;
   }
-  return {.path = Path{{Curve(std::move(segments))}}};
+  if (along.defect) along.path = {};
+  return along;
 }
 
 WaypointPath lines_between(const std::vector<Point2>& waypoints_m, const std::vector<double>& radius_m) {

@@ -25,7 +25,8 @@ struct WaypointPath {
 };
 
 /// The natural cubic spline through waypoints (m) by chord length: one curve with continuous curvature,
-/// driven forward without a stop. Two waypoints or more, neighbors at different places.
+/// driven forward without a stop. Where the waypoints lead straight back, the robot stops and turns in place
+/// between two splines. Two waypoints or more, neighbors at different places.
 [[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m);
 
 /// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of

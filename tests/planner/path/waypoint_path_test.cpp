@@ -82,13 +82,31 @@ TEST(WaypointPath, TheRadiusThatAMessageProposesIsAccepted) {
   }
 }
 
+TEST(WaypointPath, ACurveThatLeadsStraightBackTurnsInPlace) {
+  const WaypointPath there_and_back = curve_through({{0, 0}, {3, 0}, {0, 0}});
+  ASSERT_FALSE(there_and_back.defect) << there_and_back.defect->found;
+  ASSERT_EQ(there_and_back.path.pieces.size(), 3u);
+  EXPECT_NEAR(there_and_back.path.turned_rad(), M_PI, 1e-9);
+  EXPECT_NEAR(there_and_back.path.distance_m(), 6, 1e-9);
+  const Path bent = curve_through({{0, 0}, {1, 0.5}, {3, 0}, {1, 0.5}, {0, 2}}).path;
+  ASSERT_EQ(bent.pieces.size(), 3u);
+  for (std::size_t i = 0; i + 1 < bent.pieces.size(); ++i) {
+    const Pose end = piece_point(bent.pieces[i], piece_length(bent.pieces[i])).pose;
+    const Pose begin = piece_point(bent.pieces[i + 1], 0).pose;
+    EXPECT_NEAR(std::hypot(end.x_m - begin.x_m, end.y_m - begin.y_m), 0, 1e-9);
+  }
+  const auto& turn = std::get<TurnInPlace>(bent.pieces[1]);
+  const Pose end = piece_point(bent.pieces[2], 0).pose;
+  EXPECT_NEAR(wrapped_angle_rad(turn.start.heading_rad + turn.angle_rad - end.heading_rad), 0, 1e-9);
+}
+
 TEST(WaypointPath, WaypointsThatNoRobotCanFollowAreNamed) {
   const auto waypoint_of = [](const WaypointPath& along) {
     return along.defect ? static_cast<int>(along.defect->waypoint) : -1;
   };
   EXPECT_EQ(waypoint_of(curve_through({{1, 1}})), 0);
   EXPECT_EQ(waypoint_of(curve_through({{0, 0}, {1, 0}, {1, 0}, {2, 0}})), 2);
-  EXPECT_EQ(waypoint_of(curve_through({{0, 0}, {1, 0}, {0.5, 0}, {2, 0}})), 1) << "turns back";
+  EXPECT_EQ(waypoint_of(curve_through({{0, 0}, {1, 0}, {0.5, 0}, {2, 0}})), -1) << "back and forth";
   EXPECT_EQ(waypoint_of(lines_between({{0, 0}, {1, 0}, {0, 0}}, {0, 0.1, 0})), 1);
   EXPECT_EQ(waypoint_of(lines_between({{0, 0}, {1, 0}, {0, 0}}, {0, 0, 0})), -1) << "half a turn on the spot";
 }

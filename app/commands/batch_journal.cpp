@@ -1,0 +1,97 @@
+#include "app/commands/batch_journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_entry(const Json& json) {
+  const auto has = [&](const char* key, auto is_right) { return json.contains(key) && is_right(json[key]); };
+  return json.is_object() && has("index", [](const Json& v) { return v.is_number_unsigned(); }) &&
+         has("fingerprint", [](const Json& v) { return v.is_string(); }) &&
+         has("seconds", [](const Json& v) { return v.is_number(); }) &&
+         has("result", [](const Json& v) { return v.is_object() && v.contains("status"); }) &&
+         json["result"]["status"].is_string();
+}
+
+}  // namespace
+
+BatchJournal::BatchJournal(std::string file, Use use) : file_(std::move(file)) {
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor_);
+    throw EnvironmentError("another batch is writing " + file_);
+  }
+  if (use == Use::resume)
+    read();
+  else if (::ftruncate(descriptor_, 0) != 0)
+    throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
+}
+
+BatchJournal::~BatchJournal() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+/// The last line may have been cut off by a kill; a line break behind it keeps the next line whole.
+void BatchJournal::read() {
+  std::ifstream in(file_);
+  std::string line;
+  bool cut = false;
+  while (std::getline(in, line)) {
+    cut = in.eof();
+    const Json json = Json::parse(line, nullptr, false);
+    if (json.is_discarded() || !is_entry(json)) continue;
+    const auto index = json["index"].get<std::size_t>();
+    earlier_[index] = {.fingerprint = json["fingerprint"],
+                       .result = {.index = index,
+                                  .line = json["result"].dump(),
+                                  .status = json["result"]["status"],
+                                  .seconds = json["seconds"]}};
+  }
+  if (cut) append("\n");
+}
+
+void BatchJournal::append(const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const auto written = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
+    done += static_cast<std::size_t>(written);
+  }
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL)
+    throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
+}
+
+void BatchJournal::add(const BatchResult& result, const std::string& fingerprint) {
+  append(Json{{"index", result.index},
+              {"fingerprint", fingerprint},
+              {"seconds", result.seconds},
+              {"result", Json::parse(result.line)}}
+             .dump() +
+         "\n");
+}
+
+const BatchResult* BatchJournal::find(std::size_t index, const std::string& fingerprint) const {
+  const auto found = earlier_.find(index);
+  if (fingerprint.empty() || found == earlier_.end() || found->second.fingerprint != fingerprint)
+    return nullptr;
+  return &found->second.result;
+}
+
+void BatchJournal::remove() { std::filesystem::remove(file_); }
+
+}  // namespace joulepath

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace joulepath {
+
+/// Offset of the first byte that does not belong to well-formed UTF-8 (RFC 3629); empty when there is none.
+[[nodiscard]] std::optional<std::size_t> first_byte_not_utf8(std::string_view text);
+
+/// The text as a terminal and a JSON writer can take it: control characters (C0, DEL, C1) and bytes that are
+/// not UTF-8 appear as `\x1b`.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// The first control character other than tab, line feed and carriage return, as `U+001B`; empty: none.
+[[nodiscard]] std::string first_control_character(std::string_view text);
+
+/// `printable`, cut between two characters to at most `max_bytes` bytes, with `...` at the cut.
+[[nodiscard]] std::string printable_start(std::string_view text, std::size_t max_bytes);
+
+}  // namespace joulepath

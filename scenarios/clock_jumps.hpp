@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/values/dataset.hpp"
+
+namespace joulepath {
+
+/// A run whose clock jumps, as one run for each stretch between the jumps: nobody knows what the robot did
+/// meanwhile, so that nothing may be interpolated or integrated across. A jump is a step of more than 60 s
+/// and of more than 100 usual steps. Each later stretch has a clock of its own that begins at 0; stretches of
+/// one sample are left out. Each jump is reported among the artifacts.
+[[nodiscard]] std::vector<Run> split_at_clock_jumps(Run run, std::vector<LogArtifact>& artifacts);
+
+}  // namespace joulepath

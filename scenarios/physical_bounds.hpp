@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+/// The schema of an input with the bounds of physics on every number: by the unit that ends its key's name,
+/// or by the name itself. Bounds are wide; beyond them a value is a slip of the unit or of a digit, and the
+/// numerics would fail far from its cause. Keys of `effects` and `uncertainty` keep their own bounds.
+[[nodiscard]] Schema with_physical_bounds(Schema schema);
+
+inline constexpr double kFarthest_m = 1e6;  ///< of a coordinate from the origin
+
+}  // namespace joulepath

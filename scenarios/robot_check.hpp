@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/robot.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// Checks what the schema cannot see. Throws ConfigError at the key: torque and voltage constants that no
+/// motor has together, a footprint that crosses itself.
+void check_robot(const Node& root, const Robot& robot);
+
+/// What is possible but odd: constants that differ, wheels outside of the footprint.
+[[nodiscard]] std::vector<std::string> robot_notes(const Robot& robot);
+
+}  // namespace joulepath

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/batch_journal.hpp"
+#include "app/commands/batch_run.hpp"
+#include "tests/app/program_result.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kRobot = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/robot.yaml";
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<Json> lines_of(const std::string& file) {
+  std::vector<Json> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(Json::parse(line));
+  return lines;
+}
+
+std::string mission(const std::string& name, double length_m, const std::string& robot = "robot.yaml") {
+  const std::string end = std::to_string(length_m);
+  return R"({"name": ")" + name + R"(", "robot": ")" + robot +
+         R"(", "legs": [{"path": {"bezier_m": [[[0, 0], [1, 0], [2, 0], [)" + end + ", 0]]]}}]}";
+}
+
+TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kRobot));
+  ASSERT_EQ(::mkfifo(scratch.at("pipe.yaml").c_str(), 0600), 0);
+  const std::string lines =
+      scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("\xff", 3) + "\nbroken{{{\n" +
+                                   mission("b", 3) + ",\n" + mission("c", 3, "none.yaml") + "\n" +
+                                   mission("d", 3, "pipe.yaml") + "\n" + mission("e", 4) + "\n");
+  const auto result =
+      run_program(scratch, "batch " + lines + " -j 2 -q --nodes 20 --out " + scratch.at("out"));
+  EXPECT_EQ(result.code, 0) << result.err;
+  const auto results = lines_of(scratch.at("out/results.jsonl"));
+  ASSERT_EQ(results.size(), 7u);
+  for (const std::size_t good : {0u, 6u}) EXPECT_TRUE(results[good].contains("energy_J")) << results[good];
+  for (const std::size_t bad : {1u, 2u, 3u, 4u, 5u}) {
+    EXPECT_EQ(results[bad]["status"], "bad_input") << results[bad];
+    EXPECT_NE(results[bad]["message"].get<std::string>().find("m.jsonl:" + std::to_string(bad + 1)),
+              std::string::npos)
+        << results[bad];
+  }
+}
+
+TEST(Batch, TheFirstExceptionStopsAllThreadsAndReachesTheCaller) {
+  std::vector<std::size_t> indices(100);
+  for (std::size_t k = 0; k < indices.size(); ++k) indices[k] = k;
+  const auto work = [](std::size_t k) { return BatchResult{.index = k}; };
+  const auto done = [](const BatchResult& result) {
+    if (result.index == 3) throw std::runtime_error("disk full");
+  };
+  for (const unsigned threads : {1u, 4u})
+    EXPECT_THROW(run_batch(indices, threads, work, done, [] { return false; }), std::runtime_error);
+}
+
+TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
+  const ScratchDirectory scratch;
+  const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";
+  for (const char* file : {"robot.yaml", "map.yaml", "map.pgm", "mission.yaml"})
+    scratch.write(file, text_of(good + file));
+  const std::string file = scratch.write(
+      "m/m.yaml",
+      "robot: ../robot.yaml\nmap: ../map.yaml\nkeepout: ../map.yaml\n"
+      "stations: {a: {x_m: 0.5, y_m: 0.5}, b: {x_m: 1.5, y_m: 0.5}}\nstart: {station: a}\nlegs: [{to: b}]\n");
+  const auto fingerprint = [&](std::size_t nodes = 50) {
+    return BatchPlanner({.nodes = nodes}, {}).fingerprint({.name = "m", .file = file});
+  };
+  const std::string before = fingerprint();
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(fingerprint(), before);
+  EXPECT_NE(fingerprint(51), before);
+  for (const char* changed : {"robot.yaml", "map.yaml", "map.pgm"}) {
+    const std::string content = text_of(scratch.at(changed));
+    scratch.write(changed, content + "\n");
+    EXPECT_NE(fingerprint(), before) << changed;
+    scratch.write(changed, content);
+  }
+  EXPECT_EQ(fingerprint(), before);
+  std::filesystem::remove(scratch.at("robot.yaml"));
+  EXPECT_EQ(fingerprint(), "");
+}
+
+TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kRobot));
+  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
+                    arguments = "batch " + file + " -q --nodes 20 --out " + scratch.at("out");
+  ASSERT_EQ(run_program(scratch, arguments).code, 0);
+  const std::string whole = text_of(scratch.at("out/results.jsonl"));
+  const std::vector<BatchItem> items = batch_items(file);
+  BatchPlanner planner({.solver = SolverChoice::fast, .nodes = 20, .baselines = false}, {});
+  {
+    BatchJournal journal(scratch.at("out/results.partial.jsonl"), BatchJournal::Use::anew);
+    journal.add({.index = 0, .line = R"({"status": "optimal", "kept": true})"},
+                planner.fingerprint(items[0]));
+    journal.add({.index = 1, .line = R"({"status": "optimal", "kept": true})"}, "of another robot");
+  }
+  std::ofstream(scratch.at("out/results.partial.jsonl"), std::ios::app) << "{\"index\": 1, \"finger";
+  const auto again = run_program(scratch, arguments + " --force");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(text_of(scratch.at("out/results.jsonl")), whole);
+  {
+    BatchJournal journal(scratch.at("out/results.partial.jsonl"), BatchJournal::Use::anew);
+    journal.add({.index = 0, .line = R"({"status": "optimal", "kept": true})"},
+                planner.fingerprint(items[0]));
+    journal.add({.index = 1, .line = R"({"status": "optimal", "kept": true})"}, "of another robot");
+  }
+  EXPECT_EQ(run_program(scratch, arguments + " --resume").code, 0);
+  const auto results = lines_of(scratch.at("out/results.jsonl"));
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_TRUE(results[0].contains("kept"));
+  EXPECT_FALSE(results[1].contains("kept"));
+}
+
+TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kRobot));
+  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n");
+  const std::string partial = scratch.write("out/results.partial.jsonl", "{}\n");
+  const auto result = run_program(scratch, "batch " + file + " -q --out " + scratch.at("out"));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("--resume"), std::string::npos) << result.err;
+  EXPECT_EQ(text_of(partial), "{}\n");
+}
+
+TEST(BatchJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.at("j.jsonl");
+  { BatchJournal(file, BatchJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }
+  std::ofstream(file, std::ios::app) << "{\"index\": 1, \"fing";
+  const std::string before = text_of(file);
+  {
+    BatchJournal journal(file, BatchJournal::Use::resume);
+    ASSERT_NE(journal.find(0, "x"), nullptr);
+    EXPECT_EQ(journal.find(0, "y"), nullptr);
+    EXPECT_EQ(journal.find(0, ""), nullptr);
+    EXPECT_EQ(journal.find(1, "x"), nullptr);
+    journal.add({.index = 2, .line = R"({"status": "b"})"}, "z");
+    EXPECT_ANY_THROW(BatchJournal(file, BatchJournal::Use::resume));  // one writer at a time
+  }
+  EXPECT_EQ(text_of(file).substr(0, before.size()), before);
+  const BatchJournal again(file, BatchJournal::Use::resume);
+  ASSERT_NE(again.find(0, "x"), nullptr);
+  ASSERT_NE(again.find(2, "z"), nullptr);
+  EXPECT_EQ(again.find(2, "z")->status, "b");
+}
+
+}  // namespace
+}  // namespace joulepath
