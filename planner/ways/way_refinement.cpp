@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/path/shape/refine.hpp"
+#include "planner/ways/swing.hpp"
 
 namespace joulepath {
 namespace {
@@ -65,13 +66,36 @@ void RefinedRun::refine(std::size_t k) {
       run_.contexts[k].space->checker(), part.way->shape,
       [&](const Path& path) { return score(k, path).cost_J(price_W); }, options);
   if (!result.improved) return;
-  const PathScore before = score(k, part.path), after = score(k, result.path);
-  part.path = result.path;
+  take(part, k, result.path);
+}
+
+void RefinedRun::take(Part& part, std::size_t k, const Path& path) {
+  const PathScore before = score(k, part.path), after = score(k, path);
+  part.path = path;
   part.leaves_rad = part.path.start().heading_rad;
   part.arrives_rad = part.path.end().heading_rad;
   part.score.energy_J += after.energy_J - before.energy_J;
   part.score.duration_s += after.duration_s - before.duration_s;
   part.refined = true;
+}
+
+void RefinedRun::swing(std::size_t k) {
+  Part& part = parts_[k];
+  const std::size_t index = run_.first + k;
+  const ChoiceContext& context = run_.contexts[k];
+  const double price_W = context.finite_price_W();
+  const ChainLeg& leg = request_.legs[k];
+  SwingRequest request{.start = part.path.start(), .goal_m = {leg.goal.x_m, leg.goal.y_m}};
+  request.start.heading_rad = heading_before(k).value_or(part.leaves_rad);
+  request.goal_heading_rad = leg.goal_heading_rad;
+  if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
+  const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
+  const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
+  if (result && result->cost < cost(part.path)) take(part, k, result->path);
+}
+
+void RefinedRun::swing() {
+  for (std::size_t k = 0; k < parts_.size(); ++k) swing(k);
 }
 
 void RefinedRun::refine() {

@@ -18,6 +18,10 @@ class RefinedRun {
   /// reaches a stop in the heading of its neighbor keeps that heading.
   void refine();
 
+  /// Replaces turns in place at the stops by curves: each leg in turn is optimized as a whole from the
+  /// heading in which the robot stands (best_swing), where that is cheaper.
+  void swing();
+
   /// The paths of the legs, turns in place included.
   [[nodiscard]] std::vector<LegPath> paths() const;
 
@@ -38,6 +42,8 @@ class RefinedRun {
   std::optional<double> heading_after(std::size_t k) const;
   PathScore score(std::size_t k, const Path& path) const;
   void refine(std::size_t k);
+  void swing(std::size_t k);
+  void take(Part& part, std::size_t k, const Path& path);
 
   const ChainRequest& request_;
   const WayRun& run_;

@@ -178,7 +178,10 @@ std::vector<LegPath> RunChoice::choose() {
   note("stops", chain);
 
   RefinedRun refined(request_, chain, run_);
-  if (!run_.quick && steps_.refinement) refined.refine();
+  if (!run_.quick && steps_.refinement) {
+    refined.refine();
+    refined.swing();
+  }
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {
     paths[k].source = run_.routes[k].routes[way(k, chain).route].searched_by;

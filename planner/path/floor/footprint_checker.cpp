@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/assert.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kShortestStep_m = 0.002;
 constexpr double kReportStep_m = 0.01;
+constexpr double kSlackStep_m = 0.03;
 constexpr double kShortestSearchStep_m = 0.005;
 constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
 constexpr double kHalfDiagonalPerHalfSide = 1.4142135623730951;
@@ -68,6 +70,21 @@ double FootprintChecker::polygon_slack_m(const Pose& pose) const {
 
 Collision FootprintChecker::collision_at(double s, const Pose& pose, double slack) const {
   return {s, pose, -slack, field_->nearest(pose.x_m, pose.y_m)};
+}
+
+double FootprintChecker::least_slack_m(const Path& path) const {
+  double least_m = std::numeric_limits<double>::infinity();
+  const double trust = is_disc() ? 1.0 : 0.4;  // a polygon's outline moves farther than its center in a turn
+  for (const PathPiece& piece : path.pieces) {
+    const double length = piece_length(piece);
+    for (double s = 0;;) {
+      const double here_m = slack_m(piece_point(piece, s).pose);
+      least_m = std::min(least_m, here_m);
+      if (s >= length) break;
+      s = std::min(length, s + std::max(kSlackStep_m, trust * (here_m - least_m)));
+    }
+  }
+  return least_m;
 }
 
 std::optional<Collision> FootprintChecker::pose_collision(const Pose& pose) const {

@@ -30,6 +30,9 @@ class FootprintChecker {
   [[nodiscard]] bool free(const Pose& pose) const { return slack_m(pose) >= -kTolerance_m; }
 
   [[nodiscard]] std::optional<Collision> pose_collision(const Pose& pose) const;
+  /// The least slack along a path, sampled at steps of 3 cm and more: a step is as long as the least slack
+  /// found so far cannot be undercut by much. For optimizers; first_collision() decides.
+  [[nodiscard]] double least_slack_m(const Path& path) const;
   /// The first place along a curve, or in the sweep of a turn, that is not free. Steps are as long as the
   /// slack lets no point of the outline reach an obstacle, and at least 2 mm (2 mm at the outline).
   [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;

@@ -15,7 +15,6 @@ constexpr double kShortestHandle_m = 0.02;
 constexpr double kLongestHandle_m = 4.0;
 constexpr double kReach_m = 3.0;         // how far a vertex may move
 constexpr double kShortestLead_m = 0.1;  // of the line at an end whose heading is kept
-constexpr double kSampleStep_m = 0.03;   // of the clearance constraint; the final check is dense
 constexpr double kClearanceMargin_m = 0.002;
 constexpr double kNotDrivable = 10;  // in units of the initial cost
 constexpr std::size_t kPerCorner = 4;
@@ -52,7 +51,6 @@ class Refinement {
   const Trial& trial(const std::vector<double>& x);
   double objective(const std::vector<double>& x);
   void constraints(double* result, const std::vector<double>& x);
-  double least_slack_m(const Path& path) const;
   std::vector<double> first_guess();
 
   const FootprintChecker& checker_;
@@ -100,25 +98,9 @@ std::vector<SplineCorner> Refinement::corners_of(const std::vector<double>& x) c
 const Refinement::Trial& Refinement::trial(const std::vector<double>& x) {
   if (last_.x != x) {
     last_ = {.x = x, .path = spline_path(start_m_, corners_of(x), goal_m_)};
-    last_.slack_m = last_.path ? least_slack_m(*last_.path) : -1.0;
+    last_.slack_m = last_.path ? checker_.least_slack_m(*last_.path) : -1.0;
   }
   return last_;
-}
-
-/// Steps are as long as the clearance found so far cannot be undercut.
-double Refinement::least_slack_m(const Path& path) const {
-  double least_m = kInfinity;
-  const double trust = checker_.is_disc() ? 1.0 : 0.4;
-  for (const PathPiece& piece : path.pieces) {
-    const double length_m = piece_length(piece);
-    for (double s_m = 0;;) {
-      const double slack_m = checker_.slack_m(piece_point(piece, s_m).pose);
-      least_m = std::min(least_m, slack_m);
-      if (s_m >= length_m) break;
-      s_m = std::min(length_m, s_m + std::max(kSampleStep_m, trust * (slack_m - least_m)));
-    }
-  }
-  return least_m;
 }
 
 double Refinement::objective(const std::vector<double>& x) {
