@@ -81,7 +81,6 @@ void RefinedRun::take(Part& part, std::size_t k, const Path& path) {
 
 void RefinedRun::swing(std::size_t k) {
   Part& part = parts_[k];
-  const std::size_t index = run_.first + k;
   const ChoiceContext& context = run_.contexts[k];
   const double price_W = context.finite_price_W();
   const ChainLeg& leg = request_.legs[k];
