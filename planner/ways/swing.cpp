@@ -48,6 +48,37 @@ struct End {
   }
 };
 
+/// Subplex from x with these first steps; x is moved to the best point seen. Returns the value there.
+double minimize(std::vector<double>& x, const std::vector<double>& step, const std::vector<double>& lower,
+                const SwingOptions& options, const std::function<double(const std::vector<double>&)>& value) {
+  nlopt::opt optimizer(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::max(x[i], lower[i]);
+  optimizer.set_lower_bounds(lower);
+  optimizer.set_initial_step(step);
+  optimizer.set_min_objective(
+      [](const std::vector<double>& at, std::vector<double>&, void* data) {
+        return (*static_cast<const std::function<double(const std::vector<double>&)>*>(data))(at);
+      },
+      const_cast<std::function<double(const std::vector<double>&)>*>(&value));
+  optimizer.set_ftol_rel(options.relative_tolerance);
+  optimizer.set_xtol_rel(1e-5);
+  optimizer.set_maxeval(options.evaluations_per_variable * static_cast<int>(x.size()));
+  double found = kInfinity;
+  try {
+    optimizer.optimize(x, found);
+  } catch (const nlopt::roundoff_limited&) {
+    found = value(x);
+  }
+  return found;
+}
+
+/// 0 where a path is free, else a value above every cost that grows with the depth of the collision.
+constexpr double kBlocked = 1e9;
+double blocked(const FootprintChecker& checker, const Path& path) {
+  const double slack_m = checker.least_slack_m(path);
+  return slack_m < kClearanceMargin_m ? kBlocked * (1 + std::min(1.0, kClearanceMargin_m - slack_m)) : 0.0;
+}
+
 class Swing {
  public:
   Swing(const SwingRequest& request, const FootprintChecker& checker, const PathCost& cost,
@@ -76,14 +107,12 @@ class Swing {
   int evaluations_{};
 };
 
-/// The cost, or a value above every cost that falls with the depth of a collision.
+/// The cost, or a value above every cost where the spline cannot be driven.
 double Swing::value(const FreeSpline& spline) {
-  constexpr double kBlocked = 1e9;
   ++evaluations_;
   std::optional<Path> path = free_spline_path(spline);
   if (!path) return 3 * kBlocked;
-  const double slack_m = checker_.least_slack_m(*path);
-  if (slack_m < kClearanceMargin_m) return kBlocked * (1 + std::min(1.0, kClearanceMargin_m - slack_m));
+  if (const double in_the_way = blocked(checker_, *path)) return in_the_way;
   const double cost = cost_(*path);
   if (!std::isfinite(cost)) return 2.5 * kBlocked;
   if ((!best_ || cost < best_->cost) && !checker_.first_collision(*path))
@@ -195,56 +224,34 @@ void Swing::guess_joined() {
 void Swing::polish(Guess& guess, double first_step_m) {
   const bool free_heading = !request_.goal_heading_rad;
   if (guess.moving.size() > kPolishedKnots) guess.moving.resize(kPolishedKnots);
-  struct View {
-    Swing* self;
-    const Guess* guess;
-    bool free_heading;
-    FreeSpline at(const std::vector<double>& x) const {
-      FreeSpline spline = guess->spline;
-      std::size_t i = 0;
-      spline.start_handle_m = x[i++];
-      spline.goal_handle_m = x[i++];
-      if (free_heading) spline.goal_heading_rad = x[i++];
-      for (const std::size_t knot : guess->moving) {
-        spline.points_m[knot] = {x[i], x[i + 1]};
-        i += 2;
-      }
-      return spline;
+  const FreeSpline first = guess.spline;
+  const auto spline_at = [&](const std::vector<double>& x) {
+    FreeSpline spline = first;
+    std::size_t i = 0;
+    spline.start_handle_m = x[i++];
+    spline.goal_handle_m = x[i++];
+    if (free_heading) spline.goal_heading_rad = x[i++];
+    for (const std::size_t knot : guess.moving) {
+      spline.points_m[knot] = {x[i], x[i + 1]};
+      i += 2;
     }
-  } view{this, &guess, free_heading};
-  std::vector<double> x{guess.spline.start_handle_m, guess.spline.goal_handle_m};
+    return spline;
+  };
+  std::vector<double> x{first.start_handle_m, first.goal_handle_m};
   std::vector<double> step{std::min(first_step_m, 0.5 * x[0]), std::min(first_step_m, 0.5 * x[1])};
-  if (free_heading) x.push_back(guess.spline.goal_heading_rad), step.push_back(kFirstTurn_rad);
+  if (free_heading) x.push_back(first.goal_heading_rad), step.push_back(kFirstTurn_rad);
   for (const std::size_t knot : guess.moving)
-    for (const double coordinate : guess.spline.points_m[knot]) {
+    for (const double coordinate : first.points_m[knot]) {
       x.push_back(coordinate);
       step.push_back(first_step_m);
     }
-  nlopt::opt optimizer(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
   std::vector<double> lower(x.size(), -kInfinity);
   lower[0] = lower[1] = kShortestHandle_m;
-  x[0] = std::max(x[0], lower[0]);
-  x[1] = std::max(x[1], lower[1]);
-  optimizer.set_lower_bounds(lower);
-  optimizer.set_initial_step(step);
-  optimizer.set_min_objective(
-      [](const std::vector<double>& at, std::vector<double>&, void* data) {
-        const View& seen = *static_cast<View*>(data);
-        return seen.self->value(seen.at(at));
-      },
-      &view);
-  optimizer.set_ftol_rel(options_.relative_tolerance);
-  optimizer.set_xtol_rel(1e-5);
-  optimizer.set_maxeval(options_.evaluations_per_variable * static_cast<int>(x.size()));
-  double found = guess.value;
-  try {
-    optimizer.optimize(x, found);
-  } catch (const nlopt::roundoff_limited&) {
-    // The best point seen is kept.
-  }
+  const double found =
+      minimize(x, step, lower, options_, [&](const std::vector<double>& at) { return value(spline_at(at)); });
   if (found >= guess.value) return;
   guess.value = found;
-  guess.spline = view.at(x);
+  guess.spline = spline_at(x);
 }
 
 std::optional<SwingResult> Swing::run() {
@@ -288,6 +295,51 @@ std::optional<SwingResult> Swing::run() {
 std::optional<SwingResult> best_swing(const SwingRequest& request, const FootprintChecker& checker,
                                       const PathCost& cost, const SwingOptions& options) {
   return Swing(request, checker, cost, options).run();
+}
+
+std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
+                                    const SwingOptions& options) {
+  std::optional<StopResult> best;
+  const bool knot_before = request.before.points_m.size() > 2, knot_after = request.after.points_m.size() > 2;
+  const auto splines_at = [&](const std::vector<double>& x) {
+    std::pair<FreeSpline, FreeSpline> splines{request.before, request.after};
+    auto& [before, after] = splines;
+    std::size_t i = 0;
+    before.goal_handle_m = x[i++];
+    after.start_handle_m = x[i++];
+    before.goal_heading_rad = after.start_heading_rad = x[i++];
+    if (knot_before) before.points_m[before.points_m.size() - 2] = {x[i], x[i + 1]}, i += 2;
+    if (knot_after) after.points_m[1] = {x[i], x[i + 1]};
+    return splines;
+  };
+  const auto value = [&](const std::vector<double>& x) {
+    const auto [before, after] = splines_at(x);
+    std::optional<Path> first = free_spline_path(before), second = free_spline_path(after);
+    if (!first || !second) return 3 * kBlocked;
+    if (const double in_the_way = blocked(checker, *first) + blocked(checker, *second)) return in_the_way;
+    const double cost = request.cost(*first, *second);
+    if (!std::isfinite(cost)) return 2.5 * kBlocked;
+    if ((!best || cost < best->cost) && !checker.first_collision(*first) && !checker.first_collision(*second))
+      best = {.before = {.spline = before, .path = std::move(*first)},
+              .after = {.spline = after, .path = std::move(*second)},
+              .cost = cost};
+    return cost;
+  };
+  for (const double heading_rad : {request.after.start_heading_rad, request.before.goal_heading_rad}) {
+    std::vector<double> x{request.before.goal_handle_m, request.after.start_handle_m, heading_rad};
+    std::vector<double> step{0.5 * x[0], 0.5 * x[1], kFirstTurn_rad};
+    const auto append = [&](const Point2& knot) {
+      x.insert(x.end(), knot.begin(), knot.end());
+      step.insert(step.end(), 2, kFirstStep_m);
+    };
+    if (knot_before) append(request.before.points_m[request.before.points_m.size() - 2]);
+    if (knot_after) append(request.after.points_m[1]);
+    std::vector<double> lower(x.size(), -kInfinity);
+    lower[0] = lower[1] = kShortestHandle_m;
+    minimize(x, step, lower, options, value);
+    if (request.after.start_heading_rad == request.before.goal_heading_rad) break;
+  }
+  return best;
 }
 
 }  // namespace joulepath

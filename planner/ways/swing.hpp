@@ -41,4 +41,20 @@ struct SwingResult {
                                                     const FootprintChecker& checker, const PathCost& cost,
                                                     const SwingOptions& options = {});
 
+/// Two legs that meet at a stop where any heading will do.
+struct StopRequest {
+  FreeSpline before{};
+  FreeSpline after{};  ///< begins where `before` ends
+  std::function<double(const Path& before, const Path& after)> cost{};
+};
+struct StopResult {
+  SwingResult before{}, after{};
+  double cost{};  ///< of both
+};
+
+/// Moves the common heading at the stop, the handles beside it and the knots next to it, so that the two legs
+/// cost least together (Subplex). Absent where nothing free was found.
+[[nodiscard]] std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
+                                                  const SwingOptions& options = {});
+
 }  // namespace joulepath

@@ -22,8 +22,7 @@ RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoic
                       .path = way.path,
                       .leaves_rad = way.leaves_rad,
                       .arrives_rad = way.arrives_rad,
-                      .turns_at_goal = chain[k].goal_heading_rad.has_value(),
-                      .score = chain[k].score});
+                      .turns_at_goal = chain[k].goal_heading_rad.has_value()});
   }
 }
 
@@ -41,19 +40,34 @@ std::optional<double> RefinedRun::heading_after(std::size_t k) const {
   return std::nullopt;
 }
 
+PathScore RefinedRun::turn_before(std::size_t k, const Path& path) const {
+  const Pose& place = k == 0 ? request_.start : request_.legs[k - 1].goal;
+  const double leaves_rad = path.start().heading_rad;
+  const std::optional<double> before_rad = heading_before(k);
+  if (!before_rad) return {.drivable = true};
+  if (!request_.may_turn(place, *before_rad, leaves_rad)) return {};
+  return request_.legs[k].turns->turn(*before_rad, leaves_rad, request_.legs[k].start_payload_kg);
+}
+
+PathScore RefinedRun::turn_after(std::size_t k, const Path& path) const {
+  const ChainLeg& leg = request_.legs[k];
+  const double arrives_rad = path.end().heading_rad;
+  const std::optional<double> after_rad = heading_after(k);
+  if (!after_rad) return {.drivable = true};
+  if (!request_.may_turn(leg.goal, arrives_rad, *after_rad)) return {};
+  return leg.turns->turn(arrives_rad, *after_rad, leg.goal_payload_kg);
+}
+
+PathScore RefinedRun::driving(std::size_t k, const Path& path) const {
+  const std::size_t index = run_.first + k;
+  return score_path(path, run_.contexts[k].mission.legs[index], index, run_.contexts[k]);
+}
+
 /// Of a path between the neighbors' headings, turns at both stops included.
 PathScore RefinedRun::score(std::size_t k, const Path& path) const {
-  const ChainLeg& leg = request_.legs[k];
-  const Pose& place = k == 0 ? request_.start : request_.legs[k - 1].goal;
-  const double leaves_rad = path.start().heading_rad, arrives_rad = path.end().heading_rad;
-  const std::optional<double> before_rad = heading_before(k), after_rad = heading_after(k);
-  if (before_rad && !request_.may_turn(place, *before_rad, leaves_rad)) return {};
-  if (after_rad && !request_.may_turn(leg.goal, arrives_rad, *after_rad)) return {};
-  PathScore sum{.drivable = true};
-  if (before_rad) sum += leg.turns->turn(*before_rad, leaves_rad, leg.start_payload_kg);
-  if (after_rad) sum += leg.turns->turn(arrives_rad, *after_rad, leg.goal_payload_kg);
-  const std::size_t index = run_.first + k;
-  sum += score_path(path, run_.contexts[k].mission.legs[index], index, run_.contexts[k]);
+  PathScore sum = turn_before(k, path);
+  sum += turn_after(k, path);
+  if (sum.drivable) sum += driving(k, path);
   return sum;
 }
 
@@ -66,16 +80,13 @@ void RefinedRun::refine(std::size_t k) {
       run_.contexts[k].space->checker(), part.way->shape,
       [&](const Path& path) { return score(k, path).cost_J(price_W); }, options);
   if (!result.improved) return;
-  take(part, k, result.path);
+  take(part, result.path);
 }
 
-void RefinedRun::take(Part& part, std::size_t k, const Path& path) {
-  const PathScore before = score(k, part.path), after = score(k, path);
+void RefinedRun::take(Part& part, const Path& path) {
   part.path = path;
   part.leaves_rad = part.path.start().heading_rad;
   part.arrives_rad = part.path.end().heading_rad;
-  part.score.energy_J += after.energy_J - before.energy_J;
-  part.score.duration_s += after.duration_s - before.duration_s;
   part.refined = true;
 }
 
@@ -90,11 +101,33 @@ void RefinedRun::swing(std::size_t k) {
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
   const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
   const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
-  if (result && result->cost < cost(part.path)) take(part, k, result->path);
+  if (!result || result->cost >= cost(part.path)) return;
+  take(part, result->path);
+  part.spline = result->spline;
+}
+
+/// The stop between legs k and k + 1.
+void RefinedRun::swing_through(std::size_t k) {
+  Part &before = parts_[k], &after = parts_[k + 1];
+  if (request_.legs[k].goal_heading_rad || !before.spline || !after.spline) return;
+  const double before_W = run_.contexts[k].finite_price_W(), after_W = run_.contexts[k + 1].finite_price_W();
+  const StopRequest request{
+      .before = *before.spline, .after = *after.spline, .cost = [&](const Path& first, const Path& second) {
+        return driving(k, first).cost_J(before_W) + driving(k + 1, second).cost_J(after_W) +
+               turn_after(k + 1, second).cost_J(after_W);
+      }};
+  const double found = request.cost(before.path, after.path) + turn_before(k + 1, after.path).cost_J(after_W);
+  const std::optional<StopResult> result = best_stop(request, run_.contexts[k].space->checker());
+  if (!result || result->cost >= found) return;
+  take(before, result->before.path);
+  take(after, result->after.path);
+  before.spline = result->before.spline;
+  after.spline = result->after.spline;
 }
 
 void RefinedRun::swing() {
   for (std::size_t k = 0; k < parts_.size(); ++k) swing(k);
+  for (std::size_t k = 0; k + 1 < parts_.size(); ++k) swing_through(k);
 }
 
 void RefinedRun::refine() {
@@ -116,12 +149,22 @@ std::vector<LegPath> RefinedRun::paths() const {
   return paths;
 }
 
+/// Energy and time of a leg as paths() makes it: a turn at a stop counts on the leg that makes it.
+PathScore RefinedRun::as_driven(std::size_t k) const {
+  PathScore sum = driving(k, parts_[k].path);
+  const bool turned_already = k > 0 && parts_[k - 1].turns_at_goal && !request_.legs[k - 1].goal_heading_rad;
+  if (!turned_already) sum += turn_before(k, parts_[k].path);
+  if (parts_[k].turns_at_goal) sum += turn_after(k, parts_[k].path);
+  return sum;
+}
+
 void RefinedRun::tell(std::size_t k, LegPath& path) const {
   const Part& part = parts_[k];
+  const PathScore driven = as_driven(k);
   path.improvements.push_back({.step = "refinement",
-                               .energy_J = part.score.energy_J,
-                               .duration_s = part.score.duration_s,
-                               .cost_J = part.score.cost_J(request_.legs[k].price_W)});
+                               .energy_J = driven.energy_J,
+                               .duration_s = driven.duration_s,
+                               .cost_J = driven.cost_J(request_.legs[k].price_W)});
   if (!part.refined) return;
   for (PathAlternative& alternative : path.alternatives) alternative.chosen = false;
   const PathScore between = score(k, part.path);

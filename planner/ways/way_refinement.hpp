@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_run.hpp"
@@ -35,15 +36,20 @@ class RefinedRun {
     double leaves_rad{};
     double arrives_rad{};
     bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or as the station says)
-    PathScore score{};     ///< between its neighbors
     bool refined{};
+    std::optional<FreeSpline> spline{};  ///< of a path that is one
   };
   std::optional<double> heading_before(std::size_t k) const;
   std::optional<double> heading_after(std::size_t k) const;
   PathScore score(std::size_t k, const Path& path) const;
+  PathScore driving(std::size_t k, const Path& path) const;
+  PathScore turn_before(std::size_t k, const Path& path) const;
+  PathScore turn_after(std::size_t k, const Path& path) const;
   void refine(std::size_t k);
   void swing(std::size_t k);
-  void take(Part& part, std::size_t k, const Path& path);
+  void swing_through(std::size_t k);
+  static void take(Part& part, const Path& path);
+  PathScore as_driven(std::size_t k) const;
 
   const ChainRequest& request_;
   const WayRun& run_;

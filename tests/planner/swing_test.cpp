@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "planner/mission/mission.hpp"
+#include "tests/planner/path/grids.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+const PlanOptions kQuick{.solver = SolverChoice::fast, .nodes = 100, .accuracy = 1e-3, .baselines = false};
+
+MissionWorld empty_floor() { return {.robot = testing::nomad(), .map = free_grid(400, 400, 0.1)}; }
+
+MissionRequest to_goal(const Pose& start, const Point2& goal_m, std::optional<double> heading_rad = {}) {
+  MissionRequest mission{.name = "pose", .clearance_m = 0.05};
+  mission.stations["goal"] = {.x_m = goal_m[0], .y_m = goal_m[1], .heading_rad = heading_rad};
+  mission.start.pose = start;
+  mission.legs = {{.to = "goal"}};
+  return mission;
+}
+
+/// What the mission takes along a given path.
+double along_J(MissionRequest mission, const Path& path) {
+  mission.legs = {{.to = "goal", .path = PathRequest{.ready = path}}};
+  return plan_mission(mission, empty_floor(), kQuick).energy.total_J();
+}
+
+double planned_J(const MissionRequest& mission) {
+  return plan_mission(mission, empty_floor(), kQuick).energy.total_J();
+}
+
+Path one_bezier(const Pose& start, const BezierPoints& points_m) {
+  std::vector<BezierPoints> map_m{points_m};
+  for (Point2& point : map_m.front()) point = {start.x_m + point[0], start.y_m + point[1]};
+  return Path{{Curve({BezierSegment(map_m.front())})}};
+}
+
+// Control points that were set by hand: one cubic that leaves in the robot's heading and swings round.
+TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
+  const Pose back{20, 20, 150 * std::numbers::pi / 180};
+  const MissionRequest behind = to_goal(back, {24, 20});
+  const double swung_J = planned_J(behind);
+  EXPECT_LE(swung_J,
+            1.002 * along_J(behind, one_bezier(back, {{{0, 0}, {-0.122, 0.0704}, {0.082, 0.973}, {4, 0}}})));
+  const Pose aside{20, 20, std::numbers::pi / 2};
+  const MissionRequest left = to_goal(aside, {26, 20});
+  EXPECT_LE(planned_J(left),
+            1.002 * along_J(left, one_bezier(aside, {{{0, 0}, {0, 0.805}, {3.925, 0.134}, {6, 0}}})));
+}
+
+TEST(Swing, IsNeverDearerThanTurnLineTurnAndArrivesInTheHeadingAsked) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<> angle(-std::numbers::pi, std::numbers::pi), reach(0.3, 6.0);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Pose start{20, 20, angle(random)};
+    const double bearing_rad = angle(random), reach_m = reach(random), heading_rad = angle(random);
+    const Point2 goal_m{20 + reach_m * std::cos(bearing_rad), 20 + reach_m * std::sin(bearing_rad)};
+    const std::optional<double> asked = trial % 2 ? std::optional(heading_rad) : std::nullopt;
+    Path plain;
+    append_turn_to(plain, start, bearing_rad);
+    plain.pieces.push_back(straight_piece({20, 20, bearing_rad}, reach_m));
+    if (asked) append_turn_to(plain, plain.end(), *asked);
+    const MissionRequest mission = to_goal(start, goal_m, asked);
+    const Plan plan = plan_mission(mission, empty_floor(), kQuick);
+    ASSERT_FALSE(plan.infeasibility) << plan.message;
+    EXPECT_LE(plan.energy.total_J(), along_J(mission, plain) * (1 + 1e-4)) << trial;
+    const PathPiece& first = plan.legs[0].stretches.front().request.piece;
+    const PathPiece& last = plan.legs[0].stretches.back().request.piece;
+    const Pose end = piece_point(last, piece_length(last)).pose;
+    EXPECT_NEAR(wrapped_angle_rad(piece_point(first, 0).pose.heading_rad - start.heading_rad), 0, 1e-9);
+    EXPECT_NEAR(std::hypot(end.x_m - goal_m[0], end.y_m - goal_m[1]), 0, 1e-6);
+    if (asked) {
+      EXPECT_NEAR(wrapped_angle_rad(end.heading_rad - *asked), 0, 1e-9);
+    }
+  }
+}
+
+TEST(Swing, AStopWithoutAHeadingIsLeftAsItIsReached) {
+  MissionRequest mission = to_goal({20, 20, 1.0}, {20.5, 25});
+  mission.stations["middle"] = {.x_m = 24, .y_m = 21};
+  mission.legs = {{.to = "middle"}, {.to = "goal"}};
+  const Plan plan = plan_mission(mission, empty_floor(), kQuick);
+  ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+  PlanOptions turning = kQuick;
+  turning.steps.refinement = false;
+  const Plan turned = plan_mission(mission, empty_floor(), turning);
+  EXPECT_LT(plan.energy.total_J(), 0.97 * turned.energy.total_J());
+  EXPECT_LT(plan.legs[0].turned_rad + plan.legs[1].turned_rad, 1e-6);
+}
+
+TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
+  // A wall half a metre to the left of a robot that must turn round to the left or the right.
+  MissionWorld world = empty_floor();
+  for (int row = 206; row < 400; ++row)
+    for (int column = 0; column < 400; ++column)
+      world.map->occupancy_percent[static_cast<std::size_t>(row * 400 + column)] = 100;
+  const Plan plan = plan_mission(to_goal({20, 20, 0.0}, {16, 20}), world, kQuick);
+  ASSERT_FALSE(plan.infeasibility) << plan.message;
+  const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
+  for (const StretchPlan& stretch : plan.legs[0].stretches)
+    EXPECT_FALSE(space.checker().first_collision(stretch.request.piece));
+}
+
+}  // namespace
+}  // namespace joulepath
