@@ -40,6 +40,11 @@ std::optional<double> RefinedRun::heading_after(std::size_t k) const {
   return std::nullopt;
 }
 
+bool RefinedRun::drivable(std::size_t k, const Path& path) const {
+  const std::size_t index = run_.first + k;
+  return is_drivable(path, run_.contexts[k].mission.legs[index], index, run_.contexts[k]);
+}
+
 PathScore RefinedRun::turn_before(std::size_t k, const Path& path) const {
   const Pose& place = k == 0 ? request_.start : request_.legs[k - 1].goal;
   const double leaves_rad = path.start().heading_rad;
@@ -101,7 +106,7 @@ void RefinedRun::swing(std::size_t k) {
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
   const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
   const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
-  if (!result || result->cost >= cost(part.path)) return;
+  if (!result || result->cost >= cost(part.path) || !drivable(k, result->path)) return;
   take(part, result->path);
   part.spline = result->spline;
 }
@@ -118,7 +123,9 @@ void RefinedRun::swing_through(std::size_t k) {
       }};
   const double found = request.cost(before.path, after.path) + turn_before(k + 1, after.path).cost_J(after_W);
   const std::optional<StopResult> result = best_stop(request, run_.contexts[k].space->checker());
-  if (!result || result->cost >= found) return;
+  if (!result || result->cost >= found || !drivable(k, result->before.path) ||
+      !drivable(k + 1, result->after.path))
+    return;
   take(before, result->before.path);
   take(after, result->after.path);
   before.spline = result->before.spline;

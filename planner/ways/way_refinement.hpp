@@ -43,6 +43,7 @@ class RefinedRun {
   std::optional<double> heading_after(std::size_t k) const;
   PathScore score(std::size_t k, const Path& path) const;
   PathScore driving(std::size_t k, const Path& path) const;
+  bool drivable(std::size_t k, const Path& path) const;
   PathScore turn_before(std::size_t k, const Path& path) const;
   PathScore turn_after(std::size_t k, const Path& path) const;
   void refine(std::size_t k);

@@ -61,6 +61,14 @@ PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_in
   return score_stretches(std::move(stretches), context.price_W);
 }
 
+bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
+                 const ChoiceContext& context) {
+  LegTiming timing(
+      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options));
+  return std::ranges::all_of(timing.solve(context.price_W, SolverChoice::fast),
+                             [](const ProfileResult& result) { return result.profile.has_value(); });
+}
+
 const TurnScores::Table& TurnScores::table(double payload_kg) {
   const auto [entry, fresh] = tables_.try_emplace(payload_kg);
   if (!fresh) return entry->second;

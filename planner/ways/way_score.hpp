@@ -38,6 +38,10 @@ struct PathScore {
 [[nodiscard]] PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
                                    const ChoiceContext& context);
 
+/// Whether a path has profiles within every limit between the nodes, too: draft scores check nodes alone.
+[[nodiscard]] bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
+                               const ChoiceContext& context);
+
 /// What turns in place cost, by payload and angle: tabulated by inner solves, interpolated between. Effects
 /// that depend on the place or the heading are taken at the origin.
 class TurnScores {

@@ -77,8 +77,10 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
 
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
   PlanOptions turning = kQuick;
+  turning.steps.refinement = false;  // refinement replaces turns by curves itself
+  const PlanOptions bending = turning;
   turning.steps.stops = false;
-  const Plan turned = plan_of(round_of_three(), turning), bent = plan_of(round_of_three(), kQuick);
+  const Plan turned = plan_of(round_of_three(), turning), bent = plan_of(round_of_three(), bending);
   double turned_rad = 0.0, bent_rad = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
     turned_rad += turned.legs[k].turned_rad, bent_rad += bent.legs[k].turned_rad;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kShortestChord_m = 1e-3;
 constexpr double kShortestHandle_m = 1e-3;
+constexpr double kStandstill_m = 1e-6;  ///< tangents this short have no direction
 constexpr int kCells = 16;
 constexpr int kDeepest = 12;
 constexpr double kCellTurn_rad = 0.3;  ///< a cell that turns less is as tight as its average
@@ -44,6 +45,7 @@ std::vector<Point2> derivatives(const FreeSpline& spline, const std::vector<doub
 /// Whether a span bends more tightly than allowed: cells are halved until each turns a little.
 bool too_tight(const BezierPoints& span, double from_t, double to_t, int depth) {
   const BezierDerivatives a = bezier_derivatives(span, from_t), b = bezier_derivatives(span, to_t);
+  if (std::min(norm(a.first_m), norm(b.first_m)) < kStandstill_m) return true;
   const double dot = a.first_m[0] * b.first_m[0] + a.first_m[1] * b.first_m[1];
   const double cross = a.first_m[0] * b.first_m[1] - a.first_m[1] * b.first_m[0];
   const double turn_rad = std::abs(std::atan2(cross, dot));

@@ -26,6 +26,6 @@ struct FreeSpline {
 /// than kTightest_per_m anywhere: a cusp cannot be driven.
 [[nodiscard]] std::optional<Path> free_spline_path(const FreeSpline& spline);
 
-inline constexpr double kTightest_per_m = 60.0;
+inline constexpr double kTightest_per_m = 25.0;
 
 }  // namespace joulepath
