@@ -8,6 +8,7 @@
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/path/shape/refine.hpp"
 
+// Design: docs/decisions/0170-ways-as-whole-curves.md
 namespace joulepath {
 
 /// A leg between two stops whose path is free: the robot leaves in the heading in which it stands, turns
