@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -19,8 +20,9 @@ inline bool have_blind_plant() { return std::filesystem::exists(blind_plant()); 
 /// integrator. It shares no code with the diagnosis. `size` 0: drawn.
 inline Dataset blind_day(const std::string& effect, double size, int level, int runs, int seed) {
   const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / ("blind_day_" + effect + "_" + std::to_string(level) +
-                                                     "_" + std::to_string(seed) + "_" + std::to_string(runs));
+      std::filesystem::path(::testing::TempDir()) /
+      ("blind_day_" + std::to_string(getpid()) + "_" + effect + "_" + std::to_string(level) + "_" +
+       std::to_string(seed) + "_" + std::to_string(runs));
   std::filesystem::remove_all(folder);
   const std::string command = blind_plant() + " --effect " + effect +
                               (size != 0 ? " --size " + std::to_string(size) : "") + " --level " +
