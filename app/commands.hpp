@@ -12,6 +12,8 @@ namespace joulepath {
   COMMAND(init)                     \
   COMMAND(plan)                     \
   COMMAND(batch)                    \
+  COMMAND(sweep)                    \
+  COMMAND(merge)                    \
   COMMAND(export)                   \
   COMMAND(simulate)                 \
   COMMAND(estimate)                 \

@@ -99,6 +99,14 @@ struct ReadOptions {
   bool untrusted{};  ///< names in the input may not be absolute or leave the input's folder
 };
 
+/// A text that takes the place of a document's value. Path: keys and items as in `legs[2].payload_kg`; `[*]`
+/// means every item of a list or of a map. A key that is absent is added to its map.
+struct ValueChange {
+  std::string path{};
+  std::string text{};
+  NamedBy named_by{};  ///< where errors point to
+};
+
 /// One parsed file.
 class Document {
  public:
@@ -107,6 +115,9 @@ class Document {
   static Document parse(std::string_view text, std::string file, int first_line = 1);
   /// Reads and parses a file. Throws ConfigError when it cannot be read; `named_by` is where its name stands.
   static Document load(const std::string& file, const NamedBy& named_by = {});
+
+  /// A copy with values changed. Throws ConfigError where a path leads nowhere.
+  [[nodiscard]] Document with(const std::vector<ValueChange>& changes) const;
 
   [[nodiscard]] Node root() const { return {*root_, *file_, "", style_}; }
   [[nodiscard]] const std::string& file() const { return *file_; }

@@ -5,6 +5,7 @@
 #include "scenarios/output_schemas.hpp"
 #include "scenarios/path_file.hpp"
 #include "scenarios/robot_file.hpp"
+#include "scenarios/study_file.hpp"
 
 namespace joulepath {
 
@@ -16,8 +17,11 @@ const std::vector<FileKind>& file_kinds() {
       {"mission", mission_schema, "stops or legs of a robot, with payloads and deadlines"},
       {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
       {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
+      {"study", study_schema, "designs of a robot or a mission to compare: joulepath sweep"},
       {"plan", plan_schema, "result of plan: plan.json"},
       {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
+      {"sweep", sweep_schema, "result of sweep: sweep.json"},
+      {"shard", shard_schema, "shard.json: what merge must know of one part of a batch or a sweep"},
       {"controller", controller_schema, "result of export --to controller"},
       {"edges", edges_schema, "result of export --to edges as JSON"},
       {"loss", loss_schema, "energy lost by the settings of an export"},

@@ -10,7 +10,7 @@
 
 namespace joulepath::embedded {
 extern const std::string_view page, style, notice, library, library_css, script_core, script_plots,
-    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_main;
+    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_sweep, script_main;
 }  // namespace joulepath::embedded
 
 namespace joulepath::report {
@@ -165,7 +165,7 @@ std::string page_of(const std::string& kind, const std::string& title, const jso
   using namespace embedded;
   std::string script;
   for (const auto part : {script_core, script_plots, script_map, script_bars, script_plan, script_diagnosis,
-                          script_compare, script_batch, script_main})
+                          script_compare, script_batch, script_sweep, script_main})
     script += part;
   json versioned = data;
   versioned["version"] = JOULEPATH_VERSION;
@@ -218,6 +218,10 @@ std::string front_report_html(const json& front, const std::vector<NamedColumns>
 
 std::string batch_report_html(const json& batch, const std::string& title) {
   return page_of("batch", title, {{"batch", compact_batch(batch)}, {"title", title}});
+}
+
+std::string sweep_report_html(const json& sweep, const std::string& title) {
+  return page_of("sweep", title, {{"sweep", sweep}, {"title", title}});
 }
 
 }  // namespace joulepath::report

@@ -63,4 +63,7 @@ struct DiagnosisExtras {
 /// optimality_gap_percent, message}]}.
 [[nodiscard]] std::string batch_report_html(const nlohmann::json& batch, const std::string& title = {});
 
+/// The page of a sweep: sweep.json with `cloud`, a dot [duration_s, energy_J, within_constraints] per design.
+[[nodiscard]] std::string sweep_report_html(const nlohmann::json& sweep, const std::string& title = {});
+
 }  // namespace joulepath::report

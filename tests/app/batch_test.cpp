@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/batch_journal.hpp"
-#include "app/commands/batch_run.hpp"
+#include "app/jobs/journal.hpp"
+#include "app/jobs/mission_planner.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -59,12 +59,12 @@ TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
 TEST(Batch, TheFirstExceptionStopsAllThreadsAndReachesTheCaller) {
   std::vector<std::size_t> indices(100);
   for (std::size_t k = 0; k < indices.size(); ++k) indices[k] = k;
-  const auto work = [](std::size_t k) { return BatchResult{.index = k}; };
-  const auto done = [](const BatchResult& result) {
+  const auto work = [](std::size_t k) { return JobResult{.index = k}; };
+  const auto done = [](const JobResult& result) {
     if (result.index == 3) throw std::runtime_error("disk full");
   };
   for (const unsigned threads : {1u, 4u})
-    EXPECT_THROW(run_batch(indices, threads, work, done, [] { return false; }), std::runtime_error);
+    EXPECT_THROW(run_jobs(indices, threads, work, done, [] { return false; }), std::runtime_error);
 }
 
 TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
@@ -77,7 +77,7 @@ TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
       "robot: ../robot.yaml\nmap: ../map.yaml\nkeepout: ../map.yaml\n"
       "stations: {a: {x_m: 0.5, y_m: 0.5}, b: {x_m: 1.5, y_m: 0.5}}\nstart: {station: a}\nlegs: [{to: b}]\n");
   const auto fingerprint = [&](std::size_t nodes = 50) {
-    return BatchPlanner({.nodes = nodes}, {}).fingerprint({.name = "m", .file = file});
+    return MissionPlanner({.nodes = nodes}, {}).fingerprint({.name = "m", .file = file});
   };
   const std::string before = fingerprint();
   EXPECT_FALSE(before.empty());
@@ -101,10 +101,10 @@ TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
                     arguments = "batch " + file + " -q --nodes 20 --out " + scratch.at("out");
   ASSERT_EQ(run_program(scratch, arguments).code, 0);
   const std::string whole = text_of(scratch.at("out/results.jsonl"));
-  const std::vector<BatchItem> items = batch_items(file);
-  BatchPlanner planner({.solver = SolverChoice::fast, .nodes = 20, .baselines = false}, {});
+  const std::vector<MissionItem> items = mission_items(file);
+  MissionPlanner planner({.solver = SolverChoice::fast, .nodes = 20, .baselines = false}, {});
   {
-    BatchJournal journal(scratch.at("out/results.partial.jsonl"), BatchJournal::Use::anew);
+    JobJournal journal(scratch.at("out/results.partial.jsonl"), JobJournal::Use::anew);
     journal.add({.index = 0, .line = R"({"status": "optimal", "kept": true})"},
                 planner.fingerprint(items[0]));
     journal.add({.index = 1, .line = R"({"status": "optimal", "kept": true})"}, "of another robot");
@@ -114,7 +114,7 @@ TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
   EXPECT_EQ(again.code, 0);
   EXPECT_EQ(text_of(scratch.at("out/results.jsonl")), whole);
   {
-    BatchJournal journal(scratch.at("out/results.partial.jsonl"), BatchJournal::Use::anew);
+    JobJournal journal(scratch.at("out/results.partial.jsonl"), JobJournal::Use::anew);
     journal.add({.index = 0, .line = R"({"status": "optimal", "kept": true})"},
                 planner.fingerprint(items[0]));
     journal.add({.index = 1, .line = R"({"status": "optimal", "kept": true})"}, "of another robot");
@@ -137,23 +137,23 @@ TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   EXPECT_EQ(text_of(partial), "{}\n");
 }
 
-TEST(BatchJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
+TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");
-  { BatchJournal(file, BatchJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }
+  { JobJournal(file, JobJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }
   std::ofstream(file, std::ios::app) << "{\"index\": 1, \"fing";
   const std::string before = text_of(file);
   {
-    BatchJournal journal(file, BatchJournal::Use::resume);
+    JobJournal journal(file, JobJournal::Use::resume);
     ASSERT_NE(journal.find(0, "x"), nullptr);
     EXPECT_EQ(journal.find(0, "y"), nullptr);
     EXPECT_EQ(journal.find(0, ""), nullptr);
     EXPECT_EQ(journal.find(1, "x"), nullptr);
     journal.add({.index = 2, .line = R"({"status": "b"})"}, "z");
-    EXPECT_ANY_THROW(BatchJournal(file, BatchJournal::Use::resume));  // one writer at a time
+    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // one writer at a time
   }
   EXPECT_EQ(text_of(file).substr(0, before.size()), before);
-  const BatchJournal again(file, BatchJournal::Use::resume);
+  const JobJournal again(file, JobJournal::Use::resume);
   ASSERT_NE(again.find(0, "x"), nullptr);
   ASSERT_NE(again.find(2, "z"), nullptr);
   EXPECT_EQ(again.find(2, "z")->status, "b");

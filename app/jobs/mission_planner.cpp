@@ -1,4 +1,4 @@
-#include "app/commands/batch_run.hpp"
+#include "app/jobs/mission_planner.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "app/jobs/content_hash.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "scenarios/mission_file.hpp"
@@ -19,20 +20,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<BatchItem> items_of_directory(const std::filesystem::path& directory) {
-  std::vector<BatchItem> items;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    const std::string extension = entry.path().extension().string();
-    if (entry.is_regular_file() && (extension == ".yaml" || extension == ".yml"))
+bool is_yaml_name(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+std::vector<MissionItem> items_of_directory(const std::filesystem::path& directory) {
+  std::vector<MissionItem> items;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    if (entry.is_regular_file() && is_yaml_name(entry.path()))
       items.push_back({.name = printable(entry.path().stem().string()), .file = entry.path().string()});
-  }
   std::sort(items.begin(), items.end(),
-            [](const BatchItem& a, const BatchItem& b) { return a.file < b.file; });
+            [](const MissionItem& a, const MissionItem& b) { return a.file < b.file; });
   return items;
 }
 
-std::vector<BatchItem> items_of_lines(const std::string& file) {
-  std::vector<BatchItem> items;
+std::vector<MissionItem> items_of_lines(const std::string& file) {
+  std::vector<MissionItem> items;
   std::istringstream lines(read_text_file(file));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number)
@@ -67,24 +70,6 @@ Json plan_line(const Plan& plan) {
   return json;
 }
 
-/// FNV-1a over parts; the length of each part is mixed in, so that no two lists of parts run together.
-class ContentHash {
- public:
-  void mix(const std::string& part) {
-    for (const char c : part + "/" + std::to_string(part.size()))
-      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
-  [[nodiscard]] std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
-    return digits;
-  }
-
- private:
-  std::uint64_t hash_{1469598103934665603ULL};
-};
-
 std::string text_of(const PlanOptions& o) {
   const Json json{{"seed", o.seed},
                   {"nodes", o.nodes},
@@ -95,16 +80,21 @@ std::string text_of(const PlanOptions& o) {
   return json.dump();
 }
 
-Document document_of(const BatchItem& item) {
+Document document_of(const MissionItem& item) {
   return item.text.empty() ? Document::load(item.file)
                            : Document::parse(item.text, item.file, item.first_line);
 }
 
 }  // namespace
 
-std::vector<BatchItem> batch_items(const std::string& source) {
-  std::vector<BatchItem> items =
-      std::filesystem::is_directory(source) ? items_of_directory(source) : items_of_lines(source);
+std::vector<MissionItem> mission_items(const std::string& source) {
+  std::vector<MissionItem> items;
+  if (std::filesystem::is_directory(source))
+    items = items_of_directory(source);
+  else if (is_yaml_name(source))
+    items = {{.name = printable(std::filesystem::path(source).stem().string()), .file = source}};
+  else
+    items = items_of_lines(source);
   if (items.empty())
     throw ConfigError({.mark = {.file = source},
                        .key = {},
@@ -114,28 +104,34 @@ std::vector<BatchItem> batch_items(const std::string& source) {
   return items;
 }
 
-std::uint64_t BatchPlanner::content_digest(const std::string& file) {
+const std::string& MissionPlanner::content_digest(const std::string& file) {
   const auto known = digests_.find(file);
   if (known != digests_.end()) return known->second;
-  ContentHash hash;
-  hash.mix(read_text_file(file));
-  return digests_[file] = hash.value();
+  return digests_[file] = ContentHash().mix(read_text_file(file)).text();
 }
 
-std::string BatchPlanner::fingerprint(const BatchItem& item) try {
+std::string MissionPlanner::digest_of(const std::vector<MissionItem>& items) const {
+  ContentHash hash;
+  hash.mix(text_of(options_));
+  for (const MissionItem& item : items) hash.mix(item.name).mix(item.text.empty() ? item.file : item.text);
+  return hash.text();
+}
+
+std::string MissionPlanner::fingerprint(const MissionItem& item, const std::string& extra_file) try {
   ContentHash hash;
   for (const std::string& part : {std::string(JOULEPATH_VERSION), item.name, item.text, text_of(options_)})
     hash.mix(part);
-  if (item.text.empty()) hash.mix(read_text_file(item.file));
   const MissionRequest mission = mission_from(document_of(item), reading_);
-  for (const std::string& file : files_read_by(mission, reading_))
-    hash.mix(file + "=" + std::to_string(content_digest(file)));
+  std::vector<std::string> files = files_read_by(mission, reading_);
+  if (item.text.empty()) files.push_back(item.file);
+  if (!extra_file.empty()) files.push_back(extra_file);
+  for (const std::string& file : files) hash.mix(file + "=" + content_digest(file));
   return hash.text();
 } catch (const std::exception&) {
   return "";  // planning it tells why
 }
 
-const BatchPlanner::Place& BatchPlanner::place_of(const MissionRequest& mission) {
+const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& mission) {
   std::string key;
   for (const std::string& part :
        {mission.robot_file, mission.map_file, mission.keepout_file, mission.route_graph_file,
@@ -152,16 +148,27 @@ const BatchPlanner::Place& BatchPlanner::place_of(const MissionRequest& mission)
   return *place;
 }
 
-BatchResult BatchPlanner::plan(const BatchItem& item, std::size_t index) {
+/// A variant has a robot of its own; the floor is shared where the robot's outline is the same.
+Plan MissionPlanner::plan_of(const MissionRequest& mission, const MissionVariant* variant) {
+  const Place& place = place_of(mission);
+  const RouteSpace* space = place.space ? &*place.space : nullptr;
+  if (variant == nullptr) return plan_mission(mission, place.world, options_, space);
+  MissionWorld world = place.world;
+  world.robot = variant->robot(mission.robot_file);
+  const Footprint &asked = world.robot.footprint, &known = place.world.robot.footprint;
+  const bool same_outline = asked.radius_m == known.radius_m && asked.polygon_m == known.polygon_m;
+  return plan_mission(mission, world, options_, same_outline ? space : nullptr);
+}
+
+JobResult MissionPlanner::plan(const MissionItem& item, std::size_t index, Json json,
+                               const MissionVariant* variant) {
   const auto start = std::chrono::steady_clock::now();
-  Json json{{"index", index}, {"name", item.name}};
   try {
     const Document document = document_of(item);
-    MissionRequest mission = mission_from(document, reading_);
-    if (item.text.empty() || document.root().has("name")) json["name"] = mission.name;
-    const Place& place = place_of(mission);
-    json.update(
-        plan_line(plan_mission(mission, place.world, options_, place.space ? &*place.space : nullptr)));
+    const MissionRequest mission =
+        variant != nullptr ? variant->mission(document) : mission_from(document, reading_);
+    if (variant == nullptr && (item.text.empty() || document.root().has("name"))) json["name"] = mission.name;
+    json.update(plan_line(plan_of(mission, variant)));
   } catch (const ConfigError& error) {
     json["status"] = "bad_input";
     json["message"] = printable(error.what());
@@ -182,36 +189,8 @@ BatchResult BatchPlanner::plan(const BatchItem& item, std::size_t index) {
           .seconds = elapsed.count()};
 }
 
-void run_batch(const std::vector<std::size_t>& indices, unsigned threads,
-               const std::function<BatchResult(std::size_t)>& work,
-               const std::function<void(const BatchResult&)>& done, const std::function<bool()>& stop) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> failed{false};
-  std::exception_ptr error;
-  std::mutex mutex;
-  const auto loop = [&] {
-    try {
-      for (std::size_t k = next++; k < indices.size() && !failed && !stop(); k = next++) {
-        const BatchResult result = work(indices[k]);
-        const std::lock_guard lock(mutex);
-        done(result);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failed.exchange(true)) error = std::current_exception();
-    }
-  };
-  {
-    struct Workers {
-      std::vector<std::thread> threads{};
-      ~Workers() {
-        for (std::thread& thread : threads) thread.join();
-      }
-    } workers;
-    for (unsigned t = 1; t < threads && t < indices.size(); ++t) workers.threads.emplace_back(loop);
-    loop();
-  }
-  if (error) std::rethrow_exception(error);
+JobResult MissionJobs::plan(std::size_t index) {
+  return planner_.plan(items_[index], index, {{"index", index}, {"name", items_[index].name}});
 }
 
 }  // namespace joulepath

@@ -4,29 +4,29 @@
 #include <map>
 #include <string>
 
-#include "app/commands/batch_run.hpp"
+#include "app/jobs/run_jobs.hpp"
 
 namespace joulepath {
 
-/// The results of a batch in the order in which they come, one JSON line each, appended and synced to the
+/// The results of jobs in the order in which they come, one JSON line each, appended and synced to the
 /// disk: what survives a kill. Lines that are there already are never changed. One program at a time may
 /// write a journal.
-class BatchJournal {
+class JobJournal {
  public:
   enum class Use { anew, resume };
 
   /// With `resume`, the results of an earlier run are read. With `anew`, an earlier journal is deleted; the
   /// caller has asked whether it may be. Throws EnvironmentError.
-  BatchJournal(std::string file, Use use);
-  ~BatchJournal();
-  BatchJournal(const BatchJournal&) = delete;
-  BatchJournal& operator=(const BatchJournal&) = delete;
+  JobJournal(std::string file, Use use);
+  ~JobJournal();
+  JobJournal(const JobJournal&) = delete;
+  JobJournal& operator=(const JobJournal&) = delete;
 
   /// Throws EnvironmentError when the line cannot be written whole.
-  void add(const BatchResult& result, const std::string& fingerprint);
+  void add(const JobResult& result, const std::string& fingerprint);
 
   /// The earlier result of a mission if its fingerprint is the same and not empty.
-  [[nodiscard]] const BatchResult* find(std::size_t index, const std::string& fingerprint) const;
+  [[nodiscard]] const JobResult* find(std::size_t index, const std::string& fingerprint) const;
 
   /// Deletes the file: all results are in their place.
   void remove();
@@ -34,7 +34,7 @@ class BatchJournal {
  private:
   struct Entry {
     std::string fingerprint{};
-    BatchResult result{};
+    JobResult result{};
   };
 
   void read();

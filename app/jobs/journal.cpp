@@ -1,4 +1,4 @@
-#include "app/commands/batch_journal.hpp"
+#include "app/jobs/journal.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -28,12 +28,12 @@ bool is_entry(const Json& json) {
 
 }  // namespace
 
-BatchJournal::BatchJournal(std::string file, Use use) : file_(std::move(file)) {
+JobJournal::JobJournal(std::string file, Use use) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor_);
-    throw EnvironmentError("another batch is writing " + file_);
+    throw EnvironmentError("another run is writing " + file_);
   }
   if (use == Use::resume)
     read();
@@ -41,12 +41,12 @@ BatchJournal::BatchJournal(std::string file, Use use) : file_(std::move(file)) {
     throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
 }
 
-BatchJournal::~BatchJournal() {
+JobJournal::~JobJournal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 /// The last line may have been cut off by a kill; a line break behind it keeps the next line whole.
-void BatchJournal::read() {
+void JobJournal::read() {
   std::ifstream in(file_);
   std::string line;
   bool cut = false;
@@ -64,7 +64,7 @@ void BatchJournal::read() {
   if (cut) append("\n");
 }
 
-void BatchJournal::append(const std::string& text) {
+void JobJournal::append(const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
     const auto written = ::write(descriptor_, text.data() + done, text.size() - done);
@@ -76,7 +76,7 @@ void BatchJournal::append(const std::string& text) {
     throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
 }
 
-void BatchJournal::add(const BatchResult& result, const std::string& fingerprint) {
+void JobJournal::add(const JobResult& result, const std::string& fingerprint) {
   append(Json{{"index", result.index},
               {"fingerprint", fingerprint},
               {"seconds", result.seconds},
@@ -85,13 +85,13 @@ void BatchJournal::add(const BatchResult& result, const std::string& fingerprint
          "\n");
 }
 
-const BatchResult* BatchJournal::find(std::size_t index, const std::string& fingerprint) const {
+const JobResult* JobJournal::find(std::size_t index, const std::string& fingerprint) const {
   const auto found = earlier_.find(index);
   if (fingerprint.empty() || found == earlier_.end() || found->second.fingerprint != fingerprint)
     return nullptr;
   return &found->second.result;
 }
 
-void BatchJournal::remove() { std::filesystem::remove(file_); }
+void JobJournal::remove() { std::filesystem::remove(file_); }
 
 }  // namespace joulepath

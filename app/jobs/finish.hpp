@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command.hpp"
+#include "app/jobs/run_jobs.hpp"
+#include "app/output_directory.hpp"
+#include "scenarios/study_file.hpp"
+
+namespace joulepath {
+
+class CommandLine;
+
+/// What batch and sweep take.
+struct JobOptions {
+  std::string out{};
+  std::string shard{};
+  unsigned jobs{};
+  bool resume{};
+  CommonOptions common{};
+};
+
+void add_job_options(CommandLine& line, JobOptions& options, const std::string& files);
+[[nodiscard]] JobRun job_run(const JobOptions& options, const std::string& noun);
+
+/// The files of a whole run; a shard writes kShardFiles.
+inline const std::vector<std::string> kBatchFiles{"results.jsonl", "timings.jsonl", "report.html"};
+inline const std::vector<std::string> kSweepFiles{"sweep.csv", "sweep.json", "timings.jsonl", "report.html"};
+inline const std::vector<std::string> kShardFiles{"results.jsonl", "timings.jsonl", "shard.json"};
+[[nodiscard]] OutputDirectory job_output(const JobOptions& options, const Shard& shard,
+                                         const std::vector<std::string>& files);
+
+[[nodiscard]] std::vector<std::string> lines_of(const std::vector<JobResult>& results);
+[[nodiscard]] std::string title_of(const Study& study);
+
+/// timings.jsonl: what may differ between runs stays out of the results.
+void add_timings(OutputDirectory& out, const std::vector<JobResult>& results);
+
+/// Writes a shard's lines and what merge must know; `about` has what the list of jobs does not know.
+void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,
+                 ShardManifest about);
+
+/// Write the results of a whole run and print its summary: the same bytes from a run and from its shards.
+void finish_batch(OutputDirectory& out, const std::string& title, const std::vector<std::string>& lines,
+                  const CommonOptions& common);
+void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<std::string>& lines,
+                  const std::vector<std::string>& optimized, const CommonOptions& common);
+
+}  // namespace joulepath

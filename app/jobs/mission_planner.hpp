@@ -1,0 +1,96 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/jobs/run_jobs.hpp"
+#include "planner/mission/mission.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// One mission of many, not yet parsed: a broken one must not stop the others.
+struct MissionItem {
+  std::string name{};
+  std::string file{};
+  std::string text{};  ///< empty: in the file
+  int first_line{1};
+};
+
+/// The missions of a directory (*.yaml, by name), of a file of JSON lines, or of one YAML file. Throws
+/// ConfigError when there are none.
+[[nodiscard]] std::vector<MissionItem> mission_items(const std::string& source);
+
+/// A variation of a mission: what a sweep changes.
+class MissionVariant {
+ public:
+  MissionVariant() = default;
+  MissionVariant(const MissionVariant&) = delete;
+  MissionVariant& operator=(const MissionVariant&) = delete;
+  virtual ~MissionVariant() = default;
+
+  [[nodiscard]] virtual MissionRequest mission(const Document& document) const = 0;
+  /// `robot_file`: the robot that the mission names.
+  [[nodiscard]] virtual Robot robot(const std::string& robot_file) const = 0;
+};
+
+/// Plans many missions; maps, keep-out masks and the floors prepared from them are made once and shared. Safe
+/// to call from several threads, but for fingerprint().
+class MissionPlanner {
+ public:
+  MissionPlanner(PlanOptions options, ReadOptions reading) : options_(options), reading_(reading) {}
+
+  /// The result line: `line` with the plan's figures, or the reason why there is none.
+  [[nodiscard]] JobResult plan(const MissionItem& item, std::size_t index, nlohmann::ordered_json line,
+                               const MissionVariant* variant = nullptr);
+
+  /// Identifies a mission and all that its result depends on; empty when a file cannot be read. `extra_file`:
+  /// read beside those that the mission names.
+  [[nodiscard]] std::string fingerprint(const MissionItem& item, const std::string& extra_file = {});
+
+  [[nodiscard]] const std::map<std::string, std::string>& files_read() const { return digests_; }
+  /// Of missions without the files that they name, and of the options.
+  [[nodiscard]] std::string digest_of(const std::vector<MissionItem>& items) const;
+
+ private:
+  struct Place {
+    MissionWorld world{};
+    std::optional<RouteSpace> space{};
+  };
+  const Place& place_of(const MissionRequest& mission);
+  [[nodiscard]] Plan plan_of(const MissionRequest& mission, const MissionVariant* variant);
+  [[nodiscard]] const std::string& content_digest(const std::string& file);
+
+  PlanOptions options_;
+  ReadOptions reading_;
+  std::mutex mutex_{};
+  std::map<std::string, std::unique_ptr<Place>> places_{};
+  std::map<std::string, std::string> digests_{};
+};
+
+/// The missions of a batch.
+class MissionJobs : public JobList {
+ public:
+  MissionJobs(std::vector<MissionItem> items, PlanOptions options, ReadOptions reading)
+      : items_(std::move(items)), planner_(options, reading) {}
+
+  [[nodiscard]] std::size_t size() const override { return items_.size(); }
+  [[nodiscard]] JobResult plan(std::size_t index) override;
+  [[nodiscard]] std::string fingerprint(std::size_t index) override {
+    return planner_.fingerprint(items_[index]);
+  }
+  [[nodiscard]] std::string digest() const override { return planner_.digest_of(items_); }
+  [[nodiscard]] std::map<std::string, std::string> files_read() const override {
+    return planner_.files_read();
+  }
+
+ private:
+  std::vector<MissionItem> items_;
+  MissionPlanner planner_;
+};
+
+}  // namespace joulepath

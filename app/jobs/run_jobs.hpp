@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/jobs/shard.hpp"
+
+namespace joulepath {
+
+/// The result of one job.
+struct JobResult {
+  std::size_t index{};
+  std::string line{};    ///< one JSON object
+  std::string status{};  ///< a plan's status, or `bad_input`, `environment_error`, `internal_error`
+  double seconds{};
+};
+
+/// Plans to make, one line of results for each: the missions of a batch, or the designs of a sweep.
+class JobList {
+ public:
+  JobList() = default;
+  JobList(const JobList&) = delete;
+  JobList& operator=(const JobList&) = delete;
+  virtual ~JobList() = default;
+
+  [[nodiscard]] virtual std::size_t size() const = 0;
+
+  /// A result depends on its job alone. Safe to call from several threads; every mistake in a job's input
+  /// is told in its line.
+  [[nodiscard]] virtual JobResult plan(std::size_t index) = 0;
+
+  /// Identifies a job and all that its result depends on: the content of every file that it reads, the
+  /// options and the program's version. Empty when a file cannot be read. Not for several threads.
+  [[nodiscard]] virtual std::string fingerprint(std::size_t index) = 0;
+
+  /// Identifies the list: every job without the files that it names, and the options.
+  [[nodiscard]] virtual std::string digest() const = 0;
+
+  /// Files and the digests of their content, of all jobs whose fingerprint was asked for.
+  [[nodiscard]] virtual std::map<std::string, std::string> files_read() const = 0;
+};
+
+/// How a list of jobs is run.
+struct JobRun {
+  std::string directory{};  ///< holds the journal
+  unsigned threads{1};
+  bool resume{};
+  bool force{};
+  bool quiet{};
+  std::string noun{"missions"};  ///< for the progress
+  Shard shard{};
+};
+
+/// Runs the jobs of the shard that the journal does not know yet. Results by index; none where the user
+/// interrupted the run (the journal then holds what was done). Throws ConfigError where an unfinished run
+/// would be overwritten, EnvironmentError.
+[[nodiscard]] std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run);
+
+/// Deletes the journal of a run whose results are in their place.
+void remove_journal(const std::string& directory);
+
+/// Runs `work(k)` for the given indices on `threads` threads and hands each result to `done` on the calling
+/// thread's behalf (never two at once). Stops early when `stop` says so. The first exception of `work` or
+/// `done` stops it too, and is thrown when all threads are joined.
+void run_jobs(const std::vector<std::size_t>& indices, unsigned threads,
+              const std::function<JobResult(std::size_t)>& work,
+              const std::function<void(const JobResult&)>& done, const std::function<bool()>& stop);
+
+}  // namespace joulepath

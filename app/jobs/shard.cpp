@@ -1,0 +1,122 @@
+#include "app/jobs/shard.hpp"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/command.hpp"
+#include "scenarios/output_schemas.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostShards = 1'000'000;
+
+std::string file_of(const std::string& directory) { return directory + "/shard.json"; }
+
+std::string name_of(const Shard& shard) {
+  return std::to_string(shard.number) + "/" + std::to_string(shard.of);
+}
+
+[[noreturn]] void refuse(const std::string& directory, const std::string& key, std::string found,
+                         std::string accepted, std::string hint = {}) {
+  throw ConfigError(
+      {{file_of(directory), 0, 0}, key, std::move(found), std::move(accepted), std::move(hint)});
+}
+
+/// What must be the same in all shards, by the key of shard.json that holds it.
+std::map<std::string, std::string> common_values(const ShardManifest& manifest) {
+  return {{"command", manifest.command},
+          {"version", manifest.version},
+          {"of", std::to_string(manifest.shard.of)},
+          {"jobs", std::to_string(manifest.jobs)},
+          {"list", manifest.list_digest},
+          {"study_text", manifest.study_text}};
+}
+
+}  // namespace
+
+std::vector<std::size_t> Shard::indices(std::size_t jobs) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t k = number - 1; k < jobs; k += of) indices.push_back(k);
+  return indices;
+}
+
+Shard shard_from(const std::string& text) {
+  if (text.empty()) return {};
+  const auto slash = text.find('/');
+  const auto number = parse_number(text.substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
+  const auto is_count = [](double value) { return value == static_cast<double>(static_cast<long>(value)); };
+  if (!number || !of || *number < 1 || *of < *number || *of > static_cast<double>(kMostShards) ||
+      !is_count(*number) || !is_count(*of))
+    throw UsageError("--shard: found " + text + ", accepted: K/N with 1 <= K <= N, 2/8 for example");
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+}
+
+std::string manifest_text(const ShardManifest& manifest) {
+  Json json{{"schema", "joulepath/shard/1"},  {"command", manifest.command},  {"version", manifest.version},
+            {"shard", manifest.shard.number}, {"of", manifest.shard.of},      {"jobs", manifest.jobs},
+            {"title", manifest.title},        {"list", manifest.list_digest}, {"files", manifest.files}};
+  if (!manifest.study_file.empty()) {
+    json["study_file"] = manifest.study_file;
+    json["study_text"] = manifest.study_text;
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ShardManifest read_manifest(const std::string& directory) {
+  const Document document = Document::load(file_of(directory));
+  check_document(document, "shard", shard_schema());
+  const Node root = document.root();
+  ShardManifest manifest{
+      .command = root["command"].text(),
+      .version = root["version"].text(),
+      .shard = {static_cast<std::size_t>(root["shard"].integer()),
+                static_cast<std::size_t>(root["of"].integer())},
+      .jobs = static_cast<std::size_t>(root["jobs"].integer()),
+      .title = root["title"].text(),
+      .list_digest = root["list"].text(),
+      .study_file = root.text_or("study_file", ""),
+      .study_text = root.text_or("study_text", ""),
+  };
+  if (manifest.shard.number > manifest.shard.of) root["shard"].fail("at most the number in `of`");
+  for (const auto& [file, digest] : root["files"].entries()) manifest.files[file] = digest.text();
+  return manifest;
+}
+
+void check_complete(const std::vector<std::string>& directories, const std::vector<ShardManifest>& shards) {
+  const auto wanted = common_values(shards.front());
+  std::map<std::size_t, std::string> directory_of;
+  std::map<std::string, std::pair<std::string, std::string>> digest_of;  // file -> digest, directory
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    for (const auto& [key, value] : common_values(shards[i]))
+      if (value != wanted.at(key))
+        refuse(directories[i], key, key == "study_text" ? "another study" : value,
+               key == "study_text" ? "the same study" : wanted.at(key) + ", as in " + file_of(directories[0]),
+               "shards of one run have the same input, options and program version");
+    const auto [other, is_new] = directory_of.emplace(shards[i].shard.number, directories[i]);
+    if (!is_new)
+      refuse(directories[i], "shard", name_of(shards[i].shard) + ", which " + other->second + " holds, too",
+             "each shard once");
+    for (const auto& [file, digest] : shards[i].files) {
+      const auto [known, first] = digest_of.emplace(file, std::pair(digest, directories[i]));
+      if (!first && known->second.first != digest)
+        refuse(directories[i], "files", file + " with another content than in " + known->second.second,
+               "shards that read the same files", "run the older shard again");
+    }
+  }
+  std::string missing;
+  std::size_t count = 0;
+  for (std::size_t k = 1; k <= shards.front().shard.of; ++k)
+    if (!directory_of.contains(k) && ++count <= 10)
+      missing += (missing.empty() ? "" : ", ") + std::to_string(k);
+  if (count > 0)
+    refuse(directories[0], "of",
+           std::to_string(count) + " of " + std::to_string(shards.front().shard.of) +
+               " shards missing: " + missing + (count > 10 ? ", ..." : ""),
+           "the directories of all shards");
+}
+
+}  // namespace joulepath

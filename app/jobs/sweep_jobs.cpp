@@ -1,0 +1,84 @@
+#include "app/jobs/sweep_jobs.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "app/jobs/content_hash.hpp"
+#include "scenarios/mission_file.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One design of a study as a variation of its missions.
+class DesignVariant : public MissionVariant {
+ public:
+  DesignVariant(const Study& study, const std::vector<std::string>& design, ReadOptions reading)
+      : study_(study), design_(design), reading_(reading) {}
+
+  MissionRequest mission(const Document& document) const override {
+    MissionRequest request = mission_of_design(study_, document, design_, reading_);
+    if (!study_.robot_file.empty()) request.robot_file = study_.robot_file;
+    return request;
+  }
+  Robot robot(const std::string& robot_file) const override {
+    return robot_of_design(study_, Document::load(robot_file, study_.robot_named_by), design_);
+  }
+
+ private:
+  const Study& study_;
+  const std::vector<std::string>& design_;
+  ReadOptions reading_;
+};
+
+/// A number stays a number, a word a word.
+Json json_value(const std::string& text) {
+  const auto number = parse_number(text);
+  return number ? Json(*number) : Json(text);
+}
+
+}  // namespace
+
+SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions reading)
+    : study_(study), study_text_(read_text_file(study.file)), reading_(reading), planner_(options, reading) {
+  for (const std::string& source : study.missions)
+    for (MissionItem& item : mission_items(source)) missions_.push_back(std::move(item));
+  for (const std::size_t k : {std::size_t{0}, study.designs.size() - 1}) {
+    const std::vector<std::string> design = study.designs.at(k);
+    const DesignVariant variant(study, design, reading);
+    const MissionRequest mission = variant.mission(Document::load(missions_.front().file));
+    static_cast<void>(variant.robot(mission.robot_file));
+  }
+}
+
+JobResult SweepJobs::plan_on(const MissionItem& mission, const std::vector<std::string>& design,
+                             std::size_t number, std::size_t index) {
+  Json line{{"index", index}, {"design", number}, {"mission", mission.name}};
+  for (std::size_t p = 0; p < design.size(); ++p)
+    line["parameters"][study_.designs.parameters()[p].name] = json_value(design[p]);
+  const DesignVariant variant(study_, design, reading_);
+  return planner_.plan(mission, index, std::move(line), &variant);
+}
+
+JobResult SweepJobs::plan(std::size_t index) {
+  const std::size_t number = index / missions_.size();
+  return plan_on(missions_[index % missions_.size()], study_.designs.at(number), number, index);
+}
+
+std::vector<JobResult> SweepJobs::plan_design(const std::vector<std::string>& design, std::size_t number) {
+  std::vector<JobResult> results;
+  for (std::size_t m = 0; m < missions_.size(); ++m)
+    results.push_back(plan_on(missions_[m], design, number, number * missions_.size() + m));
+  return results;
+}
+
+std::string SweepJobs::fingerprint(std::size_t index) {
+  const std::string mission = planner_.fingerprint(missions_[index % missions_.size()], study_.robot_file);
+  return mission.empty() ? "" : ContentHash().mix(mission).mix(study_text_).text();
+}
+
+std::string SweepJobs::digest() const {
+  return ContentHash().mix(planner_.digest_of(missions_)).mix(study_text_).text();
+}
+
+}  // namespace joulepath

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/jobs/run_jobs.hpp"
+#include "scenarios/study_file.hpp"
+
+namespace joulepath {
+
+/// A design over all its missions.
+struct DesignTotal {
+  std::size_t design{};
+  std::vector<std::string> values{};     ///< one per parameter
+  bool planned{};                        ///< every mission has a plan
+  double excess{};                       ///< the largest relative violation of a constraint, on any mission
+  std::vector<double> objectives{};      ///< in the study's order, each to be minimized
+  std::map<std::string, double> sums{};  ///< results over the missions; battery_end_fraction: the least
+
+  [[nodiscard]] bool is_within() const { return planned && excess <= 0.0; }
+};
+
+/// Sums the result lines of each design; lines are ordered by design.
+[[nodiscard]] std::vector<DesignTotal> design_totals(const Study& study,
+                                                     const std::vector<std::string>& lines);
+
+/// Why a result line's design does not count: no plan, or a constraint with what was found; empty: it counts.
+[[nodiscard]] std::string reason_of(const Study& study, const nlohmann::ordered_json& line);
+
+/// sweep.csv: a row per design and mission.
+[[nodiscard]] std::string sweep_csv(const Study& study, const std::vector<std::string>& lines);
+
+/// sweep.json (joulepath/sweep/1): what was held constant, main effects and interactions of each result,
+/// Pareto front, best design, and how many designs fail for which reason. `optimized`: result lines of the
+/// design that --optimize found; empty: none.
+[[nodiscard]] nlohmann::ordered_json sweep_json(const Study& study, const std::vector<std::string>& lines,
+                                                const std::vector<std::string>& optimized);
+
+/// What a reader must know about the parameters that were not changed.
+[[nodiscard]] std::vector<std::string> held_constant(const Study& study);
+
+}  // namespace joulepath

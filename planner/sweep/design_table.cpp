@@ -1,0 +1,89 @@
+#include "planner/sweep/design_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace joulepath {
+namespace {
+
+/// The text of a parameter at a fraction of its range or of its list of levels.
+std::string text_at(const SweepParameter& parameter, double fraction) {
+  if (parameter.is_range()) return number_text(parameter.at(fraction));
+  const auto count = parameter.levels.size();
+  return parameter
+      .levels[std::min(count - 1, static_cast<std::size_t>(fraction * static_cast<double>(count)))];
+}
+
+/// A uniform number in [0, 1) with 53 bits; the standard's distributions differ between libraries.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+}  // namespace
+
+std::string number_text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+double SweepParameter::at(double fraction) const {
+  if (fraction <= 0) return from;
+  if (fraction >= 1) return to;
+  return logarithmic ? from * std::pow(to / from, fraction) : from + fraction * (to - from);
+}
+
+double SweepParameter::fraction_of(double value) const {
+  const double fraction =
+      logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+  return std::clamp(fraction, 0.0, 1.0);
+}
+
+DesignTable DesignTable::grid(std::vector<SweepParameter> parameters) {
+  DesignTable table;
+  table.size_ = 1;
+  for (SweepParameter& parameter : parameters) {
+    if (parameter.is_range()) {
+      const double last = static_cast<double>(std::max<std::size_t>(parameter.count, 2) - 1);
+      std::vector<std::string> levels;
+      for (std::size_t i = 0; i < parameter.count; ++i)
+        levels.push_back(number_text(parameter.at(static_cast<double>(i) / last)));
+      parameter.levels = std::move(levels);
+    }
+    table.size_ *= parameter.levels.size();
+  }
+  table.parameters_ = std::move(parameters);
+  return table;
+}
+
+DesignTable DesignTable::latin_hypercube(std::vector<SweepParameter> parameters, std::size_t count,
+                                         std::uint64_t seed) {
+  DesignTable table;
+  table.size_ = count;
+  std::mt19937_64 random(seed);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    std::vector<double> fractions(count);
+    for (std::size_t k = 0; k < count; ++k)
+      fractions[k] = (static_cast<double>(k) + uniform(random)) / static_cast<double>(count);
+    for (std::size_t k = count; k-- > 1;) std::swap(fractions[k], fractions[random() % (k + 1)]);
+    table.fractions_.push_back(std::move(fractions));
+  }
+  table.parameters_ = std::move(parameters);
+  return table;
+}
+
+std::vector<std::string> DesignTable::at(std::size_t index) const {
+  std::vector<std::string> design(parameters_.size());
+  for (std::size_t p = parameters_.size(); p-- > 0;) {
+    const SweepParameter& parameter = parameters_[p];
+    if (!fractions_.empty()) {
+      design[p] = text_at(parameter, fractions_[p][index]);
+      continue;
+    }
+    design[p] = parameter.levels[index % parameter.levels.size()];
+    index /= parameter.levels.size();
+  }
+  return design;
+}
+
+}  // namespace joulepath

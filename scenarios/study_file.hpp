@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/robot.hpp"
+#include "planner/sweep/design_table.hpp"
+#include "planner/values/mission_request.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+
+/// Where a study's parameter is written: `robot.motor.gear_ratio`, `mission.legs[*].payload_kg`.
+struct StudyTarget {
+  bool in_robot{};
+  std::string path{};  ///< without the first word
+  NamedBy named_by{};
+};
+
+/// A bound on a result.
+struct StudyConstraint {
+  std::string result{};
+  std::optional<double> min{};
+  std::optional<double> max{};
+};
+
+struct StudyObjective {
+  std::string result{};  ///< a figure of a result line, or a parameter's name
+  bool maximize{};
+};
+
+/// What stays as it is while the gear ratio changes.
+enum class FrictionHeld { wheel, motor };
+
+/// A study file: which designs are planned on which missions, and what makes a design good.
+struct Study {
+  std::string file{};
+  std::string name{};
+  std::vector<std::string> missions{};  ///< files and folders
+  std::string robot_file{};             ///< empty: the missions' own
+  NamedBy robot_named_by{};
+  DesignTable designs{};
+  std::vector<StudyTarget> targets{};  ///< one per parameter
+  std::vector<StudyConstraint> constraints{};
+  std::vector<StudyObjective> objectives{};  ///< the first one is what --optimize minimizes
+  FrictionHeld friction{FrictionHeld::wheel};
+
+  [[nodiscard]] bool changes_gear() const;
+};
+
+/// The figures of a result line that a study may ask about.
+[[nodiscard]] const std::vector<std::string>& sweep_results();
+
+[[nodiscard]] Schema study_schema();
+
+/// The study of a parsed document; missions and robots are resolved, not read. Throws ConfigError.
+[[nodiscard]] Study study_from(const Document& document, const ReadOptions& options = {});
+
+/// The robot of a design: of `robot`, with the design's values. Throws ConfigError at the study's parameter.
+[[nodiscard]] Robot robot_of_design(const Study& study, const Document& robot,
+                                    const std::vector<std::string>& design);
+
+/// The mission of a design: of `mission`, with the design's values. Throws ConfigError at the study's
+/// parameter.
+[[nodiscard]] MissionRequest mission_of_design(const Study& study, const Document& mission,
+                                               const std::vector<std::string>& design,
+                                               const ReadOptions& options = {});
+
+}  // namespace joulepath
