@@ -12,6 +12,7 @@
 #include "scenarios/robot_check.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
+#include "scenarios/study_file.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
@@ -93,6 +94,13 @@ FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options
           {}};
 }
 
+FileSummary summary_of_study(const Document& document, const ReadOptions& options) {
+  const Study study = study_from(document, options);
+  return {"study",
+          counted(study.designs.size(), "design") + " of " + counted(study.targets.size(), "parameter"),
+          {}};
+}
+
 FileSummary summary_of_order(const std::string& file) {
   const Order order = read_order(file);
   MissionRequest mission{.order_file = file};
@@ -141,6 +149,7 @@ std::string kind_of(const Document& document) {
   for (const auto& [key, kind] : {std::pair{"image", "map"},
                                   {"resolution", "map"},
                                   {"runs", "dataset"},
+                                  {"parameters", "study"},
                                   {"missions", "fleet"},
                                   {"legs", "mission"},
                                   {"visit", "mission"},
@@ -171,6 +180,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options);
   if (kind == "path") return summary_of_chain(document);
+  if (kind == "study") return summary_of_study(document, options);
   if (kind == "fleet") return summary_of_fleet(file, options);
   if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};
   for (const auto& known : file_kinds())
@@ -182,7 +192,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
        empty                ? "an empty file"
        : given_kind.empty() ? "a file of unknown kind"
                             : "kind " + given_kind,
-       "robot, map, mission, order, path, dataset, fleet, run log, route graph, plan or diagnosis",
+       "robot, map, mission, order, path, dataset, fleet, study, run log, route graph, plan or diagnosis",
        "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 

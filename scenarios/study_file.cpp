@@ -135,8 +135,8 @@ bool Study::changes_gear() const {
 }
 
 const std::vector<std::string>& sweep_results() {
-  static const std::vector<std::string> names{"energy_J",   "motion_energy_J",   "duration_s",
-                                              "distance_m", "battery_needed_Wh", "battery_end_fraction"};
+  static const std::vector<std::string> names{"energy_J", "motion_energy_J", "duration_s", "distance_m",
+                                              "battery_end_fraction"};
   return names;
 }
 

@@ -80,12 +80,12 @@ std::string text_of(const PlanOptions& o) {
   return json.dump();
 }
 
+}  // namespace
+
 Document document_of(const MissionItem& item) {
   return item.text.empty() ? Document::load(item.file)
                            : Document::parse(item.text, item.file, item.first_line);
 }
-
-}  // namespace
 
 std::vector<MissionItem> mission_items(const std::string& source) {
   std::vector<MissionItem> items;

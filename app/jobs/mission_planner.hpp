@@ -25,6 +25,9 @@ struct MissionItem {
 /// ConfigError when there are none.
 [[nodiscard]] std::vector<MissionItem> mission_items(const std::string& source);
 
+/// The item's text, parsed. Throws ConfigError.
+[[nodiscard]] Document document_of(const MissionItem& item);
+
 /// A variation of a mission: what a sweep changes.
 class MissionVariant {
  public:

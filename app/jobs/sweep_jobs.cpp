@@ -46,7 +46,7 @@ SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions readin
   for (const std::size_t k : {std::size_t{0}, study.designs.size() - 1}) {
     const std::vector<std::string> design = study.designs.at(k);
     const DesignVariant variant(study, design, reading);
-    const MissionRequest mission = variant.mission(Document::load(missions_.front().file));
+    const MissionRequest mission = variant.mission(document_of(missions_.front()));
     static_cast<void>(variant.robot(mission.robot_file));
   }
 }

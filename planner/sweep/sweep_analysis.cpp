@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <map>
 #include <numeric>
 
@@ -16,6 +17,15 @@ using Labels = std::vector<const LevelColumn*>;
 bool read_number(const std::string& text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// A number for a label: five digits; a word as it is.
+std::string short_text(const std::string& text) {
+  double value{};
+  if (!read_number(text, value)) return text;
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.5g", value);
+  return digits;
 }
 
 /// Sum of squares that a sum of one term per column leaves: normal equations of indicator variables. The
@@ -81,6 +91,7 @@ LevelColumn levels_of(const std::string& name, const std::vector<std::string>& v
   column.level.resize(values.size());
   if (!numeric || column.labels.size() <= most) {
     for (std::size_t row = 0; row < values.size(); ++row) column.level[row] = known.at(values[row]);
+    for (std::string& label : column.labels) label = short_text(label);
     return column;
   }
   constexpr std::size_t kParts = 5;
@@ -88,7 +99,7 @@ LevelColumn levels_of(const std::string& name, const std::vector<std::string>& v
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::size_t begin = part * order.size() / kParts, end = (part + 1) * order.size() / kParts;
     for (std::size_t i = begin; i < end; ++i) column.level[order[i]] = part;
-    column.labels.push_back(values[order[begin]] + " to " + values[order[end - 1]]);
+    column.labels.push_back(short_text(values[order[begin]]) + " to " + short_text(values[order[end - 1]]));
   }
   return column;
 }

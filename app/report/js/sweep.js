@@ -6,16 +6,17 @@ jp.design_cloud = function (sweep) {
   const dots = sweep.cloud || [];
   const all = [...front, ...dots];
   if (all.length < 2) return null;
-  const [width, height, left, bottom, top] = [720, 340, 78, 44, 12];
+  const [height, left, right, bottom, top] = [340, 78, 30, 44, 12];
+  const width = Math.max(320, Math.min(900, document.documentElement.clientWidth - 48));
   const range = (k) => { const values = all.map((one) => one[k]); const low = Math.min(...values), high = Math.max(...values); const pad = 0.04 * (high - low || Math.abs(high) || 1); return [low - pad, high + pad]; };
   const [t, e] = [range(0), range(1)];
-  const x = (value) => left + (width - left - 12) * (value - t[0]) / (t[1] - t[0]);
+  const x = (value) => left + (width - left - right) * (value - t[0]) / (t[1] - t[0]);
   const y = (value) => height - bottom - (height - bottom - top) * (value - e[0]) / (e[1] - e[0]);
   const svg = (tag, attributes, text) => { const node = document.createElementNS("http://www.w3.org/2000/svg", tag); Object.entries(attributes).forEach(([key, value]) => node.setAttribute(key, value)); if (text) node.textContent = text; return node; };
-  const picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${dots.length} designs, energy against duration; ${front.length} on the Pareto front`, style: "width:100%;max-width:900px;height:auto"});
+  const picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${dots.length} designs, energy against duration; ${front.length} on the Pareto front`, style: `width:100%;max-width:${width}px;height:auto`});
   [0, 0.25, 0.5, 0.75, 1].forEach((part) => {
     const at_t = t[0] + part * (t[1] - t[0]), at_e = e[0] + part * (e[1] - e[0]);
-    picture.append(svg("line", {x1: left, x2: width - 12, y1: y(at_e), y2: y(at_e), stroke: "var(--grid)"}),
+    picture.append(svg("line", {x1: left, x2: width - right, y1: y(at_e), y2: y(at_e), stroke: "var(--grid)"}),
       svg("text", {x: left - 8, y: y(at_e) + 4, "text-anchor": "end", "font-size": 13, fill: "var(--soft)"}, jp.number(at_e, 4)),
       svg("text", {x: x(at_t), y: height - bottom + 18, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, jp.number(at_t, 4)));
   });
