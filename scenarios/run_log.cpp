@@ -186,7 +186,7 @@ RunLog read_run_log(const std::string& file, const Geometry& geometry) {
   return read_run_log({{file, {}}}, {}, geometry, file);
 }
 
-std::string run_log_text(const Trajectory& trajectory) {
+std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraColumn>& extra) {
   Trajectory copy = trajectory;
   std::vector<const std::vector<double>*> channels;
   std::string text;
@@ -195,6 +195,10 @@ std::string run_log_text(const Trajectory& trajectory) {
     if (values.empty()) continue;
     text += (channels.empty() ? "" : ",") + column.name;
     channels.push_back(&values);
+  }
+  for (const ExtraColumn& column : extra) {
+    text += "," + column.name;
+    channels.push_back(column.values);
   }
   text += '\n';
   char buffer[32];

@@ -29,7 +29,15 @@ struct RunLog {
 /// A log with the format's own column names.
 [[nodiscard]] RunLog read_run_log(const std::string& file, const Geometry& geometry);
 
-/// The trajectory as CSV in the run log format: all channels that are present, shortest exact numbers.
-[[nodiscard]] std::string run_log_text(const Trajectory& trajectory);
+/// A column beside those of a run log.
+struct ExtraColumn {
+  std::string name{};
+  const std::vector<double>* values{};
+};
+
+/// The trajectory as CSV in the run log format: all channels that are present, then the extra ones, shortest
+/// exact numbers.
+[[nodiscard]] std::string run_log_text(const Trajectory& trajectory,
+                                       const std::vector<ExtraColumn>& extra = {});
 
 }  // namespace joulepath

@@ -36,7 +36,8 @@ class PlanCommand : public Command {
 
   void declare(CommandLine& line) override {
     add_mission_source(line, source_);
-    line.option("--out", out_, "directory for plan.json, trajectory.csv, report.html, timing.json")
+    line.option("--out", out_,
+                "directory for plan.json, trajectory.csv, profile.csv, report.html, timing.json")
         .required();
     line.option("--solver", solver_, "ipopt (reference) or fast (built-in; falls back to ipopt)")
         .one_of({"ipopt", "fast"})
@@ -54,7 +55,8 @@ class PlanCommand : public Command {
 
   int run() override {
     const Clock::time_point start = Clock::now();
-    OutputDirectory out(out_, {"plan.json", "trajectory.csv", "timing.json", "report.html"}, common_.force);
+    OutputDirectory out(out_, {"plan.json", "trajectory.csv", "profile.csv", "timing.json", "report.html"},
+                        common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
     const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
@@ -69,8 +71,15 @@ class PlanCommand : public Command {
     out.write("timing.json", "{\"reading_s\": " + std::to_string(reading_s) +
                                  ", \"planning_s\": " + std::to_string(planning_s) + "}\n");
     const bool valid = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-    const Trajectory trajectory = valid ? plan_trajectory(plan, make_plant(world.robot)) : Trajectory{};
-    if (valid) out.write("trajectory.csv", run_log_text(trajectory));
+    const Plant plant = make_plant(world.robot);
+    const Trajectory trajectory = valid ? plan_trajectory(plan, plant) : Trajectory{};
+    if (valid) {
+      const PlanNodes nodes = plan_nodes(plan, plant);
+      out.write("trajectory.csv", run_log_text(trajectory));
+      out.write("profile.csv",
+                run_log_text(nodes.rows, {{"angular_acceleration_rad_s2", &nodes.angular_acceleration_rad_s2},
+                                          {"linear_jerk_m_s3", &nodes.linear_jerk_m_s3}}));
+    }
     out.write("report.html", report::plan_report(plan, json, trajectory, mission, world));
     out.commit();
     if (common_.json)

@@ -19,8 +19,8 @@ struct Sample {
   double curvature_per_m{};
 };
 
-Sample sample_stretch(const StretchPlan& stretch, const PathMotion& path, double time_s, double offset_m) {
-  const ProfileState state = stretch.profile.at_time(time_s);
+Sample sample_stretch(const StretchPlan& stretch, const PathMotion& path, const ProfileState& state,
+                      double offset_m) {
   const PathRates rates = path.rates(state.s);
   const bool turn = is_turn(stretch.request.piece);
   return {.motion = PathMotion::body_motion(rates, state.rate, state.acceleration),
@@ -47,7 +47,8 @@ Sample sample_leg(const LegPlan& leg, const LegMotion& motion, double elapsed_s)
     const StretchPlan& stretch = leg.stretches[k];
     const double duration_s = stretch.profile.duration_s();
     if (elapsed_s < duration_s || k + 1 == leg.stretches.size()) {
-      Sample sample = sample_stretch(stretch, motion.stretch(k), std::min(elapsed_s, duration_s), offset_m);
+      const ProfileState state = stretch.profile.at_time(std::min(elapsed_s, duration_s));
+      Sample sample = sample_stretch(stretch, motion.stretch(k), state, offset_m);
       if (elapsed_s >= duration_s && stretch.request.end_rate == 0.0) sample.motion = {};
       return sample;
     }
@@ -99,32 +100,120 @@ double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, do
   return sum_J;
 }
 
+/// The end of a plan: of its last leg's dwell.
+double end_s(const LegPlan& leg) { return leg.start_s + leg.duration_s + leg.dwell_s; }
+
+/// Rows of a plan in the order of time, with the energy between them.
+class Rows {
+ public:
+  Rows(const Plan& plan, const Plant& plant) : plan_(plan), plant_(plant) {
+    for (const LegPlan& leg : plan.legs) motions_.emplace_back(leg, plant);
+  }
+
+  const LegMotion& motion(std::size_t leg) const { return motions_[leg]; }
+  Sample at(std::size_t leg, double elapsed_s) const {
+    return sample_leg(plan_.legs[leg], motions_[leg], elapsed_s);
+  }
+
+  void append(const Sample& sample, double time_s, std::size_t leg) {
+    const LegPlan& from = plan_.legs[leg];
+    const double payload_kg = from.stretches.empty() ? from.payload.from_kg : sample.site.payload_kg;
+    rows_.energy_J.push_back(rows_.size() == 0
+                                 ? 0.0
+                                 : rows_.energy_J.back() +
+                                       plan_energy_J(plan_, motions_, rows_.time_s.back(), time_s));
+    joulepath::append(rows_, plant_, sample, time_s, payload_kg, leg);
+  }
+
+  Trajectory& rows() { return rows_; }
+
+ private:
+  const Plan& plan_;
+  const Plant& plant_;
+  std::vector<LegMotion> motions_{};
+  Trajectory rows_{};
+};
+
+/// A row at a node: what holds from there to the next row.
+struct NodeRow {
+  double time_s{};
+  std::size_t leg{};
+  Sample sample{};
+  double jerk_m_s3{};
+};
+
+/// Nodes of one leg; of two at the same time the later one counts.
+class NodeRows {
+ public:
+  void add(NodeRow row) {
+    constexpr double kSame_s = 1e-9;
+    if (!rows.empty() && row.time_s < rows.back().time_s + kSame_s) rows.pop_back();
+    rows.push_back(std::move(row));
+  }
+  std::vector<NodeRow> rows{};
+};
+
+void add_stretch(const StretchPlan& stretch, const PathMotion& path, double start_s, double offset_m,
+                 std::size_t leg, NodeRows& to) {
+  const Profile& profile = stretch.profile;
+  const bool turn = is_turn(stretch.request.piece);
+  for (std::size_t k = 0; k < profile.s.size(); ++k) {
+    const bool last = k + 1 == profile.s.size();
+    ProfileState state{profile.time_s[k], profile.s[k], profile.rate[k], 0.0};
+    if (!last) state.acceleration = profile.acceleration[k];
+    Sample sample = sample_stretch(stretch, path, state, offset_m);
+    if (last && profile.rate[k] == 0.0) sample.motion = {};
+    const double along = turn ? 0.0 : path.rates(state.s).along;
+    to.add({start_s + state.time_s, leg, std::move(sample), last ? 0.0 : along * profile.jerk[k]});
+  }
+}
+
+void add_leg(const LegPlan& leg, std::size_t index, const Rows& rows, NodeRows& to) {
+  if (leg.prescribed)
+    for (double time_s : leg.prescribed->time_s) {
+      const double elapsed_s = time_s - leg.prescribed->time_s.front();
+      to.add({leg.start_s + elapsed_s, index, rows.at(index, elapsed_s)});
+    }
+  double start_s = leg.start_s, offset_m = 0;
+  for (std::size_t k = 0; k < leg.stretches.size(); ++k) {
+    const StretchPlan& stretch = leg.stretches[k];
+    add_stretch(stretch, rows.motion(index).stretch(k), start_s, offset_m, index, to);
+    start_s += stretch.profile.duration_s();
+    if (!is_turn(stretch.request.piece)) offset_m += piece_length(stretch.request.piece);
+  }
+  to.add({end_s(leg), index, rows.at(index, end_s(leg) - leg.start_s)});
+}
+
 }  // namespace
 
 Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz) {
-  Trajectory out;
-  if (plan.legs.empty()) return out;
-  std::vector<LegMotion> motions;
-  for (const LegPlan& leg : plan.legs) motions.emplace_back(leg, plant);
+  if (plan.legs.empty()) return {};
+  Rows rows(plan, plant);
   std::size_t index = 0;
-  const auto end_of = [&](std::size_t k) {
-    return plan.legs[k].start_s + plan.legs[k].duration_s + plan.legs[k].dwell_s;
-  };
-  const double end_s = end_of(plan.legs.size() - 1);
-  rate_Hz = std::min(rate_Hz, kMostSamples / end_s);
-  const auto count = static_cast<std::size_t>(std::floor(end_s * rate_Hz * (1 - 1e-12)));
+  const double last_s = end_s(plan.legs.back());
+  rate_Hz = std::min(rate_Hz, kMostSamples / last_s);
+  const auto count = static_cast<std::size_t>(std::floor(last_s * rate_Hz * (1 - 1e-12)));
   for (std::size_t k = 0; k <= count + 1; ++k) {
-    const double time_s = std::min(end_s, static_cast<double>(k) / rate_Hz);
-    if (k > 0 && time_s <= out.time_s.back()) break;
+    const double time_s = std::min(last_s, static_cast<double>(k) / rate_Hz);
+    if (k > 0 && time_s <= rows.rows().time_s.back()) break;
     while (index + 1 < plan.legs.size() && time_s >= plan.legs[index + 1].start_s) ++index;
-    const LegPlan& leg = plan.legs[index];
-    const Sample sample = sample_leg(leg, motions[index], time_s - leg.start_s);
-    const double payload_kg = leg.stretches.empty() ? leg.payload.from_kg : sample.site.payload_kg;
-    out.energy_J.push_back(
-        k == 0 ? 0.0 : out.energy_J.back() + plan_energy_J(plan, motions, out.time_s.back(), time_s));
-    append(out, plant, sample, time_s, payload_kg, index);
+    rows.append(rows.at(index, time_s - plan.legs[index].start_s), time_s, index);
   }
-  return out;
+  return std::move(rows.rows());
+}
+
+PlanNodes plan_nodes(const Plan& plan, const Plant& plant) {
+  Rows rows(plan, plant);
+  NodeRows nodes;
+  for (std::size_t i = 0; i < plan.legs.size(); ++i) add_leg(plan.legs[i], i, rows, nodes);
+  PlanNodes result;
+  for (const NodeRow& node : nodes.rows) {
+    rows.append(node.sample, node.time_s, node.leg);
+    result.angular_acceleration_rad_s2.push_back(node.sample.motion.yaw_acceleration_rad_s2);
+    result.linear_jerk_m_s3.push_back(node.jerk_m_s3);
+  }
+  result.rows = std::move(rows.rows());
+  return result;
 }
 
 }  // namespace joulepath

@@ -9,4 +9,15 @@ namespace joulepath {
 /// the end. Reads back as a run log; energy_J is what the battery's terminals have given so far.
 [[nodiscard]] Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz = 50.0);
 
+/// A plan at the nodes of its profiles and nowhere else: every instant at which acceleration (or, under a
+/// jerk limit, jerk) may change has a row. Accelerations and jerk are those from a row to the next. Between
+/// rows,
+///   linear_speed = v + a t + j t^2/2,   linear_acceleration = a + j t.
+struct PlanNodes {
+  Trajectory rows{};
+  std::vector<double> angular_acceleration_rad_s2{};
+  std::vector<double> linear_jerk_m_s3{};
+};
+[[nodiscard]] PlanNodes plan_nodes(const Plan& plan, const Plant& plant);
+
 }  // namespace joulepath
