@@ -39,9 +39,10 @@ std::optional<double> least_time_s(ProfileRequest request, double jerk_m_s3) {
   return fastest.profile->duration_s();
 }
 
-/// Smallest jerk limit, to 2 %, with which a profile makes the time; nothing up to 1e4.
+/// Smallest jerk limit, to 2 %, with which a profile makes the time; nothing up to 1e4. Where any limit above
+/// 0 does, kLeast.
 std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
-  constexpr double kFirst = 1e-3, kLargest = 1e4, kClose = 1.02, kRough = 20;
+  constexpr double kFirst = 1e-3, kLeast = 1e-6, kLargest = 1e4, kClose = 1.02, kRough = 20;
   const double available_s = has_deadline(request) ? request.time.duration_s : kNoLimit;
   ProfileRequest trial = request;
   trial.accuracy *= kRough;  // its times are a little too long, never too short
@@ -54,7 +55,10 @@ std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
     bad = good;
     if (good > kLargest) return std::nullopt;
   }
-  while (bad > 0 && good > kClose * bad) {
+  for (; bad == 0 && good > kLeast; good /= 4)
+    if (!possible(good / 4)) bad = good / 4;
+  if (bad == 0) return kLeast;
+  while (good > kClose * bad) {
     const double middle = std::sqrt(bad * good);
     (possible(middle) ? good : bad) = middle;
   }
@@ -213,8 +217,6 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   ProfileResult result;
   if (!exact) result = find_profile_with_jerk_limit(request);
   if (!result.profile && fastest) take_s_curve(request, *fastest, result);
-  if (request.solver == SolverChoice::fast && result.summary.solver == "ipopt")
-    result.summary.handed_over = "a jerk limit couples more than the rates of neighboring nodes";
   if (!result.profile) return explain(request, std::move(result));
   judge(result, request, bound);
   return result;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/motion/path_motion.hpp"
+#include "planner/nlp/fast/jerk_fast_solver.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/profile/dense_check.hpp"
@@ -58,7 +59,6 @@ class JerkSolver {
   explicit JerkSolver(const ProfileRequest& request) : request_(request), motion_(path_motion(request)) {}
 
   ProfileResult solve() {
-    result_.summary.solver = "ipopt";
     s_ = with_graded_ends(
         nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000)), request_);
     double worst_ratio = 0;
@@ -71,16 +71,19 @@ class JerkSolver {
       const bool accurate =
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool kept = check.worst_ratio <= 1 + kSettled;
-      if (kept) result_.profile = best_;
+      if (kept) keep();
       std::vector<bool> cut = check.cut;
-      if (!sharpen(cut) && kept && accurate) break;
+      if (!sharpen(cut) && kept && accurate) {
+        if (to_settle()) settle();
+        break;
+      }
       worst_ratio = check.worst_ratio;
       tightenings_.insert(tightenings_.end(), check.tighten.begin(), check.tighten.end());
       s_ = nlp::cut_segments(s_, cut);
     }
-    if (result_.profile) {
-      result_.summary.status = SolveStatus::feasible;
-      return result_;
+    if (kept_) {
+      kept_->summary.status = SolveStatus::feasible;
+      return std::move(*kept_);
     }
     if (solved)
       result_.summary.message =
@@ -90,6 +93,26 @@ class JerkSolver {
 
  private:
   bool minimum_time() const { return request_.time.mode == TimeMode::minimum_time; }
+
+  void keep() {
+    kept_ = result_;
+    kept_->profile = best_;
+  }
+
+  /// The fast solver finds the grid; where Ipopt is asked for it has the last word on it.
+  bool to_settle() const {
+    return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
+  }
+
+  /// Ipopt from the fast solver's solution on the same grid; what it finds is taken where it keeps the
+  /// limits.
+  void settle() {
+    const nlp::JerkProgram program(*problem_, tightenings_, found_.motion);
+    if (!take(nlp::solve_with_ipopt(program, {.warm = true}), "ipopt")) return;
+    const nlp::DenseCheck check = nlp::check_densely(
+        *problem_, motion_, *best_, counted_energy_J(*problem_, found_.motion), request_.accuracy);
+    if (check.worst_ratio <= 1 + kSettled) keep();
+  }
 
   /// Jerk switches at places that the grid does not know: cuts the segments there, as long as that lowers
   /// the objective. False when it no longer does. Least time is nothing but switches, and decides over
@@ -129,10 +152,19 @@ class JerkSolver {
   }
 
   bool attempt(const nlp::JerkMotion& guess, const nlp::IpoptOptions& options) {
-    found_ = nlp::solve_with_ipopt(nlp::JerkProgram(*problem_, tightenings_, guess), options);
-    result_.summary.iterations += found_.iterations;
-    result_.summary.message = found_.message;
-    if (!found_.converged) return false;
+    const nlp::JerkProgram program(*problem_, tightenings_, guess);
+    nlp::JerkSolution fast =
+        nlp::solve_fast(program, options.warm ? nlp::JerkStart::near : nlp::JerkStart::far);
+    if (!fast.converged && request_.solver == SolverChoice::fast) result_.summary.handed_over = fast.message;
+    return take(std::move(fast), "fast") || take(nlp::solve_with_ipopt(program, options), "ipopt");
+  }
+
+  bool take(nlp::JerkSolution solution, const char* solver) {
+    result_.summary.iterations += solution.iterations;
+    result_.summary.message = solution.message;
+    if (!solution.converged) return false;
+    result_.summary.solver = solver;
+    found_ = std::move(solution);
     const bool priced = request_.time.mode == TimeMode::time_price;
     result_.summary.price_of_time_W = found_.price_W + (priced ? request_.time.price_W : 0.0);
     best_ = nlp::profile_from_motion(problem_->s, found_.motion);
@@ -200,6 +232,7 @@ class JerkSolver {
   std::optional<nlp::Problem> problem_{};
   nlp::JerkSolution found_{};
   std::optional<Profile> best_{};
+  std::optional<ProfileResult> kept_{};  ///< the last within the limits
   double least_objective_{kNoLimit};
   int sharpened_{};
 };

@@ -4,20 +4,6 @@
 #include <cmath>
 
 namespace joulepath::nlp {
-namespace {
-
-constexpr double kToBoundary = 0.995;
-
-/// Shortens the steps so that a pair stays positive.
-void keep_positive(const Pair& pair, StepSizes& sizes) {
-  if (pair.s + sizes.primal * pair.ds < (1 - kToBoundary) * pair.s)
-    sizes.primal = -kToBoundary * pair.s / pair.ds;
-  if (pair.y + sizes.dual * pair.dy < (1 - kToBoundary) * pair.y)
-    sizes.dual = -kToBoundary * pair.y / pair.dy;
-}
-
-}  // namespace
-
 NewtonStep::NewtonStep(const FastModel& model, FastState& state)
     : model_(model), p_(model.problem()), state_(state) {
   const std::size_t n = p_.unknown_count();
@@ -184,7 +170,7 @@ StepSizes NewtonStep::expand() {
   const auto move = [&](Pair& pair, double ds) {
     pair.ds = ds;
     pair.dual_step();
-    keep_positive(pair, sizes);
+    sizes.keep_positive(pair);
   };
   for (std::size_t k = 0; k < state_.low.size(); ++k) {
     move(state_.low[k], step_[k]);
@@ -208,7 +194,7 @@ StepSizes NewtonStep::expand() {
     Pair& time = state_.time;
     time.dy = new_lambda_ - time.y;
     time.ds = (time.corrected - time.s * new_lambda_) / time.y;
-    keep_positive(time, sizes);
+    sizes.keep_positive(time);
   }
   return sizes;
 }

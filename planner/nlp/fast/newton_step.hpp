@@ -8,6 +8,13 @@ namespace joulepath::nlp {
 /// How far a step may be taken before a slack or a multiplier meets zero.
 struct StepSizes {
   double primal{1.0}, dual{1.0};
+
+  /// Shortens the steps so that a pair stays positive.
+  void keep_positive(const Pair& pair) {
+    constexpr double kToBoundary = 0.995;
+    if (pair.s + primal * pair.ds < (1 - kToBoundary) * pair.s) primal = -kToBoundary * pair.s / pair.ds;
+    if (pair.y + dual * pair.dy < (1 - kToBoundary) * pair.y) dual = -kToBoundary * pair.y / pair.dy;
+  }
 };
 
 /// The Newton system of FastState. Every row and every recovery variable is eliminated within its segment,

@@ -54,14 +54,22 @@ class JerkProgram {
   Bounds unknown_bounds(std::size_t i) const;
   std::size_t row_count(std::size_t k) const { return rows_[k].size() + kOwnRows; }
   Bounds row_bounds(std::size_t k, std::size_t i) const;
+  /// The first of the two rows of the kinematics of a segment.
+  std::size_t first_kinematic_row(std::size_t k) const { return rows_[k].size(); }
   Columns<kLocal> columns(std::size_t k) const;
+  /// An unknown's segment, a node's that before it, and its place among what the segment sees.
+  std::pair<std::size_t, std::size_t> place_of(std::size_t unknown) const {
+    if (unknown < inner()) return {unknown, 2};
+    if (unknown < 2 * inner()) return {unknown - inner(), 3};
+    return {unknown - 2 * inner(), 4};
+  }
   void evaluate(const double* x, std::size_t k, SegmentValues<kLocal>& values) const;
 
   /// Unknowns in SI units, the fixed ends added.
   JerkMotion motion(const std::vector<double>& x) const;
 
  private:
-  static constexpr std::size_t kOwnRows = 5;  ///< speed, distance, jerk up, jerk down, cap
+  static constexpr std::size_t kOwnRows = 5;  ///< the last of a segment: speed, distance, jerk up, down, cap
 
   std::size_t inner() const { return p_.unknown_count(); }
   std::array<double, kLocal> local(const double* x, std::size_t k) const;

@@ -9,6 +9,7 @@
 #include "planner/values/profile_request.hpp"
 #include "planner/values/profile_result.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/random_profiles.hpp"
 
 namespace joulepath {
 namespace {
@@ -139,18 +140,42 @@ TEST(Jerk, CruiseAtTheLimitIsTheFastestWhateverTheJerk) {
   EXPECT_NEAR(solved(request).duration_s(), 4 / request.limits.speed_m_s, 1e-5);
 }
 
-TEST(Jerk, FastSolverHandsOverAndTheBoundIsThatWithoutTheLimit) {
+TEST(Jerk, TheBoundIsThatWithoutTheLimit) {
   ProfileRequest request = bezier(0.8);
-  request.solver = SolverChoice::fast;
   request.time = {.mode = TimeMode::time_budget, .duration_s = 14};
   const ProfileResult result = solve_profile(request);
-  EXPECT_EQ(result.summary.solver, "ipopt");
-  EXPECT_NE(result.summary.handed_over.find("jerk"), std::string::npos);
   EXPECT_EQ(result.summary.status, SolveStatus::feasible);
   EXPECT_TRUE(result.summary.local);
   request.limits.jerk_m_s3 = kNoLimit;
   EXPECT_LE(result.summary.lower_bound_J, energy_J(request));
   EXPECT_GT(result.summary.lower_bound_J, 0);
+}
+
+/// Every kind of path, every mode of time, regeneration 0, 0.6 and 1, by wheel and by bus.
+TEST(Jerk, FastSolverAndIpoptAgreeOnRandomProblems) {
+  constexpr TimeMode kModes[] = {TimeMode::free_time, TimeMode::time_budget, TimeMode::fixed_time,
+                                 TimeMode::time_price, TimeMode::minimum_time};
+  testing::RandomProfiles random(20261123);
+  for (int i = 0; i < 20; ++i) {
+    ProfileRequest request = random.next(testing::kPathClasses[i % 4]);
+    request.nodes = 60;
+    request.limits.jerk_m_s3 = random.uniform(0.3, 2);
+    request.time = {.mode = TimeMode::minimum_time};
+    request.solver = SolverChoice::fast;
+    const ProfileResult fastest = solve_profile(request);
+    ASSERT_TRUE(fastest.profile) << i << ": " << fastest.summary.message;
+    request.time = {kModes[i % 5], random.uniform(1.05, 2) * fastest.profile->duration_s(), 5.0};
+    if (request.time.mode == TimeMode::time_price) request.time.duration_s = kNoLimit;
+    const ProfileResult fast = solve_profile(request);
+    EXPECT_TRUE(fast.summary.handed_over.empty()) << i << ": " << fast.summary.handed_over;
+    const double fast_J = energy_J(request), fast_s = fast.profile->duration_s();
+    request.solver = SolverChoice::ipopt;
+    const double settled_s = solve_profile(request).profile->duration_s();
+    EXPECT_NEAR(fast_s, settled_s, 1e-3 * settled_s) << i;
+    if (request.time.mode == TimeMode::minimum_time) continue;
+    const double price_W = request.time.mode == TimeMode::time_price ? request.time.price_W : 0.0;
+    EXPECT_NEAR(fast_J + price_W * (fast_s - settled_s), energy_J(request), 1e-5 * fast_J) << i;
+  }
 }
 
 /// A deadline that an S-curve keeps is kept, however close; one that it misses is refused.

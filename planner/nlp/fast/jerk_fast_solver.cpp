@@ -1,0 +1,121 @@
+#include "planner/nlp/fast/jerk_fast_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/nlp/fast/jerk_newton.hpp"
+// Design: docs/decisions/0210-jerk-by-stages.md
+namespace joulepath::nlp {
+namespace {
+
+constexpr double kTolerance = 1e-9;  ///< relative to the objective: duality gap and residuals
+constexpr double kDualWeight = 1e-3, kDefectWeight = 0.1;
+constexpr int kMostIterations = 150;
+/// First complementarity of every pair, as a share of a segment's part of the objective.
+constexpr double kFarGap = 0.1, kNearGap = 1e-2;
+
+class JerkFastSolver {
+ public:
+  JerkFastSolver(const JerkProgram& program, double first_gap)
+      : program_(program),
+        p_(program.problem()),
+        state_(starting_state(program, first_gap)),
+        newton_(program, state_) {}
+
+  JerkSolution solve() {
+    JerkSolution solution;
+    int& i = solution.iterations;
+    for (; i < kMostIterations; ++i) {
+      const double error = measure();
+      if (!std::isfinite(error)) break;
+      if (error <= kTolerance) {
+        solution.converged = true;
+        break;
+      }
+      if (!iterate()) break;
+    }
+    if (!solution.converged)
+      solution.message = i >= kMostIterations ? "no convergence within its iterations" : "no descent";
+    solution.motion = program_.motion(state_.x);
+    solution.objective = total_;
+    solution.price_W = state_.multiplier_of_time();
+    return solution;
+  }
+
+ private:
+  /// Residuals of the optimality conditions at the current point, relative to the objective.
+  double measure() {
+    double gap = 0, primal = 0, dual_z = 0, defect = 0;
+    pairs_ = 0;
+    state_.for_each_pair([&](const Pair& pair) { gap += pair.s * pair.y, ++pairs_; });
+    mu_ = pairs_ > 0 ? gap / static_cast<double>(pairs_) : 0.0;
+    for (RowSide& side : state_.sides) {
+      side.residual =
+          side.sign * (side.bound - state_.values[side.segment].rows[side.row].value) - side.pair.s;
+      primal += std::abs(side.residual) * side.pair.y;
+    }
+    for (std::size_t k = 0; k < state_.lambda.size(); ++k)
+      for (std::size_t i = 0; i < state_.lambda[k].size(); ++i) {
+        const double value = state_.values[k].rows[program_.first_kinematic_row(k) + i].value;
+        primal += std::abs(value * state_.lambda[k][i]);
+        defect = std::max(defect, std::abs(value));
+      }
+    total_ = state_.objective;
+    for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
+      Recovery& r = state_.recoveries[i];
+      const std::size_t k = i / state_.parts(), part = i % state_.parts();
+      r.residual = state_.values[k].energy_J[part].value + r.z.s - r.sum.s;
+      primal += std::abs(r.residual);
+      total_ += p_.recovery_weight * r.z.s;
+      dual_z += std::abs(p_.recovery_weight - r.z.y - r.sum.y) * r.z.s;
+    }
+    // A gradient's error counts in second order; it stops falling where slacks reach rounding.
+    const double worst = std::max({gap, kDualWeight * newton_.dual_error(), dual_z, primal});
+    const double error = std::max(worst / std::max(1e-9, std::abs(total_)), kDefectWeight * defect);
+    if (!state_.has_duration()) return error;
+    const double slack_s = state_.has_budget() ? state_.time.s : 0.0;
+    state_.time_residual = p_.duration_s - state_.duration_s - slack_s;
+    return std::max(error, std::abs(state_.time_residual) / p_.duration_s);
+  }
+
+  /// Mehrotra's predictor and corrector; false where no step is left.
+  bool iterate() {
+    newton_.assemble();
+    state_.for_each_pair([](Pair& pair) { pair.corrected = 0; });
+    const std::optional<StepSizes> affine = newton_.solve();
+    if (!affine) return false;
+    double after = 0;
+    state_.for_each_pair([&](const Pair& pair) {
+      after += (pair.s + affine->primal * pair.ds) * (pair.y + affine->dual * pair.dy);
+    });
+    const double ratio = pairs_ > 0 ? after / static_cast<double>(pairs_) / mu_ : 0.0;
+    const double least =
+        0.1 * kTolerance * std::max(1e-9, std::abs(total_)) / static_cast<double>(pairs_ + 1);
+    const double target = std::max(least, mu_ * std::max(1e-4, ratio * ratio));
+    const double trust = std::min(affine->primal, affine->dual);
+    state_.for_each_pair([&](Pair& pair) {
+      const double second = trust * trust * pair.ds * pair.dy, most = 10 * target + pair.s * pair.y;
+      pair.corrected = target - std::clamp(second, -most, most);
+    });
+    const std::optional<StepSizes> sizes = newton_.solve();
+    if (!sizes) return false;
+    newton_.take(*sizes);
+    return sizes->primal > 1e-8;
+  }
+
+  const JerkProgram& program_;
+  const Problem& p_;
+  JerkState state_;
+  JerkNewton newton_;
+  std::size_t pairs_{};
+  double total_{};  ///< objective, recovery included
+  double mu_{};
+};
+
+}  // namespace
+
+JerkSolution solve_fast(const JerkProgram& program, JerkStart start) {
+  return JerkFastSolver(program, start == JerkStart::near ? kNearGap : kFarGap).solve();
+}
+
+}  // namespace joulepath::nlp

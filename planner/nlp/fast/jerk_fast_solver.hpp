@@ -1,0 +1,15 @@
+#pragma once
+
+#include "planner/nlp/transcription/jerk_program.hpp"
+
+namespace joulepath::nlp {
+
+/// How far the program's guess is from the optimum.
+enum class JerkStart { far, near };
+
+/// solve_fast() for a program under a jerk limit: the same interior-point method, whose Newton systems are
+/// solved from segment to segment (stage_system.hpp), to 1e-9 of the objective. Where it stalls, `converged`
+/// is false and `message` says why.
+[[nodiscard]] JerkSolution solve_fast(const JerkProgram& program, JerkStart start = JerkStart::far);
+
+}  // namespace joulepath::nlp
