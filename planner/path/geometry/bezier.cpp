@@ -23,6 +23,8 @@ constexpr int kDeepest = 40;
 constexpr double kCellTurn_rad = 0.5;
 constexpr double kQuadratureTolerance = 1e-14;  // of the control polygon's length
 constexpr int kNewtonSteps = 12;
+constexpr double kNewtonTolerance = 1e-13;  // of the control polygon's length
+constexpr double kShortStep = 0.01;         // of a cell
 
 }  // namespace
 
@@ -44,6 +46,11 @@ BezierDerivatives bezier_derivatives(const BezierPoints& p, double t) {
 
 BezierSegment::BezierSegment(const BezierPoints& points_m) : points_m_(points_m) {
   for (std::size_t i = 0; i < 3; ++i) scale_m_ += norm(combine(1, points_m[i + 1], -1, points_m[i]));
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double d0 = points_m[1][axis] - points_m[0][axis], d1 = points_m[2][axis] - points_m[1][axis],
+                 d2 = points_m[3][axis] - points_m[2][axis];
+    velocity_m_[axis] = {3 * d0, 6 * (d1 - d0), 3 * (d0 - 2 * d1 + d2)};
+  }
   tabulate();
 }
 
@@ -67,7 +74,11 @@ void BezierSegment::tabulate() {
   }
 }
 
-double BezierSegment::speed_m(double t) const { return norm(derivatives(t).first_m); }
+double BezierSegment::speed_m(double t) const {
+  if (rational_) return norm(derivatives(t).first_m);
+  const auto along = [&](const std::array<double, 3>& c) { return c[0] + t * (c[1] + t * c[2]); };
+  return norm({along(velocity_m_[0]), along(velocity_m_[1])});
+}
 
 double BezierSegment::arc_m(double from_t, double to_t) const {
   return integrate_gauss8([this](double t) { return speed_m(t); }, from_t, to_t);
@@ -112,11 +123,14 @@ double BezierSegment::parameter(double s_m) const {
   const double h_m = to.s_m - from.s_m, x = std::clamp((s_m - from.s_m) / h_m, 0.0, 1.0), dt = to.t - from.t;
   const double m0 = h_m / from.speed_m, m1 = h_m / to.speed_m;
   const double guess = from.t + x * (m0 + x * ((3 * dt - 2 * m0 - m1) + x * (m0 + m1 - 2 * dt)));
-  double t = std::clamp(guess, from.t, to.t);
-  for (int step = 0; step < kNewtonSteps; ++step) {
-    const double excess_m = from.s_m + arc_m(from.t, t) - s_m;
-    t = std::clamp(t - excess_m / speed_m(t), from.t, to.t);
-    if (std::abs(excess_m) <= 1e-13 * scale_m_) break;
+  double t = std::clamp(guess, from.t, to.t), excess_m = from.s_m + arc_m(from.t, t) - s_m;
+  for (int step = 0; step < kNewtonSteps && std::abs(excess_m) > kNewtonTolerance * scale_m_; ++step) {
+    const double next = std::clamp(t - excess_m / speed_m(t), from.t, to.t);
+    // A step this short is integrated to rounding by three points.
+    excess_m += std::abs(next - t) <= kShortStep * dt
+                    ? integrate_gauss3([this](double u) { return speed_m(u); }, t, next)
+                    : arc_m(t, next);
+    t = next;
   }
   return t;
 }

@@ -18,7 +18,8 @@ namespace joulepath {
 ///   kappa = B' x B'' / |B'|^3,
 ///   d kappa / d s = (B' x B''' / |B'|^3 - 3 (B' x B'') (B' . B'') / |B'|^5) / |B'|
 ///
-/// s(t) is tabulated by adaptive Gauss-Legendre quadrature; t(s) by Newton's method to 1e-13.
+/// s(t) is tabulated by adaptive Gauss-Legendre quadrature; t(s) by Newton's method to 1e-13 of the control
+/// polygon's length.
 class BezierSegment {
  public:
   explicit BezierSegment(const BezierPoints& points_m);
@@ -49,7 +50,8 @@ class BezierSegment {
   const Knot& knot_before(double s_m) const;
 
   BezierPoints points_m_{};                   ///< of a cubic
-  std::optional<RationalBezier> rational_{};  ///< else
+  std::array<std::array<double, 3>, 2> velocity_m_{};  ///< of a cubic: B' = c[0] + c[1] t + c[2] t² per axis
+  std::optional<RationalBezier> rational_{};           ///< else
   double scale_m_{};
   std::vector<Knot> knots_{};
 };
