@@ -4,28 +4,20 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <string>
 
-#include "planner/motion/path_motion.hpp"
+#include "benchmarks/support/cpu_time.hpp"
+#include "benchmarks/support/prepared_problem.hpp"
 #include "planner/motion/replay.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
-#include "planner/nlp/transcription/forward_backward.hpp"
-#include "planner/nlp/transcription/grid.hpp"
 #include "planner/profile/front.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath {
 namespace {
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
 
 /// Figures of one kind, and their order statistics.
 struct Sample {
@@ -65,24 +57,6 @@ RandomProblem next_problem(testing::RandomProfiles& random, int index) {
                               : TimeGoal{TimeMode::time_budget, factor * fastest.profile->duration_s()};
   return problem;
 }
-
-/// What a solver starts from: the grid's problem and a strictly feasible guess.
-struct Prepared {
-  ProfileRequest request;
-  PathMotion motion;
-  nlp::Problem problem;
-  std::vector<double> guess{};
-
-  explicit Prepared(const ProfileRequest& r, std::size_t nodes) : request(r), motion(path_motion(request)) {
-    problem = nlp::transcribe(request, motion, nlp::make_grid(motion, request, nodes), {}, nullptr);
-    guess = nlp::rate_envelope(problem).fastest;
-    const double fastest_s = nlp::duration_of(problem, guess);
-    const double aim_s = std::min(1.5 * fastest_s, 0.1 * fastest_s + 0.9 * problem.duration_s);
-    for (std::size_t k = 1; k + 1 < guess.size(); ++k) guess[k] *= (fastest_s / aim_s) * (fastest_s / aim_s);
-  }
-  Prepared(const Prepared&) = delete;
-  Prepared& operator=(const Prepared&) = delete;
-};
 
 struct Campaign {
   int problems{}, valid{}, optimal{}, local{}, handed_over{};
@@ -166,7 +140,7 @@ std::string ipopt_section(const Campaign& campaign) {
   Sample ms, iterations;
   int agreeing = 0, count = 0;
   for (std::size_t i = 0; i < campaign.kept.size() && count < 60; ++i, ++count) {
-    const Prepared prepared(campaign.kept[i], 200);
+    const PreparedProblem prepared(campaign.kept[i], 200);
     const double start = cpu_ms();
     const nlp::Solution reference = nlp::solve_with_ipopt(prepared.problem, prepared.guess);
     ms.add(cpu_ms() - start);
@@ -189,7 +163,7 @@ std::string fast_section(const Campaign& campaign) {
                                                                           : nodes <= 3200 ? 40
                                                                                           : 16);
     for (std::size_t i = 0; i < count; ++i) {
-      const Prepared prepared(campaign.kept[i], nodes);
+      const PreparedProblem prepared(campaign.kept[i], nodes);
       const double start = cpu_ms();
       const nlp::Solution solution = nlp::solve_fast(prepared.problem, prepared.guess);
       ms.add(cpu_ms() - start);

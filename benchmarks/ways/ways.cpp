@@ -1,7 +1,8 @@
 // How far the planner's paths are from the best that a brute-force search finds.
 //
-//   bench_ways search COUNT SEED STARTS   poses with their brute-force energies as CSV (committed as
-//   reference.csv) bench_ways compare REFERENCE.csv NOTE the planner on the same poses, as Markdown
+//   bench_ways search COUNT SEED STARTS     poses with their brute-force energies as CSV (reference.csv)
+//   bench_ways poses COUNT SEED STARTS      poses of the public set with their least known energies as CSV
+//   bench_ways compare REFERENCE.csv NOTE   the planner on the same poses, as Markdown
 //
 // Both energies come from one evaluator: the path is driven by the planner's own profile solver, time free
 // and standby counted. The search is the benchmark's own: random starts, then Nelder-Mead.
@@ -211,6 +212,24 @@ void search(int count, unsigned seed, int starts) {
   }
 }
 
+/// Poses on the two committed floors with the least energy that the planner or a short search finds.
+void poses(std::size_t count, unsigned seed, int starts) {
+  std::puts("floor,start_x_m,start_y_m,start_heading_rad,goal_x_m,goal_y_m,goal_heading_rad,best_J");
+  for (const std::string name : {"warehouse", "depot"}) {
+    const World world = make_world(name);
+    std::mt19937 random(seed);
+    for (std::size_t k = 0; k < count / 2; ++k) {
+      const Problem p = random_problem(world, random, k);
+      std::mt19937 own(seed + 1000 + static_cast<unsigned>(k));
+      const double best_J =
+          std::min(planned_J(world, mission_of(p)), BruteForce(world, p, own).search(starts));
+      std::printf("%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.8g\n", name.c_str(), p.start.x_m, p.start.y_m,
+                  p.start.heading_rad, p.goal_m[0], p.goal_m[1], p.goal_heading_rad.value_or(NAN), best_J);
+      std::fflush(stdout);
+    }
+  }
+}
+
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(std::lround(q * static_cast<double>(values.size() - 1)))];
@@ -272,10 +291,16 @@ int main(int argc, char** argv) {
     search(std::atoi(argv[2]), static_cast<unsigned>(std::atoi(argv[3])), std::atoi(argv[4]));
     return 0;
   }
+  if (argc == 5 && !std::strcmp(argv[1], "poses")) {
+    poses(std::stoul(argv[2]), static_cast<unsigned>(std::atoi(argv[3])), std::atoi(argv[4]));
+    return 0;
+  }
   if (argc == 4 && !std::strcmp(argv[1], "compare")) {
     compare(argv[2], argv[3]);
     return 0;
   }
-  std::fputs("usage: bench_ways search COUNT SEED STARTS | compare REFERENCE.csv NOTE\n", stderr);
+  std::fputs(
+      "usage: bench_ways search COUNT SEED STARTS | poses COUNT SEED STARTS | compare REFERENCE.csv NOTE\n",
+      stderr);
   return 2;
 }

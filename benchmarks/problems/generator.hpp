@@ -1,0 +1,34 @@
+#pragma once
+
+#include <random>
+
+#include "benchmarks/problems/problem.hpp"
+
+namespace joulepath::problems {
+
+inline constexpr const char* kKinds[] = {"straight", "bend", "corners", "tight_corners"};
+
+/// Seeded random problems; a problem depends on the seed and the problems before it alone. The time goal is
+/// least time: what a deadline may be is known after the solve.
+class Generator {
+ public:
+  Generator(unsigned seed, std::vector<Robot> robots) : random_(seed), robots_(std::move(robots)) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
+  }
+  std::size_t choice(std::size_t count) { return random_() % count; }
+  [[nodiscard]] Problem next(std::size_t index);
+
+ private:
+  /// Robots of more than a metre across turn less tightly: lengths grow with the track.
+  Knots straight();
+  Knots bend(double scale);
+  Knots corners(double radius_m);
+  void vary_limits(Limits& limits);
+
+  std::mt19937 random_;
+  std::vector<Robot> robots_;
+};
+
+}  // namespace joulepath::problems
