@@ -122,8 +122,9 @@ Case draw_case(const CaseRequest& request) {
   c.world = c.plain_world;
   for (std::size_t k = 0; k < request.effects.size(); ++k) {
     Random random = stream(c, 10 + k);
-    const double size = k < request.sizes.size() ? request.sizes[k] : 0.0;
-    c.effects.push_back(draw_effect(request.effects[k], c.nominal, size, random));
+    const double size = k < request.sizes.size() ? request.sizes[k] : 0.0,
+                 share = k < request.shares.size() ? request.shares[k] : 0.0;
+    c.effects.push_back(draw_effect(request.effects[k], c.nominal, size, share, random));
     apply_effect(c.effects.back(), c.nominal, c.truth, c.world);
   }
   return c;

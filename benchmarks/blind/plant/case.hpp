@@ -15,6 +15,7 @@ namespace blind {
 struct CaseRequest {
   std::vector<std::string> effects{};  ///< names; empty = null
   std::vector<double> sizes{};         ///< one per effect, 0 = draw
+  std::vector<double> shares{};        ///< of a large effect's size, in place of `sizes`
   std::string robot{"nomad"};
   int runs{24};
   int level{0};  ///< 0 = white noise and textbook forms, 1 = rough

@@ -16,6 +16,14 @@ const Range* find_range(const std::vector<Range>& ranges, const std::string& nam
   return at == ranges.end() ? nullptr : &*at;
 }
 
+/// A share of a large effect, which is half of the strongest of its range. Stiffnesses and limits are
+/// strongest where they are least.
+double shared_size(const Range& range, double share) {
+  const std::string name = range.name;
+  if (name == "wheel_slip" || name == "driver_foldback") return std::max(range.low, 2 * range.low / share);
+  return 0.5 * share * range.high;
+}
+
 /// What an effect needs beside its size.
 void draw_other_parameters(Effect& e, const Machine& nominal, Random& random) {
   constexpr double kPi = std::numbers::pi;
@@ -185,7 +193,8 @@ const std::vector<std::string>& foreign_names() {
   return names;
 }
 
-Effect draw_effect(const std::string& name, const Machine& nominal, double size, Random& random) {
+Effect draw_effect(const std::string& name, const Machine& nominal, double size, double share,
+                   Random& random) {
   const std::vector<Range> known = catalog_ranges(nominal), foreign = foreign_ranges(nominal);
   const Range* range = find_range(known, name);
   Effect e;
@@ -196,6 +205,7 @@ Effect draw_effect(const std::string& name, const Machine& nominal, double size,
   }
   if (!range) throw std::invalid_argument("no effect '" + name + "'");
   double drawn = random.log_uniform(range->low, range->high);
+  if (share > 0) drawn = shared_size(*range, share);
   if (range->both_signs) drawn *= random.sign();
   if (name == "regeneration_error") {  // a change of the efficiency; the parameter is what replaces it
     const double up = nominal.regeneration_efficiency + std::abs(drawn);

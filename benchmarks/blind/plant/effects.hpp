@@ -23,8 +23,9 @@ struct Effect {
 [[nodiscard]] const std::vector<std::string>& foreign_names();
 
 /// Draw an effect of that name: the size (its first parameter, in its own unit) log-uniform over the
-/// machine's range, or as given by `size` (not 0); what else it needs at random.
-[[nodiscard]] Effect draw_effect(const std::string& name, const Machine& nominal, double size,
+/// machine's range, or as given by `size` or by `share` of a large effect (not 0); what else it needs at
+/// random.
+[[nodiscard]] Effect draw_effect(const std::string& name, const Machine& nominal, double size, double share,
                                  Random& random);
 
 /// Put the effect into the true machine and world.

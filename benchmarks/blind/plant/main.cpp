@@ -15,12 +15,14 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: blind_plant --effect NAME[,NAME] [--size X[,X]] [--robot nomad|warehouse|small] [--protocol "
+    "usage: blind_plant --effect NAME[,NAME] [--size X[,X] | --share X[,X]] [--robot nomad|warehouse|small] "
+    "[--protocol "
     "24|12|6]\n"
     "                   [--level 0|1] [--seed S] [--day D] [--out DIR] [--label FILE|none] [--oracle]\n"
     "       blind_plant --list\n"
     "  --effect   none, a catalog name, a foreign kind, or two of them\n"
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
+    "  --share    shares of a large effect, which is half of the strongest of its range\n"
     "  --out      folder of the data set; absent: the label alone is written\n"
     "  --label    where the label goes, YAML or (*.json) JSON (default: DIR/truth.yaml; `none`: nowhere)\n"
     "  --day      another day of the same machine (default 0): other runs, scatter and noise\n"
@@ -56,6 +58,7 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
   for (const std::string& name : split(get("--effect", "none")))
     if (name != "none" && name != "null") request.effects.push_back(name);
   for (const std::string& size : split(get("--size", ""))) request.sizes.push_back(std::stod(size));
+  for (const std::string& share : split(get("--share", ""))) request.shares.push_back(std::stod(share));
   request.robot = get("--robot", "nomad");
   request.runs = std::stoi(get("--protocol", "24"));
   request.level = std::stoi(get("--level", "0"));
@@ -83,7 +86,8 @@ int run(int argc, char** argv) {
       throw std::invalid_argument("unexpected argument '" + key + "'");
   }
   for (const auto& [key, value] : given)
-    if (std::string(" --effect --size --robot --protocol --level --seed --day --out --label --append ")
+    if (std::string(
+            " --effect --size --share --robot --protocol --level --seed --day --out --label --append ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
   const std::string out = given["--out"];
