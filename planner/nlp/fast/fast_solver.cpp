@@ -10,8 +10,6 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr double kDualWeight = 1e-3;
-
 /// Starts (see FastStart). Where the first gap is smaller, the first steps are short, and more iterations go
 /// by than it saves.
 constexpr double kColdGap = 0.3, kColdRoom = 1e-6;

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "planner/nlp/fast/jerk_newton.hpp"
+#include "planner/nlp/fast/newton_step.hpp"
 // Design: docs/decisions/0210-jerk-by-stages.md
 namespace joulepath::nlp {
 namespace {
 
 constexpr double kTolerance = 1e-9;  ///< relative to the objective: duality gap and residuals
-constexpr double kDualWeight = 1e-3, kDefectWeight = 0.1;
+constexpr double kDefectWeight = 0.1;
 constexpr int kMostIterations = 150;
 /// First complementarity of every pair, as a share of a segment's part of the objective.
 constexpr double kFarGap = 0.1, kNearGap = 1e-2;

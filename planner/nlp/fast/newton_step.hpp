@@ -5,6 +5,10 @@
 
 namespace joulepath::nlp {
 
+/// Weight of the dual residual in the error that ends an iteration: residuals of the stationarity conditions
+/// are much larger numbers than the gap.
+inline constexpr double kDualWeight = 1e-3;
+
 /// How far a step may be taken before a slack or a multiplier meets zero.
 struct StepSizes {
   double primal{1.0}, dual{1.0};

@@ -6,17 +6,17 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr std::size_t kLocal = Stage::kLocal, kEqualities = Stage::kEqualities, kNode = 2, kOwn = 3;
+constexpr std::size_t kEqualities = Stage::kEqualities, kNode = 2, kOwn = 3;
 
 /// Rows of a segment's constraints: coefficients of (x0 | u1, a1, dt), right sides, and the transform.
-struct Rows {
+struct SegmentRows {
   std::size_t count{};
-  double coefficient[kEqualities + kNode][kLocal]{};
+  double coefficient[kEqualities + kNode][Stage::kLocal]{};
   double right[kEqualities + kNode][2]{};
   double transform[kEqualities + kNode][kEqualities + kNode]{};
 
   void add(std::size_t to, std::size_t from, double factor) {
-    for (std::size_t j = 0; j < kLocal; ++j) coefficient[to][j] += factor * coefficient[from][j];
+    for (std::size_t j = 0; j < Stage::kLocal; ++j) coefficient[to][j] += factor * coefficient[from][j];
     for (std::size_t j = 0; j < 2; ++j) right[to][j] += factor * right[from][j];
     for (std::size_t j = 0; j < count; ++j) transform[to][j] += factor * transform[from][j];
   }
@@ -51,7 +51,7 @@ struct Rows {
 }  // namespace
 
 void StageSystem::combine(const Stage& stage, const Remainder& behind, Combined& all) {
-  for (std::size_t i = 0; i < kLocal; ++i) {
+  for (std::size_t i = 0; i < Stage::kLocal; ++i) {
     std::copy(stage.hessian[i].begin(), stage.hessian[i].end(), all.hessian[i]);
     all.gradient[i][0] = stage.gradient[i];
     all.gradient[i][1] = stage.border[i];
@@ -65,7 +65,7 @@ void StageSystem::combine(const Stage& stage, const Remainder& behind, Combined&
 
 /// Solves the rows for (u1, a1, dt) as far as they reach; what is left over is asked of the node before.
 void StageSystem::solve_rows(const Stage& stage, const Remainder& behind, Elimination& e, Remainder& before) {
-  Rows rows{.count = kEqualities + behind.rows};
+  SegmentRows rows{.count = kEqualities + behind.rows};
   for (std::size_t i = 0; i < kEqualities; ++i) {
     std::copy(stage.equality[i].begin(), stage.equality[i].end(), rows.coefficient[i]);
     rows.right[i][0] = stage.wanted[i];
@@ -80,11 +80,11 @@ void StageSystem::solve_rows(const Stage& stage, const Remainder& behind, Elimin
   for (std::size_t i = 0; i < rows.count; ++i)
     std::copy(rows.transform[i], rows.transform[i] + rows.count, e.transform[i]);
 
-  std::size_t free_column = kLocal;
+  std::size_t free_column = Stage::kLocal;
   for (std::size_t c = 0; c < kOwn; ++c)
     if (std::find(e.column.begin(), e.column.end(), static_cast<int>(c)) == e.column.end())
       free_column = kNode + c;
-  e.free = free_column < kLocal;
+  e.free = free_column < Stage::kLocal;
   for (auto& row : e.tangent) std::fill(std::begin(row), std::end(row), 0.0);
   for (auto& row : e.offset) std::fill(std::begin(row), std::end(row), 0.0);
   e.tangent[0][0] = e.tangent[1][1] = 1;
@@ -106,17 +106,17 @@ void StageSystem::solve_rows(const Stage& stage, const Remainder& behind, Elimin
 
 /// The quadratic in the node's step and the free unknown, least over the latter; false where it has no least.
 bool StageSystem::minimize(const Combined& all, Elimination& e, Remainder& before) {
-  double along[kLocal][kNode + 1]{}, shifted[kLocal][2]{};
-  for (std::size_t i = 0; i < kLocal; ++i) {
+  double along[Stage::kLocal][kNode + 1]{}, shifted[Stage::kLocal][2]{};
+  for (std::size_t i = 0; i < Stage::kLocal; ++i) {
     std::copy(all.gradient[i], all.gradient[i] + 2, shifted[i]);
-    for (std::size_t l = 0; l < kLocal; ++l) {
+    for (std::size_t l = 0; l < Stage::kLocal; ++l) {
       for (std::size_t j = 0; j <= kNode; ++j) along[i][j] += all.hessian[i][l] * e.tangent[l][j];
       for (std::size_t j = 0; j < 2; ++j) shifted[i][j] += all.hessian[i][l] * e.offset[l][j];
     }
   }
   double reduced[kNode + 1][kNode + 1]{}, right[kNode + 1][2]{};
   for (std::size_t i = 0; i <= kNode; ++i)
-    for (std::size_t l = 0; l < kLocal; ++l) {
+    for (std::size_t l = 0; l < Stage::kLocal; ++l) {
       for (std::size_t j = 0; j <= kNode; ++j) reduced[i][j] += e.tangent[l][i] * along[l][j];
       for (std::size_t j = 0; j < 2; ++j) right[i][j] += e.tangent[l][i] * shifted[l][j];
     }
@@ -142,7 +142,7 @@ bool StageSystem::solve() {
     Elimination& e = eliminations_[k];
     combine(stages[k], behind, all);
     for (std::size_t i = 0; i < kOwn; ++i) {
-      std::copy(all.hessian[kNode + i], all.hessian[kNode + i] + kLocal, e.hessian[i]);
+      std::copy(all.hessian[kNode + i], all.hessian[kNode + i] + Stage::kLocal, e.hessian[i]);
       std::copy(all.gradient[kNode + i], all.gradient[kNode + i] + 2, e.gradient[i]);
     }
     solve_rows(stages[k], behind, e, before);
@@ -159,7 +159,7 @@ void StageSystem::expand() {
     const Elimination& e = eliminations_[k];
     for (std::size_t j = 0; j < 2; ++j) {
       const double free = e.constant[j] + e.gain[0] * x[0][j] + e.gain[1] * x[1][j];
-      for (std::size_t i = 0; i < kLocal; ++i)
+      for (std::size_t i = 0; i < Stage::kLocal; ++i)
         step_[k][i][j] = e.offset[i][j] + e.tangent[i][0] * x[0][j] + e.tangent[i][1] * x[1][j] +
                          e.tangent[i][kNode] * free;
     }
@@ -181,7 +181,7 @@ void StageSystem::multipliers(double border, std::vector<std::array<double, kEqu
       }
       const auto c = static_cast<std::size_t>(e.column[i]);
       reduced[i] = -e.gradient[c][0] - border * e.gradient[c][1];
-      for (std::size_t l = 0; l < kLocal; ++l)
+      for (std::size_t l = 0; l < Stage::kLocal; ++l)
         reduced[i] -= e.hessian[c][l] * (step_[k][l][0] + border * step_[k][l][1]);
     }
     for (std::size_t j = 0; j < e.rows; ++j) {
