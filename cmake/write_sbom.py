@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Design: docs/decisions/0240-packages-repeat.md
 """CycloneDX 1.5 list of what a Debian package of joulepath contains and needs.
 
 usage: write_sbom.py PACKAGE.deb OUTPUT.json

@@ -10,6 +10,7 @@
 
 #include "app/jobs/shard.hpp"
 
+// Design: docs/decisions/0280-shards-instead-of-a-cluster-engine.md
 namespace joulepath {
 
 /// The result of one job.
