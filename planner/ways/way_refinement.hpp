@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// The chosen ways of a run on their way to becoming paths: control points may be moved, then turns in place
+/// Turns the chosen ways of a run into paths: control points may be moved, then turns in place
 /// at the stops are added.
 class RefinedRun {
  public:
@@ -33,15 +33,17 @@ class RefinedRun {
   struct Part {
     const Way* way{};
     Path path{};
+    PathScore driving{};  ///< of the path alone
     double leaves_rad{};
     double arrives_rad{};
-    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or as the station says)
+    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or to the heading of the station)
     bool refined{};
     std::optional<FreeSpline> spline{};  ///< of a path that is one
   };
   std::optional<double> heading_before(std::size_t k) const;
   std::optional<double> heading_after(std::size_t k) const;
   PathScore score(std::size_t k, const Path& path) const;
+  PathScore score(std::size_t k) const;
   PathScore driving(std::size_t k, const Path& path) const;
   bool drivable(std::size_t k, const Path& path) const;
   PathScore turn_before(std::size_t k, const Path& path) const;
@@ -49,7 +51,7 @@ class RefinedRun {
   void refine(std::size_t k);
   void swing(std::size_t k);
   void swing_through(std::size_t k);
-  static void take(Part& part, const Path& path);
+  void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
 
   const ChainRequest& request_;
