@@ -3,6 +3,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <utility>
 
 namespace joulepath {
 
@@ -30,21 +32,36 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What the help says about a command.
+struct CommandText {
+  std::string name{};
+  std::string says{};      ///< one line for the list of commands
+  std::string examples{};  ///< shown below the options
+};
+
+/// What the help says about a command.
+struct CommandText {
+  std::string name{};
+  std::string says{};      ///< one line for the list of commands
+  std::string examples{};  ///< shown below the options
+};
+
 /// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
 /// options bound to its members; `run` reads, calculates, prints results on stdout and talk on stderr, and
 /// gives the exit code; errors are thrown (main.cpp reports them).
 class Command {
  public:
-  Command() = default;
+  explicit Command(CommandText text) : text_(std::move(text)) {}
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
   virtual ~Command() = default;
 
-  [[nodiscard]] virtual std::string name() const = 0;
-  [[nodiscard]] virtual std::string says() const = 0;      ///< one line for the list of commands
-  [[nodiscard]] virtual std::string examples() const = 0;  ///< shown below the options
+  [[nodiscard]] const CommandText& text() const { return text_; }
   virtual void declare(CommandLine& line) = 0;
   [[nodiscard]] virtual int run() = 0;
+
+ private:
+  CommandText text_;
 };
 
 /// The flags that most commands share.

@@ -26,8 +26,8 @@ std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen
       "130 interrupted.\n"
       "joulepath COMMAND --help shows the options of a command, with examples.");
   for (const auto& command : commands) {
-    CLI::App* sub = app->add_subcommand(command->name(), command->says());
-    sub->footer("Examples:\n" + command->examples());
+    CLI::App* sub = app->add_subcommand(command->text().name, command->text().says);
+    sub->footer("Examples:\n" + command->text().examples);
     CommandLine line(*sub);
     command->declare(line);
     sub->callback([&chosen, &command] { chosen = command.get(); });
@@ -43,7 +43,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 std::string unknown_command(int argc, const char* const* argv, const Commands& commands) {
   if (argc < 2 || argv[1][0] == '-') return "";
   std::vector<std::string> names;
-  for (const auto& command : commands) names.push_back(command->name());
+  for (const auto& command : commands) names.push_back(command->text().name);
   for (const auto& name : names)
     if (name == argv[1]) return "";
   return "no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names);

@@ -180,17 +180,16 @@ Schema dataset_schema() {
            required("runs", list(run_schema(), 1))}));
 }
 
-Dataset read_dataset(const std::string& file, const ReadOptions& options,
-                     const std::optional<std::string>& robot_file) {
+Dataset read_dataset(const std::string& file, const ReadOptions& options, const std::string& robot_file) {
   static const Schema schema = dataset_schema();
   const Document document = Document::load(file);
   check_document(document, "dataset", schema);
   const Node root = document.root();
   Dataset dataset{.file = file};
-  if (!robot_file && !root.has("robot"))
+  if (robot_file.empty() && !root.has("robot"))
     root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
-  dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
-  dataset.robot = read_robot(dataset.robot_file, robot_file ? NamedBy{} : NamedBy(root["robot"]));
+  dataset.robot_file = robot_file.empty() ? resolve_file(root["robot"], options) : robot_file;
+  dataset.robot = read_robot(dataset.robot_file, robot_file.empty() ? NamedBy(root["robot"]) : NamedBy{});
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   RunReader reader(dataset, sources, options);

@@ -12,15 +12,17 @@ namespace {
 
 class BatchCommand : public Command {
  public:
-  std::string name() const override { return "batch"; }
-  std::string says() const override { return "plan many missions"; }
-  std::string examples() const override {
-    return "  joulepath batch scenarios/missions --out out/batch -j 2\n"
-           "  joulepath batch missions.jsonl --out out/batch --resume\n"
-           "  joulepath batch missions.jsonl --out shard_2 --shard 2/8   # then: joulepath merge shard_* "
-           "--out all\n\n"
-           "Exit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n";
-  }
+  BatchCommand()
+      : Command(
+            {.name = "batch",
+             .says = "plan many missions",
+             .examples =
+                 "  joulepath batch scenarios/missions --out out/batch -j 2\n"
+                 "  joulepath batch missions.jsonl --out out/batch --resume\n"
+                 "  joulepath batch missions.jsonl --out shard_2 --shard 2/8   # then: joulepath merge "
+                 "shard_* "
+                 "--out all\n\n"
+                 "Exit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option(

@@ -69,14 +69,11 @@ std::string interval_text(const CalibratedParameter& p) {
 
 class Calibrate : public Command {
  public:
-  std::string name() const override { return "calibrate"; }
-  std::string says() const override {
-    return "fit a robot's friction, motor constants and inertias to measured runs";
-  }
-  std::string examples() const override {
-    return "  joulepath calibrate dataset.yaml --out robot_calibrated.yaml\n"
-           "  joulepath calibrate dataset.yaml --method steady --json";
-  }
+  Calibrate()
+      : Command({.name = "calibrate",
+                 .says = "fit a robot's friction, motor constants and inertias to measured runs",
+                 .examples = "  joulepath calibrate dataset.yaml --out robot_calibrated.yaml\n"
+                             "  joulepath calibrate dataset.yaml --method steady --json"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DATASET", dataset_, "dataset: the robot and its runs").required();
@@ -91,8 +88,7 @@ class Calibrate : public Command {
   }
 
   int run() override {
-    const std::optional<std::string> robot = robot_.empty() ? std::nullopt : std::optional(robot_);
-    const Dataset dataset = read_dataset(dataset_, {options_.untrusted}, robot);
+    const Dataset dataset = read_dataset(dataset_, {options_.untrusted}, robot_);
     const CalibrationResult result =
         calibrate(dataset, method_ == "steady" ? CalibrationMethod::steady : CalibrationMethod::full);
     if (!out_.empty()) write_output_file(out_, robot_text(result.robot), options_.force);

@@ -12,13 +12,12 @@ namespace {
 
 class Check : public Command {
  public:
-  std::string name() const override { return "check"; }
-  std::string says() const override { return "validate input files and report errors"; }
-  std::string examples() const override {
-    return "  joulepath check scenarios/missions/warehouse_pick.yaml\n"
-           "  joulepath check robot.yaml dataset.yaml runs/run_01.csv\n"
-           "  joulepath check --kind robot my_robot.yaml";
-  }
+  Check()
+      : Command({.name = "check",
+                 .says = "validate input files and report errors",
+                 .examples = "  joulepath check scenarios/missions/warehouse_pick.yaml\n"
+                             "  joulepath check robot.yaml dataset.yaml runs/run_01.csv\n"
+                             "  joulepath check --kind robot my_robot.yaml"}) {}
 
   void declare(CommandLine& line) override {
     line.option("FILE", files_,

@@ -17,10 +17,8 @@
 namespace joulepath {
 namespace {
 
-using nlohmann::json;
-
-json profile_json(const BaselineTotal& total) {
-  json profile = baseline_json(total);
+nlohmann::json profile_json(const BaselineTotal& total) {
+  nlohmann::json profile = baseline_json(total);
   profile["parameters"] = total.settings;
   return profile;
 }
@@ -51,15 +49,13 @@ void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared)
 
 class CompareCommand : public Command {
  public:
-  std::string name() const override { return "compare"; }
-  std::string says() const override {
-    return "compare a plan with every classic profile on the same path in the same time";
-  }
-  std::string examples() const override {
-    return "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
-           "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
-           "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n";
-  }
+  CompareCommand()
+      : Command({.name = "compare",
+                 .says = "compare a plan with every classic profile on the same path in the same time",
+                 .examples =
+                     "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
+                     "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
+                     "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n"}) {}
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult);
@@ -77,7 +73,8 @@ class CompareCommand : public Command {
       return kInfeasibleOrFailed;
     }
     const std::vector<ComparedProfile> compared = compare_baselines(plan);
-    json result = {{"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", json::array()}};
+    nlohmann::json result = {
+        {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
     result["profiles"].push_back(profile_json(total_of(plan)));
     for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
     if (study_writes(study_))

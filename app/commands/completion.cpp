@@ -9,13 +9,12 @@ namespace {
 /// Completion scripts written from the commands themselves, so that they cannot go stale.
 class Completion : public Command {
  public:
-  std::string name() const override { return "completion"; }
-  std::string says() const override { return "print a completion script for bash, zsh or fish"; }
-  std::string examples() const override {
-    return "  source <(joulepath completion bash)\n"
-           "  joulepath completion zsh > \"${fpath[1]}/_joulepath\"\n"
-           "  joulepath completion fish > ~/.config/fish/completions/joulepath.fish";
-  }
+  Completion()
+      : Command({.name = "completion",
+                 .says = "print a completion script for bash, zsh or fish",
+                 .examples = "  source <(joulepath completion bash)\n"
+                             "  joulepath completion zsh > \"${fpath[1]}/_joulepath\"\n"
+                             "  joulepath completion fish > ~/.config/fish/completions/joulepath.fish"}) {}
 
   void declare(CommandLine& line) override {
     line.option("SHELL", shell_).required().one_of({"bash", "zsh", "fish"});

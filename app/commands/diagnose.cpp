@@ -103,14 +103,12 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
 
 class Diagnose : public Command {
  public:
-  std::string name() const override { return "diagnose"; }
-  std::string says() const override {
-    return "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it";
-  }
-  std::string examples() const override {
-    return "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
-           "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap";
-  }
+  Diagnose()
+      : Command({.name = "diagnose",
+                 .says = "locate a sim-to-real gap, name its cause, measure how much a correction shrinks it",
+                 .examples =
+                     "  joulepath diagnose runs/dataset.yaml --out out/diagnosis\n"
+                     "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
 
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_, "dataset file (YAML)").required();
@@ -129,8 +127,7 @@ class Diagnose : public Command {
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
-    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
-                                         robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted}, robot_);
     Diagnosis diagnosis = diagnose(dataset, {.without = without});
     if (diagnosis.corrected_robot) {
       const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);

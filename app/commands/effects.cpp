@@ -6,7 +6,7 @@
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "model/effects/catalog.hpp"
-#include "model/effects/reference.hpp"
+#include "model/effects/effects_document.hpp"
 
 namespace joulepath {
 namespace {
@@ -38,13 +38,12 @@ Json effect_json(const EffectDescription& effect) {
 
 class EffectsCommand : public Command {
  public:
-  std::string name() const override { return "effects"; }
-  std::string says() const override { return "list the catalog of effects"; }
-  std::string examples() const override {
-    return "  joulepath effects\n"
-           "  joulepath effects --json | jq -r '.effects[].name'\n"
-           "  joulepath effects --markdown > docs/effects.md\n";
-  }
+  EffectsCommand()
+      : Command({.name = "effects",
+                 .says = "list the catalog of effects",
+                 .examples = "  joulepath effects\n"
+                             "  joulepath effects --json | jq -r '.effects[].name'\n"
+                             "  joulepath effects --markdown > docs/effects.md\n"}) {}
 
   void declare(CommandLine& line) override {
     line.flag("--json", json_, "as JSON");

@@ -72,13 +72,12 @@ Json report_of(const DatasetEstimate& all) {
 
 class EstimateCommand : public Command {
  public:
-  std::string name() const override { return "estimate"; }
-  std::string says() const override { return "energy and power of logged motions from odometry alone"; }
-  std::string examples() const override {
-    return "  joulepath estimate run.csv --robot robot.yaml\n"
-           "  joulepath estimate scenarios/paper/straight_measured.yaml\n"
-           "  joulepath estimate dataset.yaml --json | jq .fitness_percent\n";
-  }
+  EstimateCommand()
+      : Command({.name = "estimate",
+                 .says = "energy and power of logged motions from odometry alone",
+                 .examples = "  joulepath estimate run.csv --robot robot.yaml\n"
+                             "  joulepath estimate scenarios/paper/straight_measured.yaml\n"
+                             "  joulepath estimate dataset.yaml --json | jq .fitness_percent\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("input", input_, "run log (CSV) or dataset (YAML)").required();
@@ -93,10 +92,8 @@ class EstimateCommand : public Command {
   int run() override {
     const bool is_log = std::filesystem::path(input_).extension() == ".csv";
     if (is_log && robot_.empty()) throw UsageError("a log has no robot: add --robot");
-    const Dataset dataset =
-        is_log ? dataset_of_log(input_, robot_)
-               : read_dataset(input_, {.untrusted = common_.untrusted},
-                              robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Dataset dataset = is_log ? dataset_of_log(input_, robot_)
+                                   : read_dataset(input_, {.untrusted = common_.untrusted}, robot_);
     if (!common_.quiet)
       for (const LogArtifact& artifact : dataset.artifacts)
         if (artifact.kind == "cut") std::cerr << "note: " << artifact.description << '\n';

@@ -13,14 +13,11 @@ namespace {
 
 class Experiment : public Command {
  public:
-  std::string name() const override { return "experiment"; }
-  std::string says() const override {
-    return "write the run that best separates the remaining candidates of a diagnosis";
-  }
-  std::string examples() const override {
-    return "  joulepath experiment runs/dataset.yaml --out next_run.yaml\n"
-           "  joulepath simulate next_run.yaml --out out/next_run";
-  }
+  Experiment()
+      : Command({.name = "experiment",
+                 .says = "write the run that best separates the remaining candidates of a diagnosis",
+                 .examples = "  joulepath experiment runs/dataset.yaml --out next_run.yaml\n"
+                             "  joulepath simulate next_run.yaml --out out/next_run"}) {}
 
   void declare(CommandLine& line) override {
     line.option("dataset", dataset_, "dataset file (YAML)").required();
@@ -30,8 +27,7 @@ class Experiment : public Command {
   }
 
   int run() override {
-    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
-                                         robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted}, robot_);
     const Diagnosis diagnosis = diagnose(dataset);
     if (diagnosis.next.motions.empty()) {
       if (!common_.quiet)

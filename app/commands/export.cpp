@@ -33,21 +33,23 @@ const ExportFormat& format_named(const std::string& name) {
   throw UsageError("no format '" + name + "'");
 }
 
+std::string examples() {
+  std::string text =
+      "  joulepath export mission.yaml --to nav2_path --out path.json\n"
+      "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n"
+      "  joulepath export mission.yaml --to controller --out controller.json\n"
+      "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
+  for (const ExportFormat& format : export_formats())
+    text += "  " + format.name + std::string(13 - format.name.size(), ' ') + format.says + "\n";
+  return text;
+}
+
 class ExportCommand : public Command {
  public:
-  std::string name() const override { return "export"; }
-  std::string says() const override { return "plan a mission and write it in the format of another program"; }
-  std::string examples() const override {
-    std::string text =
-        "  joulepath export mission.yaml --to nav2_path --out path.json\n"
-        "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out "
-        "trajectory.json\n"
-        "  joulepath export mission.yaml --to controller --out controller.json\n"
-        "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
-    for (const ExportFormat& format : export_formats())
-      text += "  " + format.name + std::string(13 - format.name.size(), ' ') + format.says + "\n";
-    return text;
-  }
+  ExportCommand()
+      : Command({.name = "export",
+                 .says = "plan a mission and write it in the format of another program",
+                 .examples = examples()}) {}
 
   void declare(CommandLine& line) override {
     std::vector<std::string> names;

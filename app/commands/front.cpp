@@ -19,29 +19,25 @@
 namespace joulepath {
 namespace {
 
-using nlohmann::json;
-
-json point_json(const FrontPoint& point) {
-  json result = {{"duration_s", point.duration_s},
-                 {"energy_J", point.energy_J},
-                 {"motion_energy_J", point.motion_energy_J},
-                 {"status", solve_status_name(point.status)}};
+nlohmann::json point_json(const FrontPoint& point) {
+  nlohmann::json result = {{"duration_s", point.duration_s},
+                           {"energy_J", point.energy_J},
+                           {"motion_energy_J", point.motion_energy_J},
+                           {"status", solve_status_name(point.status)}};
   result["price_of_time_W"] =
-      std::isfinite(point.price_of_time_W) ? json(point.price_of_time_W) : json(nullptr);
+      std::isfinite(point.price_of_time_W) ? nlohmann::json(point.price_of_time_W) : nlohmann::json(nullptr);
   return result;
 }
 
 class FrontCommand : public Command {
  public:
-  std::string name() const override { return "front"; }
-  std::string says() const override {
-    return "compute the least energy for each duration of a mission or a path, with exact slopes";
-  }
-  std::string examples() const override {
-    return "  joulepath front scenarios/missions/warehouse_pick.yaml --points 30\n"
-           "  joulepath front mission.yaml --out out/front   # front.json and report.html\n"
-           "  joulepath front path.csv --robot robot.yaml --payload 5\n";
-  }
+  FrontCommand()
+      : Command(
+            {.name = "front",
+             .says = "compute the least energy for each duration of a mission or a path, with exact slopes",
+             .examples = "  joulepath front scenarios/missions/warehouse_pick.yaml --points 30\n"
+                         "  joulepath front mission.yaml --out out/front   # front.json and report.html\n"
+                         "  joulepath front path.csv --robot robot.yaml --payload 5\n"}) {}
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult, false);
@@ -136,10 +132,10 @@ class FrontCommand : public Command {
 
   void show(const Front& front, const std::vector<Beside>& beside, const std::string& title,
             OutputDirectory& out) const {
-    json result = {{"schema", "joulepath/front/1"},
-                   {"mission", title},
-                   {"points", json::array()},
-                   {"baselines", json::array()}};
+    nlohmann::json result = {{"schema", "joulepath/front/1"},
+                             {"mission", title},
+                             {"points", nlohmann::json::array()},
+                             {"baselines", nlohmann::json::array()}};
     for (const FrontPoint& point : front.points) result["points"].push_back(point_json(point));
     for (const auto& [k, baselines] : beside)
       for (const BaselineTotal& total : baselines) {

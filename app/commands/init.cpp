@@ -66,15 +66,12 @@ std::string simulated_log(const Robot& robot, int index) {
 
 class Init : public Command {
  public:
-  std::string name() const override { return "init"; }
-  std::string says() const override {
-    return "write commented example files: robot, map, mission and dataset";
-  }
-  std::string examples() const override {
-    return "  joulepath init my_robot\n"
-           "  joulepath plan my_robot/mission.yaml --out my_robot/out\n"
-           "  joulepath diagnose my_robot/dataset.yaml --out my_robot/diagnosis";
-  }
+  Init()
+      : Command({.name = "init",
+                 .says = "write commented example files: robot, map, mission and dataset",
+                 .examples = "  joulepath init my_robot\n"
+                             "  joulepath plan my_robot/mission.yaml --out my_robot/out\n"
+                             "  joulepath diagnose my_robot/dataset.yaml --out my_robot/diagnosis"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directory_, "directory to write to").required();

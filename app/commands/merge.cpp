@@ -35,14 +35,14 @@ void take_lines(const std::string& directory, const ShardManifest& manifest, std
 
 class MergeCommand : public Command {
  public:
-  std::string name() const override { return "merge"; }
-  std::string says() const override { return "join the shards of a batch or a sweep"; }
-  std::string examples() const override {
-    return "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
-           "The results have the same bytes as those of one run. Shards of other inputs, of another version "
-           "of\n"
-           "the program, or with a gap are refused.\n";
-  }
+  MergeCommand()
+      : Command({.name = "merge",
+                 .says = "join the shards of a batch or a sweep",
+                 .examples = "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
+                             "The results have the same bytes as those of one run. Shards of other inputs, "
+                             "of another version "
+                             "of\n"
+                             "the program, or with a gap are refused.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directories_, "directories written with --shard").required().existing_path();

@@ -25,14 +25,14 @@ double seconds_since(Clock::time_point start) {
 
 class PlanCommand : public Command {
  public:
-  std::string name() const override { return "plan"; }
-  std::string says() const override { return "plan a mission for the least energy"; }
-  std::string examples() const override {
-    return "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
-           "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
-           "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n"
-           "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
-  }
+  PlanCommand()
+      : Command({.name = "plan",
+                 .says = "plan a mission for the least energy",
+                 .examples =
+                     "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
+                     "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
+                     "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n"
+                     "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n"}) {}
 
   void declare(CommandLine& line) override {
     add_mission_source(line, source_);

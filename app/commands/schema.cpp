@@ -10,14 +10,13 @@ namespace {
 
 class SchemaCommand : public Command {
  public:
-  std::string name() const override { return "schema"; }
-  std::string says() const override { return "print the JSON Schema of a kind of file"; }
-  std::string examples() const override {
-    return "  joulepath schema                           list the kinds\n"
-           "  joulepath schema robot > robot.schema.json\n"
-           "  # in an editor with the YAML language server, as first line of a file:\n"
-           "  # yaml-language-server: $schema=robot.schema.json";
-  }
+  SchemaCommand()
+      : Command({.name = "schema",
+                 .says = "print the JSON Schema of a kind of file",
+                 .examples = "  joulepath schema                           list the kinds\n"
+                             "  joulepath schema robot > robot.schema.json\n"
+                             "  # in an editor with the YAML language server, as first line of a file:\n"
+                             "  # yaml-language-server: $schema=robot.schema.json"}) {}
 
   void declare(CommandLine& line) override {
     line.option("KIND", kind_, "kind of file; without it: list the kinds");

@@ -86,15 +86,16 @@ std::string numbered(const char* stem, std::size_t number) {
 
 class SimulateCommand : public Command {
  public:
-  std::string name() const override { return "simulate"; }
-  std::string says() const override { return "drive plans or missions on a simulated robot and log them"; }
-  std::string examples() const override {
-    return "  joulepath simulate out/warehouse_pick --robot scenarios/robots/nomad_super_scout.yaml --out "
-           "out/sim\n"
-           "  joulepath simulate mission.yaml --effect rolling_resistance:coefficient=0.015 "
-           "--effect dragging_wheel:side=left,torque_Nm=0.1 --out out/sim --seed 7\n"
-           "  joulepath diagnose out/sim/dataset.yaml\n";
-  }
+  SimulateCommand()
+      : Command({.name = "simulate",
+                 .says = "drive plans or missions on a simulated robot and log them",
+                 .examples =
+                     "  joulepath simulate out/warehouse_pick --robot "
+                     "scenarios/robots/nomad_super_scout.yaml --out "
+                     "out/sim\n"
+                     "  joulepath simulate mission.yaml --effect rolling_resistance:coefficient=0.015 "
+                     "--effect dragging_wheel:side=left,torque_Nm=0.1 --out out/sim --seed 7\n"
+                     "  joulepath diagnose out/sim/dataset.yaml\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("input", inputs_,

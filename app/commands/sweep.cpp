@@ -19,15 +19,16 @@ constexpr std::size_t kMostSearched = 1000;
 
 class SweepCommand : public Command {
  public:
-  std::string name() const override { return "sweep"; }
-  std::string says() const override { return "plan missions with many designs of a robot and compare them"; }
-  std::string examples() const override {
-    return "  joulepath sweep scenarios/studies/gear_and_speed.yaml --out out/sweep -j 2\n"
-           "  joulepath sweep study.yaml --out out/sweep --optimize 100\n"
-           "  joulepath sweep study.yaml --out shard_2 --shard 2/8   # then: joulepath merge shard_* --out "
-           "out/sweep\n\n"
-           "Exit code 0: every design has its rows in sweep.csv, with a reason where it has no plan.\n";
-  }
+  SweepCommand()
+      : Command({.name = "sweep",
+                 .says = "plan missions with many designs of a robot and compare them",
+                 .examples = "  joulepath sweep scenarios/studies/gear_and_speed.yaml --out out/sweep -j 2\n"
+                             "  joulepath sweep study.yaml --out out/sweep --optimize 100\n"
+                             "  joulepath sweep study.yaml --out shard_2 --shard 2/8   # then: joulepath "
+                             "merge shard_* --out "
+                             "out/sweep\n\n"
+                             "Exit code 0: every design has its rows in sweep.csv, with a reason where it "
+                             "has no plan.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("study", source_, "study file (YAML)").required().existing_path();
