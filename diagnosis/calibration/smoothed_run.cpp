@@ -102,7 +102,7 @@ struct Braking {
   }
 };
 
-Braking braking(const std::vector<double>& speed, const SmoothingKernel& kernel) {
+Braking braking(const std::vector<double>& speed, const SplineKernel& kernel) {
   Braking found{.at = std::vector<bool>(speed.size(), false)};
   for (std::size_t i = kernel.reach(); i + kernel.reach() < speed.size(); ++i) {
     const double acceleration = weighted(kernel.derivative, speed, i);
@@ -112,7 +112,7 @@ Braking braking(const std::vector<double>& speed, const SmoothingKernel& kernel)
 }
 
 void append_smoothed(const Stretch& stretch, SmoothedRun& run) {
-  const SmoothingKernel& kernel = run.kernel;
+  const SplineKernel& kernel = run.kernel;
   const std::size_t reach = kernel.reach(), count = stretch.payload.size();
   const Sided<Braking> braked{braking(stretch.speed.left, kernel), braking(stretch.speed.right, kernel)};
   for (std::size_t i = reach; i + reach < count; ++i) {
@@ -146,7 +146,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   SmoothedRun run{.name = source.name,
                   .has_voltage = !log.motor_voltage_V.left.empty() && !log.motor_voltage_V.right.empty(),
                   .unsigned_currents = source.current_sign_from_motion,
-                  .kernel = make_smoothing_kernel(period_s, kKernelDeviation_s)};
+                  .kernel = make_spline_kernel(period_s, kKernelDeviation_s)};
   for (Side side : kSides) run.speed_noise_rad_s += 0.5 * white_noise_deviation(speeds[side]);
   std::size_t first = 0;
   for (std::size_t i = 1; i <= log.size(); ++i) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/calibration/smoothing.hpp"
+#include "diagnosis/calibration/spline_kernel.hpp"
 #include "diagnosis/values/dataset.hpp"
 
 namespace joulepath::calibration {
@@ -24,7 +24,7 @@ struct SmoothedRun {
   std::string name{};
   bool has_voltage{};
   bool unsigned_currents{};  ///< their signs were taken from the motion: braking samples are left out
-  SmoothingKernel kernel{};
+  SplineKernel kernel{};
   double speed_noise_rad_s{};  ///< of raw samples, white: for taking its share out of the normal equations
   std::vector<SmoothedSample> samples{};
 };

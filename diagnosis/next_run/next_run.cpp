@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "model/config_error.hpp"
+#include "model/limit_table.hpp"
 #include "model/motions.hpp"
 
 namespace joulepath {
@@ -153,8 +154,8 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
     next.separates.clear();
     return next;
   }
-  double heaviest_kg =
-      robot.limits && std::isfinite(robot.limits->max_payload_kg) ? robot.limits->max_payload_kg : 0.0;
+  const double limit_kg = payload_limit_kg(robot);
+  double heaviest_kg = std::isfinite(limit_kg) ? limit_kg : 0.0;
   for (const RunSignals& run : id.signals) heaviest_kg = std::max(heaviest_kg, run.payload_kg.maxCoeff());
   for (const Manoeuvre& manoeuvre : library(robot)) {
     try {

@@ -166,9 +166,8 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
         heading_slip_rad;
     out.x_m[j] = rolled(signals.wheel_along_x_rad) - x_slip_m;
     out.y_m[j] = rolled(signals.wheel_along_y_rad) - y_slip_m;
-    const double across_m_s = geometry.half_track_m * twist.yaw_rate_rad_s;
     advance_memory(plant,
-                   std::sqrt(twist.speed_m_s * twist.speed_m_s + across_m_s * across_m_s) * signals.period_s,
+                   caster_speed_m_s(geometry, twist.speed_m_s, twist.yaw_rate_rad_s) * signals.period_s,
                    site.course, memory);
   }
   distort(split.instruments, point.channel_delay_s, signals, out);

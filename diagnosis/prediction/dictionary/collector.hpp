@@ -16,6 +16,24 @@ inline double hat(double x, double center, double width) {
   return std::max(0.0, 1.0 - std::abs(x - center) / width);
 }
 
+/// Share of the dataset's time of day that has passed at a sample, 0 to 1.
+inline double day_share(const DictionaryLayout& layout, const RunSignals& signals, Eigen::Index j) {
+  return (signals.time_of_day_s[j] - layout.day_begin_s) /
+         std::max(1.0, layout.day_end_s - layout.day_begin_s);
+}
+
+/// Speeds of the body at a sample, from the speeds of the wheels.
+inline Twist<double> twist_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
+  return body_twist(robot.geometry,
+                    Sided<double>{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]});
+}
+
+/// Accelerations of the body at a sample, from those of the wheels.
+inline Twist<double> twist_rate_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
+  return body_twist(robot.geometry, Sided<double>{signals.wheel_acceleration_rad_s2.left[j],
+                                                  signals.wheel_acceleration_rad_s2.right[j]});
+}
+
 /// Collects entries of the dictionary; either only their names (no signals) or their rows too.
 class DictionaryCollector {
  public:

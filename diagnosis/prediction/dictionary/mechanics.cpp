@@ -4,16 +4,9 @@ namespace joulepath {
 
 void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                    const Robot* robot) {
-  const auto twist = [&](Eigen::Index j) {
-    return body_twist(robot->geometry,
-                      Sided<double>{s->wheel_speed_rad_s.left[j], s->wheel_speed_rad_s.right[j]});
-  };
-  const auto rate = [&](Eigen::Index j) {
-    return body_twist(robot->geometry, Sided<double>{s->wheel_acceleration_rad_s2.left[j],
-                                                     s->wheel_acceleration_rad_s2.right[j]});
-  };
-  const double day_s = std::max(1.0, layout.day_end_s - layout.day_begin_s);
-  const auto day = [&](Eigen::Index j) { return (s->time_of_day_s[j] - layout.day_begin_s) / day_s; };
+  const auto twist = [&](Eigen::Index j) { return twist_at(*s, *robot, j); };
+  const auto rate = [&](Eigen::Index j) { return twist_rate_at(*s, *robot, j); };
+  const auto day = [&](Eigen::Index j) { return day_share(layout, *s, j); };
   const auto load = [&](Eigen::Index j) { return s->payload_kg[j] / layout.greatest_payload_kg; };
 
   constexpr int kSpeedHats = 6;

@@ -4,16 +4,9 @@ namespace joulepath {
 
 void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Robot* robot) {
-  const auto twist = [&](Eigen::Index j) {
-    return body_twist(robot->geometry,
-                      Sided<double>{s->wheel_speed_rad_s.left[j], s->wheel_speed_rad_s.right[j]});
-  };
-  const auto rate = [&](Eigen::Index j) {
-    return body_twist(robot->geometry, Sided<double>{s->wheel_acceleration_rad_s2.left[j],
-                                                     s->wheel_acceleration_rad_s2.right[j]});
-  };
+  const auto twist = [&](Eigen::Index j) { return twist_at(*s, *robot, j); };
+  const auto rate = [&](Eigen::Index j) { return twist_rate_at(*s, *robot, j); };
   const auto none = [](Eigen::Index) { return 0.0; };
-  const double day_s = std::max(1.0, layout.day_end_s - layout.day_begin_s);
   const auto speed = [&](Eigen::Index j) { return twist(j).speed_m_s; };
   const auto yaw = [&](Eigen::Index j) { return twist(j).yaw_rate_rad_s; };
   out.motion("speed", speed, none);
@@ -31,7 +24,7 @@ void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const 
   out.motion("payload", none,
              [&](Eigen::Index j) { return yaw(j) * s->payload_kg[j] / layout.greatest_payload_kg; });
   if (!layout.has_day) return;
-  const auto day = [&](Eigen::Index j) { return (s->time_of_day_s[j] - layout.day_begin_s) / day_s; };
+  const auto day = [&](Eigen::Index j) { return day_share(layout, *s, j); };
   out.motion(
       "time of day", [&](Eigen::Index j) { return day(j) * speed(j); }, none);
   out.motion("time of day", none, [&](Eigen::Index j) { return day(j) * speed(j); });

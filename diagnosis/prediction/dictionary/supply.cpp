@@ -4,8 +4,7 @@ namespace joulepath {
 
 void add_supply(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Prediction* p) {
-  const double day_s = std::max(1.0, layout.day_end_s - layout.day_begin_s);
-  const auto day = [&](Eigen::Index j) { return (s->time_of_day_s[j] - layout.day_begin_s) / day_s; };
+  const auto day = [&](Eigen::Index j) { return day_share(layout, *s, j); };
   const auto sum = [&](const Sided<Eigen::VectorXd>& of, Eigen::Index j) { return of.left[j] + of.right[j]; };
   const auto drawn_A = [&](Eigen::Index j) {
     return s->battery_current_A.size() > 0 ? s->battery_current_A[j] : 0.0;

@@ -5,7 +5,6 @@ namespace joulepath {
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                   const Prediction* p) {
   const auto current = [&](Eigen::Index j, Side side) { return p->current_A[side][j]; };
-  const double day_s = std::max(1.0, layout.day_end_s - layout.day_begin_s);
   out.voltage("constant", true, [&](Eigen::Index, Side) { return 1.0; });
   out.voltage("current", true, current);
   out.voltage("current", false,
@@ -26,9 +25,7 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
               [&](Eigen::Index j, Side side) { return s->wheel_acceleration_rad_s2[side][j]; });
   if (!layout.has_day) return;
   for (int k = 1; k <= 2; ++k) {
-    const auto day = [&, k](Eigen::Index j) {
-      return std::pow((s->time_of_day_s[j] - layout.day_begin_s) / day_s, k);
-    };
+    const auto day = [&, k](Eigen::Index j) { return std::pow(day_share(layout, *s, j), k); };
     out.voltage("time of day", k == 1, [&](Eigen::Index j, Side side) { return day(j) * current(j, side); });
     out.voltage("time of day", k == 1,
                 [&](Eigen::Index j, Side side) { return day(j) * s->wheel_speed_rad_s[side][j]; });

@@ -1,4 +1,4 @@
-#include "diagnosis/calibration/smoothing.hpp"
+#include "diagnosis/calibration/spline_kernel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 namespace joulepath::calibration {
 namespace {
 
-TEST(SmoothingKernel, DerivativeIsThatOfTheSmoothedSignal) {
-  const SmoothingKernel kernel = make_smoothing_kernel(0.02, 0.15);
+TEST(SplineKernel, DerivativeIsThatOfTheSmoothedSignal) {
+  const SplineKernel kernel = make_spline_kernel(0.02, 0.15);
   std::vector<double> signal, slope;
   for (int k = 0; k < 200; ++k)
     signal.push_back(std::sin(2 * 0.02 * k)), slope.push_back(2 * std::cos(2 * 0.02 * k));
@@ -20,9 +20,9 @@ TEST(SmoothingKernel, DerivativeIsThatOfTheSmoothedSignal) {
     EXPECT_NEAR(weighted(kernel.derivative, signal, center), weighted(kernel.value, slope, center), 1e-11);
 }
 
-TEST(SmoothingKernel, KeepsConstantsAndTheSlopeOfLines) {
+TEST(SplineKernel, KeepsConstantsAndTheSlopeOfLines) {
   for (double period_s : {0.01, 0.02, 0.154}) {
-    const SmoothingKernel kernel = make_smoothing_kernel(period_s, 0.15);
+    const SplineKernel kernel = make_spline_kernel(period_s, 0.15);
     EXPECT_NEAR(std::accumulate(kernel.value.begin(), kernel.value.end(), 0.0), 1, 1e-13);
     std::vector<double> line;
     for (int k = 0; k < 301; ++k) line.push_back(3 + 0.5 * period_s * k);
@@ -31,8 +31,8 @@ TEST(SmoothingKernel, KeepsConstantsAndTheSlopeOfLines) {
   }
 }
 
-TEST(SmoothingKernel, GainsAreTheVariancesOfSmoothedNoise) {
-  const SmoothingKernel kernel = make_smoothing_kernel(0.02, 0.15);
+TEST(SplineKernel, GainsAreTheVariancesOfSmoothedNoise) {
+  const SplineKernel kernel = make_spline_kernel(0.02, 0.15);
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::vector<double> noise(200000);

@@ -1,4 +1,4 @@
-#include "diagnosis/calibration/smoothing.hpp"
+#include "diagnosis/calibration/spline_kernel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +25,12 @@ double sum_of_squares(const std::vector<double>& weights) {
 
 }  // namespace
 
-SmoothingKernel make_smoothing_kernel(double sample_period_s, double deviation_s) {
+SplineKernel make_spline_kernel(double sample_period_s, double deviation_s) {
   JOULEPATH_ASSERT(sample_period_s > 0, "a sample period is positive");
   // The B-spline of knot distance h has the variance h^2/3.
   const double knot = std::sqrt(3.0) * std::max(deviation_s / sample_period_s, 1.5);
   const int reach = static_cast<int>(std::ceil(2 * knot)) - 1;
-  SmoothingKernel kernel;
+  SplineKernel kernel;
   double sum = 0;
   for (int i = -reach; i <= reach; ++i)
     kernel.value.push_back(cubic_b_spline(i / knot)), sum += kernel.value.back();
