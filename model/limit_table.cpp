@@ -66,6 +66,12 @@ const Limit* limit_named(std::string_view name) {
   return row == kLimits.end() ? nullptr : &*row;
 }
 
+const Limit& payload_limit() { return *limit_named("max_payload"); }
+
+double payload_limit_kg(const Robot& robot) {
+  return robot.limits ? (*robot.limits).*payload_limit().field : kNoLimit;
+}
+
 double limit_of(const Limit& row, const Limits& limits, const Sided<Motor>& motor, Side side) {
   return row.field != nullptr ? limits.*row.field : motor[side].*row.rating;
 }

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "model/limits.hpp"
 #include "model/operating_point.hpp"
 
 namespace joulepath {
@@ -32,6 +31,10 @@ inline constexpr const auto& kLimits = kLimitRows<LimitState>;
 
 /// The row with a name (not a key); null where there is none.
 [[nodiscard]] const Limit* limit_named(std::string_view name);
+
+/// What the robot may carry: the row, and its value (infinite without `limits:`).
+[[nodiscard]] const Limit& payload_limit();
+[[nodiscard]] double payload_limit_kg(const Robot& robot);
 
 /// A limit's value in force for a wheel.
 [[nodiscard]] double limit_of(const Limit& row, const Limits& limits, const Sided<Motor>& motor, Side side);

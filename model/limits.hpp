@@ -2,24 +2,44 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 
-#include "model/robot.hpp"
+#include "model/sided.hpp"
+
 // Design: docs/decisions/0100-one-table-of-limits.md
 namespace joulepath {
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// What the motion may not exceed; an absent limit is infinite. SI units; all values are magnitudes.
+struct Limits {
+  double speed_m_s{kNoLimit};
+  double acceleration_m_s2{kNoLimit};
+  double deceleration_m_s2{kNoLimit};
+  double lateral_acceleration_m_s2{kNoLimit};
+  double yaw_rate_rad_s{kNoLimit};
+  double yaw_acceleration_rad_s2{kNoLimit};
+  double wheel_acceleration_rad_s2{kNoLimit};
+  double jerk_m_s3{kNoLimit};
+  double traction_coefficient{kNoLimit};  ///< wheel force / normal load
+  double motor_power_W{kNoLimit};         ///< electrical, per motor
+  double battery_power_W{kNoLimit};       ///< at the battery's terminals, standby included
+  double max_payload_kg{kNoLimit};
+};
 
 /// All that is known of one limit. State is LimitState (model/limit_table.hpp).
 template <class State>
 struct LimitRow {
-  std::string_view key{};      ///< in robot files and relaxations: the name with its unit
-  std::string_view name{};     ///< in verdicts, and of the term of the nonlinear program
-  std::string_view unit{};     ///< as verdicts print it
-  std::string_view meaning{};  ///< one line for the schema
-  double Limits::*field{};     ///< where the robot keeps it; null for a rating of the motors
-  double Motor::*rating{};     ///< where each motor keeps it; null otherwise
-  bool by_payload{true};       ///< rows of `limits: by_payload` may change it
-  bool may_be_zero{};          ///< a robot that may not do this at all can still be of use
-  bool per_wheel{};            ///< `value` depends on the side
+  std::string_view key{};          ///< in robot files and relaxations: the name with its unit
+  std::string_view name{};         ///< in verdicts, and of the term of the nonlinear program
+  std::string_view unit{};         ///< as verdicts print it
+  std::string_view meaning{};      ///< one line for the schema
+  double Limits::*field{};         ///< where the robot keeps it; null for a rating of the motors
+  double State::Motor::*rating{};  ///< where each motor keeps it; null otherwise
+  bool by_payload{true};           ///< rows of `limits: by_payload` may change it
+  bool may_be_zero{};              ///< a robot that may not do this at all can still be of use
+  bool per_wheel{};                ///< `value` depends on the side
   /// What the limit bounds, at a state; the use of the limit is |value| / limit. Null where the limit does
   /// not concern the motion.
   double (*value)(const State& state, Side side){};

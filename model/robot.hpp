@@ -1,18 +1,17 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "model/limits.hpp"
 #include "model/sided.hpp"
 
 namespace joulepath {
 
 inline constexpr double kGravity_m_s2 = 9.80665;
-inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// Lengths of a two-wheel differential drive [P1, Fig. 1].
 struct Geometry {
@@ -45,22 +44,6 @@ struct Motor {
 
   double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }       ///< Kt n
   double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }  ///< Kv n
-};
-
-/// What the motion may not exceed; an absent limit is infinite. SI units; all values are magnitudes.
-struct Limits {
-  double speed_m_s{kNoLimit};
-  double acceleration_m_s2{kNoLimit};
-  double deceleration_m_s2{kNoLimit};
-  double lateral_acceleration_m_s2{kNoLimit};
-  double yaw_rate_rad_s{kNoLimit};
-  double yaw_acceleration_rad_s2{kNoLimit};
-  double wheel_acceleration_rad_s2{kNoLimit};
-  double jerk_m_s3{kNoLimit};
-  double traction_coefficient{kNoLimit};  ///< wheel force / normal load
-  double motor_power_W{kNoLimit};         ///< electrical, per motor
-  double battery_power_W{kNoLimit};       ///< at the battery's terminals, standby included
-  double max_payload_kg{kNoLimit};
 };
 
 /// One row of `limits: by_payload`: the keys given override the limit at this payload; between rows

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/numerics/parallel.hpp"
+#include "model/limit_table.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -50,7 +51,7 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected) {
 DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const Robot& driven) {
   const Plant plant = make_plant(with_limits(driven));
   const PlanOptions options{.solver = SolverChoice::fast, .nodes = kNodes, .baselines = false};
-  const double half_load_kg = 0.5 * std::min(10.0, with_limits(nominal).limits->max_payload_kg);
+  const double half_load_kg = 0.5 * std::min(10.0, payload_limit_kg(with_limits(nominal)));
   const std::vector<MissionRequest> missions{mission_along(kStraight, 0.0),
                                              mission_along(kStraight, half_load_kg),
                                              mission_along(kTurn, 0.0), mission_along(kTurn, half_load_kg)};

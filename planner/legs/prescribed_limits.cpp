@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/limit_table.hpp"
-#include "planner/legs/prescribed_leg.hpp"
+#include "planner/legs/leg_motion.hpp"
 #include "planner/legs/stretch.hpp"
 #include "planner/values/verdict_text.hpp"
 
@@ -39,11 +39,12 @@ struct LimitSearch {
     const Limits limits = limits_along(world.robot, mission.legs[leg].payload);
     std::vector<Excess> excesses;
     const Trajectory& motion = *planned.prescribed;
+    if (motion.size() == 0) return excesses;
+    const SampledMotion driven = prescribed_motion(planned, plant);
     for (std::size_t k = 0; k + 1 < motion.size(); ++k)
       for (const double share : {1e-6, 0.5, 1 - 1e-6}) {
         const double time_s = motion.time_s[k] + share * (motion.time_s[k + 1] - motion.time_s[k]);
-        const SampledState state = sampled_state(motion, time_s);
-        look(state, time_s, limits, excesses);
+        look(driven, sampled_state(motion, time_s), time_s, limits, excesses);
       }
     if (limits.jerk_m_s3 < kNoLimit) look_for_jumps(limits.jerk_m_s3, excesses);
     return excesses;
@@ -60,13 +61,11 @@ struct LimitSearch {
       *same = one;
   }
 
-  void look(const SampledState& state, double time_s, const Limits& limits,
+  void look(const SampledMotion& driven, const SampledState& state, double time_s, const Limits& limits,
             std::vector<Excess>& excesses) const {
     const BodyMotion<double>& body = state.motion;
-    const Site site = site_of(plant.robot.geometry, state.pose, planned.payload.from_kg, body.speed_m_s,
-                              body.yaw_rate_rad_s, time_s);
     const double gain_m_s2 = body.acceleration_m_s2 * (body.speed_m_s < 0 ? -1.0 : 1.0);
-    for_each_limit(limit_state(plant, body, site, gain_m_s2, 0.0), limits,
+    for_each_limit(limit_state(plant, body, driven.at(time_s).site, gain_m_s2, 0.0), limits,
                    [&](const Limit& row, double value, double limit) {
                      add(excesses, {&row, value, limit, time_s, state});
                    });

@@ -17,7 +17,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kRounds = 3;  ///< of choosing ways at the prices that the last round's times led to
 
 /// The final solution of a leg at its price, replayed and accounted for.
@@ -69,26 +68,26 @@ bool moved(const std::vector<double>& before_W, const std::vector<double>& after
   return false;
 }
 
-/// A draft whose ways were chosen at the prices that its times have; the plan becomes the verdict where
+/// A prepared whose ways were chosen at the prices that its times have; the plan becomes the verdict where
 /// there is none.
-struct TimedDraft {
-  Draft draft{};
+struct TimedLegs {
+  PreparedLegs prepared{};
   TimeSplit split{};
 };
-TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
-                     const Plant& plant, const PlanOptions& options, Plan& plan) {
+TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
+                    const Plant& plant, const PlanOptions& options, Plan& plan) {
   const double floor_W = lowest_price_W(mission.objective);
   std::vector<double> price_W(mission.legs.size(), floor_W);
-  TimedDraft timed;
+  TimedLegs timed;
   const MissionWays ways(mission, world, space, plant, options);
   const auto choose = [&](bool quick) {
-    timed.draft = draft_legs(mission, world, plant, options, ways.choose(price_W, quick), plan);
+    timed.prepared = prepare_legs(mission, world, plant, options, ways.choose(price_W, quick), plan);
     return plan.status == SolveStatus::optimal;
   };
   const auto share = [&](bool roughly) {
-    for (LegTiming& timing : timed.draft.timing) timing.solve_roughly(roughly);
-    if (!check_each_leg(timed.draft, floor_W, SolverChoice::fast, plan)) return false;
-    timed.split = share_time(timed.draft, mission, plant, SolverChoice::fast);
+    for (LegTiming& timing : timed.prepared.timing) timing.solve_roughly(roughly);
+    if (!check_each_leg(timed.prepared, floor_W, SolverChoice::fast, plan)) return false;
+    timed.split = share_time(timed.prepared, mission, plant, SolverChoice::fast);
     return true;
   };
   for (int round = 0; space && round < kRounds; ++round) {
@@ -105,7 +104,7 @@ TimedDraft time_legs(const MissionRequest& mission, const MissionWorld& world, c
 std::string held_by(LegTiming& leg) {
   HoldingLimits limits;
   double before_m = 0.0;
-  const std::vector<ProfileResult>& fastest = leg.solve(kInfinite, SolverChoice::fast);
+  const std::vector<ProfileResult>& fastest = leg.solve(kNoLimit, SolverChoice::fast);
   for (std::size_t k = 0; k < fastest.size(); ++k) {
     const ProfileRequest& stretch = leg.stretches()[k];
     if (fastest[k].profile) limits.add(stretch, *fastest[k].profile, before_m);
@@ -115,22 +114,22 @@ std::string held_by(LegTiming& leg) {
 }
 
 /// The verdict where a deadline or a duration cannot be met.
-std::optional<PlanInfeasibility> too_late(TimedDraft& timed, const MissionRequest& mission) {
+std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest& mission) {
   TimeSplit& split = timed.split;
   if (split.late) {
     const std::size_t leg = split.late->leg;
-    const auto [s_m, pose] = place_after(timed.draft.timing[leg],
+    const auto [s_m, pose] = place_after(timed.prepared.timing[leg],
                                          split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
     Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
-    reason.message += held_by(timed.draft.timing[leg]);
+    reason.message += held_by(timed.prepared.timing[leg]);
     return PlanInfeasibility{std::move(reason), leg, s_m};
   }
-  for (std::size_t k = 0; k < timed.draft.legs.size(); ++k) {
+  for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
     const std::optional<double>& asked_s = mission.legs[k].duration_s;
     if (!asked_s || split.duration_s[k] <= *asked_s * (1 + 1e-9) + 1e-9) continue;
-    const auto [s_m, pose] = place_after(timed.draft.timing[k], *asked_s, SolverChoice::fast);
+    const auto [s_m, pose] = place_after(timed.prepared.timing[k], *asked_s, SolverChoice::fast);
     Infeasibility reason = too_short(*asked_s, split.duration_s[k], s_m, pose);
-    reason.message += held_by(timed.draft.timing[k]);
+    reason.message += held_by(timed.prepared.timing[k]);
     return PlanInfeasibility{std::move(reason), k, s_m};
   }
   return std::nullopt;
@@ -144,18 +143,19 @@ bool has_own_duration(const MissionRequest& mission) {
 
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, Plan plan) {
-  TimedDraft timed = time_legs(mission, world, space, plant, options, plan);
+  TimedLegs timed = time_legs(mission, world, space, plant, options, plan);
   if (plan.status != SolveStatus::optimal) return plan;
   if (auto verdict = too_late(timed, mission))
     return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
 
-  for (std::size_t k = 0; k < timed.draft.legs.size(); ++k) {
-    LegPlan& leg = timed.draft.legs[k];
-    leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.draft.legs[k - 1].dwell_s;
-    settle_leg(leg, timed.draft.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options, plant);
+  for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
+    LegPlan& leg = timed.prepared.legs[k];
+    leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.prepared.legs[k - 1].dwell_s;
+    settle_leg(leg, timed.prepared.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options,
+               plant);
     if (options.baselines) leg.baselines = leg_baselines(leg);
   }
-  plan.legs = std::move(timed.draft.legs);
+  plan.legs = std::move(timed.prepared.legs);
   sum_up(plan, plant, options.accuracy);
   plan.battery = battery_account(plan, plant, mission.start.battery_fraction.value_or(1.0),
                                  mission.charging ? mission.charging->to_fraction : 1.0);

@@ -6,8 +6,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 /// Price at which a leg alone takes a given time; a long time has a negative price, down to where standby is
 /// paid back (nearly: seconds without any price have no end) and the robot rather waits.
 double price_for_duration(LegTiming& leg, double duration_s, double standby_W, SolverChoice solver) {
@@ -18,17 +16,18 @@ double price_for_duration(LegTiming& leg, double duration_s, double standby_W, S
                   .earliest_arrival_s = {0.0},
                   .dwell_s = {0.0},
                   .lowest_price_W = -0.9999 * standby_W});
-  return split.late ? kInfinite : split.price_W.front();
+  return split.late ? kNoLimit : split.price_W.front();
 }
 
 /// One round, at the times of day that the stretches have.
-TimeSplit share_once(Draft& draft, const MissionRequest& mission, double standby_W, SolverChoice solver) {
+TimeSplit share_once(PreparedLegs& prepared, const MissionRequest& mission, double standby_W,
+                     SolverChoice solver) {
   const double floor_W = lowest_price_W(mission.objective);
-  const std::size_t count = draft.legs.size();
+  const std::size_t count = prepared.legs.size();
   std::vector<double> own_price_W(count, std::nan(""));
   TimeSplitRequest request{.legs = count,
                            .duration_s = {},
-                           .latest_arrival_s = std::vector<double>(count, kInfinite),
+                           .latest_arrival_s = std::vector<double>(count, kNoLimit),
                            .earliest_arrival_s = std::vector<double>(count, 0.0),
                            .dwell_s = {},
                            .lowest_price_W = std::isinf(floor_W) ? 0.0 : floor_W};
@@ -38,17 +37,17 @@ TimeSplit share_once(Draft& draft, const MissionRequest& mission, double standby
     if (leg.deadline_s) request.latest_arrival_s[k] = *leg.deadline_s;
     if (leg.earliest_s) request.earliest_arrival_s[k] = *leg.earliest_s;
     if (leg.duration_s)
-      own_price_W[k] = price_for_duration(draft.timing[k], *leg.duration_s, standby_W, solver);
+      own_price_W[k] = price_for_duration(prepared.timing[k], *leg.duration_s, standby_W, solver);
     else if (std::isinf(floor_W))
-      own_price_W[k] = kInfinite;
+      own_price_W[k] = kNoLimit;
   }
   if (mission.objective.deadline_s && count > 0)
     request.latest_arrival_s.back() = std::min(request.latest_arrival_s.back(),
                                                *mission.objective.deadline_s - mission.legs.back().dwell_s);
   request.duration_s = [&](std::size_t leg, double price_W) {
-    if (draft.legs[leg].prescribed) return draft.legs[leg].duration_s;
+    if (prepared.legs[leg].prescribed) return prepared.legs[leg].duration_s;
     const double own_s =
-        draft.timing[leg].duration_s(std::isnan(own_price_W[leg]) ? price_W : own_price_W[leg], solver);
+        prepared.timing[leg].duration_s(std::isnan(own_price_W[leg]) ? price_W : own_price_W[leg], solver);
     return mission.legs[leg].duration_s ? std::max(own_s, *mission.legs[leg].duration_s) : own_s;
   };
   TimeSplit split = split_time(request);
@@ -62,11 +61,11 @@ bool depends_on_time(const Plant& plant) {
 }
 
 /// Tells every stretch when it begins (windings warm up), counted from the mission's start.
-void set_times_of_day(Draft& draft, const TimeSplit& split, const MissionRequest& mission,
+void set_times_of_day(PreparedLegs& prepared, const TimeSplit& split, const MissionRequest& mission,
                       SolverChoice solver) {
   double departure_s = 0.0;
-  for (std::size_t k = 0; k < draft.timing.size(); ++k) {
-    LegTiming& timing = draft.timing[k];
+  for (std::size_t k = 0; k < prepared.timing.size(); ++k) {
+    LegTiming& timing = prepared.timing[k];
     std::vector<double> durations_s;
     for (const ProfileResult& result : timing.solve(split.price_W[k], solver))
       durations_s.push_back(result.profile ? result.profile->duration_s() : 0.0);
@@ -85,7 +84,7 @@ void set_times_of_day(Draft& draft, const TimeSplit& split, const MissionRequest
 double lowest_price_W(const Objective& objective) {
   switch (objective.minimize) {
     case Objective::Minimize::time:
-      return kInfinite;
+      return kNoLimit;
     case Objective::Minimize::energy_and_time:
       return objective.time_value_W;
     case Objective::Minimize::energy:
@@ -94,13 +93,14 @@ double lowest_price_W(const Objective& objective) {
   return 0.0;
 }
 
-TimeSplit share_time(Draft& draft, const MissionRequest& mission, const Plant& plant, SolverChoice solver) {
+TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,
+                     SolverChoice solver) {
   const double standby_W = plant.robot.power.standby_W;
-  TimeSplit split = share_once(draft, mission, standby_W, solver);
+  TimeSplit split = share_once(prepared, mission, standby_W, solver);
   if (depends_on_time(plant))
     for (int pass = 0; pass < 3; ++pass) {
-      set_times_of_day(draft, split, mission, solver);
-      split = share_once(draft, mission, standby_W, solver);
+      set_times_of_day(prepared, split, mission, solver);
+      split = share_once(prepared, mission, standby_W, solver);
     }
   return split;
 }
@@ -110,7 +110,7 @@ std::pair<double, Pose> place_after(LegTiming& leg, double elapsed_s, SolverChoi
   Pose pose{};
   for (std::size_t k = 0; k < leg.stretches().size(); ++k) {
     const PathPiece& piece = leg.stretches()[k].piece;
-    const ProfileResult& result = leg.solve(kInfinite, solver)[k];
+    const ProfileResult& result = leg.solve(kNoLimit, solver)[k];
     if (!result.profile) break;
     const double here_s = std::clamp(elapsed_s, 0.0, result.profile->duration_s());
     const double s = result.profile->at_time(here_s).s;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "planner/mission/draft.hpp"
+#include "planner/mission/prepared_legs.hpp"
 #include "planner/mission/time_split.hpp"
 
 namespace joulepath {
@@ -12,7 +12,7 @@ namespace joulepath {
 
 /// Times of all legs: fixed durations on their own, all others at equal prices within the deadlines. Where
 /// windings warm up, every stretch gets the time of day at which it begins.
-[[nodiscard]] TimeSplit share_time(Draft& draft, const MissionRequest& mission, const Plant& plant,
+[[nodiscard]] TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,
                                    SolverChoice solver);
 
 /// Where the robot is on a leg (arc length, pose) when `elapsed_s` have passed since its departure, at

@@ -9,7 +9,6 @@ namespace joulepath {
 namespace {
 
 constexpr double kHighestPrice_W = 1e7;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Arrival at the end of `last` when all legs from `first` pay one price.
 double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
@@ -44,8 +43,8 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
     late_high_s = late_s(high);
   }
   if (late_high_s > 0)
-    return arrival_s(request, first, last, departure_s, kInfinite) <= latest_s * (1 + 1e-9) + 1e-9
-               ? std::optional(kInfinite)
+    return arrival_s(request, first, last, departure_s, kNoLimit) <= latest_s * (1 + 1e-9) + 1e-9
+               ? std::optional(kNoLimit)
                : std::nullopt;
   std::uintmax_t iterations = 60;
   const auto close = [](double a, double b) { return std::abs(a - b) < 1e-9 * (1 + std::abs(a)); };
@@ -69,8 +68,8 @@ TimeSplit split_time(const TimeSplitRequest& request) {
       const std::optional<double> price_W = price_of(request, first, last, departure_s);
       if (!price_W) {
         split.late = {
-            last, arrival_s(request, first, last, departure_s, kInfinite) - request.latest_arrival_s[last]};
-        highest_W = kInfinite;
+            last, arrival_s(request, first, last, departure_s, kNoLimit) - request.latest_arrival_s[last]};
+        highest_W = kNoLimit;
         binding = last;
       } else if (*price_W > highest_W) {
         highest_W = *price_W;

@@ -4,7 +4,7 @@
 
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/effects/catalog.hpp"
-#include "model/effects/reference.hpp"
+#include "model/effects/effects_document.hpp"
 #include "model/simulation/simulate.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"

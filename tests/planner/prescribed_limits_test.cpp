@@ -155,5 +155,30 @@ TEST(PrescribedLimits, TwoLimitsThatAreExceededAreBothNamedAndNoneIsSaidToBeEnou
   EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
 }
 
+/// After a spin to the left the casters have to swivel by twice as much for one to the right as from
+/// straight.
+TEST(PrescribedLimits, WhatTheCastersRememberOfTheLegBeforeCounts) {
+  const auto spin = [](double angle_rad) {
+    return LegRequest{.motion = PrescribedMotion{.profile = MotionProfile::spin,
+                                                 .angle_rad = angle_rad,
+                                                 .yaw_rate_rad_s = 1,
+                                                 .yaw_acceleration_rad_s2 = 1}};
+  };
+  const auto plan_with = [&](const std::vector<LegRequest>& legs, double battery_power_W) {
+    Robot robot = with_limit(*limit_named("battery_power"), battery_power_W);
+    robot.effects = {{.name = "caster_swivel", .parameters = {{"moment_Nm", 5}, {"trail_m", 0.3}}}};
+    return planned({.name = "spins", .legs = legs}, robot);
+  };
+  const Plan hopeless = plan_with({spin(3)}, 1e-3);
+  ASSERT_NE(verdict_of(hopeless), nullptr);
+  const double enough_W = 1.05 * verdict_of(hopeless)->relaxation.at("battery_power_W");
+  EXPECT_EQ(verdict_of(plan_with({spin(3)}, enough_W)), nullptr);
+  EXPECT_EQ(verdict_of(plan_with({spin(-3)}, enough_W)), nullptr);
+  const Plan both = plan_with({spin(3), spin(-3)}, enough_W);
+  ASSERT_NE(verdict_of(both), nullptr);
+  EXPECT_EQ(verdict_of(both)->constraint, "battery_power");
+  EXPECT_EQ(both.infeasibility->leg, 1u);
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tuple>
+#include <type_traits>
 
 #include "planner/nlp/terms/acceleration.hpp"
 #include "planner/nlp/terms/battery_power.hpp"
@@ -29,10 +30,19 @@ static_assert(std::is_same_v<std::tuple_element_t<kYawTerm, Rows>, YawAccelerati
 using Energy = WheelEnergy;
 using Time = Duration;
 
-inline Rows rows_for(const Limits& limits) {
-  return {Acceleration{limits}, YawAcceleration{limits}, WheelAcceleration{limits}, MotorCurrent{},
-          MotorVoltage{},       MotorPower{limits},      Traction{limits},          BatteryPower{limits}};
+/// A term knows the limits where it has them as its member.
+template <class Term>
+Term term_for(const Limits& limits) {
+  if constexpr (requires { Term{limits}; })
+    return Term{limits};
+  else
+    return Term{};
 }
+template <class... Terms>
+std::tuple<Terms...> terms_for(const Limits& limits, std::type_identity<std::tuple<Terms...>>) {
+  return {term_for<Terms>(limits)...};
+}
+inline Rows rows_for(const Limits& limits) { return terms_for(limits, std::type_identity<Rows>{}); }
 
 template <class... Terms>
 constexpr bool all_are_terms(const std::tuple<Terms...>*) {

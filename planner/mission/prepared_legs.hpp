@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// Everything about a mission that is known before its times are.
-struct Draft {
+struct PreparedLegs {
   std::vector<LegTiming> timing{};
   std::vector<LegPlan> legs{};
 };
@@ -18,11 +18,12 @@ struct Draft {
 [[nodiscard]] Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason);
 
 /// Profile requests of all legs along their paths; where a leg has none, or cannot be driven for another
-/// reason that needs no solver, the plan becomes the verdict and the draft is not complete.
-[[nodiscard]] Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
-                               const PlanOptions& options, std::vector<LegPath> paths, Plan& plan);
+/// reason that needs no solver, the plan becomes the verdict and the legs are not complete.
+[[nodiscard]] PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world,
+                                        const Plant& plant, const PlanOptions& options,
+                                        std::vector<LegPath> paths, Plan& plan);
 
 /// Whether every stretch can be driven at all; the plan becomes the verdict where one cannot.
-[[nodiscard]] bool check_each_leg(Draft& draft, double price_W, SolverChoice solver, Plan& plan);
+[[nodiscard]] bool check_each_leg(PreparedLegs& prepared, double price_W, SolverChoice solver, Plan& plan);
 
 }  // namespace joulepath

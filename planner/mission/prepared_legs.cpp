@@ -1,4 +1,4 @@
-#include "planner/mission/draft.hpp"
+#include "planner/mission/prepared_legs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@ namespace {
 
 std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequest& leg, const Pose& pose) {
   const double most_kg = std::max(leg.payload.from_kg, leg.payload.to_kg);
-  const double limit_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
+  const double limit_kg = payload_limit_kg(robot);
   if (most_kg <= limit_kg) return std::nullopt;
-  const Limit& row = *limit_named("max_payload");
+  const Limit& row = payload_limit();
   return Infeasibility{.constraint = std::string(row.name),
                        .x_m = pose.x_m,
                        .y_m = pose.y_m,
@@ -55,9 +55,9 @@ Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility r
   return plan;
 }
 
-Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
-                 const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
-  Draft draft;
+PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
+                          const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
+  PreparedLegs prepared;
   Pose here = mission.start.pose;
   EffectMemory memory{};
   for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k) {
@@ -65,52 +65,52 @@ Draft draft_legs(const MissionRequest& mission, const MissionWorld& world, const
     check_joint(mission, k);
     if (auto reason = payload_too_heavy(world.robot, leg, here)) {
       plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
-      return draft;
+      return prepared;
     }
     if (leg.motion) {
-      draft.timing.emplace_back(std::vector<ProfileRequest>{});
-      draft.legs.push_back(prescribed_leg(leg, plant, here));
-      draft.legs.back().memory = memory;
-      if (auto reason = broken_limit(draft.legs.back(), k, mission, world, plant)) {
+      prepared.timing.emplace_back(std::vector<ProfileRequest>{});
+      prepared.legs.push_back(prescribed_leg(leg, plant, here));
+      prepared.legs.back().memory = memory;
+      if (auto reason = broken_limit(prepared.legs.back(), k, mission, world, plant)) {
         plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
-        return draft;
+        return prepared;
       }
-      const double end_s = draft.legs.back().prescribed->time_s.back();
-      here = sampled_state(*draft.legs.back().prescribed, end_s).pose;
-      memory = prescribed_motion(draft.legs.back(), plant).memory(end_s);
+      const double end_s = prepared.legs.back().prescribed->time_s.back();
+      here = sampled_state(*prepared.legs.back().prescribed, end_s).pose;
+      memory = prescribed_motion(prepared.legs.back(), plant).memory(end_s);
       continue;
     }
     LegPath& way = paths[k];
     if (way.infeasibility) {
       const double s_m = way.infeasibility->s;
       plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
-      return draft;
+      return prepared;
     }
-    draft.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory));
-    draft.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
-                          .path_source = way.source,
-                          .payload = leg.payload,
-                          .parts = leg.parts,
-                          .memory = memory,
-                          .dwell_s = leg.dwell_s,
-                          .distance_m = way.path.distance_m(),
-                          .turned_rad = way.path.turned_rad(),
-                          .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
-                          .alternatives = std::move(way.alternatives),
-                          .improvements = std::move(way.improvements)});
+    prepared.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory));
+    prepared.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
+                             .path_source = way.source,
+                             .payload = leg.payload,
+                             .parts = leg.parts,
+                             .memory = memory,
+                             .dwell_s = leg.dwell_s,
+                             .distance_m = way.path.distance_m(),
+                             .turned_rad = way.path.turned_rad(),
+                             .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
+                             .alternatives = std::move(way.alternatives),
+                             .improvements = std::move(way.improvements)});
     if (way.path.pieces.empty()) continue;
     here = way.path.end();
-    memory = memory_after(draft.timing.back().stretches().back());
+    memory = memory_after(prepared.timing.back().stretches().back());
   }
-  return draft;
+  return prepared;
 }
 
-bool check_each_leg(Draft& draft, double price_W, SolverChoice solver, Plan& plan) {
-  for (std::size_t leg = 0; leg < draft.timing.size(); ++leg) {
+bool check_each_leg(PreparedLegs& prepared, double price_W, SolverChoice solver, Plan& plan) {
+  for (std::size_t leg = 0; leg < prepared.timing.size(); ++leg) {
     double offset_m = 0.0;
-    const auto& results = draft.timing[leg].solve(price_W, solver);
+    const auto& results = prepared.timing[leg].solve(price_W, solver);
     for (std::size_t k = 0; k < results.size(); ++k) {
-      const PathPiece& piece = draft.timing[leg].stretches()[k].piece;
+      const PathPiece& piece = prepared.timing[leg].stretches()[k].piece;
       if (!results[k].profile) {
         if (results[k].infeasibility) {
           const double s_m = offset_m + (is_turn(piece) ? 0.0 : results[k].infeasibility->s);

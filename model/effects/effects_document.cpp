@@ -1,4 +1,4 @@
-#include "model/effects/reference.hpp"
+#include "model/effects/effects_document.hpp"
 
 #include <sstream>
 

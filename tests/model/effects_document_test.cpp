@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "model/effects/catalog.hpp"
-#include "model/effects/reference.hpp"
+#include "model/effects/effects_document.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath {

@@ -1,0 +1,123 @@
+#include "planner/mission/visit_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/limit_table.hpp"
+#include "planner/mission/visit_order.hpp"
+
+// Design: docs/decisions/0005-order-of-visits.md
+namespace joulepath {
+
+double payload_after_kg(const VisitRequest& visit, double payload_kg) {
+  switch (visit.kind) {
+    case VisitRequest::Kind::pick:
+      return payload_kg + visit.payload_kg;
+    case VisitRequest::Kind::drop:
+      return visit.payload_given ? payload_kg - visit.payload_kg : 0.0;
+    default:
+      return payload_kg;
+  }
+}
+
+VisitSearch::VisitSearch(const ChoiceContext& context)
+    : visits_(context.mission.visit),
+      count_(visits_.size()),
+      standby_W_(context.plant.robot.power.standby_W),
+      capacity_kg_(payload_limit_kg(context.world.robot)),
+      table_(context) {}
+
+std::optional<VisitLabel> VisitSearch::best(const RelaxedVisits& relaxed) const {
+  Layer layer{{.last = count_}};
+  for (std::size_t step = 0; step < count_ && !layer.empty(); ++step) layer = next_layer(layer, relaxed);
+  const auto least = std::ranges::min_element(
+      layer, {}, [](const VisitLabel& label) { return std::pair(label.late_s, label.front.least_J()); });
+  return least == layer.end() ? std::nullopt : std::optional(*least);
+}
+
+std::optional<double> VisitSearch::given_order_J() const {
+  std::optional<VisitLabel> label = VisitLabel{.last = count_};
+  for (std::size_t k = 0; k < count_ && label; ++k)
+    label = allowed(*label, k) ? extend(*label, k, {}) : std::nullopt;
+  return label ? std::optional(label->front.least_J()) : std::nullopt;
+}
+
+double VisitSearch::lower_bound_J() const {
+  double sum_J = 0.0;
+  for (std::size_t to = 0; to < count_; ++to) {
+    double least_J = kNoLimit;
+    for (std::size_t from = 0; from <= count_; ++from)
+      if (from != to && table_.reachable(from, to)) least_J = std::min(least_J, table_.unloaded_J(from, to));
+    sum_J += least_J + standby_W_ * visits_[to].dwell_s;
+  }
+  return sum_J;
+}
+
+std::optional<std::size_t> VisitSearch::unreachable() const {
+  for (std::size_t to = 0; to < count_; ++to)
+    if (!table_.reachable(count_, to)) return to;
+  return std::nullopt;
+}
+
+/// A drop waits for the picks listed before it.
+bool VisitSearch::allowed(const VisitLabel& label, std::size_t next) const {
+  if (label.visited >> next & 1) return false;
+  if (visits_[next].kind != VisitRequest::Kind::drop) return true;
+  for (std::size_t k = 0; k < next; ++k)
+    if (visits_[k].kind == VisitRequest::Kind::pick && !(label.visited >> k & 1)) return false;
+  return true;
+}
+
+std::optional<VisitLabel> VisitSearch::extend(const VisitLabel& label, std::size_t next,
+                                              const RelaxedVisits& relaxed) const {
+  if (!table_.reachable(label.last, next)) return std::nullopt;
+  const VisitRequest& visit = visits_[next];
+  VisitLabel after = label;
+  after.front = label.front + table_.front(label.last, next, label.payload_kg);
+  if (visit.window_s) {
+    after.front.wait_until(visit.window_s->first, standby_W_);
+    const double first_s = after.front.soonest_s(), late_s = first_s - visit.window_s->second;
+    if (late_s > relaxed.late_share * first_s && relaxed.window != next) return std::nullopt;
+    after.late_s = std::max(after.late_s, late_s);
+    after.front.end_at(visit.window_s->second);
+  }
+  after.front.shift(visit.dwell_s, standby_W_ * visit.dwell_s);
+  after.payload_kg = payload_after_kg(visit, label.payload_kg);
+  const bool too_heavy = after.payload_kg > capacity_kg_ + 1e-9 && !relaxed.capacity;
+  if (too_heavy || after.payload_kg < -1e-9) return std::nullopt;
+  after.heaviest_kg = std::max(after.heaviest_kg, after.payload_kg);
+  after.payload_kg = std::max(0.0, after.payload_kg);
+  after.visited |= std::uint64_t{1} << next;
+  after.last = next;
+  after.order.push_back(next);
+  return after;
+}
+
+/// All extensions that no other one with the same visits, place and payload beats in cost and time.
+VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisits& relaxed) const {
+  const auto beats = [](const VisitLabel& a, const VisitLabel& b) {
+    return a.late_s <= b.late_s && a.front.is_below(b.front);
+  };
+  std::map<std::tuple<std::uint64_t, std::size_t, long>, Layer> best;
+  for (const VisitLabel& label : layer)
+    for (std::size_t next = 0; next < count_; ++next) {
+      if (!allowed(label, next)) continue;
+      std::optional<VisitLabel> after = extend(label, next, relaxed);
+      if (!after) continue;
+      Layer& rivals = best[{after->visited, after->last, std::lround(1e6 * after->payload_kg)}];
+      if (std::ranges::any_of(rivals, [&](const VisitLabel& rival) { return beats(rival, *after); }))
+        continue;
+      std::erase_if(rivals, [&](const VisitLabel& rival) { return beats(*after, rival); });
+      rivals.push_back(std::move(*after));
+    }
+  Layer all;
+  for (auto& [key, labels] : best) std::move(labels.begin(), labels.end(), std::back_inserter(all));
+  if (count_ > kExactStops && all.size() > kBeam) {
+    std::ranges::stable_sort(all, {}, [](const VisitLabel& label) { return label.front.least_J(); });
+    all.resize(kBeam);
+  }
+  return all;
+}
+
+}  // namespace joulepath

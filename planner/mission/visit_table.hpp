@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planner/mission/time_front.hpp"
+#include "planner/ways/mission_ways.hpp"
+
+namespace joulepath {
+
+/// Cost and time of the legs between every two stops, from inner profile solves at three payloads,
+/// interpolated between. Index `visits` stands for the start. Where stops have windows, a leg is measured at
+/// several prices of time.
+class VisitTable {
+ public:
+  explicit VisitTable(const ChoiceContext& context);
+
+  [[nodiscard]] bool reachable(std::size_t from, std::size_t to) const { return cost(from, to).reachable; }
+  /// Cost of a leg over its time, at the mission's own price, for a payload.
+  [[nodiscard]] TimeFront front(std::size_t from, std::size_t to, double payload_kg) const;
+  /// Energy of the cheapest drive without payload.
+  [[nodiscard]] double unloaded_J(std::size_t from, std::size_t to) const {
+    return cost(from, to).drives.back().energy_J[0];
+  }
+
+ private:
+  struct Drive {
+    std::array<double, 3> energy_J{};  ///< at no, half and the heaviest payload
+    std::array<double, 3> duration_s{};
+  };
+  struct LegCost {
+    bool reachable{};
+    std::vector<Drive> drives{};  ///< from the highest price of time to the mission's own
+  };
+
+  const LegCost& cost(std::size_t from, std::size_t to) const { return table_[from * count_ + to]; }
+  LegCost measure(const ChoiceContext& context, std::size_t from, std::size_t to) const;
+
+  std::size_t count_;
+  double price_W_;
+  double heaviest_kg_{};
+  std::vector<LegCost> table_{};
+};
+
+}  // namespace joulepath
