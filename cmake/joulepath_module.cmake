@@ -9,6 +9,7 @@ function(joulepath_module name)
     add_library(${target} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
     joulepath_warnings(${target})
+    joulepath_unity(${target})
     target_link_libraries(${target} PRIVATE ${ARG_PRIVATE})
   else()
     add_library(${target} INTERFACE)
@@ -30,4 +31,22 @@ function(joulepath_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
     $<$<BOOL:${JOULEPATH_WERROR}>:-Werror>)
+endfunction()
+
+# With JOULEPATH_UNITY the sources of one folder of a target are compiled as one unit: headers are parsed once.
+# Names in anonymous namespaces are therefore unique within a folder. docs/decisions/0270-unity-build.md
+function(joulepath_unity target)
+  if(NOT JOULEPATH_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(IS_ABSOLUTE ${source})
+      continue()  # generated
+    endif()
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_of_${target}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -2,19 +2,17 @@
 
 #include <charconv>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "model/effects/catalog.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/quoted.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
 /// A value in YAML's flow style.
 std::string flow_text(const Value& value) {

@@ -7,8 +7,6 @@
 namespace joulepath {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Reads a text and counts what was read, so that the parser's events can be placed in the text.
 class CountingIterator {
  public:
@@ -64,15 +62,15 @@ class JsonEvents {
     const std::string word = value ? "true" : "false";
     return builder_.scalar(word, false, literal(word.size())), true;
   }
-  bool number_integer(Json::number_integer_t) { return number(); }
-  bool number_unsigned(Json::number_unsigned_t) { return number(); }
-  bool number_float(Json::number_float_t, const std::string&) { return number(); }
+  bool number_integer(nlohmann::json::number_integer_t) { return number(); }
+  bool number_unsigned(nlohmann::json::number_unsigned_t) { return number(); }
+  bool number_float(nlohmann::json::number_float_t, const std::string&) { return number(); }
   bool string(std::string& value) {
     const auto place = token();
     end_ = read_;
     return builder_.scalar(std::move(value), true, place), true;
   }
-  bool binary(Json::binary_t&) { return false; }
+  bool binary(nlohmann::json::binary_t&) { return false; }
   bool start_object(std::size_t) { return builder_.open(Value::Kind::map, literal(1)), true; }
   bool start_array(std::size_t) { return builder_.open(Value::Kind::list, literal(1)), true; }
   bool end_object() { return literal(1), builder_.close(), true; }
@@ -82,7 +80,7 @@ class JsonEvents {
     end_ = read_;
     return builder_.key(std::move(value), place), true;
   }
-  bool parse_error(std::size_t position, const std::string&, const Json::exception& error) {
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) {
     const auto place = place_of(std::min(position == 0 ? 0 : position - 1, text_.size()));
     builder_.fail(place, "", "text that is not JSON (" + reason_of(error.what()) + ")", "JSON",
                   "is a bracket, quote, comma or colon missing or extra here or before?");
@@ -126,8 +124,8 @@ class JsonEvents {
 Value read_json_text(const std::string& text, std::string_view file, int first_line) {
   JsonEvents events(text, file, first_line);
   const char* begin = text.data();
-  Json::sax_parse(CountingIterator(begin, events.read()),
-                  CountingIterator(begin + text.size(), events.read()), &events);
+  nlohmann::json::sax_parse(CountingIterator(begin, events.read()),
+                            CountingIterator(begin + text.size(), events.read()), &events);
   return events.take();
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "model/limit_table.hpp"
 #include "model/printable.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
@@ -56,7 +57,7 @@ StartRequest read_start(const Node& node, const std::map<std::string, Station>& 
   return start;
 }
 
-PayloadAlongLeg read_payload(const Node& node) {
+PayloadAlongLeg read_payload_along(const Node& node) {
   if (node.kind() == Value::Kind::map) return {node["from"].number(), node["to"].number()};
   return {node.number(), node.number()};
 }
@@ -74,7 +75,7 @@ LegRequest read_leg(const Node& node, const std::map<std::string, Station>& stat
                                                                  ? PathRequest::Frame::map
                                                                  : PathRequest::Frame::start};
   if (const auto motion = node.find("motion")) leg.motion = read_motion(*motion);
-  if (const auto payload = node.find("payload_kg")) leg.payload = read_payload(*payload);
+  if (const auto payload = node.find("payload_kg")) leg.payload = read_payload_along(*payload);
   if (leg.motion)
     for (const char* key : {"deadline_s", "duration_s", "start_speed_m_s", "end_speed_m_s"})
       if (const auto extra = node.find(key))
@@ -247,12 +248,12 @@ namespace {
 
 /// A payload above the robot's limit is an error of the mission, reported at the leg.
 void check_payloads(const MissionRequest& request, const Robot& robot) {
-  const double most_kg = robot.limits ? robot.limits->max_payload_kg : kNoLimit;
+  const double most_kg = payload_limit_kg(robot);
   const auto check = [&](double payload_kg, const ItemMarks& marks) {
     if (payload_kg <= most_kg) return;
     std::ostringstream found, accepted;
     found << payload_kg;
-    accepted << "at most " << most_kg << ", the max_payload_kg of " << request.robot_file;
+    accepted << "at most " << most_kg << ", the " << payload_limit().key << " of " << request.robot_file;
     throw ConfigError(
         {marks.at("payload_kg"), marks.key_path("payload_kg"), found.str(), accepted.str(), ""});
   };

@@ -10,14 +10,14 @@ Schema payload_schema() {
                  map({required("from", number(kNotNegative)), required("to", number(kNotNegative))})});
 }
 
-Schema path_schema() {
+Schema leg_path_schema() {
   return map({required("bezier_m", bezier_schema(), "chain of cubic Bezier curves, four control points each"),
               optional("frame", choice({"start", "map"}),
                        "start (default): in the robot's frame where the leg begins")});
 }
 
 Schema leg_schema() {
-  return map({optional("to", text(), "name of a station"), optional("path", path_schema()),
+  return map({optional("to", text(), "name of a station"), optional("path", leg_path_schema()),
               optional("motion", motion_schema(), "prescribed, not optimized"),
               optional("payload_kg", payload_schema(),
                        "on board during the leg: a number, or {from: , to: } linear in arc length"),

@@ -39,7 +39,7 @@ Schema improvements_schema() {
 constexpr const char* kBoundMeans =
     "no profile of these paths within the limits takes less; null where one is driven in the least time";
 
-Schema leg_schema() {
+Schema leg_result_schema() {
   return open(
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
@@ -55,7 +55,7 @@ Schema leg_schema() {
            optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));
 }
 
-Schema battery_schema() {
+Schema battery_result_schema() {
   return open(map({required("start_fraction", result()), required("end_fraction", result()),
                    required("interval_95", interval(), "of the end fraction"),
                    required("required_capacity_Wh", result(), "95 % upper bound"),
@@ -114,7 +114,7 @@ Schema plan_schema() {
            optional("solver", open(map({required("name", text()), required("iterations", number())}))),
            optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
                                         required("limit", text())}))),
-           optional("battery", battery_schema()), optional("legs", list(leg_schema())),
+           optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
            optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "model/kinematics.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/significant.hpp"
 
 namespace joulepath {
 namespace {
@@ -15,7 +15,7 @@ struct Bound {
   double most;  ///< of the absolute value
   const char* hint;
 };
-constexpr Bound kBounds[] = {
+constexpr Bound kColumnBounds[] = {
     {"motor_voltage_left_V", 1000, "millivolts?"},      {"motor_voltage_right_V", 1000, "millivolts?"},
     {"motor_current_left_A", 1000, "milliamperes?"},    {"motor_current_right_A", 1000, "milliamperes?"},
     {"motor_power_left_W", 1e5, "milliwatts?"},         {"motor_power_right_W", 1e5, "milliwatts?"},
@@ -26,12 +26,6 @@ constexpr double kFastest_m_s = 20.0;    ///< of a wheel's rim
 constexpr double kLongestStep_s = 60.0;  ///< between samples, median
 constexpr double kOddRatio = 2.0;        ///< between a body's speed and its wheels'
 constexpr double kMoving_m_s = 0.05;     ///< mean speed below which nothing is compared
-
-std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -51,8 +45,8 @@ void check_time(const Trajectory& log, const Node& named_by) {
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   if (*middle > kLongestStep_s)
-    refuse(named_by, "time_s with a sample every " + figure(*middle) + " s",
-           "at most " + figure(kLongestStep_s) + " s between samples", "milliseconds, microseconds?");
+    refuse(named_by, "time_s with a sample every " + four_digits(*middle) + " s",
+           "at most " + four_digits(kLongestStep_s) + " s between samples", "milliseconds, microseconds?");
 }
 
 void check_wheels(const Trajectory& log, const Geometry& geometry, const Node& named_by) {
@@ -60,9 +54,9 @@ void check_wheels(const Trajectory& log, const Geometry& geometry, const Node& n
     const double most = greatest(log.wheel_speed_rad_s[side]);
     if (most * geometry.wheel_radius_m[side] <= kFastest_m_s) continue;
     refuse(named_by,
-           std::string("wheel_speed_") + side_name(side) + "_rad_s up to " + figure(most) + " rad/s, " +
-               figure(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
-           "at most " + figure(kFastest_m_s) + " m/s", "degrees per second, rpm or encoder ticks?");
+           std::string("wheel_speed_") + side_name(side) + "_rad_s up to " + four_digits(most) + " rad/s, " +
+               four_digits(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
+           "at most " + four_digits(kFastest_m_s) + " m/s", "degrees per second, rpm or encoder ticks?");
   }
 }
 
@@ -80,8 +74,8 @@ void check_robot(const Trajectory& log, const Geometry& geometry, const Node& na
   }
   if (std::max(body, wheels) < kMoving_m_s) return;
   if (body <= kOddRatio * wheels && wheels <= kOddRatio * body) return;
-  named_by.fail_found("a mean speed of " + figure(body) + " m/s where this robot's wheels turn for " +
-                          figure(wheels) + " m/s",
+  named_by.fail_found("a mean speed of " + four_digits(body) + " m/s where this robot's wheels turn for " +
+                          four_digits(wheels) + " m/s",
                       "a log of the robot that the dataset names",
                       "is it another robot's log, or wheel speeds before the gear?");
 }
@@ -92,10 +86,10 @@ void check_plausible(const Run& run, const Robot& robot, const Node& named_by) {
   Trajectory log = run.log;
   check_time(log, named_by);
   check_wheels(log, robot.geometry, named_by);
-  for (const Bound& bound : kBounds)
+  for (const Bound& bound : kColumnBounds)
     if (const double most = greatest(find_log_column(bound.column)->channel(log)); most > bound.most)
-      refuse(named_by, std::string(bound.column) + " up to " + figure(most), "at most " + figure(bound.most),
-             bound.hint);
+      refuse(named_by, std::string(bound.column) + " up to " + four_digits(most),
+             "at most " + four_digits(bound.most), bound.hint);
   check_robot(log, robot.geometry, named_by);
 }
 

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "scenarios/significant.hpp"
 
 namespace joulepath {
 namespace {
@@ -24,12 +25,6 @@ constexpr Conversion kConversions[] = {
     {0.0095493, "is the voltage constant in V/krpm?"},
     {0.001, "is the voltage constant in mV s/rad?"},
 };
-
-std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 bool is_near(double value, double other) { return value < kNear * other && value > other / kNear; }
 
@@ -89,8 +84,8 @@ void check_robot(const Node& root, const Robot& robot) {
     const double ratio = ratio_of(motor);
     if (ratio <= kMostRatio && ratio >= kLeastRatio) continue;
     root["motor"]["torque_constant_Nm_A"].fail_found(
-        figure(motor.torque_constant_Nm_A) + ", " + figure(ratio) + " times the voltage constant",
-        "0.5 to 1.1 times the voltage constant (" + figure(motor.voltage_constant_V_s_rad) + " V s/rad)",
+        four_digits(motor.torque_constant_Nm_A) + ", " + four_digits(ratio) + " times the voltage constant",
+        "0.5 to 1.1 times the voltage constant (" + four_digits(motor.voltage_constant_V_s_rad) + " V s/rad)",
         units_mixed_up(motor));
   }
   if (const auto footprint = root.find("footprint"))
@@ -102,14 +97,14 @@ std::vector<std::string> robot_notes(const Robot& robot) {
   std::vector<std::string> notes;
   const double ratio = ratio_of(robot.motor.left);
   if (ratio < kUsualLeast || ratio > kUsualMost)
-    notes.push_back("torque constant " + figure(ratio) +
+    notes.push_back("torque constant " + four_digits(ratio) +
                     " times the voltage constant: for most motors both are the same number in SI units");
   const bool has_footprint = robot.footprint.radius_m > 0.0 || !robot.footprint.polygon_m.empty();
   const double half_track_m = robot.geometry.half_track_m;
   const double inner_m = half_track_m * (1.0 - 1e-6);  // a wheel on the edge is not outside
   if (has_footprint &&
       !(is_inside(robot.footprint, 0.0, inner_m) && is_inside(robot.footprint, 0.0, -inner_m)))
-    notes.push_back("the wheels touch the floor " + figure(half_track_m) +
+    notes.push_back("the wheels touch the floor " + four_digits(half_track_m) +
                     " m beside the middle of the axle, outside of the footprint: half_track_m is HALF the "
                     "distance between them");
   return notes;

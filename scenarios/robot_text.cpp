@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/limit_table.hpp"
+#include "scenarios/quoted.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -91,15 +92,6 @@ std::string effect_line(const EffectSetting& effect) {
              text_of(cell[2]) + ", " + text_of(cell[3]) + "]";
   if (!cells.empty()) section.raw("cells", "[" + cells + "]");
   return section.line();
-}
-
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\"";
 }
 
 }  // namespace

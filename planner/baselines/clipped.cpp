@@ -18,8 +18,8 @@ class ClippedShape {
 
   /// The clipped profile that takes `duration_s`; nothing where even the fastest shape is too slow.
   std::optional<Profile> profile(double duration_s) const {
-    constexpr double kFastest = 1e-3;  // share of the time: clipped nearly everywhere
-    double fast = kFastest, slow = 1.0;
+    constexpr double kNearlyInstant = 1e-3;  // share of the time: clipped nearly everywhere
+    double fast = kNearlyInstant, slow = 1.0;
     for (; !shape_(fast * duration_s); fast *= 1.1)
       if (fast > 1) return std::nullopt;
     const std::vector<double> fastest = squares(fast * duration_s);

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-constexpr std::array<double, 3> kCurveShares{1.0, 0.75, 0.5};
+constexpr std::array<double, 3> kSettingShares{1.0, 0.75, 0.5};
 
 /// Stretches of one kind that share their settings.
 class Group {
@@ -32,7 +32,7 @@ class Group {
                                     [](const TrapezoidFamily& family) { return family.curves(); });
     std::optional<TrapezoidSettings> best;
     double least_J = kNoLimit;
-    for (const double share : kCurveShares) {
+    for (const double share : kSettingShares) {
       const PatternMinimum found =
           pattern_search([&](double up, double down) { return energy_J(settings_at(up, down, share)); });
       if (found.value < least_J) {

@@ -16,7 +16,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSame = 1e-9;  ///< relative, of times
+constexpr double kSameDuration = 1e-9;  ///< relative, of times
 
 ProfileRequest without_jerk(const ProfileRequest& request) {
   ProfileRequest free = request;
@@ -101,7 +101,7 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
   double value = duration_s, gap = value - bound.summary.lower_bound_s;
   if (request.time.mode == TimeMode::minimum_time) {
     const std::optional<Profile> fastest = fastest_by_jerk(request);
-    const double by_jerk_s = fastest ? fastest->duration_s() * (1 - kSame) : 0.0;
+    const double by_jerk_s = fastest ? fastest->duration_s() * (1 - kSameDuration) : 0.0;
     summary.lower_bound_s = std::min(duration_s, std::max(bound.summary.lower_bound_s, by_jerk_s));
     gap = duration_s - summary.lower_bound_s;
   } else {
@@ -197,8 +197,8 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   ProfileResult bound = solve_profile(relaxed);
   const std::optional<Profile> fastest =
       request.limits.jerk_m_s3 > 0 ? fastest_by_jerk(request) : std::nullopt;
-  const bool soon =
-      fastest && has_deadline(request) && request.time.duration_s < fastest->duration_s() * (1 - kSame);
+  const bool soon = fastest && has_deadline(request) &&
+                    request.time.duration_s < fastest->duration_s() * (1 - kSameDuration);
   if (!bound.profile) {
     // What would do without the jerk limit does not do with it.
     const bool by_time =

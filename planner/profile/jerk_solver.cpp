@@ -9,15 +9,15 @@
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/profile/dense_check.hpp"
 #include "planner/profile/first_guess.hpp"
+#include "planner/profile/solve_tolerances.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr int kRounds = 14;         ///< of tightening and refinement
-constexpr int kSharpenings = 4;     ///< of the grid at the switches of least time
-constexpr double kSettled = 7e-7;   ///< relative violation that a plan may have, short of the replay's 1e-6
-constexpr double kMetTime = 1e-7;   ///< relative: a deadline missed by less is met
-constexpr double kSameTime = 1e-4;  ///< a deadline this close to the least time may leave no other motion
+constexpr int kJerkRounds = 14;      ///< of tightening and refinement
+constexpr int kJerkSharpenings = 4;  ///< of the grid at the switches of least time
+constexpr double kNoOtherMotion =
+    1e-4;  ///< a deadline this close to the least time may leave no other motion
 constexpr double kLargestAcceleration_m_s2 = 20;  ///< where nothing limits it
 constexpr double kWorthACut = 0.1;                ///< share of the largest misfit
 
@@ -63,7 +63,7 @@ class JerkSolver {
         nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000)), request_);
     double worst_ratio = 0;
     bool solved = false;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kJerkRounds; ++round) {
       if (!optimize() && !by_way_of_minimum_time()) break;
       solved = true;
       const nlp::DenseCheck check = nlp::check_densely(
@@ -118,7 +118,7 @@ class JerkSolver {
   /// the objective. False when it no longer does. Least time is nothing but switches, and decides over
   /// deadlines: it is asked for more.
   bool sharpen(std::vector<bool>& cut) {
-    if (sharpened_ == kSharpenings) return false;
+    if (sharpened_ == kJerkSharpenings) return false;
     const double worth = (minimum_time() ? 0.05 : 1.0) * request_.accuracy * std::abs(found_.objective);
     const bool gains = found_.objective < least_objective_ - worth;
     least_objective_ = std::min(least_objective_, found_.objective);
@@ -187,7 +187,7 @@ class JerkSolver {
     s_ = result.profile->s;
     transcribe();
     if (attempt(slowed(resampled(*result.profile), slower), {})) return true;
-    if (!timed || slower > 1 + kSameTime) return false;
+    if (!timed || slower > 1 + kNoOtherMotion) return false;
     found_.motion = resampled(*result.profile);
     best_ = result.profile;
     return true;

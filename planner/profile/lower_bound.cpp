@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<double, 5> kShares{1e-4, 0.25, 0.5, 0.75, 1 - 1e-4};  ///< of a segment's time
 constexpr double kSlowest = 1e-3;    ///< rate looked at, as a share of the profile's
 constexpr int kBits = 16;            ///< of the minimum's place
-constexpr double kRounding = 1e-10;  ///< of the minimum, relative: what these bits leave over
+constexpr double kLeftOver = 1e-10;  ///< of the minimum, relative: what these bits leave over
 constexpr double kElsewhere = 0.1;   ///< share of a gap
 constexpr double kSame = 1e-6;       ///< relative to H
 
@@ -81,7 +81,7 @@ class SegmentGap {
     for (std::size_t i = 0; i < kShares.size(); ++i) {
       const Place here = place(kShares[i]);
       const double least = elsewhere ? std::min(here.near(here.scan()), here.near(1.0)) : here.near(1.0);
-      excess[i] = std::max(0.0, here.planned() - least) + kRounding * here.size();
+      excess[i] = std::max(0.0, here.planned() - least) + kLeftOver * here.size();
     }
     const auto& e = excess;
     const double coarse = dt / 6 * (e[0] + 4 * e[2] + e[4]);

@@ -14,6 +14,7 @@
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_profile.hpp"
 #include "planner/profile/request_check.hpp"
+#include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/profile.hpp"
 // Design: docs/decisions/0001-path-domain.md
 namespace joulepath {
@@ -21,14 +22,12 @@ namespace {
 
 using nlp::Problem;
 
-constexpr int kRounds = 12;           ///< of tightening and refinement
-constexpr double kSettled = 7e-7;     ///< relative violation that a plan may have, short of the replay's 1e-6
-constexpr double kSameTime = 2e-6;    ///< a deadline this close to the minimum time leaves no choice
-constexpr double kMetTime = 1e-7;     ///< relative: a deadline missed by less is met
-constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that it misses by little
-constexpr double kProven = 0.04;      ///< gap aimed at, of the accuracy asked for
-constexpr double kProvenTime = 0.01;  ///< the same for a profile of least time
-constexpr double kWorthAProof = 0.7;  ///< of the gap before: a finer grid that closes less is the last
+constexpr int kRounds = 12;            ///< of tightening and refinement
+constexpr double kSameTime = 2e-6;     ///< a deadline this close to the minimum time leaves no choice
+constexpr int kSharpenings = 16;       ///< cuts of the grid for a deadline that it misses by little
+constexpr double kProven = 0.04;       ///< gap aimed at, of the accuracy asked for
+constexpr double kProvenTime = 0.01;   ///< the same for a profile of least time
+constexpr double kWorthAProof = 0.7;   ///< of the gap before: a finer grid that closes less is the last
 constexpr std::size_t kMostNodes = 4;  ///< times the nodes asked for: a grid beyond is not cut again
 constexpr const char* kFastestSolver = "forward_backward";
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/path/shape/refine.hpp"
+#include "planner/ways/spline_search.hpp"
 
 // Design: docs/decisions/0170-ways-as-whole-curves.md
 namespace joulepath {
@@ -21,9 +21,8 @@ struct SwingRequest {
 };
 
 struct SwingOptions {
-  std::size_t starts{3};             ///< first guesses that are polished
-  int evaluations_per_variable{25};  ///< of the cost, per polished guess
-  double relative_tolerance{1e-6};   ///< of the cost
+  std::size_t starts{3};  ///< first guesses that are polished
+  SearchEffort effort{};  ///< per polished guess
 };
 
 struct SwingResult {
@@ -41,21 +40,5 @@ struct SwingResult {
 [[nodiscard]] std::optional<SwingResult> best_swing(const SwingRequest& request,
                                                     const FootprintChecker& checker, const PathCost& cost,
                                                     const SwingOptions& options = {});
-
-/// Two legs that meet at a stop where any heading will do.
-struct StopRequest {
-  FreeSpline before{};
-  FreeSpline after{};  ///< begins where `before` ends
-  std::function<double(const Path& before, const Path& after)> cost{};
-};
-struct StopResult {
-  SwingResult before{}, after{};
-  double cost{};  ///< of both
-};
-
-/// Moves the common heading at the stop, the handles beside it and the knots next to it, so that the two legs
-/// cost least together (Subplex). Absent where nothing free was found.
-[[nodiscard]] std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
-                                                  const SwingOptions& options = {});
 
 }  // namespace joulepath

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/path/shape/refine.hpp"
-#include "planner/ways/swing.hpp"
+#include "planner/ways/stop_swing.hpp"
 
 namespace joulepath {
 namespace {
@@ -20,6 +20,7 @@ RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoic
     const Way& way = (*request.legs[k].ways)[chain[k].way];
     parts_.push_back({.way = &way,
                       .path = way.path,
+                      .driving = way.score,
                       .leaves_rad = way.leaves_rad,
                       .arrives_rad = way.arrives_rad,
                       .turns_at_goal = chain[k].goal_heading_rad.has_value()});
@@ -76,6 +77,13 @@ PathScore RefinedRun::score(std::size_t k, const Path& path) const {
   return sum;
 }
 
+/// The same of the leg's own path.
+PathScore RefinedRun::score(std::size_t k) const {
+  PathScore sum = turn_before(k, parts_[k].path);
+  sum += turn_after(k, parts_[k].path);
+  return sum += parts_[k].driving;
+}
+
 void RefinedRun::refine(std::size_t k) {
   Part& part = parts_[k];
   const double price_W = request_.legs[k].price_W;
@@ -85,11 +93,13 @@ void RefinedRun::refine(std::size_t k) {
       run_.contexts[k].space->checker(), part.way->shape,
       [&](const Path& path) { return score(k, path).cost_J(price_W); }, options);
   if (!result.improved) return;
-  take(part, result.path);
+  take(k, result.path);
 }
 
-void RefinedRun::take(Part& part, const Path& path) {
+void RefinedRun::take(std::size_t k, const Path& path) {
+  Part& part = parts_[k];
   part.path = path;
+  part.driving = driving(k, path);
   part.leaves_rad = part.path.start().heading_rad;
   part.arrives_rad = part.path.end().heading_rad;
   part.refined = true;
@@ -106,8 +116,8 @@ void RefinedRun::swing(std::size_t k) {
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
   const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
   const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
-  if (!result || result->cost >= cost(part.path) || !drivable(k, result->path)) return;
-  take(part, result->path);
+  if (!result || result->cost >= score(k).cost_J(price_W) || !drivable(k, result->path)) return;
+  take(k, result->path);
   part.spline = result->spline;
 }
 
@@ -121,13 +131,15 @@ void RefinedRun::swing_through(std::size_t k) {
         return driving(k, first).cost_J(before_W) + driving(k + 1, second).cost_J(after_W) +
                turn_after(k + 1, second).cost_J(after_W);
       }};
-  const double found = request.cost(before.path, after.path) + turn_before(k + 1, after.path).cost_J(after_W);
+  const double found = before.driving.cost_J(before_W) + after.driving.cost_J(after_W) +
+                       turn_after(k + 1, after.path).cost_J(after_W) +
+                       turn_before(k + 1, after.path).cost_J(after_W);
   const std::optional<StopResult> result = best_stop(request, run_.contexts[k].space->checker());
   if (!result || result->cost >= found || !drivable(k, result->before.path) ||
       !drivable(k + 1, result->after.path))
     return;
-  take(before, result->before.path);
-  take(after, result->after.path);
+  take(k, result->before.path);
+  take(k + 1, result->after.path);
   before.spline = result->before.spline;
   after.spline = result->after.spline;
 }
@@ -158,7 +170,7 @@ std::vector<LegPath> RefinedRun::paths() const {
 
 /// Energy and time of a leg as paths() makes it: a turn at a stop counts on the leg that makes it.
 PathScore RefinedRun::as_driven(std::size_t k) const {
-  PathScore sum = driving(k, parts_[k].path);
+  PathScore sum = parts_[k].driving;
   const bool turned_already = k > 0 && parts_[k - 1].turns_at_goal && !request_.legs[k - 1].goal_heading_rad;
   if (!turned_already) sum += turn_before(k, parts_[k].path);
   if (parts_[k].turns_at_goal) sum += turn_after(k, parts_[k].path);
@@ -174,7 +186,7 @@ void RefinedRun::tell(std::size_t k, LegPath& path) const {
                                .cost_J = driven.cost_J(request_.legs[k].price_W)});
   if (!part.refined) return;
   for (PathAlternative& alternative : path.alternatives) alternative.chosen = false;
-  const PathScore between = score(k, part.path);
+  const PathScore between = score(k);
   path.alternatives.push_back({.name = part.way->name + "_refined",
                                .energy_J = between.energy_J,
                                .duration_s = between.duration_s,

@@ -33,6 +33,7 @@ class RefinedRun {
   struct Part {
     const Way* way{};
     Path path{};
+    PathScore driving{};  ///< of the path alone
     double leaves_rad{};
     double arrives_rad{};
     bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or as the station says)
@@ -42,6 +43,7 @@ class RefinedRun {
   std::optional<double> heading_before(std::size_t k) const;
   std::optional<double> heading_after(std::size_t k) const;
   PathScore score(std::size_t k, const Path& path) const;
+  PathScore score(std::size_t k) const;
   PathScore driving(std::size_t k, const Path& path) const;
   bool drivable(std::size_t k, const Path& path) const;
   PathScore turn_before(std::size_t k, const Path& path) const;
@@ -49,7 +51,7 @@ class RefinedRun {
   void refine(std::size_t k);
   void swing(std::size_t k);
   void swing_through(std::size_t k);
-  static void take(Part& part, const Path& path);
+  void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
 
   const ChainRequest& request_;

@@ -6,7 +6,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kRate_Hz = 50.0;
+constexpr double kPlotRate_Hz = 50.0;
 
 /// Signals by PlotJuggler's names: a slash opens a folder of its tree.
 std::vector<std::pair<const char*, const std::vector<double>*>> signals(const Trajectory& motion) {
@@ -44,7 +44,7 @@ void append_number(std::string& text, double value) {
 }  // namespace
 
 Export export_plotjuggler(const ExportInput& input) {
-  const Trajectory motion = plan_trajectory(input.plan, input.plant, input.rate_Hz.value_or(kRate_Hz));
+  const Trajectory motion = plan_trajectory(input.plan, input.plant, input.rate_Hz.value_or(kPlotRate_Hz));
   const auto columns = signals(motion);
   std::string text;
   for (const auto& [name, values] : columns) text += (text.empty() ? "" : ",") + std::string(name);

@@ -7,6 +7,8 @@
 namespace joulepath {
 namespace {
 
+using Blocking = OrderAction::Blocking;
+
 constexpr double kLongestAction_s = 86400;
 
 std::optional<double> duration_of(const Node& action) {
@@ -27,7 +29,6 @@ std::vector<OrderAction> read_actions(const Node& node) {
   std::vector<OrderAction> actions;
   for (const Node& item : node.items()) {
     const std::string& word = item["blockingType"].text();
-    using Blocking = OrderAction::Blocking;
     actions.push_back({.type = item["actionType"].text(),
                        .blocking = word == "HARD"     ? Blocking::hard
                                    : word == "SOFT"   ? Blocking::soft

@@ -8,7 +8,7 @@
 
 namespace joulepath {
 namespace {
-constexpr double kCellTurn_rad = 0.5;
+constexpr double kArcTurn_rad = 0.5;
 }
 
 LinearCurvature::LinearCurvature(const Pose& start, double length_m, double curvature_per_m,
@@ -17,7 +17,7 @@ LinearCurvature::LinearCurvature(const Pose& start, double length_m, double curv
   JOULEPATH_ASSERT(std::isfinite(length_m) && length_m > 0, "a curve segment needs a positive length");
   if (slope_ == 0) return;
   const double worst_curvature = std::max(std::abs(curvature_), std::abs(curvature_ + slope_ * length_m_));
-  const int count = std::max(1, static_cast<int>(std::ceil(worst_curvature * length_m_ / kCellTurn_rad)));
+  const int count = std::max(1, static_cast<int>(std::ceil(worst_curvature * length_m_ / kArcTurn_rad)));
   cell_m_ = length_m_ / count;
   cells_.reserve(static_cast<std::size_t>(count));
   cells_.push_back(start_);

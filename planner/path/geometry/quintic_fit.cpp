@@ -8,7 +8,7 @@ namespace joulepath {
 namespace {
 
 constexpr int kLooks = 16;
-constexpr int kDeepest = 12;
+constexpr int kDeepestFit = 12;
 
 /// Heading of the tangent: the robot's, turned round in reverse.
 double tangent_rad(const Curve& curve, const PathPoint& point) {
@@ -53,7 +53,7 @@ double distance_m(const RationalBezier& fit, const Curve& curve, double from_m, 
 void append(const Curve& curve, double from_m, double to_m, double tolerance_m, int depth,
             std::vector<RationalBezier>& out) {
   RationalBezier fit = quintic(curve, from_m, to_m);
-  if (depth == kDeepest || distance_m(fit, curve, from_m, to_m) <= tolerance_m) {
+  if (depth == kDeepestFit || distance_m(fit, curve, from_m, to_m) <= tolerance_m) {
     out.push_back(std::move(fit));
     return;
   }

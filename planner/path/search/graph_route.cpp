@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <queue>
+
+#include "model/limits.hpp"
+#include "planner/path/search/polyline.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSamePlace_m = 1e-6;
 constexpr std::size_t kEntryChoices = 4;
 
 std::vector<Point2> edge_line(const RouteGraph& graph, const RouteGraph::Edge& edge) {
@@ -53,7 +53,7 @@ std::vector<Access> accesses(const RouteGraph& graph, const Point2& place, bool 
 
 /// The cheapest chain of edges between two sets of nodes (Dijkstra); edge indices in order, and the cost.
 struct Chain {
-  double cost{kInfinity};
+  double cost{kNoLimit};
   std::size_t first{}, last{};
   std::vector<std::size_t> edges{};
 };
@@ -61,7 +61,7 @@ struct Chain {
 Chain cheapest_chain(const RouteGraph& graph, const std::vector<Access>& entries,
                      const std::vector<Access>& exits, const std::vector<double>& edge_cost) {
   constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<double> cost(graph.nodes.size(), kInfinity);
+  std::vector<double> cost(graph.nodes.size(), kNoLimit);
   std::vector<std::size_t> by_edge(graph.nodes.size(), kNone);
   std::vector<std::vector<std::size_t>> leaving(graph.nodes.size());
   for (std::size_t e = 0; e < graph.edges.size(); ++e) leaving[graph.edges[e].start].push_back(e);
@@ -124,7 +124,7 @@ RouteResult plan_graph_route(const RouteSpace& space, const RouteRequest& reques
   std::vector<double> edge_cost;
   for (const RouteGraph::Edge& edge : graph.edges) {
     const std::vector<Point2> line = edge_line(graph, edge);
-    edge_cost.push_back(line_free(line, space.checker()) ? polyline_cost(line, request.cost) : kInfinity);
+    edge_cost.push_back(line_free(line, space.checker()) ? polyline_cost(line, request.cost) : kNoLimit);
   }
   const Chain chain = cheapest_chain(graph, accesses(graph, start, true, space.checker(), request.cost),
                                      accesses(graph, goal, false, space.checker(), request.cost), edge_cost);

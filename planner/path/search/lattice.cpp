@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
+
+#include "model/limits.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Plain root: std::hypot guards against an overflow that metres cannot reach, at ten times the price.
-double distance_m(const Point2& a, const Point2& b) {
+double plain_distance_m(const Point2& a, const Point2& b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1];
   return std::sqrt(dx * dx + dy * dy);
 }
@@ -39,7 +38,8 @@ void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, doub
   std::vector<std::uint8_t> raised(price_.size(), 0);
   const int reach = static_cast<int>(corridor_m / spacing_m_);
   const auto raise_about = [&](const Point2& p) {
-    if (distance_m(p, line.front()) < except_near_ends_m || distance_m(p, line.back()) < except_near_ends_m)
+    if (plain_distance_m(p, line.front()) < except_near_ends_m ||
+        plain_distance_m(p, line.back()) < except_near_ends_m)
       return;
     const Node center = nearest(p);
     for (int row = std::max(0, center.row - reach); row <= std::min(rows_ - 1, center.row + reach); ++row)
@@ -48,7 +48,7 @@ void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, doub
         if (std::hypot(row - center.row, column - center.column) <= reach) raised[index({column, row})] = 1;
   };
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const int steps = static_cast<int>(distance_m(line[i], line[i + 1]) / spacing_m_) + 1;
+    const int steps = static_cast<int>(plain_distance_m(line[i], line[i + 1]) / spacing_m_) + 1;
     for (int k = 0; k < steps; ++k) {
       const double t = static_cast<double>(k) / steps;
       raise_about(
@@ -61,7 +61,7 @@ void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, doub
 
 std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, const DiscLineCheck& free) const {
   constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<double> cost(price_.size(), kInfinity);
+  std::vector<double> cost(price_.size(), kNoLimit);
   std::vector<std::size_t> parent(price_.size(), kNone);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -73,11 +73,11 @@ std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, cons
   };
   around(start, [&](Node node) {
     if (!free(start, place(node))) return;
-    cost[index(node)] = distance_m(start, place(node));
-    open.push({cost[index(node)] + distance_m(place(node), goal), index(node)});
+    cost[index(node)] = plain_distance_m(start, place(node));
+    open.push({cost[index(node)] + plain_distance_m(place(node), goal), index(node)});
   });
   std::vector<std::uint8_t> settled(price_.size(), 0);
-  double best = kInfinity;
+  double best = kNoLimit;
   std::size_t last = kNone;
   while (!open.empty() && open.top().first < best) {
     const std::size_t here = open.top().second;
@@ -85,18 +85,18 @@ std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, cons
     if (settled[here] != 0) continue;
     settled[here] = 1;
     const Point2 from = place(node(here));
-    const double to_goal_m = distance_m(from, goal);
+    const double to_goal_m = plain_distance_m(from, goal);
     if (to_goal_m < 1.5 * spacing_m_ && cost[here] + to_goal_m < best && free(from, goal)) {
       best = cost[here] + to_goal_m;
       last = here;
     }
     around(from, [&](Node next) {
       const std::size_t to = index(next);
-      const double sum = cost[here] + distance_m(from, place(next)) * 0.5 * (price_[here] + price_[to]);
+      const double sum = cost[here] + plain_distance_m(from, place(next)) * 0.5 * (price_[here] + price_[to]);
       if (settled[to] != 0 || sum >= cost[to] || !free(from, place(next))) return;
       cost[to] = sum;
       parent[to] = here;
-      open.push({sum + distance_m(place(next), goal), to});
+      open.push({sum + plain_distance_m(place(next), goal), to});
     });
   }
   if (last == kNone) return {};

@@ -17,12 +17,10 @@ constexpr int kBisections = 9;
 constexpr double kMergeWithin_m = 1.0;
 constexpr double kMergeExtra_m = 0.05;
 constexpr double kRounding = 1e-12;
-constexpr double kSamePlace_m = 1e-6;
 
 Point2 between(const Point2& a, const Point2& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
 std::vector<Point2> subdivided(const std::vector<Point2>& polyline_m) {
   const double step_m = std::max(kFinestStep_m, polyline_cost(polyline_m, {}) / kMostVertices);

@@ -7,6 +7,9 @@
 
 namespace joulepath {
 
+/// Points this close are one.
+inline constexpr double kSamePlace_m = 1e-6;
+
 /// Whether the robot may drive straight between two points.
 using LineFree = std::function<bool(const Point2& from_m, const Point2& to_m)>;
 

@@ -15,8 +15,8 @@ namespace {
 constexpr double kCorridor_m = 0.8;  // half width of the penalty zone around an earlier route
 constexpr double kNearEnd_m = 1.5;   // all routes share these neighborhoods
 constexpr double kDearer = 1.0;      // added to the price of a metre each time
-constexpr double kMergeWithin_m = 2.5;
-constexpr double kMergeExtra_m = 0.6;
+constexpr double kWideWithin_m = 2.5;
+constexpr double kWideExtra_m = 0.6;
 constexpr int kAttemptsPerClass = 2;
 constexpr std::uint64_t kSeedStride = 7919;
 
@@ -80,7 +80,7 @@ class Pool {
   void add(const std::vector<Point2>& line, const std::string& source) {
     const DiscLineCheck free(floor_, start_, goal_, cells_);
     PooledRoute route{.polyline_m = line,
-                      .wide_m = merged_corners(line, free, kMergeWithin_m, kMergeExtra_m),
+                      .wide_m = merged_corners(line, free, kWideWithin_m, kWideExtra_m),
                       .cost = polyline_cost(line, cost_),
                       .searched_by = source};
     if (route.wide_m.size() == line.size()) route.wide_m.clear();

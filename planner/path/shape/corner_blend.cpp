@@ -12,8 +12,6 @@ namespace {
 double clothoid_length(double angle) { return 2 * BlendShape::kClothoidShare * angle; }
 double arc_length(double angle) { return (1 - 2 * BlendShape::kClothoidShare) * angle; }
 
-double heading_rad(const Point2& a, const Point2& b) { return std::atan2(b[1] - a[1], b[0] - a[0]); }
-
 }  // namespace
 
 BlendShape blend_shape(double angle_rad) {
@@ -42,8 +40,8 @@ std::vector<CurveSegment> blend_segments(const Point2& corner_m, double heading_
 
 double corner_angle_rad(const std::vector<Point2>& polyline_m, std::size_t i) {
   if (i == 0 || i + 1 >= polyline_m.size()) return 0;
-  return wrapped_angle_rad(heading_rad(polyline_m[i], polyline_m[i + 1]) -
-                           heading_rad(polyline_m[i - 1], polyline_m[i]));
+  return wrapped_angle_rad(bearing_rad(polyline_m[i], polyline_m[i + 1]) -
+                           bearing_rad(polyline_m[i - 1], polyline_m[i]));
 }
 
 Path blended_polyline(const std::vector<Point2>& polyline_m, const std::vector<double>& radius_m) {
@@ -57,7 +55,7 @@ Path blended_polyline(const std::vector<Point2>& polyline_m, const std::vector<d
   double from_m = 0;  // where the straight part of the line begins
   for (std::size_t i = 0; i + 1 < polyline_m.size(); ++i) {
     const Point2 &here = polyline_m[i], &next = polyline_m[i + 1];
-    const double h = heading_rad(here, next), angle = corner_angle_rad(polyline_m, i + 1);
+    const double h = bearing_rad(here, next), angle = corner_angle_rad(polyline_m, i + 1);
     const bool corner = std::abs(angle) > kNoCorner_rad, blended = corner && radius_m[i + 1] > 0;
     const BlendShape shape = blended ? blend_shape(angle) : BlendShape{};
     const double back_m = radius_m[i + 1] * shape.tangent;
@@ -71,7 +69,7 @@ Path blended_polyline(const std::vector<Point2>& polyline_m, const std::vector<d
         open.push_back(std::move(segment));
     } else if (corner) {
       close();
-      append_turn_to(path, {}, heading_rad(next, polyline_m[i + 2]));
+      append_turn_to(path, {}, bearing_rad(next, polyline_m[i + 2]));
     }
   }
   close();

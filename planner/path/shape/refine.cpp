@@ -11,7 +11,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kShortestHandle_m = 0.02;
+constexpr double kShortestMoved_m = 0.02;
 constexpr double kLongestHandle_m = 4.0;
 constexpr double kReach_m = 3.0;         // how far a vertex may move
 constexpr double kShortestLead_m = 0.1;  // of the line at an end whose heading is kept
@@ -148,7 +148,7 @@ std::vector<double> Refinement::first_guess() {
       const double tangent_m =
           corner.radius_m > 0 ? corner.radius_m * blend_shape(corner.angle_rad).tangent : 0.3;
       const double per_handle = 1 + 2 * std::cos(0.5 * corner.angle_rad);
-      const double handle_m = std::max(kShortestHandle_m, share * tangent_m / per_handle);
+      const double handle_m = std::max(kShortestMoved_m, share * tangent_m / per_handle);
       const Point2& along = frames_[i].along;
       const double p = dx * along[0] + dy * along[1], q = dy * along[0] - dx * along[1];
       x.insert(x.end(), {p, frames_[i].on_line ? 0.0 : q, handle_m, handle_m});
@@ -167,7 +167,7 @@ bool Refinement::run() {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Frame& frame = frames_[i / kPerCorner];
     const bool handle = i % kPerCorner >= 2, across = i % kPerCorner == 1;
-    lower[i] = handle ? kShortestHandle_m : x[i] - kReach_m;
+    lower[i] = handle ? kShortestMoved_m : x[i] - kReach_m;
     upper[i] = handle ? kLongestHandle_m : x[i] + kReach_m;
     if (frame.on_line && across) lower[i] = upper[i] = 0.0;
     if (frame.on_line && !across && !handle) lower[i] = std::max(lower[i], kShortestLead_m);

@@ -15,9 +15,6 @@ constexpr double kSmallestRadius_m = 0.03;
 constexpr double kShortestStraight_m = 0.01;  // left between blends
 constexpr std::array<double, 3> kOutwardShares{0.0, 0.5, 1.0};
 
-double distance_m(const Point2& a, const Point2& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-double heading_rad(const Point2& a, const Point2& b) { return std::atan2(b[1] - a[1], b[0] - a[0]); }
-
 /// A polyline whose inner vertices have blends: the state that the ladder searches.
 class BlendedPolyline {
  public:
@@ -36,7 +33,7 @@ class BlendedPolyline {
   bool try_radius(std::size_t i, double radius_m, double share_of_line);
 
   std::vector<CurveSegment> blend(std::size_t i) const {
-    return blend_segments(points_[i], heading_rad(points_[i - 1], points_[i]), blend_shape(angle_rad(i)),
+    return blend_segments(points_[i], bearing_rad(points_[i - 1], points_[i]), blend_shape(angle_rad(i)),
                           radius_m_[i]);
   }
   double tangent_m(std::size_t i) const {
@@ -67,7 +64,7 @@ bool BlendedPolyline::try_radius(std::size_t i, double radius_m, double share_of
     const double angle = angle_rad(i);
     if (std::abs(angle) > kNoCorner_rad && std::abs(angle) < kSharpestBlend_rad) {
       // The outside of the corner lies along the bisector of the incoming and the reversed outgoing line.
-      const double inward_rad = heading_rad(points_[i - 1], points_[i]) + 0.5 * angle +
+      const double inward_rad = bearing_rad(points_[i - 1], points_[i]) + 0.5 * angle +
                                 std::copysign(0.5 * std::numbers::pi, angle);
       const double out_m = outward * radius_m * blend_shape(angle).deviation;
       points_[i] = {original_[i][0] - out_m * std::cos(inward_rad),
@@ -99,7 +96,7 @@ bool BlendedPolyline::fits_around(std::size_t i) const {
 }
 
 bool BlendedPolyline::straight_free(std::size_t i) const {
-  const double h = heading_rad(points_[i], points_[i + 1]), from_m = tangent_m(i),
+  const double h = bearing_rad(points_[i], points_[i + 1]), from_m = tangent_m(i),
                to_m = from_m + straight_m(i);
   const double c = std::cos(h), s = std::sin(h);
   const Point2& p = points_[i];

@@ -7,9 +7,9 @@
 namespace joulepath {
 namespace {
 
-constexpr double kShortestStraight_m = 0.01;
+constexpr double kShortestPiece_m = 0.01;
 constexpr double kSharpest_rad = 2.7;
-constexpr double kNoCorner_rad = 1e-6;
+constexpr double kStraight_rad = 1e-6;
 
 Point2 along(const Point2& from, const Point2& unit, double length_m) {
   return {from[0] + length_m * unit[0], from[1] + length_m * unit[1]};
@@ -47,14 +47,14 @@ std::optional<Path> spline_path(const Point2& start_m, const std::vector<SplineC
       const Point2& beyond = i + 1 < corners.size() ? corners[i + 1].vertex_m : goal_m;
       out_rad = std::atan2(beyond[1] - next[1], beyond[0] - next[0]);
       const double turn_rad = std::abs(wrapped_angle_rad(out_rad - heading_rad));
-      if (turn_rad > kSharpest_rad || turn_rad < kNoCorner_rad || corners[i].before_m <= 0 ||
+      if (turn_rad > kSharpest_rad || turn_rad < kStraight_rad || corners[i].before_m <= 0 ||
           corners[i].after_m <= 0)
         return std::nullopt;
       before_m = spline_tangent_m(corners[i], turn_rad, true);
       after_m = spline_tangent_m(corners[i], turn_rad, false);
     }
     const double straight_m = (next[0] - here[0]) * in[0] + (next[1] - here[1]) * in[1] - before_m;
-    if (!(straight_m >= kShortestStraight_m)) return std::nullopt;
+    if (!(straight_m >= kShortestPiece_m)) return std::nullopt;
     segments.push_back(LinearCurvature({here[0], here[1], heading_rad}, straight_m));
     if (i == corners.size()) break;
     const Point2 out{std::cos(out_rad), std::sin(out_rad)};

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "planner/path/floor/footprint_checker.hpp"
+#include "planner/path/geometry/path.hpp"
+
+namespace joulepath {
+
+/// Values above every cost, for splines that cannot be driven: the optimizer is led away from them.
+inline constexpr double kBlocked = 1e9;  ///< in the way of an obstacle; more where it is deeper
+inline constexpr double kNotDrivable = 2.5 * kBlocked;  ///< no profile within the limits
+inline constexpr double kNoCurve = 3 * kBlocked;        ///< a cusp
+
+inline constexpr double kFirstStep_m = 0.15;   ///< of knots and long handles
+inline constexpr double kFirstTurn_rad = 0.3;  ///< of a free heading
+inline constexpr double kLeastHandle_m = 0.01;
+
+/// 0 where a path is free, else kBlocked and more.
+[[nodiscard]] double blocked(const FootprintChecker& checker, const Path& path);
+
+/// What an optimizer over a spline's variables starts from.
+struct SplineVariables {
+  std::vector<double> value{};
+  std::vector<double> first_step{};
+  std::vector<double> lower{};
+
+  void add_handle(double length_m, double first_step_m);
+  void add_heading(double heading_rad);
+  void add_knot(const Point2& place_m, double first_step_m);
+};
+
+struct SearchEffort {
+  int evaluations_per_variable{25};
+  double relative_tolerance{1e-6};  ///< of the value
+};
+
+/// Minimizes by NLopt's Subplex; `variables.value` is moved to the best point. Returns the value there.
+[[nodiscard]] double minimize(SplineVariables& variables, const SearchEffort& effort,
+                              const std::function<double(const std::vector<double>&)>& value);
+
+}  // namespace joulepath

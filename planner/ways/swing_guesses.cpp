@@ -1,0 +1,177 @@
+#include "planner/ways/swing_guesses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace joulepath {
+namespace {
+
+constexpr double kSharp_rad = 1.2;  ///< from this turn on a curve may first swing to the other side
+constexpr double kJoinAfter_m[] = {0.6, 1.5, 3.0};  ///< of a curved leg that is kept in its middle
+
+Point2 beside(const Point2& at, double bearing, double reach_m) {
+  return {at[0] + reach_m * std::cos(bearing), at[1] + reach_m * std::sin(bearing)};
+}
+double sign(double value) { return value < 0 ? -1.0 : 1.0; }
+
+/// One end of a leg as its guesses see it: the path leaves `place` towards `bearing_rad` after a turn.
+struct End {
+  Point2 place{};
+  double bearing_rad{};
+  double turn_rad{};  ///< from the heading (away from the stop) to the bearing
+  double reach_m{};   ///< to the other end, or to where the curve is joined
+
+  Point2 knot(double share_m, double aside_rad) const {
+    return beside(place, bearing_rad - sign(turn_rad) * aside_rad, share_m);
+  }
+  /// Straight back against the heading: the curve then swings round on the spot, nearly.
+  Point2 behind(double share_m) const {
+    return beside(place, bearing_rad - turn_rad + std::numbers::pi, share_m);
+  }
+};
+
+class Guesses {
+ public:
+  explicit Guesses(const SwingRequest& request) : request_(request) {}
+  std::vector<SwingGuess> all();
+
+ private:
+  Point2 start_m() const { return {request_.start.x_m, request_.start.y_m}; }
+  void add(double start_handle_m, double goal_handle_m, const std::vector<Point2>& knots,
+           std::optional<double> goal_heading_rad = {}, const std::vector<std::size_t>& moving = {});
+  void guess_spans();
+  void guess_swings();
+  void guess_joined();
+
+  const SwingRequest& request_;
+  End from_{}, to_{};  ///< at the start and, seen backward, at the goal
+  std::vector<SwingGuess> guesses_{};
+};
+
+void Guesses::add(double start_handle_m, double goal_handle_m, const std::vector<Point2>& knots,
+                  std::optional<double> goal_heading_rad, const std::vector<std::size_t>& moving) {
+  SwingGuess guess{.moving = moving};
+  FreeSpline& spline = guess.spline;
+  spline = {.points_m = {start_m()},
+            .start_heading_rad = request_.start.heading_rad,
+            .start_handle_m = start_handle_m,
+            .goal_heading_rad = request_.goal_heading_rad.value_or(
+                goal_heading_rad.value_or(to_.bearing_rad - std::numbers::pi)),
+            .goal_handle_m = goal_handle_m};
+  spline.points_m.insert(spline.points_m.end(), knots.begin(), knots.end());
+  spline.points_m.push_back(request_.goal_m);
+  if (moving.empty())
+    for (std::size_t i = 1; i <= knots.size(); ++i) guess.moving.push_back(i);
+  guesses_.push_back(std::move(guess));
+}
+
+/// One span: handles from centimetres to the whole distance.
+void Guesses::guess_spans() {
+  const double reach_m = from_.reach_m;
+  for (const double start_m : {0.05, 0.15, 0.4, 1.0, 0.35 * reach_m})
+    for (const double goal_m : {0.1, 0.4, 0.35 * reach_m})
+      if (std::max(start_m, goal_m) < 0.8 * reach_m) add(start_m, goal_m, {});
+  if (request_.goal_heading_rad) return;
+  for (const double away_m : {0.3, 0.7, 1.5})
+    for (const double aside_rad : {-0.4, 0.0, 0.5, 1.0})
+      for (const double handle_m : {0.08, 0.25}) {
+        const Point2 control = from_.knot(away_m, aside_rad);
+        if (away_m < 0.8 * reach_m)
+          add(handle_m, distance_m(control, request_.goal_m), {}, bearing_rad(control, request_.goal_m));
+      }
+}
+
+/// Knots beside the start, the goal, or both, round which the curve swings.
+void Guesses::guess_swings() {
+  const double reach_m = from_.reach_m;
+  const bool fixed = request_.goal_heading_rad.has_value();
+  for (const double away_m : {0.2, 0.45, 0.9, 1.8})
+    for (const double aside_rad : {0.0, 0.7})
+      for (const double handle_m : {0.06, 0.2}) {
+        if (away_m >= 0.7 * reach_m) continue;
+        add(handle_m, 0.3 * (reach_m - away_m), {from_.knot(away_m, aside_rad)});
+        if (fixed) add(0.3 * (reach_m - away_m), handle_m, {to_.knot(away_m, aside_rad)});
+      }
+  for (const double away_m : {0.2, 0.45, 0.9})
+    for (const double aside_rad : {0.0, 0.7})
+      if (fixed && away_m < 0.45 * reach_m)
+        add(0.1, 0.1, {from_.knot(away_m, aside_rad), to_.knot(away_m, aside_rad)});
+  for (const double away_m : {0.25, 0.5})
+    for (const double handle_m : {0.1, 0.2}) {
+      if (away_m >= 0.6 * reach_m) continue;
+      if (std::abs(from_.turn_rad) > kSharp_rad) {
+        const Point2 knot = from_.behind(away_m);
+        const Point2 middle{0.5 * (knot[0] + request_.goal_m[0]), 0.5 * (knot[1] + request_.goal_m[1])};
+        add(handle_m, 0.3 * reach_m, {knot});
+        add(handle_m, 0.2 * reach_m, {knot, middle});
+        if (fixed) add(handle_m, 0.1, {knot, to_.knot(0.45, 0.5)});
+      }
+      if (fixed && std::abs(to_.turn_rad) > kSharp_rad) {
+        add(0.3 * reach_m, handle_m, {to_.behind(away_m)});
+        add(0.1, handle_m, {from_.knot(0.45, 0.5), to_.behind(away_m)});
+      }
+    }
+}
+
+/// The middle of the given curve is kept; its ends are replaced by swings.
+void Guesses::guess_joined() {
+  const Curve& along = *request_.along;
+  const double length_m = along.length_m();
+  const bool fixed = request_.goal_heading_rad.has_value();
+  for (const double after_m : kJoinAfter_m) {
+    const double before_m = fixed ? after_m : 0.0;
+    if (after_m + before_m > 0.8 * length_m) continue;
+    std::vector<Point2> middle;
+    const auto keep = [&](double s_m) {
+      const Pose pose = along.at(s_m).pose;
+      if (!middle.empty() && distance_m(middle.back(), {pose.x_m, pose.y_m}) < 0.05) return;
+      middle.push_back({pose.x_m, pose.y_m});
+    };
+    keep(after_m);
+    const std::vector<double>& joints_m = along.breakpoints_m();
+    for (std::size_t i = 1; i < joints_m.size(); ++i)
+      for (const double s_m : {0.5 * (joints_m[i - 1] + joints_m[i]), joints_m[i]})
+        if (s_m > after_m + 0.3 && s_m < length_m - before_m - 0.3) keep(s_m);
+    if (fixed) keep(length_m - before_m);
+    const Pose last = along.at(length_m).pose;
+    for (const double aside_rad : {0.0, 0.7})
+      for (const double handle_m : {0.06, 0.2}) {
+        const End from{start_m(), bearing_rad(start_m(), middle.front()), from_.turn_rad, after_m};
+        std::vector<Point2> knots{from.knot(0.4 * after_m, aside_rad)};
+        knots.insert(knots.end(), middle.begin(), middle.end());
+        if (fixed) knots.push_back(to_.knot(0.4 * before_m, aside_rad));
+        std::vector<std::size_t> moving{1, 2};
+        if (fixed) moving.insert(moving.end(), {knots.size() - 1, knots.size()});
+        add(handle_m, fixed ? handle_m : 0.3 * after_m, knots, last.heading_rad, moving);
+      }
+  }
+}
+
+std::vector<SwingGuess> Guesses::all() {
+  const double reach_m = distance_m(start_m(), request_.goal_m);
+  if (!(reach_m > 0.05)) return {};
+  const bool curved = request_.along && request_.along->segments().size() > 1;
+  const double leave_rad =
+      curved ? request_.along->at(0).pose.heading_rad : bearing_rad(start_m(), request_.goal_m);
+  const double arrive_rad =
+      curved ? request_.along->at(request_.along->length_m()).pose.heading_rad : leave_rad;
+  from_ = {start_m(), leave_rad, std::remainder(leave_rad - request_.start.heading_rad, 2 * std::numbers::pi),
+           reach_m};
+  to_ = {request_.goal_m, arrive_rad + std::numbers::pi,
+         std::remainder(arrive_rad - request_.goal_heading_rad.value_or(arrive_rad), 2 * std::numbers::pi),
+         reach_m};
+  if (curved) {
+    guess_joined();
+  } else {
+    guess_spans();
+    guess_swings();
+  }
+  return std::move(guesses_);
+}
+
+}  // namespace
+
+std::vector<SwingGuess> swing_guesses(const SwingRequest& request) { return Guesses(request).all(); }
+
+}  // namespace joulepath
