@@ -32,7 +32,7 @@ int guarded(Command& command) {
   } catch (const ConfigError& error) {
     return tell(error.what(), kBadInput);
   } catch (const UsageError& error) {
-    return tell(error.what(), kBadInput, "see: joulepath " + command.name() + " --help");
+    return tell(error.what(), kBadInput, "see: joulepath " + command.text().name + " --help");
   } catch (const Interrupted&) {
     return tell("interrupted", kInterrupted);
   } catch (const EnvironmentError& error) {
