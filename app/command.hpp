@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <utility>
 
 namespace joulepath {
 
@@ -30,13 +29,6 @@ class EnvironmentError : public std::runtime_error {
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// What the help says about a command.
-struct CommandText {
-  std::string name{};
-  std::string says{};      ///< one line for the list of commands
-  std::string examples{};  ///< shown below the options
 };
 
 /// What the help says about a command.
