@@ -48,7 +48,7 @@ class BatchCommand : public Command {
       add_timings(out, *results);
       finish_batch(out, title, lines_of(*results), options_.common);
     } else {
-      write_shard(out, jobs, *results, {.command = name(), .shard = run.shard, .title = title});
+      write_shard(out, jobs, *results, {.command = text().name, .shard = run.shard, .title = title});
     }
     remove_journal(run.directory);
     return kDone;

@@ -52,7 +52,7 @@ class SweepCommand : public Command {
     if (!results) return kInterrupted;
     if (!run.shard.is_whole()) {
       write_shard(out, jobs, *results,
-                  {.command = name(),
+                  {.command = text().name,
                    .shard = run.shard,
                    .title = title_of(study),
                    .study_file = study.file,
