@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
+
+#include "model/limits.hpp"
 
 namespace joulepath {
 namespace {

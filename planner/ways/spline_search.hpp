@@ -5,6 +5,7 @@
 
 #include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/geometry/path.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
 
 namespace joulepath {
 
