@@ -14,12 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kRobot = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/robot.yaml";
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+const std::string kGoodRobot = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/robot.yaml";
 
 std::vector<Json> lines_of(const std::string& file) {
   std::vector<Json> lines;
@@ -36,7 +31,7 @@ std::string mission(const std::string& name, double length_m, const std::string&
 
 TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
   const ScratchDirectory scratch;
-  scratch.write("robot.yaml", text_of(kRobot));
+  scratch.write("robot.yaml", text_of(kGoodRobot));
   ASSERT_EQ(::mkfifo(scratch.at("pipe.yaml").c_str(), 0600), 0);
   const std::string lines =
       scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("\xff", 3) + "\nbroken{{{\n" +
@@ -96,7 +91,7 @@ TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
 
 TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
   const ScratchDirectory scratch;
-  scratch.write("robot.yaml", text_of(kRobot));
+  scratch.write("robot.yaml", text_of(kGoodRobot));
   const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
                     arguments = "batch " + file + " -q --nodes 20 --out " + scratch.at("out");
   ASSERT_EQ(run_program(scratch, arguments).code, 0);
@@ -128,7 +123,7 @@ TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
 
 TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   const ScratchDirectory scratch;
-  scratch.write("robot.yaml", text_of(kRobot));
+  scratch.write("robot.yaml", text_of(kGoodRobot));
   const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n");
   const std::string partial = scratch.write("out/results.partial.jsonl", "{}\n");
   const auto result = run_program(scratch, "batch " + file + " -q --out " + scratch.at("out"));

@@ -18,6 +18,12 @@ struct ProgramResult {
   std::string err{};
 };
 
+/// The content of a file; empty where there is none.
+inline std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// Runs `joulepath ARGUMENTS` through a shell in an empty environment but for what `before` sets
 /// (`NO_COLOR=1`).
 inline ProgramResult run_program(const ScratchDirectory& scratch, const std::string& arguments,
@@ -26,11 +32,7 @@ inline ProgramResult run_program(const ScratchDirectory& scratch, const std::str
   const std::string command = "env -u JOULEPATH_DATA_DIR " + before + " '" JOULEPATH_PROGRAM "' " +
                               arguments + " >'" + out + "' 2>'" + err + "'";
   const int status = std::system(command.c_str());
-  const auto content = [](const std::string& file) {
-    std::ifstream stream(file);
-    return std::string{std::istreambuf_iterator<char>(stream), {}};
-  };
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content(out), content(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out), text_of(err)};
 }
 
 }  // namespace joulepath

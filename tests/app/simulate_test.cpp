@@ -9,12 +9,12 @@
 namespace joulepath {
 namespace {
 
-const std::string kRobot = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
+const std::string kNomadFile = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
 
 std::string mission(const ScratchDirectory& scratch) {
   const std::string file = scratch.at("mission.yaml");
   std::ofstream(file)
-      << "schema: joulepath/mission/1\nrobot: " << kRobot
+      << "schema: joulepath/mission/1\nrobot: " << kNomadFile
       << "\nstart: {x_m: 1, y_m: 2, heading_rad: 0.5}\nlegs:\n"
          "  - {motion: {profile: constant_ramp, acceleration_m_s2: 0.2, ramp_s: 3, distance_m: 4}, "
          "payload_kg: 5, dwell_s: 1}\n"
@@ -63,8 +63,8 @@ TEST(SimulateCommand, APlansDirectoryIsDriven) {
   const ScratchDirectory scratch;
   const std::string plan = scratch.at("plan");
   ASSERT_EQ(run_program(scratch, "plan " + mission(scratch) + " --out " + plan).code, 0);
-  const auto result =
-      run_program(scratch, "simulate " + plan + " --robot " + kRobot + " --json --out " + scratch.at("sim"));
+  const auto result = run_program(
+      scratch, "simulate " + plan + " --robot " + kNomadFile + " --json --out " + scratch.at("sim"));
   ASSERT_EQ(result.code, 0) << result.err;
   const auto run = nlohmann::json::parse(result.out)["runs"][0];
   EXPECT_EQ(run["planned"]["energy_J"], parsed(plan + "/plan.json")["energy_J"]);

@@ -11,15 +11,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// A robot on which everything has a closed form: Coulomb friction alone, all braking power comes back.
 constexpr double kResistance_ohm = 1.5, kTorqueConstant_Nm_A = 0.05, kMass_kg = 30.0, kRadius_m = 0.1,
                  kFriction_Nm = 0.4, kGear = 20.0, kDistance_m = 6.0, kTime_s = 8.0;
-const std::string kRobot = R"(
+const std::string kSimpleRobot = R"(
 geometry: {wheel_radius_m: 0.1, half_track_m: 0.2}
 inertia: {chassis_mass_kg: 30, wheel_mass_kg: 0, chassis_yaw_inertia_kg_m2: 1, payload_yaw_inertia_m2: 0,
           wheel_axle_inertia_kg_m2: 0, wheel_diameter_inertia_kg_m2: 0}
@@ -35,7 +30,7 @@ const std::string kMission =
 class Sweep : public testing::Test {
  protected:
   Sweep() {
-    scratch.write("robot.yaml", kRobot);
+    scratch.write("robot.yaml", kSimpleRobot);
     scratch.write("mission.yaml", kMission);
   }
 
@@ -191,7 +186,7 @@ TEST_F(Shards, WhatDoesNotBelongTogetherIsRefused) {
   refused("s1 s2 s2 s3", "each shard once");
   ASSERT_EQ(batch("other", "--shard 2/3 --seed 2").code, 0);
   refused("s1 other s3", "list");
-  scratch.write("robot.yaml", kRobot + "# the same robot\n");
+  scratch.write("robot.yaml", kSimpleRobot + "# the same robot\n");
   ASSERT_EQ(batch("s2", "--shard 2/3 --force").code, 0);
   refused("s1 s2 s3", "robot.yaml with another content");
   std::string manifest = text_of(scratch.at("s3/shard.json"));

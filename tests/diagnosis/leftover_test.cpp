@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-constexpr int kRows = 200, kRuns = 8;
+constexpr int kRows = 200, kLeftoverRuns = 8;
 
 /// Runs with one nuisance and two families of a dictionary: "steady" is one entry that has the same part in
 /// every run's gap; "private" has an entry for each run that makes up its gap and is nothing in the others.
@@ -21,19 +21,19 @@ Identification two_families() {
   id.equations.columns = {{Column::Kind::nuisance, 0, 0, 0.05, 0.0},
                           {Column::Kind::dictionary, 0, 0, 10.0, 0.0}};
   id.equations.dictionary = {{"steady", "current"}};
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < kLeftoverRuns; ++run) {
     id.equations.dictionary.push_back({"private", "current"});
     id.equations.columns.push_back({Column::Kind::dictionary, run + 1, 0, 10.0, 0.0});
   }
-  id.equations.prior_sd = Eigen::VectorXd::Constant(kRuns + 2, 10.0);
+  id.equations.prior_sd = Eigen::VectorXd::Constant(kLeftoverRuns + 2, 10.0);
   id.equations.prior_sd[0] = 0.05;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  for (int run = 0; run < kRuns; ++run) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kRows, kRuns + 3);
-    for (int column : {0, 1, run + 2, kRuns + 2})
+  for (int run = 0; run < kLeftoverRuns; ++run) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kRows, kLeftoverRuns + 3);
+    for (int column : {0, 1, run + 2, kLeftoverRuns + 2})
       rows.col(column) = Eigen::VectorXd::NullaryExpr(kRows, [&] { return normal(random); });
-    rows.col(kRuns + 2) += 0.5 * rows.col(1) + 0.5 * rows.col(run + 2);
+    rows.col(kLeftoverRuns + 2) += 0.5 * rows.col(1) + 0.5 * rows.col(run + 2);
     id.equations.runs.push_back({rows.transpose() * rows});
   }
   return id;
@@ -43,7 +43,7 @@ TEST(LeftOutGain, CountsWhatRepeatsItselfFromRunToRunOnly) {
   const Identification id = two_families();
   const auto gains = left_out_gains(id, {}, dictionary_families(id.equations));
   const LeftOutGain steady = gains.at("steady (current)"), own = gains.at("private (current)");
-  const double expected = kRuns * kRows * 0.25;
+  const double expected = kLeftoverRuns * kRows * 0.25;
   EXPECT_NEAR(steady.gain, expected, 0.3 * expected);
   EXPECT_GT(steady.over_scatter, 5);
   EXPECT_NEAR(own.gain, 0.0, 0.05 * expected);

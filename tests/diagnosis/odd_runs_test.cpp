@@ -18,7 +18,7 @@ namespace {
 
 /// A test day of six runs of the benchmark's plant, with an effect and its size, or `none`.
 Dataset test_day(const std::string& effect) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "odd_runs";
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "odd_runs";
   std::filesystem::remove_all(folder);
   const std::string command = std::string(JOULEPATH_BINARY_DIR) + "/bin/blind_plant --effect " + effect +
                               " --protocol 6 --seed 31 --out " + folder.string();

@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kRuns = 12;
+constexpr std::size_t kDrivenRuns = 12;
 constexpr double kStudent11 = 2.201;  ///< 97.5 % quantile of Student's t with 11 degrees of freedom
 
 /// One column, unit noise by the model; in truth each run has a slope of its own about 1.
@@ -18,7 +18,7 @@ Equations scattered_slopes(double scatter, std::mt19937& engine) {
   std::normal_distribution<double> normal;
   Equations equations{.columns = {{Column::Kind::amplitude, 0, 0, 1e3, 0.0}},
                       .prior_sd = Eigen::VectorXd::Constant(1, 1e3)};
-  for (std::size_t r = 0; r < kRuns; ++r) {
+  for (std::size_t r = 0; r < kDrivenRuns; ++r) {
     const double slope = 1 + scatter * normal(engine);
     Eigen::MatrixXd rows(50, 2);
     for (Eigen::Index j = 0; j < rows.rows(); ++j) {
@@ -40,9 +40,9 @@ Coverage coverage(double scatter, unsigned seed) {
   Coverage covered;
   for (int draw = 0; draw < kDraws; ++draw) {
     const Equations equations = scattered_slopes(scatter, engine);
-    const Posterior fit = solve(sum_runs(equations.runs, every(kRuns), equations.prior_sd), {0});
+    const Posterior fit = solve(sum_runs(equations.runs, every(kDrivenRuns), equations.prior_sd), {0});
     const Eigen::MatrixXd sandwich =
-        run_covariance(equations, every(kRuns), {0}, fit.mean, fit.covariance, 1.0);
+        run_covariance(equations, every(kDrivenRuns), {0}, fit.mean, fit.covariance, 1.0);
     const double error = std::abs(fit.mean[0] - 1.0);
     covered.by_noise_model += (error < 1.96 * std::sqrt(fit.covariance(0, 0))) / double{kDraws};
     covered.by_runs += (error < kStudent11 * std::sqrt(sandwich(0, 0))) / double{kDraws};

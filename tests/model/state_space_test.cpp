@@ -15,7 +15,7 @@ using testing::nomad;
 using FullCoordinates = Eigen::Matrix<double, 5, 1>;  // x, y, phi, q_left, q_right: before any constraint
 
 /// A robot that hides no mistake: unequal radii, center of mass and payload off the axle.
-Robot crooked_robot() {
+Robot bent_robot() {
   Robot robot = nomad();
   robot.geometry.wheel_radius_m = {0.097, 0.106};
   robot.geometry.center_of_mass_offset_m = 0.07;
@@ -116,7 +116,7 @@ EffectSetting setting_around(const EffectDescription& description) {
 }
 
 TEST(StateSpace, VelocityMapObeysTheConstraints) {
-  const Robot robot = crooked_robot();
+  const Robot robot = bent_robot();
   for (double phi : {0.0, 0.4, 2.9, -1.3}) {
     const ConstraintMatrix A = constraint_matrix(robot.geometry, phi);
     EXPECT_LT((A * velocity_map(robot.geometry, phi)).norm(), 1e-15);
@@ -128,7 +128,7 @@ TEST(StateSpace, VelocityMapObeysTheConstraints) {
 }
 
 TEST(StateSpace, MassMatrixIsTheHessianOfAnIndependentKineticEnergy) {
-  const Robot robot = crooked_robot();
+  const Robot robot = bent_robot();
   const MassProperties mass = mass_properties(robot, 8.0);
   const double phi = 0.8;
   FullCoordinates q = FullCoordinates::Zero();
@@ -149,7 +149,7 @@ TEST(StateSpace, MassMatrixIsTheHessianOfAnIndependentKineticEnergy) {
 }
 
 TEST(StateSpace, ReducedMatricesAreTheProductsThatTheyStandFor) {
-  const Robot robot = crooked_robot();
+  const Robot robot = bent_robot();
   const MassProperties mass = mass_properties(robot, 5.7);
   const double phi = -0.6;
   const double yaw_rate = 1.7;
@@ -163,7 +163,7 @@ TEST(StateSpace, ReducedMatricesAreTheProductsThatTheyStandFor) {
 }
 
 TEST(StateSpace, InertialTorquesFollowFromLagrangesEquations) {
-  Robot robot = crooked_robot();
+  Robot robot = bent_robot();
   for (Side side : kSides) {
     robot.motor[side].friction_torque_Nm = 0;
     robot.motor[side].viscous_friction_Nm_s_rad = 0;
@@ -190,7 +190,7 @@ TEST(StateSpace, InertialTorquesFollowFromLagrangesEquations) {
 }
 
 TEST(StateSpace, IsThePapersMatrixEquation) {
-  const Plant plant = make_plant(crooked_robot());
+  const Plant plant = make_plant(bent_robot());
   std::mt19937 random(4);
   for (int i = 0; i < 20; ++i) {
     const Instant instant = random_instant(random);
@@ -218,7 +218,7 @@ TEST(StateSpace, IsThePapersMatrixEquation) {
 TEST(StateSpace, VoltagesGiveTheMotionBackForEveryEffectInTheCatalog) {
   std::mt19937 random(5);
   for (const EffectDescription& description : effect_catalog()) {
-    const Plant plant = make_plant(crooked_robot(), {setting_around(description)});
+    const Plant plant = make_plant(bent_robot(), {setting_around(description)});
     for (int i = 0; i < 20; ++i) {
       const Instant instant = random_instant(random);
       const DriveCircumstances circumstances{.payload_kg = 5.7, .time_of_day_s = 300, .memory = {0.2, -0.1}};
@@ -233,7 +233,7 @@ TEST(StateSpace, AgreesWithTheOperatingPointForEveryRigidEffect) {
   std::mt19937 random(6);
   for (const EffectDescription& description : effect_catalog()) {
     if (description.info.stage == Stage::contact) continue;  // creep is not rigid rolling
-    const Plant plant = make_plant(crooked_robot(), {setting_around(description)});
+    const Plant plant = make_plant(bent_robot(), {setting_around(description)});
     const Geometry& geometry = plant.robot.geometry;
     for (int i = 0; i < 20; ++i) {
       const Instant instant = random_instant(random);
@@ -255,7 +255,7 @@ TEST(StateSpace, AgreesWithTheOperatingPointForEveryRigidEffect) {
 }
 
 TEST(StateSpace, EnergyInIsCopperFrictionAndKineticChange) {
-  const Plant plant = make_plant(crooked_robot());
+  const Plant plant = make_plant(bent_robot());
   std::mt19937 random(8);
   for (int i = 0; i < 50; ++i) {
     const Instant instant = random_instant(random);
@@ -285,7 +285,7 @@ TEST(StateSpace, EnergyInIsCopperFrictionAndKineticChange) {
 }
 
 TEST(StateSpace, MirroredRobotTurnsTheOtherWay) {
-  const Robot robot = crooked_robot();
+  const Robot robot = bent_robot();
   Robot mirrored = robot;
   std::swap(mirrored.motor.left, mirrored.motor.right);
   std::swap(mirrored.geometry.wheel_radius_m.left, mirrored.geometry.wheel_radius_m.right);

@@ -12,7 +12,7 @@ namespace joulepath {
 namespace {
 
 /// An empty floor of 24 m x 24 m with walls around.
-OccupancyGrid empty_floor() {
+OccupancyGrid visit_floor() {
   OccupancyGrid grid{.width = 120, .height = 120, .resolution_m = 0.2};
   grid.occupancy_percent.assign(120 * 120, 0);
   for (std::size_t k = 0; k < 120; ++k)
@@ -40,14 +40,14 @@ MissionRequest round_trip() {
   return mission;
 }
 
-Plan plan_of(const MissionRequest& mission, const Robot& robot = testing::nomad()) {
-  return plan_mission(mission, {.robot = robot, .map = empty_floor()},
+Plan visit_plan(const MissionRequest& mission, const Robot& robot = testing::nomad()) {
+  return plan_mission(mission, {.robot = robot, .map = visit_floor()},
                       {.solver = SolverChoice::fast, .nodes = 40, .baselines = false});
 }
 
 TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
   const MissionRequest mission = round_trip();
-  const Plan chosen = plan_of(mission);
+  const Plan chosen = visit_plan(mission);
   ASSERT_TRUE(chosen.visit);
   EXPECT_TRUE(chosen.visit->exact);
   EXPECT_EQ(chosen.visit->order.back(), 3u);  // the drop waits for the picks before it
@@ -62,7 +62,7 @@ TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
       payload_kg += mission.visit[k].payload_kg;
     }
     fixed.legs.push_back({.to = "dock", .payload = {payload_kg, payload_kg}});
-    const Plan other = plan_of(fixed);
+    const Plan other = visit_plan(fixed);
     ASSERT_FALSE(other.legs.empty()) << other.message;
     EXPECT_GE(other.energy.total_J(), 0.97 * chosen.energy.total_J());  // the table leaves turns open
   } while (std::next_permutation(order.begin(), order.end()));
@@ -70,12 +70,12 @@ TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
 
 TEST(VisitOrder, AWindowTurnsTheOrderRound) {
   MissionRequest mission = round_trip();
-  const std::size_t free_first = plan_of(mission).visit->order.front();
+  const std::size_t free_first = visit_plan(mission).visit->order.front();
   const std::size_t other = free_first == 1 ? 0 : 1;
   mission.visit[other].window_s = {0.0, 25.0};
   for (std::size_t k = 0; k < 3; ++k)
     if (k != other) mission.visit[k].window_s = {26.0, 1000.0};
-  const Plan plan = plan_of(mission);
+  const Plan plan = visit_plan(mission);
   ASSERT_FALSE(plan.infeasibility) << plan.message;
   EXPECT_EQ(plan.visit->order.front(), other);
   EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
@@ -88,9 +88,9 @@ TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   MissionRequest as_legs = round_trip();
   as_legs.visit.clear();
   as_legs.legs = {{.to = "far"}, {.to = "side"}};
-  const Plan free = plan_of(as_legs, robot);
+  const Plan free = visit_plan(as_legs, robot);
   as_legs.objective.minimize = Objective::Minimize::time;
-  const Plan fastest = plan_of(as_legs, robot);
+  const Plan fastest = visit_plan(as_legs, robot);
   ASSERT_LT(fastest.duration_s, 0.97 * free.duration_s);
   for (double share : {0.1, 0.5, 0.9}) {
     const double latest_s = fastest.duration_s + share * (free.duration_s - fastest.duration_s);
@@ -98,7 +98,7 @@ TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
     mission.visit = {
         {.kind = VisitRequest::Kind::pass, .station = "far", .window_s = {{0.0, 0.8 * latest_s}}},
         {.kind = VisitRequest::Kind::pass, .station = "side", .window_s = {{0.0, latest_s}}}};
-    const Plan plan = plan_of(mission, robot);
+    const Plan plan = visit_plan(mission, robot);
     ASSERT_FALSE(plan.infeasibility) << share << ": " << plan.message;
     EXPECT_LE(plan.duration_s, latest_s * (1 + 1e-6)) << share;
     EXPECT_LE(plan.energy.total_J(), 1.05 * fastest.energy.total_J()) << share;
@@ -137,7 +137,7 @@ TEST(TimeFront, WindowsCutItAndWaitingCostsStandby) {
 TEST(VisitOrder, MoreThanTheRobotCarriesHasNoOrder) {
   MissionRequest mission = round_trip();
   mission.visit[1].payload_kg = 8.0;  // 16 kg before the only drop, 12 allowed
-  const Plan plan = plan_of(mission);
+  const Plan plan = visit_plan(mission);
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "visit_order");
   EXPECT_NEAR(plan.infeasibility->reason.amount, 4.0, 1e-9);
@@ -147,18 +147,18 @@ TEST(VisitOrder, MoreThanTheRobotCarriesHasNoOrder) {
 TEST(VisitOrder, AWindowThatNoOrderMeetsIsNamedWithTheSecondsMissing) {
   MissionRequest mission = round_trip();
   mission.visit[1].window_s = {0.0, 5.0};  // 18 m away
-  const Plan plan = plan_of(mission);
+  const Plan plan = visit_plan(mission);
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "visit_order");
   EXPECT_NE(plan.message.find("'far' (visit[1])"), std::string::npos) << plan.message;
   const double late_s = plan.infeasibility->reason.amount;
   EXPECT_GT(late_s, 18.0 / 1.0 - 5.0);  // not even at full speed all the way
   mission.visit[1].window_s = {0.0, 5.0 + late_s + 1e-6};
-  EXPECT_FALSE(plan_of(mission).visit->infeasibility);
+  EXPECT_FALSE(visit_plan(mission).visit->infeasibility);
 }
 
 TEST(VisitOrder, TheOrderAsListedIsNeverCheaperThanTheChosenOne) {
-  const Plan plan = plan_of(round_trip());
+  const Plan plan = visit_plan(round_trip());
   ASSERT_TRUE(plan.visit->given_order_J);
   EXPECT_GE(*plan.visit->given_order_J, plan.visit->energy_J);
 }
@@ -166,7 +166,7 @@ TEST(VisitOrder, TheOrderAsListedIsNeverCheaperThanTheChosenOne) {
 TEST(VisitOrder, AStopInAWallIsNamed) {
   MissionRequest mission = round_trip();
   mission.stations["far"].x_m = 23.95;
-  const Plan plan = plan_of(mission);
+  const Plan plan = visit_plan(mission);
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
   EXPECT_NE(plan.message.find("far"), std::string::npos);

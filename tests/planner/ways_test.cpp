@@ -44,10 +44,10 @@ Plan plan_of(const MissionRequest& mission, const PlanOptions& options,
   return plan_mission(mission, {.robot = robot, .map = floor_with_rack()}, options);
 }
 
-const PlanOptions kQuick{.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3, .baselines = false};
+const PlanOptions kCoarse{.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3, .baselines = false};
 
 TEST(Ways, TheChosenWayIsTheCheapestOfAllThatWereScored) {
-  PlanOptions options = kQuick;
+  PlanOptions options = kCoarse;
   options.steps.refinement = false;
   const Plan plan = plan_of(round_of_three(), options);
   ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
@@ -62,7 +62,7 @@ TEST(Ways, TheChosenWayIsTheCheapestOfAllThatWereScored) {
 }
 
 TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
-  const Plan plan = plan_of(round_of_three(), kQuick);
+  const Plan plan = plan_of(round_of_three(), kCoarse);
   ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
   std::vector<double> cost_J(5, 0.0);
   for (const LegPlan& leg : plan.legs) {
@@ -76,7 +76,7 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
 }
 
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
-  PlanOptions turning = kQuick;
+  PlanOptions turning = kCoarse;
   turning.steps.refinement = false;  // refinement replaces turns by curves itself
   const PlanOptions bending = turning;
   turning.steps.stops = false;
@@ -91,10 +91,10 @@ TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
 }
 
 TEST(Ways, TheSameSeedGivesTheSamePlanAndAnotherSeedNearlyThatEnergy) {
-  PlanOptions other = kQuick;
+  PlanOptions other = kCoarse;
   other.seed = 7;
-  const double energy_J = plan_of(round_of_three(), kQuick).energy.total_J();
-  EXPECT_EQ(plan_of(round_of_three(), kQuick).energy.total_J(), energy_J);
+  const double energy_J = plan_of(round_of_three(), kCoarse).energy.total_J();
+  EXPECT_EQ(plan_of(round_of_three(), kCoarse).energy.total_J(), energy_J);
   EXPECT_NEAR(plan_of(round_of_three(), other).energy.total_J(), energy_J, 0.005 * energy_J);
 }
 
@@ -103,7 +103,7 @@ TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   const Plant plant = make_plant(robot);
   const MissionRequest mission = round_of_three();
   const MissionWorld world{.robot = robot};
-  const ChoiceContext context{mission, world, nullptr, plant, kQuick, 2.0};
+  const ChoiceContext context{mission, world, nullptr, plant, kCoarse, 2.0};
   TurnScores turns(context);
   std::vector<std::vector<Way>> ways(3);
   for (std::size_t leg = 0; leg < 3; ++leg)
@@ -141,11 +141,11 @@ TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
   Robot robot = testing::nomad();
   robot.battery.capacity_Wh = 1.0;
   mission.start.battery_fraction = 1.0;
-  const Plan enough = plan_of(mission, kQuick, robot);
+  const Plan enough = plan_of(mission, kCoarse, robot);
   ASSERT_FALSE(enough.infeasibility) << enough.message;
   EXPECT_EQ(enough.legs.size(), 4u);
   robot.battery.capacity_Wh = 0.38;
-  const Plan charged = plan_of(mission, kQuick, robot);
+  const Plan charged = plan_of(mission, kCoarse, robot);
   ASSERT_FALSE(charged.infeasibility) << charged.message;
   ASSERT_EQ(charged.legs.size(), 5u);
   EXPECT_GT(charged.battery->charged_J, 0.0);
@@ -162,14 +162,14 @@ TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
       1.0 - (drawn_J + charged.battery->loss_J - charged.battery->charged_J) / (0.38 * 3600);
   EXPECT_NEAR(charged.battery->end_fraction, balance, 0.02);
   mission.charging.reset();
-  EXPECT_EQ(plan_of(mission, kQuick, robot).infeasibility->reason.constraint, "battery_reserve");
+  EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
 }
 
 TEST(EnergyBand, LegsErrTogetherAndNoUncertaintyMeansNoBand) {
   Robot robot = testing::nomad();
-  EXPECT_EQ(plan_of(round_of_three(), kQuick, robot).energy_sigma_J, 0.0);
+  EXPECT_EQ(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J, 0.0);
   robot.uncertainty["standby_W"] = 0.1;
-  const Plan plan = plan_of(round_of_three(), kQuick, robot);
+  const Plan plan = plan_of(round_of_three(), kCoarse, robot);
   EXPECT_NEAR(plan.energy_sigma_J, 0.1 * robot.power.standby_W * plan.duration_s, 1e-6 * plan.energy_sigma_J);
   double sum_J = 0.0;
   for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J;
@@ -179,7 +179,7 @@ TEST(EnergyBand, LegsErrTogetherAndNoUncertaintyMeansNoBand) {
 TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
   MissionRequest mission = round_of_three();
   mission.stations["east"].x_m = 25.0;
-  const Plan plan = plan_of(mission, kQuick);
+  const Plan plan = plan_of(mission, kCoarse);
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "path");
   EXPECT_NE(plan.message.find("outside of the map"), std::string::npos) << plan.message;

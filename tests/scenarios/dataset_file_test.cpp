@@ -13,10 +13,10 @@
 namespace joulepath {
 namespace {
 
-const std::string kNomad = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
+const std::string kNomadFile = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
 const std::string kShared = JOULEPATH_SOURCE_DIR "/../shared/data";
 
-std::string dataset_yaml(const std::string& rest) { return "robot: " + kNomad + "\n" + rest; }
+std::string dataset_yaml(const std::string& rest) { return "robot: " + kNomadFile + "\n" + rest; }
 
 const LogArtifact* artifact(const Dataset& dataset, const std::string& kind,
                             const std::string& channel = "") {

@@ -12,7 +12,7 @@
 namespace joulepath {
 namespace {
 
-ProfileRequest straight(double length_m) {
+ProfileRequest straight_line(double length_m) {
   const Robot robot = testing::nomad();
   return {.piece = straight_piece({}, length_m), .plant = make_plant(robot), .limits = *robot.limits};
 }
@@ -24,7 +24,7 @@ ProfileRequest corner() {
   segments.emplace_back(
       LinearCurvature(std::get<LinearCurvature>(segments.back()).at(0.75).pose, 0.75, 2.0, -2.0 / 0.75));
   segments.emplace_back(LinearCurvature(std::get<LinearCurvature>(segments.back()).at(0.75).pose, 3.0));
-  ProfileRequest request = straight(1);
+  ProfileRequest request = straight_line(1);
   request.piece = Curve(std::move(segments));
   return request;
 }
@@ -83,7 +83,7 @@ TEST(Baselines, NoneIsCheaperThanThePlan) {
 }
 
 TEST(Baselines, UnclippedShapesAreTheTextbooks) {
-  ProfileRequest request = straight(10);
+  ProfileRequest request = straight_line(10);
   const double T = 25;
   const std::vector<BaselineResult> results = all_baselines(request, T);
   expect_honest(request, results, T);
@@ -100,7 +100,7 @@ TEST(Baselines, UnclippedShapesAreTheTextbooks) {
 }
 
 TEST(Baselines, ASpeedZoneClipsThem) {
-  ProfileRequest request = straight(10);
+  ProfileRequest request = straight_line(10);
   request.speed_caps = {{4, 6, 0.4}};
   const double T = 1.2 * least_s(request);
   const std::vector<BaselineResult> results = all_baselines(request, T);
@@ -145,7 +145,7 @@ TEST(Baselines, NoneOfAKindIsMuchSoonerThanTheLaterOneThatIsFound) {
 }
 
 TEST(Baselines, ALittleMoreTimeDoesNotMakeTheBestTrapezoidMuchDearer) {
-  ProfileRequest request = straight(1);
+  ProfileRequest request = straight_line(1);
   request.piece = curve_through({{0, 0}, {2, 0.3}, {4, -0.5}, {6, 1}, {7, 3}}).path.pieces.front();
   const double least = least_s(request), standby_W = request.plant.robot.power.standby_W;
   double before_J = 0, before_s = 0;
@@ -160,7 +160,7 @@ TEST(Baselines, ALittleMoreTimeDoesNotMakeTheBestTrapezoidMuchDearer) {
 }
 
 TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
-  ProfileRequest request = straight(10);
+  ProfileRequest request = straight_line(10);
   request.limits.jerk_m_s3 = 0.5;
   const std::vector<BaselineResult> results = all_baselines(request, 25);
   expect_honest(request, results, 25);
@@ -169,7 +169,7 @@ TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
 }
 
 TEST(Baselines, AtSpeedFromStartToEndConstantSpeedIsOne) {
-  ProfileRequest request = straight(10);
+  ProfileRequest request = straight_line(10);
   request.start_rate = request.end_rate = 0.5;
   const std::vector<BaselineResult> results = all_baselines(request, 20);
   expect_honest(request, results, 20);

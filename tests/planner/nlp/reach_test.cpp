@@ -28,14 +28,14 @@ double excess(const Bounds& bounds, double value) {
 double number(double x) { return x; }
 double number(const JerkJet& x) { return x.value; }
 
-struct Case {
+struct ReachCase {
   ProfileRequest request;
   std::vector<Tightening> tightenings{};
 };
 
 /// A case transcribed, and the fastest rates at its nodes.
 struct Transcribed {
-  const Case& of;
+  const ReachCase& of;
   Problem problem;
   RateEnvelope envelope;
 
@@ -142,7 +142,7 @@ struct Count {
 
 /// Random motions of every segment, up to where the kept rows just hold: those that were left out hold too.
 template <class Motions>
-void check(const Case& of, RandomProfiles& random, int index, Count& count) {
+void check(const ReachCase& of, RandomProfiles& random, int index, Count& count) {
   const PathMotion motion = path_motion(of.request);
   Transcribed on{
       of, transcribe(of.request, motion, make_grid(motion, of.request, 60), of.tightenings, nullptr), {}};
@@ -164,8 +164,8 @@ void check(const Case& of, RandomProfiles& random, int index, Count& count) {
 
 /// Motors small enough that their limits count; a payload that changes, a slow zone, a limit made tighter and
 /// speed at the ends now and then.
-Case random_case(RandomProfiles& random, int index) {
-  Case result{random.next(joulepath::testing::kPathClasses[index % 4])};
+ReachCase random_case(RandomProfiles& random, int index) {
+  ReachCase result{random.next(joulepath::testing::kPathClasses[index % 4])};
   ProfileRequest& request = result.request;
   for (Side side : kSides) {
     request.plant.robot.motor[side].max_current_A *= random.uniform(0.02, 0.6);
@@ -201,7 +201,7 @@ TEST(Rows, HoldWhereTheyAreLeftOutOfATurnOnTheSpot) {
   RandomProfiles random(8);
   Count count;
   for (int i = 0; i < 40; ++i) {
-    Case turn = random_case(random, 0);
+    ReachCase turn = random_case(random, 0);
     turn.request.piece = TurnInPlace{{}, random.uniform(-3, 3)};
     turn.request.speed_caps.clear();
     turn.tightenings.push_back({"motor_current", 0.0, 1.0, 0.8});
@@ -215,7 +215,7 @@ TEST(Rows, HoldWhereTheyAreLeftOutUnderAJerkLimit) {
   RandomProfiles random(9);
   Count count;
   for (int i = 0; i < 120; ++i) {
-    Case with_jerk = random_case(random, i);
+    ReachCase with_jerk = random_case(random, i);
     with_jerk.request.limits.jerk_m_s3 = random.uniform(0.2, 20);
     check<WithJerk>(with_jerk, random, i, count);
   }

@@ -11,8 +11,8 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const Footprint kDisc{0.25, {}};
+using std::numbers::pi;
+const Footprint kRound{0.25, {}};
 
 void fill(OccupancyGrid& grid, int column0, int row0, int column1, int row1) {
   for (int row = row0; row < row1; ++row)
@@ -20,7 +20,7 @@ void fill(OccupancyGrid& grid, int column0, int row0, int column1, int row1) {
       grid.occupancy_percent[static_cast<std::size_t>(row * grid.width + column)] = 100;
 }
 
-RouteRequest across(double x0, double y0, double x1, double y1) {
+RouteRequest route_across(double x0, double y0, double x1, double y1) {
   RouteRequest request;
   request.start = {x0, y0, 0};
   request.goal_x_m = x1, request.goal_y_m = y1;
@@ -44,8 +44,8 @@ TEST(Homotopy, SidesOfAnIslandAreDifferentClasses) {
 TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
   OccupancyGrid map = free_grid(200, 100, 0.1);
   fill(map, 80, 35, 120, 60);  // its lower side is nearer
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  const auto routes = pool_routes(space, across(3, 4.5, 17, 4.5), {});
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  const auto routes = pool_routes(space, route_across(3, 4.5, 17, 4.5), {});
   ASSERT_EQ(routes.size(), 2u);
   EXPECT_LT(routes[0].cost, routes[1].cost);
   EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, space.islands_m()));
@@ -53,13 +53,13 @@ TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
 
 TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
   const OccupancyGrid map = warehouse_grid(2);
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
+  const RouteSpace space(map, nullptr, kRound, 0.05);
   const PoolOptions options{.dearest_ratio = 1.3};
-  const auto routes = pool_routes(space, across(1.3, 1.3, 58, 37), options);
+  const auto routes = pool_routes(space, route_across(1.3, 1.3, 58, 37), options);
   EXPECT_GE(routes.size(), 3u);
   for (std::size_t i = 0; i < routes.size(); ++i) {
     EXPECT_LE(routes[i].cost, options.dearest_ratio * routes[0].cost);
-    const RouteResult shaped = shape_route(space, across(1.3, 1.3, 58, 37), routes[i].polyline_m);
+    const RouteResult shaped = shape_route(space, route_across(1.3, 1.3, 58, 37), routes[i].polyline_m);
     EXPECT_TRUE(shaped.found());
     EXPECT_FALSE(space.checker().first_collision(shaped.path).has_value());
     for (std::size_t j = 0; j < i; ++j)
@@ -70,20 +70,20 @@ TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
 TEST(RoutePool, ACornersPriceRanksRoutesAndIsNotPartOfWhatIsKept) {
   OccupancyGrid map = free_grid(200, 100, 0.1);
   fill(map, 80, 35, 120, 60);
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  RouteRequest request = across(3, 4.5, 17, 4.5);
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  RouteRequest request = route_across(3, 4.5, 17, 4.5);
   const auto plain = pool_routes(space, request, {});
   request.cost.per_rad = 2.0;
   const auto priced = pool_routes(space, request, {});
   ASSERT_FALSE(priced.empty());
   EXPECT_NEAR(priced[0].cost, plain[0].cost + 2.0 * corner_angles_rad(plain[0].polyline_m), 1e-9);
-  EXPECT_EQ(pool_routes(space, across(3, 4.5, 17, 4.5), {})[0].cost, plain[0].cost);
+  EXPECT_EQ(pool_routes(space, route_across(3, 4.5, 17, 4.5), {})[0].cost, plain[0].cost);
 }
 
 TEST(TravelCostSearch, GoesAroundADearPatch) {
   const OccupancyGrid map = free_grid(200, 100, 0.1);
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  RouteRequest request = across(3, 5, 17, 5);
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  RouteRequest request = route_across(3, 5, 17, 5);
   EXPECT_NEAR(plan_route(space, request).path.distance_m(), 14.0, 1e-9);
   request.cost.rate = [](double x, double y, double) {
     return x > 8 && x < 12 && y > 3 && y < 8 ? 4.0 : 1.0;
@@ -97,17 +97,17 @@ TEST(TravelCostSearch, GoesAroundADearPatch) {
 
 TEST(EndBlends, ReplaceTurnsInPlaceWhereThereIsRoom) {
   const OccupancyGrid map = free_grid(200, 200, 0.05);
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  RouteRequest request = across(3, 3, 7, 7);
-  request.start.heading_rad = kPi / 2;
-  request.goal_heading_rad = kPi / 2;
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  RouteRequest request = route_across(3, 3, 7, 7);
+  request.start.heading_rad = pi / 2;
+  request.goal_heading_rad = pi / 2;
   EXPECT_GT(plan_route(space, request).path.turned_rad(), 1.0);
   request.blend_start = request.blend_goal = true;
   const RouteResult bent = plan_route(space, request);
   ASSERT_TRUE(bent.found());
   EXPECT_EQ(bent.path.pieces.size(), 1u);
-  EXPECT_NEAR(wrapped_angle_rad(bent.path.start().heading_rad - kPi / 2), 0, 1e-9);
-  EXPECT_NEAR(wrapped_angle_rad(bent.path.end().heading_rad - kPi / 2), 0, 1e-9);
+  EXPECT_NEAR(wrapped_angle_rad(bent.path.start().heading_rad - pi / 2), 0, 1e-9);
+  EXPECT_NEAR(wrapped_angle_rad(bent.path.end().heading_rad - pi / 2), 0, 1e-9);
   EXPECT_NEAR(bent.path.end().x_m, 7, 1e-9);
   request.corners.kind = CornerPolicy::Kind::stop_turn_go;
   EXPECT_GT(plan_route(space, request).path.turned_rad(), 1.0);
@@ -124,16 +124,16 @@ TEST(GraphRoute, KeepsToDirectedEdgesAndAvoidsBlockedOnes) {
   OccupancyGrid map = free_grid(200, 200, 0.05);
   const RouteGraph graph = ladder();
   {
-    const RouteSpace space(map, nullptr, kDisc, 0.05);
-    const RouteResult route = plan_graph_route(space, across(1, 1, 9, 9), graph);
+    const RouteSpace space(map, nullptr, kRound, 0.05);
+    const RouteResult route = plan_graph_route(space, route_across(1, 1, 9, 9), graph);
     ASSERT_TRUE(route.found());
     EXPECT_NEAR(route.polyline_cost, 16.0, 1e-9);
-    const RouteResult back = plan_graph_route(space, across(9, 9, 1, 1), graph);
+    const RouteResult back = plan_graph_route(space, route_across(9, 9, 1, 1), graph);
     EXPECT_EQ(back.verdict.status, RouteStatus::no_connection);
   }
   fill(map, 90, 0, 110, 60);  // across edge 0
-  const RouteSpace space(map, nullptr, kDisc, 0.05);
-  const RouteResult route = plan_graph_route(space, across(1, 1, 9, 9), graph);
+  const RouteSpace space(map, nullptr, kRound, 0.05);
+  const RouteResult route = plan_graph_route(space, route_across(1, 1, 9, 9), graph);
   ASSERT_TRUE(route.found());
   EXPECT_NEAR(route.polyline_cost, 8 + 2 * std::sqrt(32.0), 1e-9);
   EXPECT_FALSE(space.checker().first_collision(route.path).has_value());

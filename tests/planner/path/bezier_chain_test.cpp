@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 using Kind = BezierFinding::Kind;
 
 const BezierPoints kPaperCurve_m{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}};
@@ -32,7 +32,7 @@ TEST(Bezier, ChannelsAreEachOthersIntegralsOnThePapersCurve) {
   EXPECT_LT(breach.curvature_per_m, 1e-9);
   EXPECT_NEAR(path.end().x_m, 2.7, 1e-14);
   EXPECT_NEAR(path.end().y_m, 2.7, 1e-14);
-  EXPECT_NEAR(path.end().heading_rad, kPi / 2, 1e-13);
+  EXPECT_NEAR(path.end().heading_rad, pi / 2, 1e-13);
 }
 
 TEST(Bezier, ChannelsAreEachOthersIntegralsOnRandomCurves) {
@@ -78,10 +78,10 @@ TEST(Bezier, ArcLengthInvertsToTwelveDigits) {
 
 TEST(Bezier, QuarterCircleApproximationHasItsRadius) {
   // The usual handle 4/3 tan(pi/8) keeps the radius to 2.7e-4.
-  const double k = 4.0 / 3.0 * std::tan(kPi / 8);
-  const Path path = chain_path({{{{1, 0}, {1, k}, {k, 1}, {0, 1}}}}, {1, 0, kPi / 2});
+  const double k = 4.0 / 3.0 * std::tan(pi / 8);
+  const Path path = chain_path({{{{1, 0}, {1, k}, {k, 1}, {0, 1}}}}, {1, 0, pi / 2});
   ASSERT_EQ(path.pieces.size(), 1u);
-  EXPECT_NEAR(path.distance_m(), kPi / 2, 4e-4);
+  EXPECT_NEAR(path.distance_m(), pi / 2, 4e-4);
   for (int i = 0; i <= 100; ++i) {
     const PathPoint p = piece_point(path.pieces[0], path.distance_m() * i / 100);
     EXPECT_NEAR(std::hypot(p.pose.x_m, p.pose.y_m), 1.0, 2.8e-4);
@@ -97,23 +97,23 @@ TEST(Bezier, CollinearControlPointsAreExactlyStraight) {
 }
 
 TEST(BezierChain, StartFrameMovesTheCurveToTheRobot) {
-  const Pose start{1, 2, kPi / 2};
+  const Pose start{1, 2, pi / 2};
   const Path path = chain_path({kPaperCurve_m}, start, BezierFrame::start);
   ASSERT_EQ(path.pieces.size(), 1u);
   EXPECT_NEAR(path.end().x_m, 1 - 2.7, 1e-14);
   EXPECT_NEAR(path.end().y_m, 2 + 2.7, 1e-14);
-  EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad - kPi), 0, 1e-13);
+  EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad - pi), 0, 1e-13);
 }
 
 TEST(BezierChain, TurnsInPlaceWhereTheHeadingBreaks) {
   const BezierPoints east{{{0, 0}, {1, 0}, {2, 0}, {3, 0}}}, north{{{3, 0}, {3, 1}, {3, 2}, {3, 3}}};
-  const auto result = bezier_chain({east, north}, {0, 0, kPi}, BezierFrame::map);
+  const auto result = bezier_chain({east, north}, {0, 0, pi}, BezierFrame::map);
   ASSERT_TRUE(result.ok());
   ASSERT_EQ(result.path.pieces.size(), 4u);  // turn, east, turn, north
-  EXPECT_NEAR(result.path.turned_rad(), 1.5 * kPi, 1e-14);
+  EXPECT_NEAR(result.path.turned_rad(), 1.5 * pi, 1e-14);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_EQ(result.notes[0].kind, Kind::heading_step);
-  EXPECT_NEAR(result.notes[0].amount, kPi / 2, 1e-14);
+  EXPECT_NEAR(result.notes[0].amount, pi / 2, 1e-14);
   EXPECT_EQ(result.notes[0].x_m, 3.0);
 }
 

@@ -13,7 +13,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Distance to the nearest blocked square by looking at every cell.
 double brute_force_distance_m(const OccupancyGrid& grid, double x_m, double y_m) {
@@ -112,7 +112,7 @@ TEST(FootprintChecker, DiscAndManyCorneredPolygonAgree) {
   const ObstacleField field(grid);
   Footprint disc{0.3, {}}, polygon{};
   for (int i = 0; i < 720; ++i)
-    polygon.polygon_m.push_back({0.3 * std::cos(kPi * i / 360), 0.3 * std::sin(kPi * i / 360)});
+    polygon.polygon_m.push_back({0.3 * std::cos(pi * i / 360), 0.3 * std::sin(pi * i / 360)});
   const FootprintChecker round(field, disc, 0.05), cornered(field, polygon, 0.05);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> u(0.2, 3.8);
@@ -134,7 +134,7 @@ TEST(FootprintChecker, LongRobotPassesAlongButCannotTurn) {
   robot.polygon_m = {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}};
   const FootprintChecker checker(field, robot, 0.05);
   EXPECT_FALSE(checker.first_collision(straight_piece({1, 0.5, 0}, 3.0)).has_value());
-  const auto turn = checker.first_collision(PathPiece{TurnInPlace{{2.5, 0.5, 0}, kPi / 2}});
+  const auto turn = checker.first_collision(PathPiece{TurnInPlace{{2.5, 0.5, 0}, pi / 2}});
   ASSERT_TRUE(turn.has_value());
   // Its corner at (0.6, 0.3) reaches the clearance line 0.45 m from the axis at this angle:
   EXPECT_NEAR(turn->s, std::asin(0.45 / std::hypot(0.6, 0.3)) - std::atan2(0.3, 0.6), 5e-3);

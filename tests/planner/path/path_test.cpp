@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(LinearCurvature, StraightStaysExactlyOnItsLine) {
   const LinearCurvature line({1.0, -2.0, 0.0}, 7.5);
@@ -24,7 +24,7 @@ TEST(LinearCurvature, StraightStaysExactlyOnItsLine) {
 
 TEST(LinearCurvature, ArcStaysAtItsRadius) {
   const double radius_m = 0.7;
-  const LinearCurvature arc({0, 0, 0}, 2 * kPi * radius_m, 1 / radius_m);
+  const LinearCurvature arc({0, 0, 0}, 2 * pi * radius_m, 1 / radius_m);
   for (int i = 0; i <= 100; ++i) {
     const Pose p = arc.at(arc.length_m() * i / 100).pose;
     EXPECT_NEAR(std::hypot(p.x_m, p.y_m - radius_m), radius_m, 1e-14);
@@ -33,7 +33,7 @@ TEST(LinearCurvature, ArcStaysAtItsRadius) {
 
 TEST(LinearCurvature, ClothoidEndsWhereFresnelIntegralsSay) {
   // kappa' = pi, from zero curvature: x(1) = C(1), y(1) = S(1) of the normalized Fresnel integrals.
-  const Pose end = LinearCurvature({0, 0, 0}, 1.0, 0.0, kPi).at(1.0).pose;
+  const Pose end = LinearCurvature({0, 0, 0}, 1.0, 0.0, pi).at(1.0).pose;
   EXPECT_NEAR(end.x_m, 0.77989340037682282947, 1e-14);
   EXPECT_NEAR(end.y_m, 0.43825914739035476608, 1e-14);
 }
@@ -55,15 +55,15 @@ TEST(Curve, RefusesSegmentsThatDoNotMeet) {
   EXPECT_THROW(Curve({a, LinearCurvature({1.1, 0, 0}, 1.0)}), InternalError);
   EXPECT_THROW(Curve({a, LinearCurvature({1.0, 0, 0.1}, 1.0)}), InternalError);
   EXPECT_THROW(Curve({a, LinearCurvature({1.0, 0, 0}, 1.0, 0.5)}), InternalError);
-  EXPECT_NO_THROW(Curve({a, LinearCurvature({1.0, 0, 2 * kPi}, 1.0)}));
+  EXPECT_NO_THROW(Curve({a, LinearCurvature({1.0, 0, 2 * pi}, 1.0)}));
 }
 
 TEST(Path, ReverseDrivesAgainstTheHeading) {
-  const PathPiece piece = straight_piece({2, 3, kPi / 2}, 1.5, Direction::reverse);
+  const PathPiece piece = straight_piece({2, 3, pi / 2}, 1.5, Direction::reverse);
   const Pose end = piece_point(piece, piece_length(piece)).pose;
   EXPECT_NEAR(end.x_m, 2.0, 1e-15);
   EXPECT_NEAR(end.y_m, 1.5, 1e-15);
-  EXPECT_NEAR(wrapped_angle_rad(end.heading_rad - kPi / 2), 0.0, 1e-15);
+  EXPECT_NEAR(wrapped_angle_rad(end.heading_rad - pi / 2), 0.0, 1e-15);
   EXPECT_EQ(travel_sign(piece), -1);
 }
 
@@ -71,7 +71,7 @@ TEST(Path, TurnsTheShorterWayRound) {
   Path path;
   append_turn_to(path, {1, 1, 3.0}, -3.0);
   ASSERT_EQ(path.pieces.size(), 1u);
-  EXPECT_NEAR(path.turned_rad(), 2 * kPi - 6.0, 1e-15);
+  EXPECT_NEAR(path.turned_rad(), 2 * pi - 6.0, 1e-15);
   EXPECT_EQ(turn_sign(path.pieces[0]), 1);
   append_turn_to(path, {}, -3.0);
   EXPECT_EQ(path.pieces.size(), 1u);

@@ -15,7 +15,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 const Footprint kDisc{0.25, {}};
 
 /// Distance from a point to the nearest blocked square within a window, cell by cell: no transform.
@@ -77,7 +77,7 @@ void random_routes(const OccupancyGrid& map, const OccupancyGrid* keepout, int c
   const auto extent = space.field().extent_m();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> x(extent.x_min_m, extent.x_max_m), y(extent.y_min_m, extent.y_max_m),
-      angle(-kPi, kPi);
+      angle(-pi, pi);
   int found = 0, unconnected = 0, corners = 0, blended = 0;
   for (int tried = 0; tried < count;) {
     RouteRequest request;
@@ -173,14 +173,14 @@ TEST(Route, FreeFloorIsOneStraightLineWithTurnsAtItsEnds) {
   const OccupancyGrid map = free_grid(200, 200, 0.05);
   const RouteSpace space(map, nullptr, kDisc, 0.05);
   RouteRequest request = across(2, 2, 8, 2);
-  request.start.heading_rad = kPi / 2;
-  request.goal_heading_rad = kPi;
+  request.start.heading_rad = pi / 2;
+  request.goal_heading_rad = pi;
   const RouteResult result = plan_route(space, request);
   ASSERT_TRUE(result.found());
   ASSERT_EQ(result.path.pieces.size(), 3u);
-  EXPECT_NEAR(std::get<TurnInPlace>(result.path.pieces[0]).angle_rad, -kPi / 2, 1e-12);
+  EXPECT_NEAR(std::get<TurnInPlace>(result.path.pieces[0]).angle_rad, -pi / 2, 1e-12);
   EXPECT_NEAR(piece_length(result.path.pieces[1]), 6.0, 1e-12);
-  EXPECT_NEAR(piece_length(result.path.pieces[2]), kPi, 1e-12);
+  EXPECT_NEAR(piece_length(result.path.pieces[2]), pi, 1e-12);
   request.start_heading_free = true;
   request.goal_heading_rad.reset();
   EXPECT_EQ(plan_route(space, request).path.pieces.size(), 1u);
@@ -267,7 +267,7 @@ TEST(Route, LongRobotIsToldWhereItCannotTurn) {
   const RouteSpace space(map, nullptr, {0, {{-0.6, -0.3}, {0.6, -0.3}, {0.6, 0.3}, {-0.6, 0.3}}}, 0.05);
   RouteRequest request = across(1, 0.5, 9, 0.5);
   EXPECT_TRUE(plan_route(space, request).found());
-  request.goal_heading_rad = kPi;
+  request.goal_heading_rad = pi;
   const RouteResult result = plan_route(space, request);
   EXPECT_EQ(result.verdict.status, RouteStatus::no_room_to_turn);
   EXPECT_NEAR(result.verdict.x_m, 9.0, 1e-6);
