@@ -74,7 +74,7 @@ class Timeline {
     }
   }
 
-  /// What the sample at the joint says belongs to the ramp that begins there.
+  /// The sample at the joint has the values of the ramp that begins there.
   void restart(const Twist<double>& twist, double acceleration_m_s2) {
     Trajectory& t = motion_.trajectory;
     if (t.size() > 1 &&

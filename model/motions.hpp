@@ -28,7 +28,7 @@ struct TimingOptions {
 };
 
 /// The motion over time that prescriptions mean, one after the other. What a prescription leaves out
-/// comes from the robot's limits; a coasting robot slows down as its model (with its effects) says.
+/// comes from the robot's limits; a coasting robot slows down according to its model with its effects.
 ///
 /// Throws ConfigError (without a mark) where a value is needed that neither gives, or where the
 /// prescription contradicts itself (no room to brake).

@@ -15,7 +15,7 @@ struct Nuisance {
   double sigma{};              ///< relative
 };
 
-/// What `uncertainty:` says, one entry per constant; friction errs on each side by itself.
+/// The entries of `uncertainty:`, one per constant; friction has an error on each side.
 std::vector<Nuisance> nuisances_of(const Robot& robot);
 
 /// The robot with that constant (1 + fraction) times its value. Payload is not a constant of the

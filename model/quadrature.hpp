@@ -6,7 +6,7 @@
 // Design: docs/decisions/0110-one-energy-integral.md
 namespace joulepath {
 
-/// A motion at an instant, as the power model asks for it: speeds and accelerations, and the site with the
+/// The input of the power model at an instant: speeds and accelerations, and the site with the
 /// memories of the effects.
 struct MotionInstant {
   BodyMotion<double> motion{};

@@ -83,7 +83,7 @@ struct EffectSetting {
   std::vector<std::array<double, 4>> cells{};  ///< of a region: x_min, x_max, y_min, y_max each
 };
 
-/// All that a robot file says.
+/// The content of a robot file.
 struct Robot {
   std::string name{};
   Geometry geometry{};

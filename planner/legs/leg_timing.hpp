@@ -20,7 +20,7 @@ class LegTiming {
   /// Driving time (s) at a price of a second on top of standby; an infinite price gives the minimum time.
   double duration_s(double price_W, SolverChoice solver);
 
-  /// Profiles of all stretches at a price; a result without a profile says why.
+  /// Profiles of all stretches at a price; a result without a profile has the reason.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 
   /// The time that the leg is given (s): at no price of a second or less no stretch takes longer.

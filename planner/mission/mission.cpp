@@ -68,8 +68,8 @@ bool moved(const std::vector<double>& before_W, const std::vector<double>& after
   return false;
 }
 
-/// A prepared whose ways were chosen at the prices that its times have; the plan becomes the verdict where
-/// there is none.
+/// Legs whose ways were chosen at the prices of their times; the plan becomes the verdict where there are
+/// none.
 struct TimedLegs {
   PreparedLegs prepared{};
   TimeSplit split{};
@@ -135,12 +135,12 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   return std::nullopt;
 }
 
-/// Plans the legs as they are, in their order; `plan` brings what is known about the mission already.
 bool has_own_duration(const MissionRequest& mission) {
   return std::any_of(mission.legs.begin(), mission.legs.end(),
                      [](const LegRequest& leg) { return leg.duration_s.has_value(); });
 }
 
+/// Plans the legs as they are, in their order; `plan` has what is known about the mission already.
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, Plan plan) {
   TimedLegs timed = time_legs(mission, world, space, plant, options, plan);

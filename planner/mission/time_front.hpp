@@ -26,13 +26,13 @@ class TimeFront {
 
   /// One drive after the other: seconds go where they save most.
   friend TimeFront operator+(const TimeFront& first, const TimeFront& second);
-  /// Nothing counts before a time; who comes before it waits.
+  /// Earlier arrivals wait until a time.
   void wait_until(double time_s, double waiting_W);
   /// No time after this one; the soonest stays.
   void end_at(double time_s);
   void shift(double time_s, double cost_J);
 
-  /// Whether it is nowhere above the other.
+  /// Whether it is at most the other at every time.
   [[nodiscard]] bool is_below(const TimeFront& other) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace joulepath {
 
-/// A profile's state on its path, as the power model asks for it.
+/// The input of the power model at a state of a profile.
 [[nodiscard]] MotionInstant motion_instant(const PathMotion& motion, const ProfileState& state);
 
 /// Power (W) that the drives take from the supply at a state, standby left out.

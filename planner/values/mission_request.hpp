@@ -94,7 +94,7 @@ struct Objective {
   enum class Minimize { energy, time, energy_and_time };
   Minimize minimize{Minimize::energy};
   std::optional<double> deadline_s{};
-  double time_value_W{};  ///< energy_and_time: watts a second is worth
+  double time_value_W{};  ///< energy_and_time: the price of a second, in watts
   ItemMarks marks{};
 };
 
@@ -129,7 +129,7 @@ struct SpeedMaskRequest {
   double multiplier{-1.0};
 };
 
-/// All that a mission file says; the files that it names are resolved, not yet read (MissionWorld).
+/// The content of a mission file. The names of its files are resolved, the files not yet read (MissionWorld).
 struct MissionRequest {
   std::string file{};
   std::string name{};  ///< file name without extension, or `name:`

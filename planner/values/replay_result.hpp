@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// What an independent integration of a profile says.
+/// The result of an independent integration of a profile.
 struct ReplayResult {
   double energy_J{};         ///< at the battery's terminals, standby included
   double motion_energy_J{};  ///< without standby

@@ -15,8 +15,8 @@ class MissionWays {
               const Plant& plant, const PlanOptions& options)
       : mission_(mission), world_(world), space_(space), plant_(plant), options_(options) {}
 
-  /// Paths of all legs, up to the first one that has none (its `infeasibility` says why). Consecutive legs
-  /// between stations are chosen together; a prescribed motion has an empty path. A quick choice
+  /// Paths of all legs, up to the first one that has none (its `infeasibility` has the reason). Consecutive
+  /// legs between stations are chosen together; a prescribed motion has an empty path. A quick choice
   /// (WayRun::quick) is for learning prices. Throws ConfigError as leg_path() does.
   [[nodiscard]] std::vector<LegPath> choose(const std::vector<double>& price_W, bool quick) const;
 

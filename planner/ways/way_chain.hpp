@@ -8,7 +8,8 @@
 
 namespace joulepath {
 
-/// A leg as the chain sees it: its ways, with their scores at its price, and what turning in place costs.
+/// The data of a leg that the choice needs: its ways, with their scores at its price, and what turning in
+/// place costs.
 struct ChainLeg {
   const std::vector<Way>* ways{};
   double price_W{};
@@ -28,7 +29,7 @@ struct ChainRequest {
   std::function<bool(const Pose& place, double from_rad, double to_rad)> may_turn{};
 };
 
-/// What the chain says about one leg.
+/// The choice for one leg.
 struct ChainChoice {
   std::size_t way{};
   std::optional<double> goal_heading_rad{};  ///< turn to it after arrival; absent: stay as arrived

@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// The chosen ways of a run on their way to becoming paths: control points may be moved, then turns in place
+/// Turns the chosen ways of a run into paths: control points may be moved, then turns in place
 /// at the stops are added.
 class RefinedRun {
  public:
@@ -36,7 +36,7 @@ class RefinedRun {
     PathScore driving{};  ///< of the path alone
     double leaves_rad{};
     double arrives_rad{};
-    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or as the station says)
+    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or to the heading of the station)
     bool refined{};
     std::optional<FreeSpline> spline{};  ///< of a path that is one
   };

@@ -10,7 +10,7 @@
 
 namespace joulepath {
 
-/// Everything that a choice among ways looks at.
+/// The input of a choice among ways.
 struct ChoiceContext {
   const MissionRequest& mission;
   const MissionWorld& world;
