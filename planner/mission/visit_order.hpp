@@ -13,7 +13,4 @@ namespace joulepath {
 /// kept. Legs are costed with free departure headings; the plan itself is made leg by leg, exactly.
 [[nodiscard]] VisitOrder order_visits(const ChoiceContext& context);
 
-inline constexpr std::size_t kExactStops = 10;
-inline constexpr std::size_t kBeam = 2000;
-
 }  // namespace joulepath

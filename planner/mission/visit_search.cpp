@@ -5,7 +5,6 @@
 #include <map>
 
 #include "model/limit_table.hpp"
-#include "planner/mission/visit_order.hpp"
 
 // Design: docs/decisions/0005-order-of-visits.md
 namespace joulepath {

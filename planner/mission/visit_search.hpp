@@ -8,6 +8,9 @@
 
 namespace joulepath {
 
+inline constexpr std::size_t kExactStops = 10;  ///< up to here no label is dropped
+inline constexpr std::size_t kBeam = 2000;      ///< labels of a layer that are kept beyond
+
 /// A partial order: what is visited, where the robot is, what it carries.
 struct VisitLabel {
   std::uint64_t visited{};
