@@ -104,9 +104,9 @@ double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, do
 double end_s(const LegPlan& leg) { return leg.start_s + leg.duration_s + leg.dwell_s; }
 
 /// Rows of a plan in the order of time, with the energy between them.
-class Rows {
+class PlanRows {
  public:
-  Rows(const Plan& plan, const Plant& plant) : plan_(plan), plant_(plant) {
+  PlanRows(const Plan& plan, const Plant& plant) : plan_(plan), plant_(plant) {
     for (const LegPlan& leg : plan.legs) motions_.emplace_back(leg, plant);
   }
 
@@ -168,7 +168,7 @@ void add_stretch(const StretchPlan& stretch, const PathMotion& path, double star
   }
 }
 
-void add_leg(const LegPlan& leg, std::size_t index, const Rows& rows, NodeRows& to) {
+void add_leg(const LegPlan& leg, std::size_t index, const PlanRows& rows, NodeRows& to) {
   if (leg.prescribed)
     for (double time_s : leg.prescribed->time_s) {
       const double elapsed_s = time_s - leg.prescribed->time_s.front();
@@ -188,7 +188,7 @@ void add_leg(const LegPlan& leg, std::size_t index, const Rows& rows, NodeRows& 
 
 Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz) {
   if (plan.legs.empty()) return {};
-  Rows rows(plan, plant);
+  PlanRows rows(plan, plant);
   std::size_t index = 0;
   const double last_s = end_s(plan.legs.back());
   rate_Hz = std::min(rate_Hz, kMostSamples / last_s);
@@ -203,7 +203,7 @@ Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz)
 }
 
 PlanNodes plan_nodes(const Plan& plan, const Plant& plant) {
-  Rows rows(plan, plant);
+  PlanRows rows(plan, plant);
   NodeRows nodes;
   for (std::size_t i = 0; i < plan.legs.size(); ++i) add_leg(plan.legs[i], i, rows, nodes);
   PlanNodes result;
