@@ -5,6 +5,7 @@
 
 #include "planner/baselines/clipped.hpp"
 #include "planner/baselines/finish.hpp"
+#include "planner/baselines/rounded.hpp"
 #include "planner/baselines/shapes.hpp"
 #include "planner/profile/profile_solver.hpp"
 
@@ -176,6 +177,22 @@ std::optional<Profile> limited_s_curve(const ProfileRequest& request, double len
   return s_curve(ramp_limits(request), length, T);
 }
 
+/// Under a jerk limit the unclipped S-curve, or the trapezoid of largest acceleration, clipped and rounded.
+BaselineResult s_curve_baseline(const ProfileRequest& request, double duration_s) {
+  constexpr const char* kName = "s_curve";
+  const Baseline clipped = from_rest_to_rest(kName, limited_s_curve, s_curve_settings);
+  if (!is_rounded(request) || request.start_rate != 0 || request.end_rate != 0)
+    return clipped(request, duration_s);
+  if (std::optional<Profile> whole = limited_s_curve(request, piece_length(request.piece), duration_s)) {
+    BaselineResult result = finish_baseline(request, kName, std::move(*whole), duration_s,
+                                            s_curve_settings(request, 0, duration_s));
+    if (result.feasible) return result;
+  }
+  BaselineResult rounded = rounded_max_acceleration(request, kName, duration_s);
+  rounded.parameters["clipped"] = 1;
+  return rounded;
+}
+
 /// Bisects between a factor of the time that fails and one that `works`, to a thousandth of the time.
 BaselineResult between(const Baseline& baseline, const ProfileRequest& request, double duration_s,
                        std::pair<double, double> factors, BaselineResult works) {
@@ -197,7 +214,7 @@ const std::vector<Baseline>& baselines() {
                                          trapezoid_best_tuned,
                                          from_rest_to_rest("triangular", plain<triangle>, peak_acceleration),
                                          from_rest_to_rest("constant_ramp", plain<ramps>, ramp_time),
-                                         from_rest_to_rest("s_curve", limited_s_curve, s_curve_settings),
+                                         s_curve_baseline,
                                          from_rest_to_rest("cubic", plain<cubic>, no_settings),
                                          from_rest_to_rest("quintic", plain<quintic>, no_settings),
                                          from_rest_to_rest("sinusoidal", plain<sinusoidal>, no_settings),

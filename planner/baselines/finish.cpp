@@ -82,7 +82,11 @@ BaselineResult finish_baseline(const ProfileRequest& request, std::string name, 
   result.worst_use = worst.ratio;
   result.worst_limit = worst.limit;
   result.feasible = worst.ratio <= 1 + kTolerance;
-  if (!result.feasible) {
+  if (std::isinf(worst.ratio) && worst.limit == "jerk") {
+    std::snprintf(text, sizeof text, "its acceleration jumps at s = %.4g, which a jerk limit does not allow",
+                  worst.s < 1e-9 ? 0.0 : worst.s);
+    result.reason = text;
+  } else if (!result.feasible) {
     std::snprintf(text, sizeof text, "%s at s = %.4g is %.7g times its limit", worst.limit.c_str(),
                   worst.s < 1e-9 ? 0.0 : worst.s, worst.ratio);
     result.reason = text;

@@ -3,6 +3,7 @@
 #include "planner/baselines/finish.hpp"
 #include "planner/baselines/local_limits.hpp"
 #include "planner/baselines/pattern_search.hpp"
+#include "planner/baselines/rounded.hpp"
 #include "planner/baselines/trapezoid.hpp"
 
 namespace joulepath {
@@ -65,10 +66,12 @@ BaselineResult of_share(const ProfileRequest& request, const ProfileRequest& inn
 }  // namespace
 
 BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s) {
+  constexpr const char* kName = "trapezoid_max_acceleration";
+  if (is_rounded(request)) return rounded_max_acceleration(request, kName, duration_s);
   const auto make = [&](const ProfileRequest& inner, double share) {
     const double up = most_acceleration(inner), down = most_deceleration(inner);
-    return of_share(request, inner, "trapezoid_max_acceleration", duration_s,
-                    "cannot make the time with the local speed limits", [&](const TrapezoidFamily& family) {
+    return of_share(request, inner, kName, duration_s, "cannot make the time with the local speed limits",
+                    [&](const TrapezoidFamily& family) {
                       const auto rate = family.rate_for(up, down, share, duration_s);
                       return rate ? std::optional(TrapezoidSettings{*rate, up, down, share}) : std::nullopt;
                     });
@@ -78,6 +81,7 @@ BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double 
 
 BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "trapezoid_best_tuned";
+  if (is_rounded(request)) return rounded_best_tuned(request, kName, duration_s);
   const auto make = [&](const ProfileRequest& inner, double share) {
     return of_share(request, inner, kName, duration_s, "no trapezoid makes the time within the limits",
                     [&](const TrapezoidFamily& family) { return tuned(inner, family, share, duration_s); });

@@ -10,6 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kHighestPrice_W = 1e7;
+constexpr double kClearlyLate = 1e-3;  ///< relative: more than solvers of profiles disagree by
 
 /// Arrival at the end of `last` when all legs from `first` pay one price.
 double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
@@ -34,6 +35,9 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   double low = 0.0;
   double late_low_s = late_s(low);
   if (late_low_s <= 0) return request.lowest_price_W;
+  // Far before the fastest drive: no price is asked for.
+  if (arrival_s(request, first, last, departure_s, kInfinite) > latest_s * (1 + kClearlyLate))
+    return std::nullopt;
   const double highest = std::log1p(kHighestPrice_W);
   double high = 0.5;
   double late_high_s = late_s(high);

@@ -8,6 +8,7 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
+#include "planner/profile/holding_limit.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
@@ -30,13 +31,19 @@ bool has_deadline(const ProfileRequest& request) {
          std::isfinite(request.time.duration_s);
 }
 
-/// Least time (s) found under a jerk limit; nothing where no profile is found.
-std::optional<double> least_time_s(ProfileRequest request, double jerk_m_s3) {
+/// The profile of least time found under a jerk limit; nothing where none is found.
+std::optional<Profile> fastest_found(ProfileRequest request, double jerk_m_s3) {
   request.limits.jerk_m_s3 = jerk_m_s3;
   request.time = {.mode = TimeMode::minimum_time};
-  const ProfileResult fastest = find_profile_with_jerk_limit(request);
-  if (!fastest.profile) return std::nullopt;
-  return fastest.profile->duration_s();
+  request.solver = SolverChoice::fast;
+  return find_profile_with_jerk_limit(request).profile;
+}
+
+/// "; jerk holds the fastest drive for 40 % of its time, ..."
+std::string why_slow(const ProfileRequest& request, const Profile& fastest) {
+  HoldingLimits limits;
+  limits.add(request, fastest);
+  return limits.sentence();
 }
 
 /// Smallest jerk limit, to 2 %, with which a profile makes the time; nothing up to 1e4. Where any limit above
@@ -47,16 +54,18 @@ std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
   ProfileRequest trial = request;
   trial.accuracy *= kRough;  // its times are a little too long, never too short
   const auto possible = [&](double jerk_m_s3) {
-    const std::optional<double> least_s = least_time_s(trial, jerk_m_s3);
-    return least_s && *least_s <= available_s;
+    const std::optional<Profile> fastest = fastest_found(trial, jerk_m_s3);
+    return fastest && fastest->duration_s() <= available_s;
   };
   double bad = std::max(0.0, request.limits.jerk_m_s3), good = std::max(4 * bad, kFirst);
   for (; !possible(good); good *= 4) {
     bad = good;
     if (good > kLargest) return std::nullopt;
   }
-  for (; bad == 0 && good > kLeast; good /= 4)
-    if (!possible(good / 4)) bad = good / 4;
+  while (bad == 0 && good > kLeast) {
+    const double less = good / 4;
+    (possible(less) ? good : bad) = less;
+  }
   if (bad == 0) return kLeast;
   while (good > kClose * bad) {
     const double middle = std::sqrt(bad * good);
@@ -137,7 +146,7 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
   std::ostringstream text;
   text.precision(7);
   text << "within the jerk limit the fastest drive takes at least " << least_s << " s, " << least_s - asked_s
-       << " s too long";
+       << " s too long" << why_slow(request, fastest);
   Infeasibility verdict = explain_request(request, "jerk", "");
   verdict.amount = least_s - asked_s;
   verdict.unit = "s";
@@ -162,16 +171,21 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
 
 /// No profile was found: is there none, and why? A deadline that no bound excludes is not refused.
 ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
-  const std::optional<double> least_s = least_time_s(request, request.limits.jerk_m_s3);
+  const std::optional<Profile> fastest = fastest_found(request, request.limits.jerk_m_s3);
   std::ostringstream text;
-  if (!least_s)
-    text << "no profile is found within the jerk limit from start to end speed";
-  else if (has_deadline(request) && *least_s > request.time.duration_s)
-    text << "within the jerk limit the fastest profile found takes " << *least_s << " s, "
-         << *least_s - request.time.duration_s << " s too long; whether there is a faster one is not known";
-  if (!text.str().empty()) failed.summary.message = text.str();
-  if (least_s) return failed;
-  return blame_jerk(request, std::move(failed));
+  text.precision(7);
+  if (!fastest) {
+    failed.summary.message = "no profile is found within the jerk limit from start to end speed";
+    return blame_jerk(request, std::move(failed));
+  }
+  const double late_s = fastest->duration_s() - request.time.duration_s;
+  if (has_deadline(request) && late_s > 0) {
+    text << "within the jerk limit the fastest profile found takes " << fastest->duration_s() << " s, "
+         << late_s << " s too long; whether there is a faster one is not known"
+         << why_slow(request, *fastest);
+    failed.summary.message = text.str();
+  }
+  return failed;
 }
 
 /// The closed form in place of a profile: as it is for the least time, slowed down to a time asked for.

@@ -107,8 +107,7 @@ class JerkSolver {
   /// Ipopt from the fast solver's solution on the same grid; what it finds is taken where it keeps the
   /// limits.
   void settle() {
-    const nlp::JerkProgram program(*problem_, tightenings_, found_.motion);
-    if (!take(nlp::solve_with_ipopt(program, {.warm = true}), "ipopt")) return;
+    if (!take(nlp::solve_with_ipopt(program(found_.motion), {.warm = true}), "ipopt")) return;
     const nlp::DenseCheck check = nlp::check_densely(
         *problem_, motion_, *best_, counted_energy_J(*problem_, found_.motion), request_.accuracy);
     if (check.worst_ratio <= 1 + kSettled) keep();
@@ -139,24 +138,28 @@ class JerkSolver {
 
   bool optimize() {
     transcribe();
-    if (best_ && attempt(resampled(*best_), {.warm = true})) return true;
+    if (best_ && take(nlp::solve_fast(program(resampled(*best_)), nlp::JerkStart::near), "fast")) return true;
     const nlp::RateEnvelope envelope = nlp::rate_envelope(*problem_);
-    if (!envelope.blocked) return attempt(from_envelope(envelope), {});
-    result_.summary.message = "no profile passes " + std::string(envelope.blocked->limit);
-    return false;
+    if (envelope.blocked) {
+      result_.summary.message = "no profile passes " + std::string(envelope.blocked->limit);
+      return false;
+    }
+    const nlp::JerkMotion guess = from_envelope(envelope);
+    if (take(nlp::solve_fast(program(guess)), "fast")) return true;
+    if (is_too_soon()) return false;
+    if (request_.solver == SolverChoice::fast) result_.summary.handed_over = result_.summary.message;
+    if (best_ && take(nlp::solve_with_ipopt(program(resampled(*best_)), {.warm = true}), "ipopt"))
+      return true;
+    return take(nlp::solve_with_ipopt(program(guess)), "ipopt");
+  }
+
+  nlp::JerkProgram program(nlp::JerkMotion guess) const {
+    return {*problem_, tightenings_, std::move(guess)};
   }
 
   void transcribe() {
     problem_ = nlp::transcribe(request_, motion_, s_, tightenings_, best_ ? &*best_ : nullptr);
     result_.summary.nodes = problem_->node_count();
-  }
-
-  bool attempt(const nlp::JerkMotion& guess, const nlp::IpoptOptions& options) {
-    const nlp::JerkProgram program(*problem_, tightenings_, guess);
-    nlp::JerkSolution fast =
-        nlp::solve_fast(program, options.warm ? nlp::JerkStart::near : nlp::JerkStart::far);
-    if (!fast.converged && request_.solver == SolverChoice::fast) result_.summary.handed_over = fast.message;
-    return take(std::move(fast), "fast") || take(nlp::solve_with_ipopt(program, options), "ipopt");
   }
 
   bool take(nlp::JerkSolution solution, const char* solver) {
@@ -171,25 +174,39 @@ class JerkSolver {
     return true;
   }
 
+  /// The profile of least time within the jerk limit.
+  const ProfileResult& fastest() {
+    if (!fastest_) {
+      ProfileRequest request = request_;
+      request.time = {.mode = TimeMode::minimum_time};
+      fastest_ = find_profile_with_jerk_limit(request);
+    }
+    return *fastest_;
+  }
+
+  /// Whether the time asked for is before that of the fastest motion found.
+  bool is_too_soon() {
+    if (minimum_time() || problem_->duration_row == nlp::DurationRow::none || !fastest().profile)
+      return false;
+    if (fastest().profile->duration_s() * (1 - kMetTime) <= problem_->duration_s) return false;
+    result_.summary.message = "the deadline is before the fastest motion found arrives";
+    return true;
+  }
+
   /// The fastest motion, on its own grid, slowed down to the time that there is.
   bool by_way_of_minimum_time() {
-    if (minimum_time()) return false;
-    ProfileRequest fastest = request_;
-    fastest.time = {.mode = TimeMode::minimum_time};
-    const ProfileResult result = find_profile_with_jerk_limit(fastest);
-    if (!result.profile) return false;
+    if (minimum_time() || is_too_soon() || !fastest().profile) return false;
+    const Profile& profile = *fastest().profile;
     const bool timed = problem_->duration_row != nlp::DurationRow::none;
-    const double slower = timed ? problem_->duration_s / result.profile->duration_s() : 1.3;
-    if (slower < 1 - kMetTime) {
-      result_.summary.message = "the deadline is before the fastest motion found arrives";
-      return false;
-    }
-    s_ = result.profile->s;
+    const double slower = timed ? problem_->duration_s / profile.duration_s() : 1.3;
+    s_ = profile.s;
     transcribe();
-    if (attempt(slowed(resampled(*result.profile), slower), {})) return true;
+    const nlp::JerkMotion guess = slowed(resampled(profile), slower);
+    if (take(nlp::solve_fast(program(guess)), "fast") || take(nlp::solve_with_ipopt(program(guess)), "ipopt"))
+      return true;
     if (!timed || slower > 1 + kNoOtherMotion) return false;
-    found_.motion = resampled(*result.profile);
-    best_ = result.profile;
+    found_.motion = resampled(profile);
+    best_ = profile;
     return true;
   }
 
@@ -232,7 +249,8 @@ class JerkSolver {
   std::optional<nlp::Problem> problem_{};
   nlp::JerkSolution found_{};
   std::optional<Profile> best_{};
-  std::optional<ProfileResult> kept_{};  ///< the last within the limits
+  std::optional<ProfileResult> kept_{};     ///< the last within the limits
+  std::optional<ProfileResult> fastest_{};  ///< once asked for
   double least_objective_{kNoLimit};
   int sharpened_{};
 };

@@ -168,6 +168,37 @@ TEST(Baselines, UnderAJerkLimitOnlySmoothOnesCount) {
   EXPECT_TRUE(named(results, "s_curve").feasible) << named(results, "s_curve").reason;
 }
 
+TEST(Baselines, UnderAJerkLimitTrapezoidsAreRoundedAndClippedToTheCorner) {
+  for (double jerk_m_s3 : {0.4, 1.0}) {
+    ProfileRequest request = corner();
+    request.limits.jerk_m_s3 = jerk_m_s3;
+    request.solver = SolverChoice::fast;
+    const double T = 1.35 * least_s(request);
+    const std::vector<BaselineResult> results = all_baselines(request, T);
+    expect_honest(request, results, T);
+    request.time = {.mode = TimeMode::fixed_time, .duration_s = T};
+    const double plan_J = replay(request, *solve_profile(request).profile).energy_J;
+    for (const char* name : {"trapezoid_max_acceleration", "trapezoid_best_tuned", "s_curve"}) {
+      const BaselineResult& result = named(results, name);
+      ASSERT_TRUE(result.feasible) << jerk_m_s3 << " " << name << ": " << result.reason;
+      EXPECT_GT(result.energy_J, plan_J * (1 - 1e-5)) << name;
+    }
+    EXPECT_LE(named(results, "trapezoid_best_tuned").energy_J,
+              named(results, "trapezoid_max_acceleration").energy_J * (1 + 1e-9));
+    EXPECT_NE(named(results, "triangular").reason.find("acceleration jumps"), std::string::npos);
+  }
+}
+
+TEST(Baselines, ARoundedTrapezoidOnAStraightLineIsTheSCurve) {
+  ProfileRequest request = straight(10);
+  request.limits.jerk_m_s3 = 0.5;
+  const double T = 15;
+  const BaselineResult rounded = trapezoid_max_acceleration(request, T);
+  ASSERT_TRUE(rounded.feasible) << rounded.reason;
+  EXPECT_NEAR(rounded.energy_J, named(all_baselines(request, T), "s_curve").energy_J,
+              1e-6 * rounded.energy_J);
+}
+
 TEST(Baselines, AtSpeedFromStartToEndConstantSpeedIsOne) {
   ProfileRequest request = straight_line(10);
   request.start_rate = request.end_rate = 0.5;

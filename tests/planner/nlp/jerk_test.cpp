@@ -1,6 +1,7 @@
 // Jerk as a constraint of the nonlinear program: closed forms, limits between nodes, every mode of time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/motion/replay.hpp"
@@ -55,6 +56,40 @@ Profile solved(const ProfileRequest& request) {
   EXPECT_NEAR(again.end_s, piece_length(request.piece), 1e-6);
   EXPECT_NEAR(result.profile->rate.back(), request.end_rate, 1e-9);
   return *result.profile;
+}
+
+/// Looks at 64 places of every segment, with nothing of the planner's own checks: the change of acceleration
+/// over time, speed, and lateral and yaw acceleration by the path's curvature.
+void expect_kept_between_nodes(const ProfileRequest& request, const Profile& profile) {
+  constexpr int kPlaces = 64;
+  constexpr double kSame = 1e-6, kStep_m = 1e-5;
+  const Limits& limits = request.limits;
+  const double length_m = piece_length(request.piece);
+  const auto curvature = [&](double s) {
+    return piece_point(request.piece, std::clamp(s, 0.0, length_m)).curvature_per_m;
+  };
+  double before = 0;
+  for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k)
+    for (int i = 0; i < kPlaces; ++i) {
+      const double dt = (profile.time_s[k + 1] - profile.time_s[k]) / kPlaces, t = (i + 0.5) * dt;
+      const double a = profile.acceleration[k] + profile.jerk[k] * (i + 1) * dt;
+      EXPECT_LE(std::abs(a - before), limits.jerk_m_s3 * dt * (1 + kSame) + 1e-9) << profile.s[k];
+      before = a;
+      const double u = profile.rate[k] + t * (profile.acceleration[k] + 0.5 * t * profile.jerk[k]);
+      const double here = profile.acceleration[k] + profile.jerk[k] * t;
+      const double s =
+          profile.s[k] + t * (profile.rate[k] + t * (profile.acceleration[k] / 2 + t * profile.jerk[k] / 6));
+      EXPECT_LE(u, limits.speed_m_s * (1 + kSame));
+      EXPECT_LE(here, limits.acceleration_m_s2 * (1 + kSame));
+      EXPECT_GE(here, -limits.deceleration_m_s2 * (1 + kSame));
+      EXPECT_LE(u * u * std::abs(curvature(s)), limits.lateral_acceleration_m_s2 * (1 + kSame));
+      const double slope = (curvature(s + kStep_m) - curvature(s - kStep_m)) / (2 * kStep_m);
+      const bool kink = std::abs(curvature(s + kStep_m) - 2 * curvature(s) + curvature(s - kStep_m)) > 1e-7;
+      if (!kink) {
+        EXPECT_LE(std::abs(curvature(s) * here + slope * u * u), limits.yaw_acceleration_rad_s2 * (1 + 1e-4))
+            << s;
+      }
+    }
 }
 
 double energy_J(const ProfileRequest& request) { return replay(request, solved(request)).energy_J; }
@@ -169,6 +204,7 @@ TEST(Jerk, FastSolverAndIpoptAgreeOnRandomProblems) {
     const ProfileResult fast = solve_profile(request);
     EXPECT_TRUE(fast.summary.handed_over.empty()) << i << ": " << fast.summary.handed_over;
     const double fast_J = energy_J(request), fast_s = fast.profile->duration_s();
+    expect_kept_between_nodes(request, *fast.profile);
     request.solver = SolverChoice::ipopt;
     const double settled_s = solve_profile(request).profile->duration_s();
     EXPECT_NEAR(fast_s, settled_s, 1e-3 * settled_s) << i;
@@ -218,6 +254,20 @@ TEST(Jerk, LeavesATurnInPlaceAlone) {
   const double with_J = energy_J(request);
   request.limits.jerk_m_s3 = kNoLimit;
   EXPECT_EQ(with_J, energy_J(request));
+}
+
+/// A limit of 0 is answered by the smallest that works, however small.
+TEST(Jerk, ALimitOfZeroIsAnsweredBelowAThousandth) {
+  ProfileRequest request = straight(3, 0.0);
+  request.nodes = 40;
+  request.solver = SolverChoice::fast;
+  constexpr double kEnough = 2e-4;
+  request.time = {.mode = TimeMode::time_budget,
+                  .duration_s = 1.001 * s_curve_duration_s(3, request.limits.speed_m_s,
+                                                           request.limits.acceleration_m_s2, kEnough)};
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.infeasibility);
+  EXPECT_NEAR(result.infeasibility->relaxation.at("jerk_m_s3"), kEnough, 0.03 * kEnough);
 }
 
 }  // namespace
