@@ -4,7 +4,7 @@
 
 usage: write_sbom.py PACKAGE.deb OUTPUT.json
 Components: the program, the libraries that are compiled in (headers, dygraphs), and the shared libraries that the
-package depends on, each with the version of the distribution's package. Without times, so that it repeats.
+package depends on, each with the version of the distribution's package. Without times, so that it repeats: docs/decisions/0240-packages-repeat.md.
 """
 import hashlib
 import json
