@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlopt.hpp>
 #include <numbers>
+#include <optional>
+
+#include "planner/path/shape/nlopt_run.hpp"
 
 namespace joulepath {
 namespace {
@@ -63,13 +65,8 @@ double minimize(std::vector<double>& x, const std::vector<double>& step, const s
   optimizer.set_ftol_rel(options.relative_tolerance);
   optimizer.set_xtol_rel(1e-5);
   optimizer.set_maxeval(options.evaluations_per_variable * static_cast<int>(x.size()));
-  double found = kInfinity;
-  try {
-    optimizer.optimize(x, found);
-  } catch (const nlopt::roundoff_limited&) {
-    found = value(x);
-  }
-  return found;
+  const std::optional<double> found = optimize_as_far_as_possible(optimizer, x);
+  return found ? *found : value(x);
 }
 
 /// 0 where a path is free, else a value above every cost that grows with the depth of the collision.
