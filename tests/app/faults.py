@@ -242,6 +242,22 @@ class Faults(WithScratch):
         code, _, err = self.run_program("diagnose", dataset, "-q", "--out", "diagnosis", **one)
         self.assertGreaterEqual(code, DONE, err)
 
+    def test_too_little_memory_is_a_message_and_costs_no_other_result(self):
+        whole = self.whole_batch().splitlines()
+        for megabytes in (45, 60, 75, 100):
+            code, _, err = self.run_program(
+                *self.batch("memory%d" % megabytes),
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20)))
+            if code == 127:  # the loader itself finds no room
+                continue
+            self.assertIn(code, (DONE, ENVIRONMENT), err)
+            if code == ENVIRONMENT:
+                self.assertNotEqual(err, "")
+                continue
+            for line, right in zip(content(self.at("memory%d/results.jsonl" % megabytes)).splitlines(), whole):
+                if line != right:
+                    self.assertEqual(json.loads(line)["status"], "environment_error", line)
+
     def test_a_robot_that_may_not_be_read_costs_its_own_mission_alone(self):
         os.mkdir(self.at("batch"))
         for k, robot in enumerate(("robot", "locked", "robot")):
