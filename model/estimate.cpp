@@ -50,7 +50,7 @@ double standing_speed_rad_s(const Geometry& geometry, const Trajectory& motion) 
   constexpr double kLeast_rad_s = 1e-6;
   const Sided<double> noise =
       wheel_speeds_rad_s(geometry, noise_of(motion.linear_speed_m_s), noise_of(motion.angular_speed_rad_s));
-  return std::max(kLeast_rad_s, 2.0 * std::max(std::abs(noise.left), std::abs(noise.right)));
+  return std::max(kLeast_rad_s, 2.0 * std::max(std::abs(noise.left), noise.right));
 }
 
 void append_power(const Plant& plant, const EnergyNode& node, Trajectory& power) {

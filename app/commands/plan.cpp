@@ -48,7 +48,8 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn on the spot there), refinement; or baselines")
+                "shortest), stops (turn on the spot there), refinement; or baselines (several: with commas)")
+        .comma_separated()
         .one_of({"corners", "routes", "stops", "refinement", "baselines"});
     add_common_flags(line, common_, "qjfu");
   }

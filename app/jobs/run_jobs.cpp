@@ -1,16 +1,17 @@
 #include "app/jobs/run_jobs.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
-#include <thread>
 
 #include "app/interrupt.hpp"
 #include "app/jobs/journal.hpp"
 #include "app/progress.hpp"
 #include "model/config_error.hpp"
+#include "model/workers.hpp"
 
 namespace joulepath {
 namespace {
@@ -85,13 +86,8 @@ void run_jobs(const std::vector<std::size_t>& indices, unsigned threads,
     }
   };
   {
-    struct Workers {
-      std::vector<std::thread> threads{};
-      ~Workers() {
-        for (std::thread& thread : threads) thread.join();
-      }
-    } workers;
-    for (unsigned t = 1; t < threads && t < indices.size(); ++t) workers.threads.emplace_back(loop);
+    const std::size_t useful = std::min<std::size_t>(threads, indices.size());
+    const Workers beside(useful > 1 ? useful - 1 : 0, loop);
     loop();
   }
   if (error) std::rethrow_exception(error);

@@ -6,7 +6,8 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
+
+#include "model/workers.hpp"
 
 namespace joulepath {
 
@@ -33,10 +34,10 @@ void parallel_for(std::size_t count, Function&& function) {
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < workers; ++w) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  {
+    const Workers beside(workers - 1, work);
+    work();
+  }
   if (error) std::rethrow_exception(error);
 }
 

@@ -111,7 +111,8 @@ Effect build(const EffectSetting& setting) {
 template <class... Types>
 std::optional<Effect> build_any(const EffectSetting& setting, const std::variant<Types...>*) {
   std::optional<Effect> effect;
-  ((Types::info.name == setting.name ? (effect = build<Types>(setting), true) : false) || ...);
+  static_cast<void>(
+      ((Types::info.name == setting.name ? (effect = build<Types>(setting), true) : false) || ...));
   return effect;
 }
 

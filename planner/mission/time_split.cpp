@@ -36,7 +36,7 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   double late_low_s = late_s(low);
   if (late_low_s <= 0) return request.lowest_price_W;
   // Far before the fastest drive: no price is asked for.
-  if (arrival_s(request, first, last, departure_s, kInfinite) > latest_s * (1 + kClearlyLate))
+  if (arrival_s(request, first, last, departure_s, kNoLimit) > latest_s * (1 + kClearlyLate))
     return std::nullopt;
   const double highest = std::log1p(kHighestPrice_W);
   double high = 0.5;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -128,9 +129,16 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
     return verdict;
   }
   Infeasibility verdict = at_place(request, std::string(name), problem.s[blocked.node]);
-  verdict.amount = std::sqrt(std::max(0.0, blocked.needed)) - std::sqrt(std::max(0.0, blocked.allowed));
+  const double needed = std::sqrt(std::max(0.0, blocked.needed));
+  const double allowed = std::sqrt(std::max(0.0, blocked.allowed));
+  verdict.amount = needed - allowed;
   verdict.unit = is_turn(request.piece) ? "rad/s" : "m/s";
-  verdict.message = sentence(verdict) + "; no relaxation of a single limit is sufficient";
+  std::ostringstream text;
+  text.precision(4);
+  text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
+       << " m) allows a speed of " << allowed << " " << verdict.unit << ", but " << needed << " "
+       << verdict.unit << " is needed there; no relaxation of a single limit is sufficient";
+  verdict.message = text.str();
   return verdict;
 }
 

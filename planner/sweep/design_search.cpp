@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <nlopt.hpp>
+
+#include "planner/path/shape/nlopt_run.hpp"
 
 namespace joulepath {
 namespace {
@@ -40,11 +41,7 @@ DesignSearch search_design(std::vector<double> start, std::size_t most_evaluatio
   solver.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
                               void* data) { return (*static_cast<Cost*>(data))(x); },
                            const_cast<std::remove_const_t<Cost>*>(&cost));
-  double unused{};
-  try {
-    solver.optimize(start, unused);
-  } catch (const nlopt::roundoff_limited&) {  // as near as the numbers allow
-  }
+  optimize_as_far_as_possible(solver, start);
   return search;
 }
 

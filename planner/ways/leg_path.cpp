@@ -35,13 +35,22 @@ std::string metres(double value) {
   return text;
 }
 
-Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal) {
+/// Where the file names the stop: ` (mission.yaml:13:10: legs[1].to)`.
+std::string named_at(const ItemMarks& marks) {
+  const SourceMark& mark = marks.at("to");
+  if (mark.file.empty()) return "";
+  return " (" + mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " +
+         marks.key_path("to") + ")";
+}
+
+Infeasibility unreachable(const RouteVerdict& verdict, const Station& goal, const ItemMarks& marks) {
   Infeasibility reason{.constraint = "path",
                        .x_m = verdict.x_m,
                        .y_m = verdict.y_m,
                        .amount = verdict.short_by_m,
                        .unit = "m",
                        .message = verdict.message};
+  if (verdict.status == RouteStatus::goal_blocked) reason.message += named_at(marks);
   if (verdict.nearest_reachable_m) {
     const auto [x_m, y_m] = *verdict.nearest_reachable_m;
     reason.relaxation = {{"x_m", x_m}, {"y_m", y_m}};
@@ -59,7 +68,7 @@ LegPath over_the_floor(const LegRequest& leg, std::size_t leg_index, const LegSt
            "a start where the robot does not fit: " + route.verdict.message,
            "a free place, the whole footprint and clearance_m around it",
            "short by " + metres(route.verdict.short_by_m));
-  if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal)};
+  if (!route.found()) return {.infeasibility = unreachable(route.verdict, goal, leg.marks)};
   return {.path = route.path, .source = route.searched_by};
 }
 

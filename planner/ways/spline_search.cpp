@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlopt.hpp>
+#include <optional>
+
+#include "planner/path/shape/nlopt_run.hpp"
 
 namespace joulepath {
 namespace {
@@ -52,13 +54,8 @@ double minimize(SplineVariables& variables, const SearchEffort& effort,
   optimizer.set_ftol_rel(effort.relative_tolerance);
   optimizer.set_xtol_rel(1e-5);
   optimizer.set_maxeval(effort.evaluations_per_variable * static_cast<int>(x.size()));
-  double found = kInfinity;
-  try {
-    optimizer.optimize(x, found);
-  } catch (const nlopt::roundoff_limited&) {
-    found = value(x);
-  }
-  return found;
+  const std::optional<double> found = optimize_as_far_as_possible(optimizer, x);
+  return found ? *found : value(x);
 }
 
 }  // namespace joulepath

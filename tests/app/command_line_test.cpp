@@ -51,6 +51,26 @@ TEST(CommandLine, AnUnknownEffectToLeaveOutIsToldWithTheNamesThatComeNear) {
   EXPECT_FALSE(std::filesystem::exists(scratch.at("out")));
 }
 
+TEST(CommandLine, AStepToLeaveOutBeforeTheMissionIsNotTheMission) {
+  const ScratchDirectory scratch;
+  const auto result =
+      run_program(scratch, "plan --without baselines,stops none.yaml --out " + scratch.at("out"));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("none.yaml: found no readable file"), std::string::npos) << result.err;
+}
+
+TEST(CommandLine, AStopWhereTheRobotDoesNotFitIsNamedByFileAndLine) {
+  const ScratchDirectory scratch;
+  const std::string good = kBroken + "good/";
+  const std::string mission =
+      scratch.write("m.yaml", "robot: " + good + "robot.yaml\nmap: " + good +
+                                  "map.yaml\nstations: {a: {x_m: 0.5, y_m: 0.5}, wall: {x_m: 0, y_m: 0.5}}\n"
+                                  "start: {station: a}\nlegs:\n  - {to: wall}\n");
+  const auto result = run_program(scratch, "plan " + mission + " -q --out " + scratch.at("out"));
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("m.yaml:6:9: legs[0].to"), std::string::npos) << result.err;
+}
+
 TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
   const ScratchDirectory scratch;
   for (const auto& entry : std::filesystem::directory_iterator(kBroken + "dataset")) {

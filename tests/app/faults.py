@@ -16,6 +16,7 @@ import unittest
 
 PROGRAM, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
 ROBOT = os.path.join(SOURCE, "tests/data/broken/good/robot.yaml")
+SOLVER_FAULTS = os.environ.get("SOLVER_FAULTS")
 NOBODY = 65534
 MISSIONS = 14
 DONE, BAD_INPUT, ENVIRONMENT, INTERRUPTED = 0, 2, 4, 130
@@ -32,7 +33,7 @@ def tree(folder, without=("timings.jsonl", "timing.json")):
             for at, _, names in os.walk(folder) for name in names if name not in without}
 
 
-class Faults(unittest.TestCase):
+class WithScratch(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.mkdtemp(prefix="joulepath_faults_")
         os.chmod(self.scratch, 0o777)
@@ -56,6 +57,8 @@ class Faults(unittest.TestCase):
         out, err = process.communicate(timeout=300)
         return process.returncode, (out or b"").decode(), (err or b"").decode()
 
+
+class Faults(WithScratch):
     def batch(self, out, *options):
         return ["batch", "m.jsonl", "--nodes", "30", "-j", "2", "-q", "--out", out, *options]
 
@@ -222,6 +225,39 @@ class Faults(unittest.TestCase):
             for name in other:
                 self.assertTrue(other[name] == trees[0][name], name)
 
+    def as_other_user(self):
+        """Options of a process without the rights of root; no file of the scratch folder is its own."""
+        return {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
+
+    def test_without_a_second_thread_the_results_are_the_same(self):
+        whole, one = self.whole_batch(), {
+            "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_NPROC, (1, 1)), **self.as_other_user()}
+        try:
+            code, _, err = self.run_program(*self.batch("one"), **one)
+        except PermissionError:
+            self.skipTest("the program's folder is closed to other users")
+        self.assertEqual(code, DONE, err)
+        self.assertEqual(content(self.at("one/results.jsonl")), whole)
+        dataset = os.path.join(SOURCE, "tests/data/broken/good/dataset.yaml")
+        code, _, err = self.run_program("diagnose", dataset, "-q", "--out", "diagnosis", **one)
+        self.assertGreaterEqual(code, DONE, err)
+
+    def test_too_little_memory_is_a_message_and_costs_no_other_result(self):
+        whole = self.whole_batch().splitlines()
+        for megabytes in (45, 60, 75, 100):
+            code, _, err = self.run_program(
+                *self.batch("memory%d" % megabytes),
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20)))
+            if code == 127:  # the loader itself finds no room
+                continue
+            self.assertIn(code, (DONE, ENVIRONMENT), err)
+            if code == ENVIRONMENT:
+                self.assertNotEqual(err, "")
+                continue
+            for line, right in zip(content(self.at("memory%d/results.jsonl" % megabytes)).splitlines(), whole):
+                if line != right:
+                    self.assertEqual(json.loads(line)["status"], "environment_error", line)
+
     def test_a_robot_that_may_not_be_read_costs_its_own_mission_alone(self):
         os.mkdir(self.at("batch"))
         for k, robot in enumerate(("robot", "locked", "robot")):
@@ -229,9 +265,8 @@ class Faults(unittest.TestCase):
                 file.write("robot: ../%s.yaml\nlegs:\n  - path: {bezier_m: [[[0,0],[1,0],[2,0],[%d,0]]]}\n" % (robot, k + 3))
         shutil.copy(ROBOT, self.at("locked.yaml"))
         os.chmod(self.at("locked.yaml"), 0)
-        other_user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
         try:
-            code, _, err = self.run_program("batch", "batch", "--nodes", "30", "-j", "2", "-q", "--out", "out", **other_user)
+            code, _, err = self.run_program("batch", "batch", "--nodes", "30", "-j", "2", "-q", "--out", "out", **self.as_other_user())
         except PermissionError:
             self.skipTest("the program's folder is closed to other users")
         self.assertEqual(code, DONE, err)
@@ -240,6 +275,44 @@ class Faults(unittest.TestCase):
         self.assertNotIn("energy_J", lines[1])
         self.assertIn("Permission denied", lines[1]["message"])
 
+
+class SolverFaults(WithScratch):
+    """Solvers that return every failure they know (a preloaded library answers for them)."""
+
+    def plan(self, mission, **environment):
+        with open(self.at("mission.yaml"), "w") as file:
+            json.dump(mission, file)
+        code, _, err = self.run_program("plan", "mission.yaml", "--without", "baselines", "--nodes", "30", "-q", "--force", "--out",
+                                        "plan", env={**os.environ, "LD_PRELOAD": SOLVER_FAULTS, **environment})
+        self.assertIn(code, (0, 1), "%s: %s" % (environment, err))
+        plan = json.loads(content(self.at("plan/plan.json")))
+        if code == 1:
+            self.assertTrue(plan.get("message") or plan["infeasibility"]["message"], plan)
+            self.assertNotEqual(err, "")
+        return plan
+
+    def test_every_failure_of_ipopt_ends_in_a_plan_or_a_reason(self):
+        robot = content(self.at("robot.yaml")).decode()
+        with open(self.at("jerky.yaml"), "w") as file:
+            file.write(robot.replace("limits:\n", "limits:\n  jerk_m_s3: 2\n"))
+        curve = {"path": {"bezier_m": [[[0, 0], [1, 0], [1, 1], [2, 1]]]}}
+        for status in (-199, -102, -101, -100, -13, -12, -11, -10, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6):
+            for robot in ("robot.yaml", "jerky.yaml") if status in (-1, 0, 2) else ("robot.yaml",):
+                self.plan({"robot": robot, "legs": [curve]}, IPOPT_FAULT=str(status))
+
+    def test_every_failure_of_nlopt_leaves_a_plan(self):
+        good = os.path.join(SOURCE, "tests/data/broken/good")
+        mission = {"robot": "robot.yaml", "map": os.path.join(good, "map.yaml"), "start": {"station": "a"}, "legs": [{"to": "b"}],
+                   "stations": {"a": {"x_m": 0.5, "y_m": 0.5}, "b": {"x_m": 1.5, "y_m": 0.4, "heading_rad": 1}}}
+        for status in (-5, -4, -2, -1):
+            self.assertIn(self.plan(mission, NLOPT_FAULT=str(status))["status"], ("optimal", "feasible"))
+        code, _, err = self.run_program("plan", "mission.yaml", "-q", "--force", "--out", "plan",
+                                        env={**os.environ, "LD_PRELOAD": SOLVER_FAULTS, "NLOPT_FAULT": "-3"})
+        self.assertEqual((code, "memory" in err), (ENVIRONMENT, True), err)
+
+
+if not SOLVER_FAULTS:
+    del SolverFaults
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlopt.hpp>
 
 #include "planner/path/shape/corner_blend.hpp"
+#include "planner/path/shape/nlopt_run.hpp"
 
 namespace joulepath {
 namespace {
@@ -187,12 +187,7 @@ bool Refinement::run() {
   optimizer.set_ftol_rel(options_.relative_tolerance);
   optimizer.set_xtol_rel(1e-5);
   optimizer.set_maxeval(options_.evaluations_per_corner * static_cast<int>(frames_.size()));
-  double value = 0;
-  try {
-    optimizer.optimize(x, value);
-  } catch (const nlopt::roundoff_limited&) {
-    // The best point seen is kept.
-  }
+  optimize_as_far_as_possible(optimizer, x);
   return !best_x_.empty();
 }
 
