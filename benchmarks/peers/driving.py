@@ -92,7 +92,8 @@ def report(problems, driven):
     text = (
         "Missions of equal time, 1.5 times the least time, on straight lines, bends and corners of the problem set. "
         "Predicted joules are the judge's; driven joules are the integral of voltage times current at the motors, "
-        "braking counted as the robot file says, plus standby until arrival.\n\n"
+        "braking counted as the robot file says, plus standby until arrival. The controller knows the reference speeds of "
+        "the wheels only: the distance from the path is drift without a pose controller.\n\n"
     )
     text += table(
         [
