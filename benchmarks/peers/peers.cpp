@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 
 #include "benchmarks/problems/problem.hpp"
 #include "benchmarks/support/cpu_time.hpp"
@@ -20,29 +21,20 @@
 namespace joulepath::problems {
 namespace {
 
-constexpr std::size_t kSamples = 4000;
+constexpr int kSamples = 4000;
 
-/// Equal steps of time, the first and the last halved six times: next to rest squared speed is not linear in
-/// s, and a coarse step there would shorten the duration.
-std::vector<double> sample_times_s(double duration_s) {
-  constexpr int kHalvings = 6;
-  const double step_s = duration_s / kSamples;
-  std::vector<double> times_s{0};
-  for (int k = kHalvings; k >= 0; --k) times_s.push_back(std::ldexp(step_s, -k));
-  for (std::size_t k = 2; k < kSamples; ++k) times_s.push_back(step_s * static_cast<double>(k));
-  for (int k = 1; k <= kHalvings; ++k) times_s.push_back(duration_s - std::ldexp(step_s, -k));
-  times_s.push_back(duration_s);
-  return times_s;
-}
+constexpr double kLeastStep_m = 1e-12;  ///< below it rounding of s decides the acceleration
 
-/// A profile with jerk has no constant acceleration between its nodes: it is sampled.
+/// A profile with jerk has no constant acceleration between its nodes: it is sampled, closer next to rest,
+/// where squared speed is not linear in s and equal steps of time would shorten the duration by 1e-4.
 Json sampled_json(const Profile& profile) {
   if (std::all_of(profile.jerk.begin(), profile.jerk.end(), [](double jerk) { return jerk == 0; }))
     return solution_json(profile);
   Profile sampled{.wait_s = profile.wait_s};
-  for (const double time_s : sample_times_s(profile.time_s.back())) {
-    const ProfileState state = profile.at_time(time_s);
-    if (!sampled.s.empty() && state.s <= sampled.s.back()) continue;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double share = 0.5 * (1 - std::cos(std::numbers::pi * k / kSamples));
+    const ProfileState state = profile.at_time(share * profile.time_s.back());
+    if (!sampled.s.empty() && state.s <= sampled.s.back() + kLeastStep_m) continue;
     sampled.s.push_back(state.s);
     sampled.rate.push_back(state.rate);
   }

@@ -89,6 +89,10 @@ def main():
     results = folder if given.quick else common.ROOT / "benchmarks/results"
     (results / "peers.md").write_text(page(given.note, answers))
     (results / "peers.svg").write_text(figure.svg({name: answers[name] for name in SECTIONS if name in answers}))
+    classic = answers.get("baselines", {})
+    if "bars" in classic:
+        drawing = figure.classic_profiles(classic["bars"], baselines.MODEL_ERRORS_PERCENT)
+        (results / "peers_classic_profiles.svg").write_text(drawing)
     print(results / "peers.md")
     return any(a.get("failed") for a in answers.values())
 

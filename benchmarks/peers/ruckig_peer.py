@@ -26,15 +26,14 @@ def run(length_m, limits, jerk_m_s3, duration_s=None, nodes=4000):
     solve_ms, answer = cpu_ms(repeat)
     if answer not in (ruckig.Result.Working, ruckig.Result.Finished):
         return {"solve_ms": solve_ms / CALLS, "solution": None}
-    times = np.linspace(0, trajectory.duration, nodes + 1)
-    beside = times[1] * 0.5 ** np.arange(6, 0, -1)  # next to rest squared speed is not linear in s
-    times = np.concatenate([[0], beside, times[1:-1], trajectory.duration - beside[::-1], [trajectory.duration]])
+    times = trajectory.duration * (1 - np.cos(np.linspace(0, np.pi, nodes + 1))) / 2  # closer next to rest
     states = [trajectory.at_time(t) for t in times]
     s, v = (np.array([state[i][0] for state in states]) for i in (0, 1))
+    kept = np.concatenate([[True], (np.diff(s) > 1e-12)[:-1] & (s[-1] - s[1:-1] > 1e-12), [True]])
+    s, v = s[kept], v[kept]
     s[0], s[-1], v[0], v[-1] = 0, length_m, 0, 0
-    kept = np.concatenate([[True], np.diff(s) > 0])
     return {
         "solve_ms": solve_ms / CALLS,
         "duration_s": trajectory.duration,
-        "solution": {"s_m": s[kept].tolist(), "speed_m_s": v[kept].tolist()},
+        "solution": {"s_m": s.tolist(), "speed_m_s": v.tolist()},
     }
