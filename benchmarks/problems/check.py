@@ -47,23 +47,35 @@ def evaluate(problem, robot, solution):
         current = torque / (motor["torque_constant_Nm_A"] * motor["gear_ratio"])
         voltage = motor["resistance_ohm"] * current + motor["voltage_constant_V_s_rad"] * motor["gear_ratio"] * g * u
         power.append(voltage * current)
-        for key, value in (("traction_coefficient", 2 * contact / (mass * 9.80665)), ("max_current_A", current), ("max_voltage_V", voltage)):
+        grip = 2 * contact / (mass * 9.80665)
+        for key, value in (("traction_coefficient", grip), ("max_current_A", current), ("max_voltage_V", voltage)):
             uses[key] = np.maximum(uses.get(key, 0), abs(value))
     kept = lambda p: np.where(p < 0, problem["regeneration_efficiency"] * p, p)
     drawn = kept(power[0] + power[1]) if problem["sharing"] == "bus" else kept(power[0]) + kept(power[1])
     uses, duration = {key: abs(uses[key]).max() / limit for key, limit in limits.items()}, dt.sum() + wait
     asked = problem["time"].get("duration_s")
-    uses["duration_s"] = {"at_most": lambda: duration / asked, "exactly": lambda: 1 + abs(duration / asked - 1)}.get(problem["time"]["mode"], lambda: 0)()
+    if asked:
+        uses["duration_s"] = duration / asked if problem["time"]["mode"] == "at_most" else 1 + abs(duration / asked - 1)
     return {"energy_J": ((drawn @ weight) * dt).sum() + problem["standby_W"] * duration, "duration_s": duration, "uses": uses}
 
 
+def verdict(problem, result):
+    """Value, and what it is worth."""
+    value, best = result["duration_s" if problem["time"]["mode"] == "least" else "energy_J"], problem["best"]
+    limit, use = max(result["uses"].items(), key=lambda item: item[1])
+    if not use <= 1 + TOLERANCE:
+        return value, f"BREAKS {limit} by {use - 1:.2g}"
+    if value < best["lower_bound"] * (1 - TOLERANCE):
+        return value, "BELOW THE BOUND"
+    return value, "better" if value < best["value"] * (1 - TOLERANCE) else "valid"
+
+
 if __name__ == "__main__":
-    data, given = json.loads((HERE / "problems.json").read_text()), json.loads(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else HERE / "solutions.json").read_text())
+    data = json.loads((HERE / "problems.json").read_text())
+    given = json.loads(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else HERE / "solutions.json").read_text())
     wrong = 0
     for problem in (p for p in data["problems"] if p["id"] in given):
-        result = evaluate(problem, data["robots"][problem["robot"]], given[problem["id"]])
-        limit, use = max(result["uses"].items(), key=lambda item: item[1])
-        value, best = result["duration_s" if problem["time"]["mode"] == "least" else "energy_J"], problem["best"]
-        wrong += (bad := not use <= 1 + TOLERANCE or value < best["lower_bound"] * (1 - TOLERANCE))
-        print(problem["id"], f"{value:.9g} best {best['value']:.9g} bound {best['lower_bound']:.9g}", f"BREAKS {limit} {use - 1:.2g}" if not use <= 1 + TOLERANCE else "BELOW THE BOUND" if bad else "better" if value < best["value"] * (1 - TOLERANCE) else "valid")
+        value, words = verdict(problem, evaluate(problem, data["robots"][problem["robot"]], given[problem["id"]]))
+        print(f"{problem['id']} {value:.9g} best {problem['best']['value']:.9g} bound {problem['best']['lower_bound']:.9g} {words}")
+        wrong += words.isupper() or words.startswith("BREAKS")
     sys.exit(wrong > 0)

@@ -106,6 +106,22 @@ def test_the_set_is_as_described():
         assert np.all(np.diff(p["path"]["s_m"]) > 0) and len(p["path"]["s_m"]) == len(p["path"]["curvature_per_m"])
 
 
+def test_the_judge_run_alone_refuses_what_breaks_a_limit():
+    folder, identity = pathlib.Path(sys.argv[2]), next(iter(GIVEN))
+    assert subprocess.run([sys.executable, FOLDER / "check.py"], stdout=subprocess.DEVNULL).returncode == 0
+    for factor, word in ((1.05, "BREAKS"), (1.0, "valid")):
+        solution = {**GIVEN[identity], "speed_m_s": [factor * v for v in GIVEN[identity]["speed_m_s"]]}
+        (folder / "given.json").write_text(json.dumps({identity: solution}))
+        run = subprocess.run([sys.executable, FOLDER / "check.py", folder / "given.json"], capture_output=True, text=True)
+        assert word in run.stdout and run.returncode == (word == "BREAKS"), run.stdout
+
+
+def test_poses_are_fifty_on_two_maps():
+    rows = [line.split(",") for line in (FOLDER / "poses.csv").read_text().splitlines()[1:]]
+    assert sorted({row[0] for row in rows}) == ["depot", "warehouse"] and len(rows) == 50
+    assert all(0 < float(row[7]) < 2000 and np.isfinite([float(x) for x in row[1:6]]).all() for row in rows)
+
+
 def test_the_program_reads_its_own_set(program):
     """The solver's fresh answers to three problems keep every limit and repeat the committed values."""
     subset = {**DATA, "problems": [problem_of(i) for i in list(GIVEN)[:3]]}

@@ -1,0 +1,106 @@
+"""Sections on joules: estimators of fleets, costs that other planners minimize."""
+
+import numpy as np
+
+import casadi_peer
+from common import Path, bench_peers, judge, problem_set, spread, table
+from mujoco_peer import Reference
+
+EULER_STEP_S = 0.5
+
+
+def fleet_estimate_J(problem, solution):
+    """The simple motion model of fleet managers: E = sum (m |a| v + I |alpha| |omega| + mu m g v) dt, dt = 0.5 s.
+
+    Published with rmf_battery; restated from its formulas. mu is the Coulomb friction of the robot file over its weight.
+    """
+    robot, path, drive = problem["robot_values"], Path(problem), Reference(solution)
+    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + problem["payload_kg"]
+    inertia = robot["chassis_yaw_inertia_kg_m2"] + robot["payload_yaw_inertia_m2"] * problem["payload_kg"]
+    friction_N = sum(robot["motor"]["friction_torque_Nm"]) / robot["wheel_radius_m"]
+    t = np.arange(0, drive.duration, EULER_STEP_S)
+    s, v = drive.at(t)
+    omega = v * path.curvature(s)
+    a, alpha = (np.gradient(x, EULER_STEP_S) if len(t) > 1 else np.zeros(len(t)) for x in (v, omega))
+    watts = mass * abs(a) * v + inertia * abs(alpha * omega) + friction_N * v
+    return float(watts.sum() * EULER_STEP_S + problem["standby_W"] * drive.duration)
+
+
+def estimators(size):
+    problems = [p for p in problem_set() if p["time"]["mode"] != "least"][: size(90, 12)]
+    problems.sort(key=lambda p: p["robot"])  # a mission is driven by one robot
+    answers = bench_peers("plan", problems)
+    legs = [(p, answers[p["id"]]["solution"]) for p in problems]
+    truth = np.array([judge(p, s)["energy_J"] for p, s in legs])
+    length = np.array([p["path"]["s_m"][-1] for p, _ in legs])
+    robots = [p["robot"] for p, _ in legs]
+    per_metre = np.zeros(len(legs))
+    for robot in set(robots):  # fitted to these very legs: the best that one constant per robot can do
+        own = np.array([r == robot for r in robots])
+        per_metre[own] = length[own] * (truth[own] @ length[own]) / (length[own] @ length[own])
+    rows = []
+    for name, guess in (
+        ("mass × magnitude of acceleration × speed, half-second Euler", np.array([fleet_estimate_J(p, s) for p, s in legs])),
+        ("joules per metre, fitted per robot to these legs", per_metre),
+    ):
+        leg = 100 * (guess / truth - 1)
+        own = [np.array([i for i, r in enumerate(robots) if r == robot]) for robot in dict.fromkeys(robots)]
+        groups = [g[i : i + 5] for g in own for i in range(0, len(g) - 4, 5)]
+        mission = np.array([100 * (guess[g].sum() / truth[g].sum() - 1) for g in groups])
+        rows.append([name, f"{np.median(leg):+.1f}", spread(abs(leg), 2), spread(abs(mission), 2)])
+    return {
+        "text": f"{len(legs)} legs of least energy, {len(groups)} missions of five; the full model is the reference.\n\n"
+        + table(["estimator", "leg: median error, %", "absolute error of a leg, %", "of a mission, %"], rows),
+        "summary": {},
+    }
+
+
+COSTS = {
+    "polynomial": "polynomial in speed and acceleration (Mei; Parasuraman): the path's curvature is left out",
+    "no load torque": "motor without load torque (Kim and Kim)",
+    "squared acceleration": "integral of squared acceleration",
+}
+
+
+def costs(size):
+    problems = [
+        p
+        for k in ("straight", "bend", "corners", "tight_corners")
+        for p in problem_set()
+        if p["kind"] == k and p["time"]["mode"] == "at_most"
+    ][:]
+    problems = [p for i, p in enumerate(problems) if sum(q["kind"] == p["kind"] for q in problems[:i]) < size(6, 1)]
+    lost = {name: {} for name in (*COSTS, "least time, then wait")}
+    for problem in problems:
+        problem = {**problem, "time": {**problem["time"], "mode": "exactly"}}
+        T = problem["time"]["duration_s"]
+        program = casadi_peer.Program(problem, 200)
+        answer, stats = program.solve(T)
+        if not stats["success"]:
+            continue
+        least = judge(problem, program.solution(answer))["energy_J"]
+        for name in COSTS:
+            other = casadi_peer.Program(problem, 200, cost=name)
+            answer, stats = other.solve(T)
+            if stats["success"]:
+                lost[name].setdefault(problem["kind"], []).append(
+                    100 * (judge(problem, other.solution(answer))["energy_J"] / least - 1)
+                )
+        fastest = bench_peers("plan", [{**problem, "time": {"mode": "least"}}])[problem["id"]]["solution"]
+        fastest["wait_s"] = max(0.0, T - judge(problem, fastest)["duration_s"])
+        lost["least time, then wait"].setdefault(problem["kind"], []).append(
+            100 * (judge(problem, fastest)["energy_J"] / least - 1)
+        )
+    kinds = ("straight", "bend", "corners", "tight_corners")
+    rows = [[COSTS.get(name, name), *(spread(found.get(k, []), 2) for k in kinds)] for name, found in lost.items()]
+    text = (
+        f"{len(problems)} problems with a deadline, all profiles of one duration: planned with the other cost, paid "
+        "with the full model; joules lost in percent of the least energy. "
+        "All are solved by CasADi on one grid, so that only the cost differs.\n\n"
+        + table(["planned for", *(k.replace("_", " ") for k in kinds)], rows)
+    )
+    return {
+        "text": text,
+        "summary": {},
+        "energy": {f"cost: {name}": [x for found in kinds_.values() for x in found] for name, kinds_ in lost.items()},
+    }
