@@ -190,7 +190,7 @@ TEST(Baselines, UnderAJerkLimitTrapezoidsAreRoundedAndClippedToTheCorner) {
 }
 
 TEST(Baselines, ARoundedTrapezoidOnAStraightLineIsTheSCurve) {
-  ProfileRequest request = straight(10);
+  ProfileRequest request = straight_line(10);
   request.limits.jerk_m_s3 = 0.5;
   const double T = 15;
   const BaselineResult rounded = trapezoid_max_acceleration(request, T);
