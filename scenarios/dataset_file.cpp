@@ -47,8 +47,9 @@ void fill_payload(Run& run) {
 
 class RunReader {
  public:
-  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options)
-      : dataset_(dataset), sources_(sources), options_(options) {}
+  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options,
+            const DatasetInMemory& memory)
+      : dataset_(dataset), sources_(sources), options_(options), memory_(memory) {}
 
   void read(const Node& node) {
     Run run{.name = node.path(),
@@ -98,7 +99,10 @@ class RunReader {
   void read_log(const Node& node, Run& run) {
     std::vector<LogFileName> files;
     const auto add = [&](const Node& name) {
-      files.push_back({resolve_file(name, options_), NamedBy(name)});
+      if (const CsvTable* table = in_memory(name.text()))
+        files.push_back({name.text(), NamedBy(name), table});
+      else
+        files.push_back({resolve_file(name, options_), NamedBy(name)});
     };
     if (const auto names = node.find("files"))
       for (const auto& name : names->items()) add(name);
@@ -114,6 +118,12 @@ class RunReader {
     check_plausible(run, dataset_.robot, named_by);
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
     if (const auto predicted = node.find("predicted")) read_predicted(*predicted, run);
+  }
+
+  [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
+    if (!memory_.logs) return nullptr;
+    const auto found = memory_.logs->find(name);
+    return found == memory_.logs->end() ? nullptr : &found->second;
   }
 
   /// The same log twice would count twice as evidence, and be held out from itself.
@@ -152,6 +162,7 @@ class RunReader {
   Dataset& dataset_;
   const ColumnSources& sources_;
   const ReadOptions& options_;
+  const DatasetInMemory& memory_;
 };
 
 Schema run_schema() {
@@ -182,18 +193,26 @@ Schema dataset_schema() {
 
 Dataset read_dataset(const std::string& file, const ReadOptions& options,
                      const std::optional<std::string>& robot_file) {
+  return dataset_from(Document::load(file), options, robot_file);
+}
+
+Dataset dataset_from(const Document& document, const ReadOptions& options,
+                     const std::optional<std::string>& robot_file, const DatasetInMemory& memory) {
   static const Schema schema = dataset_schema();
-  const Document document = Document::load(file);
   check_document(document, "dataset", schema);
   const Node root = document.root();
-  Dataset dataset{.file = file};
-  if (!robot_file && !root.has("robot"))
-    root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
-  dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
-  dataset.robot = read_robot(dataset.robot_file, robot_file ? NamedBy{} : NamedBy(root["robot"]));
+  Dataset dataset{.file = document.file()};
+  if (memory.robot) {
+    dataset.robot = *memory.robot;
+  } else {
+    if (!robot_file && !root.has("robot"))
+      root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
+    dataset.robot_file = robot_file ? *robot_file : resolve_file(root["robot"], options);
+    dataset.robot = read_robot(dataset.robot_file, robot_file ? NamedBy{} : NamedBy(root["robot"]));
+  }
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
-  RunReader reader(dataset, sources, options);
+  RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   return dataset;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
 #include "diagnosis/values/dataset.hpp"
+#include "scenarios/csv_table.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
@@ -13,6 +15,17 @@ namespace joulepath {
 /// Reads a dataset: the robot that it names (or `robot_file`, which wins) and every run. Throws ConfigError.
 [[nodiscard]] Dataset read_dataset(const std::string& file, const ReadOptions& options = {},
                                    const std::optional<std::string>& robot_file = std::nullopt);
+
+/// What stands in memory in place of files that a dataset names.
+struct DatasetInMemory {
+  const Robot* robot{};                           ///< null: its file is read
+  const std::map<std::string, CsvTable>* logs{};  ///< by the names under which runs have them
+};
+
+/// The dataset of a parsed document. Throws ConfigError.
+[[nodiscard]] Dataset dataset_from(const Document& document, const ReadOptions& options,
+                                   const std::optional<std::string>& robot_file,
+                                   const DatasetInMemory& memory = {});
 
 /// A dataset of one log, for commands that take a bare CSV file.
 [[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file);

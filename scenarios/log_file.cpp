@@ -13,8 +13,10 @@ class LogFileReader {
  public:
   LogFileReader(const LogFileName& name, const ColumnSources& sources, const std::string& run)
       : sources_(sources), run_(run) {
-    file_.table = read_csv(
-        name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
+    file_.table =
+        name.table ? *name.table
+                   : read_csv(
+                         name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
     if (file_.table.rows() < 2)
       throw ConfigError({{name.file, 0, 0},
                          "",

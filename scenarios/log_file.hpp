@@ -14,6 +14,7 @@ namespace joulepath {
 struct LogFileName {
   std::string file{};
   NamedBy named_by{};
+  const CsvTable* table{};  ///< its content where that is in memory already
 };
 
 /// One file of a run: its columns in the format's names and units, on its own times.
