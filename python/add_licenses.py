@@ -12,19 +12,24 @@ import tempfile
 COMMON = pathlib.Path("/usr/share/common-licenses")
 
 
-def origin(library):
+def libraries_here():
+    """The shared libraries of this machine by the names of their files, links resolved."""
+    listed = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
+    files = [pathlib.Path(line.split(" => ")[1]).resolve() for line in listed.splitlines() if " => " in line]
+    return {file.name: file for file in files}
+
+
+def origin(library, known):
     """The file that auditwheel copied: libfoo-0123abcd.so.1.2 came from libfoo.so.1.2."""
-    name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", library.name)
-    listed = subprocess.run(["ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
-    for line in listed.splitlines():
-        if re.match(rf"\s+{re.escape(name)} ", line):
-            return pathlib.Path(line.split(" => ")[1])
-    raise SystemExit(f"no library on this machine is called {name}")
+    name = re.sub(r"-[0-9a-f]{8}(?=\.)", "", library.name)
+    if name not in known:
+        raise SystemExit(f"no library on this machine is called {name}")
+    return known[name]
 
 
 def package_of(file):
-    """The Debian package that owns a library; /usr/lib may be a link to where the package has its file."""
-    for path in (file, file.resolve(), pathlib.Path(str(file.resolve()).removeprefix("/usr"))):
+    """The Debian package that owns a library; some packages have their file in /lib, which is a link to /usr/lib."""
+    for path in (file, pathlib.Path(str(file).removeprefix("/usr"))):
         found = subprocess.run(["dpkg", "-S", str(path)], capture_output=True, text=True)
         if found.returncode == 0:
             return found.stdout.split(":")[0]
@@ -34,9 +39,9 @@ def package_of(file):
 def add_licenses(tree):
     folder = next(tree.glob("*.dist-info")) / "licenses" / "bundled"
     folder.mkdir(parents=True)
-    table = []
+    table, known = [], libraries_here()
     for library in sorted(tree.glob("*.libs/*.so*")):
-        package = package_of(origin(library))
+        package = package_of(origin(library, known))
         text = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_text()
         (folder / f"{package}.txt").write_text(text)
         for name in sorted(set(re.findall(r"/usr/share/common-licenses/([\w.+-]*\w)", text))):

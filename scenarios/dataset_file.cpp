@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
@@ -215,6 +216,17 @@ Dataset dataset_from(const Document& document, const ReadOptions& options,
   RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   return dataset;
+}
+
+Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
+                            const std::string& robot_file) {
+  if (!is_log_file(file))
+    return read_dataset(file, options,
+                        robot_file.empty() ? std::nullopt : std::optional<std::string>(robot_file));
+  if (robot_file.empty())
+    throw ConfigError(
+        {{file, 1, 1}, "", "a log, which names no robot", "--robot with the name of a robot file", ""});
+  return dataset_of_log(file, robot_file);
 }
 
 Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file) {

@@ -27,7 +27,11 @@ struct DatasetInMemory {
                                    const std::optional<std::string>& robot_file,
                                    const DatasetInMemory& memory = {});
 
-/// A dataset of one log, for commands that take a bare CSV file.
+/// Reads a dataset file, or a log alone (CSV, bag), which needs the robot's file. Throws ConfigError.
+[[nodiscard]] Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
+                                          const std::string& robot_file);
+
+/// A dataset of one log.
 [[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file);
 
 }  // namespace joulepath

@@ -109,7 +109,8 @@ class Diagnose : public Command {
   }
 
   void declare(CommandLine& line) override {
-    line.option("dataset", dataset_, "dataset file (YAML)").required();
+    line.option("dataset", dataset_, "dataset file (YAML), or a log alone (CSV, bag) with --robot")
+        .required();
     line.option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
         .required();
     line.option("--robot", robot_, "robot file; replaces the dataset's");
@@ -125,10 +126,8 @@ class Diagnose : public Command {
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
-    const DiagnosisResults results =
-        diagnosis_results(read_dataset(dataset_, {.untrusted = common_.untrusted},
-                                       robot_.empty() ? std::nullopt : std::optional<std::string>(robot_)),
-                          {.without = without});
+    const DiagnosisResults results = diagnosis_results(
+        read_dataset_or_log(dataset_, {.untrusted = common_.untrusted}, robot_), {.without = without});
     const Diagnosis& diagnosis = results.diagnosis;
     out.write("diagnosis.json", results.json);
     out.write("report.html", results.report());

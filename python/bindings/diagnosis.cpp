@@ -40,6 +40,7 @@ DiagnosisResults diagnose_text(const std::string& text, const std::string& name,
     const Document document = Document::parse(text, name);
     return dataset_from(document, {}, {}, {.robot = &robot.robot, .logs = &logs});
   });
+  dataset.file.clear();  // there is no file that a corrected one could be made of
   return diagnosis_results(std::move(dataset), {.without = without});
 }
 
@@ -52,7 +53,7 @@ DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
 }
 
 std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const std::string& directory) {
-  if (self.diagnosis.corrected_instruments.empty()) return {};
+  if (self.diagnosis.corrected_instruments.empty() || self.dataset.file.empty()) return {};
   return corrected_dataset_text(self.dataset, self.diagnosis.corrected_instruments, directory);
 }
 

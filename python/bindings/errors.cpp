@@ -2,6 +2,7 @@
 
 #include "app/command.hpp"
 #include "model/config_error.hpp"
+#include "model/printable.hpp"
 #include "python/bindings/bindings.hpp"
 
 namespace joulepath::python {
@@ -13,8 +14,10 @@ nb::object optional_number(int number) { return number > 0 ? nb::cast(number) : 
 void raise_config_error(const ConfigError& error) {
   const ConfigError::Detail& d = error.detail();
   const nb::object type = nb::module_::import_("joulepath._errors").attr("ConfigError");
-  const nb::object raised = type(error.what(), d.mark.file, optional_number(d.mark.line),
-                                 optional_number(d.mark.column), d.key, d.found, d.accepted, d.hint);
+  const nb::object raised =
+      type(printable(error.what()), printable(d.mark.file), optional_number(d.mark.line),
+           optional_number(d.mark.column), printable(d.key), printable(d.found), printable(d.accepted),
+           printable(d.hint));
   PyErr_SetObject(type.ptr(), raised.ptr());
 }
 
@@ -27,7 +30,7 @@ void bind_errors(nb::module_&) {
     } catch (const ConfigError& error) {
       raise_config_error(error);
     } catch (const EnvironmentError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
+      PyErr_SetString(PyExc_OSError, printable(error.what()).c_str());
     }
   });
 }

@@ -14,7 +14,7 @@ struct PathValue {
 /// A plan that Python owns, with its trajectory.
 struct PlanValue {
   PlanResults results{};
-  double seconds{};  ///< that planning took, without the conversion of its input
+  double cpu_s{};  ///< of this thread inside of the planner, without the conversion of its input
 };
 
 }  // namespace joulepath::python

@@ -27,6 +27,9 @@ class Robot:
     """
 
     __slots__ = ("_text", "_value", "_values")
+    _text: str
+    _value: _core.RobotValue
+    _values: Record
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         """A robot of a dict with the keys of a robot file. Raises ConfigError."""
@@ -35,7 +38,8 @@ class Robot:
     def _set(self, value: _core.RobotValue) -> None:
         object.__setattr__(self, "_value", value)
         object.__setattr__(self, "_text", value.text())
-        object.__setattr__(self, "_values", Record(_core.parse_document(self._text, "robot")))
+        values: Any = _core.parse_document(self._text, "robot")
+        object.__setattr__(self, "_values", Record(values))
 
     @classmethod
     def _of(cls, value: _core.RobotValue) -> Robot:

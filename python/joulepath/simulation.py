@@ -40,14 +40,15 @@ class Simulation(Log):
 
 
 def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Sequence[Effects] = (), seed: int = 1,
-             ideal_sensors: bool = False, time_of_day_s: float = 0.0, sample_rate_Hz: float = 100.0) -> Simulation:
+             ideal_sensors: bool = False, time_of_day_s: float = 0.0, sample_rate_Hz: float = 50.0) -> Simulation:
     """Drives a plan on a simulated robot, as ``joulepath simulate`` does.
 
     ``robot`` is what the controller believes (None: the plan's). ``effects`` are those of the catalog that it does not
     know: ``{"rolling_resistance": {"coefficient": 0.01}}``, or a list of such dicts where one stands twice; a ``side``
     is ``left`` or ``right``. ``seed`` is that of the sensors' noise. Raises ConfigError.
 
-    >>> p = plan_of = __import__("joulepath").profile(Robot.example(), [[0, 0], [2, 0]])
+    >>> from joulepath import profile
+    >>> p = profile(Robot.example(), [[0, 0], [2, 0]])
     >>> log = simulate(p, effects={"rolling_resistance": {"coefficient": 0.02}}, seed=3)
     >>> log.energy_J > p.energy_J
     True

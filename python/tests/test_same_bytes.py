@@ -34,7 +34,7 @@ def test_plan_of_a_path_and_profile(program, scenarios, robot, tmp_path):
 def test_plan_of_a_dict(scenarios, monkeypatch):
     monkeypatch.chdir(scenarios / "missions")
     mission = {"robot": "../robots/nomad_super_scout.yaml", "start": {"x_m": 0, "y_m": 0, "heading_rad": 0},
-               "legs": [{"motion": {"profile": "trapezoid", "distance_m": 2, "speed_m_s": 0.4}}]}
+               "legs": [{"motion": {"profile": "trapezoid", "distance_m": 2, "speed_m_s": 0.4, "acceleration_m_s2": 0.3}}]}
     from_file = jp.plan(mission)
     robot = jp.Robot.load("../robots/nomad_super_scout.yaml")
     assert jp.plan({**mission, "robot": robot}).json.energy_J == from_file.json.energy_J
