@@ -114,6 +114,8 @@ void bind_plan_value(nb::module_& module) {
           },
           nb::arg("times_s"), "The plan at ascending times, exact at each.")
       .def(
+          "profile_text", [](const PlanValue& self) { return self.results.profile_text(); }, "profile.csv")
+      .def(
           "report", [](const PlanValue& self) { return self.results.report(); }, "report.html");
 }
 
