@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
@@ -47,8 +48,9 @@ void fill_payload(Run& run) {
 
 class RunReader {
  public:
-  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options)
-      : dataset_(dataset), sources_(sources), options_(options) {}
+  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options,
+            const DatasetInMemory& memory)
+      : dataset_(dataset), sources_(sources), options_(options), memory_(memory) {}
 
   void read(const Node& node) {
     Run run{.name = node.path(),
@@ -98,7 +100,10 @@ class RunReader {
   void read_log(const Node& node, Run& run) {
     std::vector<LogFileName> files;
     const auto add = [&](const Node& name) {
-      files.push_back({resolve_file(name, options_), NamedBy(name)});
+      if (const CsvTable* table = in_memory(name.text()))
+        files.push_back({name.text(), NamedBy(name), table});
+      else
+        files.push_back({resolve_file(name, options_), NamedBy(name)});
     };
     if (const auto names = node.find("files"))
       for (const auto& name : names->items()) add(name);
@@ -114,6 +119,12 @@ class RunReader {
     check_plausible(run, dataset_.robot, named_by);
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
     if (const auto predicted = node.find("predicted")) read_predicted(*predicted, run);
+  }
+
+  [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
+    if (!memory_.logs) return nullptr;
+    const auto found = memory_.logs->find(name);
+    return found == memory_.logs->end() ? nullptr : &found->second;
   }
 
   /// The same log twice would count twice as evidence, and be held out from itself.
@@ -152,6 +163,7 @@ class RunReader {
   Dataset& dataset_;
   const ColumnSources& sources_;
   const ReadOptions& options_;
+  const DatasetInMemory& memory_;
 };
 
 Schema run_schema() {
@@ -181,20 +193,37 @@ Schema dataset_schema() {
 }
 
 Dataset read_dataset(const std::string& file, const ReadOptions& options, const std::string& robot_file) {
+  return dataset_from(Document::load(file), options, robot_file);
+}
+
+Dataset dataset_from(const Document& document, const ReadOptions& options, const std::string& robot_file,
+                     const DatasetInMemory& memory) {
   static const Schema schema = dataset_schema();
-  const Document document = Document::load(file);
   check_document(document, "dataset", schema);
   const Node root = document.root();
-  Dataset dataset{.file = file};
-  if (robot_file.empty() && !root.has("robot"))
-    root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
-  dataset.robot_file = robot_file.empty() ? resolve_file(root["robot"], options) : robot_file;
-  dataset.robot = read_robot(dataset.robot_file, robot_file.empty() ? NamedBy(root["robot"]) : NamedBy{});
+  Dataset dataset{.file = document.file()};
+  if (memory.robot) {
+    dataset.robot = *memory.robot;
+  } else {
+    if (robot_file.empty() && !root.has("robot"))
+      root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
+    dataset.robot_file = robot_file.empty() ? resolve_file(root["robot"], options) : robot_file;
+    dataset.robot = read_robot(dataset.robot_file, robot_file.empty() ? NamedBy(root["robot"]) : NamedBy{});
+  }
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
-  RunReader reader(dataset, sources, options);
+  RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   return dataset;
+}
+
+Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
+                            const std::string& robot_file) {
+  if (!is_log_file(file)) return read_dataset(file, options, robot_file);
+  if (robot_file.empty())
+    throw ConfigError(
+        {{file, 1, 1}, "", "a log, which names no robot", "--robot with the name of a robot file", ""});
+  return dataset_of_log(file, robot_file);
 }
 
 Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file) {

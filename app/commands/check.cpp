@@ -1,5 +1,6 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
@@ -9,6 +10,14 @@
 
 namespace joulepath {
 namespace {
+
+/// A text of several lines as a terminal can take it.
+std::string printable_text(const std::string& text) {
+  std::string lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines += printable(line) + "\n";
+  return lines;
+}
 
 class Check : public Command {
  public:
@@ -21,7 +30,7 @@ class Check : public Command {
 
   void declare(CommandLine& line) override {
     line.option("FILE", files_,
-                "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
+                "robot, map, mission, path, dataset, fleet, run log, bag, route graph, plan or diagnosis")
         .required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     add_common_flags(line, options_, "qju");
@@ -38,6 +47,7 @@ class Check : public Command {
                            {"kind", summary.kind},
                            {"summary", summary.text},
                            {"notes", summary.notes}});
+        if (!summary.proposal.empty()) results.back()["proposal"] = summary.proposal;
         if (!options_.json) tell(file, summary);
       } catch (const ConfigError& error) {
         code = kBadInput;
@@ -68,6 +78,7 @@ class Check : public Command {
               << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
+    if (!options_.quiet && !summary.proposal.empty()) std::cout << printable_text(summary.proposal);
   }
 
   std::vector<std::string> files_{};

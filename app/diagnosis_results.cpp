@@ -1,0 +1,23 @@
+#include "app/diagnosis_results.hpp"
+
+#include "app/report/diagnosis_report.hpp"
+#include "scenarios/decision_cost.hpp"
+#include "scenarios/write_diagnosis.hpp"
+
+namespace joulepath {
+
+DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options) {
+  DiagnosisResults results{.dataset = std::move(dataset)};
+  Diagnosis& diagnosis = results.diagnosis = diagnose(results.dataset, options);
+  if (diagnosis.corrected_robot) {
+    const DecisionCost cost = decision_cost(results.dataset.robot, *diagnosis.corrected_robot);
+    diagnosis.decision_missions = cost.missions;
+    diagnosis.joules_lost_percent = cost.joules_lost_percent;
+  }
+  results.json = diagnosis_json(diagnosis);
+  return results;
+}
+
+std::string DiagnosisResults::report() const { return report::diagnosis_report(diagnosis, json, dataset); }
+
+}  // namespace joulepath
