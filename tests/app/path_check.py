@@ -170,7 +170,7 @@ def main(program, count):
                 print(complaint)
                 return 1
     print(f"path check: {counts[True]} free, {counts[False]} blocked, {counts[None]} too close to call; all agree")
-    return 0 if min(counts[True], counts[False]) > count / 10 else 1
+    return 0 if min(counts[True], counts[False]) > count / 20 else 1
 
 
 if __name__ == "__main__":
