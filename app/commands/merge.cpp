@@ -58,7 +58,6 @@ class MergeCommand : public Command {
     OutputDirectory out(out_, first.command == "sweep" ? kSweepFiles : kBatchFiles, common_.force);
     std::vector<std::string> lines(first.jobs);
     for (std::size_t i = 0; i < shards.size(); ++i) take_lines(directories_[i], shards[i], lines);
-    std::vector<std::pair<std::size_t, std::string>> timings;
     add_merged_timings(out, first.jobs, shards);
     if (first.command == "sweep")
       finish_sweep(out, study_from(Document::parse(first.study_text, first.study_file)), lines, {}, common_);

@@ -135,13 +135,13 @@ void finish_batch(OutputDirectory& out, const std::string& title, const std::vec
 
 void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<std::string>& lines,
                   const std::vector<std::string>& optimized, const CommonOptions& common) {
-  const Json json = sweep_json(study, lines, optimized);
+  const std::vector<DesignTotal> totals = design_totals(study, lines);
+  const Json json = sweep_json(study, lines, totals, optimized);
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   out.write("sweep.csv", sweep_csv(study, lines));
   out.write("sweep.json", text);
   nlohmann::json page = nlohmann::json::parse(text);
   page["cloud"] = nlohmann::json::array();
-  const std::vector<DesignTotal> totals = design_totals(study, lines);
   const std::size_t stride = 1 + totals.size() / 2000;  // dots of the plot
   for (std::size_t k = 0; k < totals.size(); k += stride)
     if (totals[k].planned)

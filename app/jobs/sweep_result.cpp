@@ -57,9 +57,12 @@ void add_line(const Study& study, const Json& line, DesignTotal& total) {
     if (!is_first)
       sum->second = result == kLeastOfMissions ? std::min(sum->second, value) : sum->second + value;
   }
-  for (const StudyConstraint& constraint : study.constraints)
+  for (const StudyConstraint& constraint : study.constraints) {
     if (line.contains(constraint.result))
       total.excess = std::max(total.excess, excess_of(constraint, line[constraint.result]));
+    else
+      total.planned = false;
+  }
 }
 
 Json parameters_json(const Study& study, const std::vector<std::string>& values) {
@@ -176,8 +179,6 @@ std::vector<DesignTotal> design_totals(const Study& study, const std::vector<std
       for (const auto& value : line["parameters"]) totals.back().values.push_back(text_of(value));
     }
     add_line(study, line, totals.back());
-    for (const StudyConstraint& constraint : study.constraints)
-      if (!line.contains(constraint.result)) totals.back().planned = false;
   }
   for (DesignTotal& total : totals)
     for (const StudyObjective& objective : study.objectives)
@@ -219,8 +220,7 @@ std::vector<std::string> held_constant(const Study& study) {
 }
 
 Json sweep_json(const Study& study, const std::vector<std::string>& lines,
-                const std::vector<std::string>& optimized) {
-  const std::vector<DesignTotal> totals = design_totals(study, lines);
+                const std::vector<DesignTotal>& totals, const std::vector<std::string>& optimized) {
   Json json{{"schema", "joulepath/sweep/1"},
             {"study", study.name},
             {"designs", totals.size()},

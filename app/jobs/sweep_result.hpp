@@ -32,9 +32,10 @@ struct DesignTotal {
 [[nodiscard]] std::string sweep_csv(const Study& study, const std::vector<std::string>& lines);
 
 /// sweep.json (joulepath/sweep/1): what was held constant, main effects and interactions of each result,
-/// Pareto front, best design, and how many designs fail for which reason. `optimized`: result lines of the
-/// design that --optimize found; empty: none.
+/// Pareto front, best design, and how many designs fail for which reason. `totals`: of the lines.
+/// `optimized`: result lines of the design that --optimize found; empty: none.
 [[nodiscard]] nlohmann::ordered_json sweep_json(const Study& study, const std::vector<std::string>& lines,
+                                                const std::vector<DesignTotal>& totals,
                                                 const std::vector<std::string>& optimized);
 
 /// What a reader must know about the parameters that were not changed.

@@ -10,7 +10,7 @@ import tempfile
 
 import numpy as np
 
-from common import Path, cpu_ms, package
+from common import Path, cpu_ms, package, rigid_body
 
 IPOPT = {"ipopt.print_level": 0, "print_time": False, "ipopt.sb": "yes", "ipopt.tol": 1e-8, "ipopt.max_iter": 500}
 JIT = {"jit": True, "compiler": "shell", "jit_options": {"flags": ["-O2"], "compiler": "gcc", "verbose": False}}
@@ -33,17 +33,9 @@ def segment_function(ca, problem, cost="full"):
     (b0, b1, ds, curvature at begin, middle, end, its slope) -> ... The cost "full" is the
     energy; the others are what other planners minimize (see economy.py).
     """
-    robot, pay = problem["robot_values"], problem["payload_kg"]
-    r, l, d = robot["wheel_radius_m"], robot["half_track_m"], robot["center_of_mass_offset_m"]
-    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + pay
-    mu = (robot["chassis_mass_kg"] + pay) * d
-    yaw = (
-        robot["chassis_yaw_inertia_kg_m2"]
-        + robot["payload_yaw_inertia_m2"] * pay
-        + mu * d
-        + 2 * robot["wheel_mass_kg"] * l * l
-        + 2 * robot["wheel_diameter_inertia_kg_m2"]
-    )
+    robot = problem["robot_values"]
+    r, l = robot["wheel_radius_m"], robot["half_track_m"]
+    mass, mu, yaw = rigid_body(problem)
     b0, b1, ds, k0, k1, k2, slope = (ca.SX.sym(n) for n in ("b0", "b1", "ds", "k0", "k1", "k2", "slope"))
     a, v0, v1 = (b1 - b0) / (2 * ds), ca.sqrt(b0), ca.sqrt(b1)
     dt = 2 * ds / (v0 + v1)

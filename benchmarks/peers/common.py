@@ -143,3 +143,19 @@ def bench_peers(command, problems, nodes=200):
         asked.write_text(json.dumps(data))
         subprocess.run([ROOT / "build/release/bin/bench_peers", command, asked, answers, str(nodes)], check=True)
         return json.loads(answers.read_text())
+
+
+def rigid_body(problem):
+    """Mass in kg, mass times its offset from the axle in kg m, and yaw inertia about the axle midpoint in kg m²."""
+    robot, pay = problem["robot_values"], problem["payload_kg"]
+    l, d = robot["half_track_m"], robot["center_of_mass_offset_m"]
+    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + pay
+    mu = (robot["chassis_mass_kg"] + pay) * d
+    yaw = (
+        robot["chassis_yaw_inertia_kg_m2"]
+        + robot["payload_yaw_inertia_m2"] * pay
+        + mu * d
+        + 2 * robot["wheel_mass_kg"] * l * l
+        + 2 * robot["wheel_diameter_inertia_kg_m2"]
+    )
+    return mass, mu, yaw

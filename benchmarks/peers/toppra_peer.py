@@ -9,7 +9,7 @@ import logging
 
 import numpy as np
 
-from common import Path, cpu_ms, package
+from common import Path, cpu_ms, package, rigid_body
 
 # Grid points beside the knots. TOPPRAsd gives up 1e-5 of squared speed per point: nearer ones would need large accelerations.
 BESIDE_M = {"least time": 1e-6, "fixed duration": 1e-3}
@@ -50,16 +50,8 @@ def constraints(toppra, problem, path):
     )
     if "traction_coefficient" not in limits:
         return [rates, accelerations]
-    pay, l, d = problem["payload_kg"], robot["half_track_m"], robot["center_of_mass_offset_m"]
-    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + pay
-    mu = (robot["chassis_mass_kg"] + pay) * d
-    yaw = (
-        robot["chassis_yaw_inertia_kg_m2"]
-        + robot["payload_yaw_inertia_m2"] * pay
-        + mu * d
-        + 2 * robot["wheel_mass_kg"] * l * l
-        + 2 * robot["wheel_diameter_inertia_kg_m2"]
-    )
+    l = robot["half_track_m"]
+    mass, mu, yaw = rigid_body(problem)
 
     def forces(q, rate, acceleration):
         force = mass * acceleration[0] - mu * rate[1] ** 2
