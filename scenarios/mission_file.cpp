@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
-#include "model/limit_table.hpp"
 #include "model/printable.hpp"
-#include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
-#include "scenarios/robot_check.hpp"
-#include "scenarios/robot_file.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
@@ -243,65 +238,6 @@ MissionRequest read_mission(const std::string& file, const ReadOptions& options)
                        "a mission file",
                        "plan takes an order with --robot; elsewhere a mission names it with order:"});
   return mission_from(document, options);
-}
-
-namespace {
-
-/// A payload above the robot's limit is an error of the mission, reported at the leg.
-void check_payloads(const MissionRequest& request, const Robot& robot) {
-  const double most_kg = payload_limit_kg(robot);
-  const auto check = [&](double payload_kg, const ItemMarks& marks) {
-    if (payload_kg <= most_kg) return;
-    std::ostringstream found, accepted;
-    found << payload_kg;
-    accepted << "at most " << most_kg << ", the " << payload_limit().key << " of " << request.robot_file;
-    throw ConfigError(
-        {marks.at("payload_kg"), marks.key_path("payload_kg"), found.str(), accepted.str(), ""});
-  };
-  for (const auto& leg : request.legs) check(std::max(leg.payload.from_kg, leg.payload.to_kg), leg.marks);
-  for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
-}
-
-/// Without an outline nothing can be held against a map.
-void check_footprint(const MissionRequest& request, const Robot& robot) {
-  if (has_footprint(robot) || request.map_file.empty()) return;
-  throw ConfigError({{request.robot_file, 1, 1},
-                     "footprint",
-                     "nothing, although the robot drives on the map " + request.map_file,
-                     "footprint: {radius_m: } or {polygon_m: }",
-                     "every path is checked against the map"});
-}
-
-}  // namespace
-
-MissionWorld read_world(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
-  const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
-  MissionWorld world{.robot = robot ? *robot : read_robot(request.robot_file, named("robot"))};
-  check_payloads(request, world.robot);
-  check_footprint(request, world.robot);
-  if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
-  if (!request.keepout_file.empty())
-    world.keepout = read_map(request.keepout_file, named("keepout"), options);
-  if (request.speed_mask)
-    world.speed_mask =
-        SpeedMask{read_map(request.speed_mask->file, named("speed_mask"), options), request.speed_mask->kind,
-                  request.speed_mask->base, request.speed_mask->multiplier};
-  if (!request.route_graph_file.empty())
-    world.route_graph = read_route_graph(request.route_graph_file, named("route_graph"));
-  return world;
-}
-
-std::vector<std::string> files_read_by(const MissionRequest& request, const ReadOptions& options) {
-  std::vector<std::string> files;
-  for (const std::string& file : {request.robot_file, request.order_file, request.route_graph_file})
-    if (!file.empty()) files.push_back(file);
-  for (const std::string& file : {request.map_file, request.keepout_file,
-                                  request.speed_mask ? request.speed_mask->file : std::string()}) {
-    if (file.empty()) continue;
-    files.push_back(file);
-    files.push_back(map_image_file(file, options));
-  }
-  return files;
 }
 
 }  // namespace joulepath

@@ -73,7 +73,7 @@ Schema objective_schema() {
   return map(
       {optional("minimize", choice({"energy", "time", "energy_and_time"})),
        optional("deadline_s", number(kPositive)),
-       optional("time_value_W", number(kNotNegative), "watts that a second is worth, with energy_and_time")});
+       optional("time_value_W", number(kNotNegative), "value of a second in watts, with energy_and_time")});
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Schema motion_schema() {
   std::vector<std::string> names(kMotionProfileNames.begin(), kMotionProfileNames.end());
   std::vector<Schema::Key> keys{required("profile", choice(names), "prescribed, not optimized")};
   for (const auto& key : kMotionKeys) keys.push_back(optional(key.name, number(key.range)));
-  keys.push_back(optional("repeat", integer({1, 10000}), "how often the motion is done one after the other"));
+  keys.push_back(optional("repeat", integer({1, 10000}), "number of repetitions, one after the other"));
   keys.push_back(optional("direction", choice({"forward", "reverse"})));
   keys.push_back(
       optional("bezier_m", bezier_schema(), "the curve that is followed, in the robot's frame at the start"));

@@ -60,14 +60,14 @@ Schema limits_schema() {
   keys.push_back(optional(
       "by_payload", list(map(row), 1),
       "limits that depend on payload: interpolated between rows, overrides; beyond the rows the nearest "
-      "one holds; a row that leaves a key out has the value outside of by_payload"));
+      "one holds; a row without a key has its value outside of by_payload"));
   return map(std::move(keys));
 }
 
 Schema power_schema() {
   return map({optional("standby_W", number(kNotNegative), "computer, sensors, drives at rest; default 0"),
               optional("regeneration_efficiency", number(kFraction),
-                       "what of a negative motor power comes back; default 0"),
+                       "recovered share of negative motor power; default 0"),
               optional("sharing", choice({"wheel", "bus"}),
                        "wheel: each wheel's power is clipped alone; bus: their sum is")});
 }
@@ -105,8 +105,8 @@ Schema robot_schema() {
        required("motor", motor_schema(), "each value once, or as {left: , right: }"),
        optional(
            "payload_offset_m", number({-10, 10}),
-           "where a payload's center sits, forward of the axle midpoint; absent: at center_of_mass_offset_m"),
-       optional("limits", limits_schema(), "what the motion may not exceed; planning needs them"),
+           "place of a payload's center, forward of the axle midpoint; absent: at center_of_mass_offset_m"),
+       optional("limits", limits_schema(), "limits of the motion; required for planning"),
        optional("power", power_schema()), optional("battery", battery_schema()),
        optional("footprint", footprint_schema()),
        optional("effects", effect_list_schema(), "effects added to the nominal model"),

@@ -152,7 +152,7 @@ Schema study_schema() {
        optional("objectives", dictionary(choice({"minimize", "maximize"})),
                 "of the Pareto front: results, or parameters such as a payload; default energy_J"),
        optional("hold_friction", choice({"wheel", "motor"}),
-                "what of the friction stays while motor.gear_ratio changes: at the wheel (default), or "
+                "where friction stays constant while motor.gear_ratio changes: at the wheel (default), or "
                 "at the motor's shaft, so that it grows at the wheel with the ratio")});
 }
 

@@ -95,7 +95,7 @@ class SimulateCommand : public Command {
                      "out/sim\n"
                      "  joulepath simulate mission.yaml --effect rolling_resistance:coefficient=0.015 "
                      "--effect dragging_wheel:side=left,torque_Nm=0.1 --out out/sim --seed 7\n"
-                     "  joulepath diagnose out/sim/dataset.yaml\n"}) {}
+                     "  joulepath diagnose out/sim/dataset.yaml --out out/diagnosis\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("input", inputs_,

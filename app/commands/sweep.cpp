@@ -34,7 +34,8 @@ class SweepCommand : public Command {
     line.option("study", source_, "study file (YAML)").required().existing_path();
     add_job_options(line, options_, "sweep.csv, sweep.json, report.html");
     line.option("--optimize", evaluations_,
-                "look for the best design near the sweep's best by so many further designs; ranges only")
+                "search for a better design near the sweep's best with at most this many further designs; "
+                "ranges only")
         .between(0, static_cast<int>(kMostSearched))
         .shows_default();
     add_plan_options(line, plan_);

@@ -64,12 +64,12 @@ class CasePlanner {
     const std::optional<Plan> ordered = plan(visits, kPlain, floor_.world);
     if (!ordered) return std::nullopt;
     const std::vector<LegRequest> better = legs_in(ordered->visit->order);
-    const std::optional<Plan> reference = split_by_length(given);
-    if (!reference) return std::nullopt;
-    total_s_ = reference->duration_s;
-    const std::optional<Joules> trapezoid = trapezoid_joules(*reference);
+    const std::optional<Plan> plain = split_by_length(given);
+    if (!plain) return std::nullopt;
+    total_s_ = plain->duration_s;
+    const std::optional<Joules> trapezoid = trapezoid_joules(*plain);
     if (!trapezoid) return std::nullopt;
-    result_.joules = {{"reference", *trapezoid}, {"profile", joules(*reference)}};
+    result_.joules = {{"plain", *trapezoid}, {"profile", joules(*plain)}};
 
     const double begin_s = cpu_s();
     const std::optional<Plan> together = in_time(with(better), {});

@@ -24,7 +24,7 @@ struct Joules {
 
 /// One mission planned step by step, every plan in the same total time.
 struct Case {
-  std::map<std::string, Joules> joules{};  ///< by plan: reference, profile, time, arcs, ...
+  std::map<std::string, Joules> joules{};  ///< by plan: plain, profile, time, arcs, ...
   bool order_changed{};
   double fleet_motion_percent{};  ///< error of the simple fleet model: of the motion's energy
   double fleet_percent{};         ///< of the energy with standby

@@ -60,13 +60,13 @@ void print_step(const std::vector<Case>& cases, const char* says, const char* be
 
 void print_savings(const std::vector<Case>& cases) {
   std::printf("| step | saved J | saved %% | of motion alone J | %% |\n|---|---|---|---|---|\n");
-  print_step(cases, "speed profile, against a trapezoid at maximum acceleration", "reference", "profile");
+  print_step(cases, "speed profile, against a trapezoid at maximum acceleration", "plain", "profile");
   print_step(cases, "time at one price of a second, against a split by length", "profile", "time");
   print_step(cases, "turn or arc, at corners and stops", "time", "arcs");
   print_step(cases, "path by energy, still with stop, turn, go", "time", "routes");
   print_step(cases, "control points moved, after turn or arc", "arcs", "refinement");
   print_step(cases, "order of stops", "time", "order");
-  print_step(cases, "**all together, against the plain reference**", "reference", "together");
+  print_step(cases, "**all together, against the plain plan**", "plain", "together");
 }
 
 }  // namespace
@@ -91,12 +91,12 @@ int main(int argc, char** argv) {
       " (60 x 40 m): three picks of 1 to 4 kg and a drop where the robot began, 5 s of dwell at each pick, "
       "the "
       "Nomad's robot file (standby 10 W assumed, no regeneration). %d draws were refused (a trapezoid that "
-      "breaks a limit, a "
+      "exceeds a limit, a "
       "plan that cannot be driven) and replaced.\n\n"
-      "The plain reference drives the shortest route with stop, turn, go, a trapezoid at maximum "
+      "The plain plan drives the shortest route with stop, turn, go, a trapezoid at maximum "
       "acceleration, time split over "
       "the legs by length, stops in the order drawn. All plans of a mission take the same total time, that "
-      "of the reference: "
+      "of the plain plan: "
       "standby is the same for each and left out of the choices. Steps are taken alone, all but the first "
       "with energy-optimal profiles: "
       "the time split on "

@@ -57,7 +57,7 @@ Eigen::Matrix3d instrumented(const FitSums& sums) {
   const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * ZZ * scale.asDiagonal();
   const Eigen::Matrix<double, 6, 4> ZY = scale.asDiagonal() * sums.voltage.block<6, 4>(0, 5);
   const Eigen::Matrix4d M = ZY.transpose() * scaled.completeOrthogonalDecomposition().solve(ZY);
-  const Eigen::Matrix3d rest = M.bottomRightCorner<3, 3>();
+  Eigen::Matrix3d rest = M.bottomRightCorner<3, 3>();
   if (!(M(0, 0) > 0)) return rest;
   return rest - M.bottomLeftCorner<3, 1>() * M.topRightCorner<1, 3>() / M(0, 0);
 }

@@ -148,7 +148,7 @@ class NodeRows {
   void add(NodeRow row) {
     constexpr double kSame_s = 1e-9;
     if (!rows.empty() && row.time_s < rows.back().time_s + kSame_s) rows.pop_back();
-    rows.push_back(std::move(row));
+    rows.push_back(row);
   }
   std::vector<NodeRow> rows{};
 };
@@ -164,7 +164,7 @@ void add_stretch(const StretchPlan& stretch, const PathMotion& path, double star
     Sample sample = sample_stretch(stretch, path, state, offset_m);
     if (last && profile.rate[k] == 0.0) sample.motion = {};
     const double along = turn ? 0.0 : path.rates(state.s).along;
-    to.add({start_s + state.time_s, leg, std::move(sample), last ? 0.0 : along * profile.jerk[k]});
+    to.add({start_s + state.time_s, leg, sample, last ? 0.0 : along * profile.jerk[k]});
   }
 }
 

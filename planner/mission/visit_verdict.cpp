@@ -61,7 +61,7 @@ Infeasibility no_order(const MissionRequest& mission, const Robot& robot, const 
   Infeasibility reason = at_stop(mission, 0, "visit_order");
   reason.message =
       "no order of the stops keeps the time windows, the capacity and picks before their drops: more than "
-      "one of them stands in the way";
+      "one of them prevents it";
   return reason;
 }
 

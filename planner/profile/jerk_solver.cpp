@@ -189,7 +189,7 @@ class JerkSolver {
     if (minimum_time() || problem_->duration_row == nlp::DurationRow::none || !fastest().profile)
       return false;
     if (fastest().profile->duration_s() * (1 - kMetTime) <= problem_->duration_s) return false;
-    result_.summary.message = "the deadline is before the fastest motion found arrives";
+    result_.summary.message = "the fastest motion found arrives after the deadline";
     return true;
   }
 

@@ -10,52 +10,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-PROGRAM, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
-ROBOT = os.path.join(SOURCE, "tests/data/broken/good/robot.yaml")
-SOLVER_FAULTS = os.environ.get("SOLVER_FAULTS")
+from with_scratch import BAD_INPUT, DONE, ENVIRONMENT, INTERRUPTED, ROBOT, SOURCE, WithScratch, content, tree
+
 NOBODY = 65534
-MISSIONS = 14
-DONE, BAD_INPUT, ENVIRONMENT, INTERRUPTED = 0, 2, 4, 130
-
-
-def content(*path):
-    with open(os.path.join(*path), "rb") as file:
-        return file.read()
-
-
-def tree(folder, without=("timings.jsonl", "timing.json")):
-    """Every file below a folder with its bytes; the files that hold times are left out."""
-    return {os.path.relpath(os.path.join(at, name), folder): content(at, name)
-            for at, _, names in os.walk(folder) for name in names if name not in without}
-
-
-class WithScratch(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.mkdtemp(prefix="joulepath_faults_")
-        os.chmod(self.scratch, 0o777)
-        self.addCleanup(shutil.rmtree, self.scratch, ignore_errors=True)
-        shutil.copy(ROBOT, self.at("robot.yaml"))
-        with open(self.at("m.jsonl"), "w") as file:
-            for k in range(MISSIONS):
-                curve = [[0, 0], [1, 0], [1 + 0.05 * k, 1], [2 + 0.1 * k, 1]]
-                file.write(json.dumps({"name": "m%d" % k, "robot": "robot.yaml",
-                                       "legs": [{"path": {"bezier_m": [curve]}}]}) + "\n")
-
-    def at(self, *path):
-        return os.path.join(self.scratch, *path)
-
-    def start(self, *arguments, **options):
-        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "cwd": self.scratch, **options}
-        return subprocess.Popen([PROGRAM, *arguments], **options)
-
-    def run_program(self, *arguments, **options):
-        process = self.start(*arguments, **options)
-        out, err = process.communicate(timeout=300)
-        return process.returncode, (out or b"").decode(), (err or b"").decode()
 
 
 class Faults(WithScratch):
@@ -275,44 +235,6 @@ class Faults(WithScratch):
         self.assertNotIn("energy_J", lines[1])
         self.assertIn("Permission denied", lines[1]["message"])
 
-
-class SolverFaults(WithScratch):
-    """Solvers that return every failure they know (a preloaded library answers for them)."""
-
-    def plan(self, mission, **environment):
-        with open(self.at("mission.yaml"), "w") as file:
-            json.dump(mission, file)
-        code, _, err = self.run_program("plan", "mission.yaml", "--without", "baselines", "--nodes", "30", "-q", "--force", "--out",
-                                        "plan", env={**os.environ, "LD_PRELOAD": SOLVER_FAULTS, **environment})
-        self.assertIn(code, (0, 1), "%s: %s" % (environment, err))
-        plan = json.loads(content(self.at("plan/plan.json")))
-        if code == 1:
-            self.assertTrue(plan.get("message") or plan["infeasibility"]["message"], plan)
-            self.assertNotEqual(err, "")
-        return plan
-
-    def test_every_failure_of_ipopt_ends_in_a_plan_or_a_reason(self):
-        robot = content(self.at("robot.yaml")).decode()
-        with open(self.at("jerky.yaml"), "w") as file:
-            file.write(robot.replace("limits:\n", "limits:\n  jerk_m_s3: 2\n"))
-        curve = {"path": {"bezier_m": [[[0, 0], [1, 0], [1, 1], [2, 1]]]}}
-        for status in (-199, -102, -101, -100, -13, -12, -11, -10, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6):
-            for robot in ("robot.yaml", "jerky.yaml") if status in (-1, 0, 2) else ("robot.yaml",):
-                self.plan({"robot": robot, "legs": [curve]}, IPOPT_FAULT=str(status))
-
-    def test_every_failure_of_nlopt_leaves_a_plan(self):
-        good = os.path.join(SOURCE, "tests/data/broken/good")
-        mission = {"robot": "robot.yaml", "map": os.path.join(good, "map.yaml"), "start": {"station": "a"}, "legs": [{"to": "b"}],
-                   "stations": {"a": {"x_m": 0.5, "y_m": 0.5}, "b": {"x_m": 1.5, "y_m": 0.4, "heading_rad": 1}}}
-        for status in (-5, -4, -2, -1):
-            self.assertIn(self.plan(mission, NLOPT_FAULT=str(status))["status"], ("optimal", "feasible"))
-        code, _, err = self.run_program("plan", "mission.yaml", "-q", "--force", "--out", "plan",
-                                        env={**os.environ, "LD_PRELOAD": SOLVER_FAULTS, "NLOPT_FAULT": "-3"})
-        self.assertEqual((code, "memory" in err), (ENVIRONMENT, True), err)
-
-
-if not SOLVER_FAULTS:
-    del SolverFaults
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,13 +1,10 @@
-// Every effect's law by closed form on a simple motion, and the simulator's agreement with the power model.
+// Every effect's law by closed form on a simple motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <set>
 
-#include "model/estimate.hpp"
-#include "model/simulation/simulate.hpp"
+#include "model/power.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -249,55 +246,6 @@ TEST(EffectLaw, InstrumentsChangeReadings) {
   EXPECT_NEAR(late.motor_voltage_V.left[2], 3.0, 1e-12);
   EXPECT_NEAR(late.motor_current_A.right[2], 1.5, 1e-12);
   EXPECT_EQ(late.wheel_speed_rad_s.left.size(), 0u);
-}
-
-EffectSetting typical(const EffectDescription& description) {
-  EffectSetting setting{.name = std::string(description.info.name)};
-  for (const ParameterDescription& p : description.parameters) setting.parameters[p.name] = p.typical;
-  if (description.has_side) setting.side = Side::right;
-  if (description.has_cells) setting.parameters["y_min_m"] = setting.parameters["x_min_m"] = -9;
-  if (description.has_cells) setting.parameters["x_max_m"] = setting.parameters["y_max_m"] = 9;
-  return setting;
-}
-
-/// A run with ramps, cruise, arc, spin and reverse.
-SimulationResult run_of(const std::vector<EffectSetting>& effects) {
-  const std::vector<PrescribedMotion> tour{
-      {.profile = MotionProfile::trapezoid, .speed_m_s = 0.7, .distance_m = 5},
-      {.profile = MotionProfile::arc, .speed_m_s = 0.5, .radius_m = 0.8, .angle_rad = 3.0},
-      {.profile = MotionProfile::spin, .angle_rad = -2.0},
-      {.profile = MotionProfile::trapezoid, .speed_m_s = 0.4, .distance_m = 2, .reverse = true}};
-  SimulationRequest request{.robot = nomad(), .effects = effects, .payload_kg = kPayload_kg};
-  request.reference = timed_motion(request.robot, tour, {.payload_kg = kPayload_kg}).trajectory;
-  request.sensors.sample_rate_Hz = 200;
-  return simulate(request);
-}
-
-TEST(EffectLaw, TheSimulatorSpendsWhatThePowerModelSaysForEveryEffect) {
-  const SimulationResult plain = run_of({});
-  const double plain_J = plain.motor_energy_J.left + plain.motor_energy_J.right;
-  double changed = 0;
-  for (const EffectDescription& description : effect_catalog()) {
-    const EffectSetting setting = typical(description);
-    const SimulationResult run = run_of({setting});
-    const Plant plant = make_plant(nomad(), {setting});
-    // The body's true motion, so that what the wheels do beside it (creep) is the model's to say.
-    Trajectory body = run.executed;
-    body.wheel_speed_rad_s = {};
-    const EnergyEstimate estimate = estimate_energy(plant, body, {.reach_s = 0.0});
-    const double energy_J = run.motor_energy_J.left + run.motor_energy_J.right;
-    EXPECT_NEAR((estimate.motor_J.left + estimate.motor_J.right) / energy_J, 1.0, 2e-3)
-        << description.info.name;
-    // Where scrub holds the robot on a straight line, its moment is a reaction that no motion tells, and
-    // it shifts load between the wheels: only their sum can agree.
-    if (setting.name != "turning_scrub") {
-      for (Side side : kSides)
-        EXPECT_NEAR(estimate.motor_J[side] / run.motor_energy_J[side], 1.0, 2e-3)
-            << description.info.name << ' ' << side_name(side);
-    }
-    changed += std::abs(energy_J / plain_J - 1) > 5e-3;
-  }
-  EXPECT_GE(changed, 13);  // most typical effects are visible in this run's energy at all
 }
 
 }  // namespace

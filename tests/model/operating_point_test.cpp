@@ -6,26 +6,17 @@
 
 #include "model/power.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/typical_effect.hpp"
 
 namespace joulepath {
 namespace {
 
 using testing::nomad;
+using testing::typical_effect;
 
 Site moving_site(const Robot& robot, const BodyMotion<double>& motion, double payload_kg = 0.0) {
   return site_of(robot.geometry, {.x_m = 0.3, .y_m = -0.2, .heading_rad = 0.7}, payload_kg, motion.speed_m_s,
                  motion.yaw_rate_rad_s);
-}
-
-EffectSetting one_of(const EffectDescription& description) {
-  EffectSetting setting{.name = std::string(description.info.name)};
-  for (const ParameterDescription& p : description.parameters) setting.parameters[p.name] = p.typical;
-  if (description.has_side) setting.side = Side::right;
-  if (description.has_cells) {  // a patch around the site of the tests
-    setting.parameters["x_min_m"] = -1;
-    setting.parameters["y_min_m"] = -1;
-  }
-  return setting;
 }
 
 TEST(OperatingPoint, AtStandstillWithoutAccelerationNothingFlows) {
@@ -76,7 +67,7 @@ TEST(PowerByCause, AddsUpToTheMotorsPowerForEveryEffectInTheCatalog) {
   for (const EffectDescription& description : effect_catalog()) {
     Robot robot = nomad();
     robot.geometry.center_of_mass_offset_m = 0.05;
-    const Plant plant = make_plant(robot, {one_of(description)});
+    const Plant plant = make_plant(robot, {typical_effect(description)});
     for (int i = 0; i < 20; ++i) {
       const BodyMotion<double> motion{uniform(random), uniform(random), uniform(random), uniform(random)};
       Site site = moving_site(plant.robot, motion, 5.7);
@@ -112,7 +103,7 @@ TEST(PowerByCause, KineticPowerIsTheRateOfKineticEnergy) {
 
 TEST(EffectCatalog, EveryEffectComesBackFromItsSetting) {
   for (const EffectDescription& description : effect_catalog()) {
-    const EffectSetting setting = one_of(description);
+    const EffectSetting setting = typical_effect(description);
     const EffectSetting back = setting_of(make_effect(setting));
     EXPECT_EQ(back.parameters, setting.parameters) << setting.name;
     EXPECT_EQ(back.side, setting.side) << setting.name;

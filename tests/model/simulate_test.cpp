@@ -7,11 +7,13 @@
 
 #include "model/config_error.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/typical_effect.hpp"
 
 namespace joulepath {
 namespace {
 
 using testing::nomad;
+using testing::typical_effect;
 
 SimulationRequest request_for(const Robot& robot, const std::vector<PrescribedMotion>& motions,
                               double payload_kg = 0.0) {
@@ -34,15 +36,6 @@ Robot crooked_robot() {
   robot.geometry.center_of_mass_offset_m = 0.06;
   robot.geometry.wheel_radius_m = {0.1, 0.101};
   return robot;
-}
-
-EffectSetting setting_of_typical(const EffectDescription& description) {
-  EffectSetting setting{.name = std::string(description.info.name)};
-  for (const ParameterDescription& p : description.parameters) setting.parameters[p.name] = p.typical;
-  if (description.has_side) setting.side = Side::right;
-  if (description.has_cells) setting.parameters["x_min_m"] = setting.parameters["y_min_m"] = -10;
-  if (description.has_cells) setting.parameters["x_max_m"] = setting.parameters["y_max_m"] = 10;
-  return setting;
 }
 
 double imbalance_J(const EnergyBalance& b) {
@@ -75,7 +68,7 @@ TEST(Simulate, FeedbackHoldsTheSpeedAgainstWhatTheControllerDoesNotKnow) {
 TEST(Simulate, EnergyInIsAccountedForUnderEveryEffect) {
   for (const EffectDescription& description : effect_catalog()) {
     SimulationRequest request = request_for(crooked_robot(), kTour, 5.0);
-    request.effects = {setting_of_typical(description)};
+    request.effects = {typical_effect(description)};
     const SimulationResult result = simulate(request);
     EXPECT_NEAR(imbalance_J(result.balance), 0.0, 1e-5 * result.balance.motors_J) << description.info.name;
     EXPECT_TRUE(result.came_to_rest) << description.info.name;

@@ -6,13 +6,19 @@
 #include <random>
 
 #include "model/power.hpp"
+#include "tests/support/lagrange.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/typical_effect.hpp"
 
 namespace joulepath {
 namespace {
 
+using testing::FullCoordinates;
+using testing::lagrange_torque_Nm;
+using testing::lagrangian_J;
 using testing::nomad;
-using FullCoordinates = Eigen::Matrix<double, 5, 1>;  // x, y, phi, q_left, q_right: before any constraint
+using testing::rolling;
+using testing::typical_effect;
 
 /// A robot that hides no mistake: unequal radii, center of mass and payload off the axle.
 Robot bent_robot() {
@@ -23,74 +29,6 @@ Robot bent_robot() {
   robot.motor.right.resistance_ohm = 2.5;
   robot.motor.left.viscous_friction_Nm_s_rad = 0.02;
   return robot;
-}
-
-/// Kinetic energy written body by body, independent of the model: each mass at its place, its velocity
-/// by the chain rule on its position.
-double lagrangian_J(const Robot& robot, double payload_kg, const FullCoordinates& q,
-                    const FullCoordinates& rate) {
-  const double phi = q[2];
-  const auto body_J = [&](double mass_kg, double forward_m, double sideways_m, double yaw_inertia_kg_m2) {
-    const double x_rate = rate[0] - (forward_m * std::sin(phi) + sideways_m * std::cos(phi)) * rate[2];
-    const double y_rate = rate[1] + (forward_m * std::cos(phi) - sideways_m * std::sin(phi)) * rate[2];
-    return 0.5 * mass_kg * (x_rate * x_rate + y_rate * y_rate) + 0.5 * yaw_inertia_kg_m2 * rate[2] * rate[2];
-  };
-  const Inertia& inertia = robot.inertia;
-  const double l = robot.geometry.half_track_m;
-  double energy_J = body_J(inertia.chassis_mass_kg, robot.geometry.center_of_mass_offset_m, 0,
-                           inertia.chassis_yaw_inertia_kg_m2);
-  energy_J +=
-      body_J(payload_kg, robot.payload_offset_or_default_m(), 0, inertia.payload_yaw_inertia_m2 * payload_kg);
-  energy_J += body_J(inertia.wheel_mass_kg, 0, l, inertia.wheel_diameter_inertia_kg_m2);
-  energy_J += body_J(inertia.wheel_mass_kg, 0, -l, inertia.wheel_diameter_inertia_kg_m2);
-  return energy_J + 0.5 * inertia.wheel_axle_inertia_kg_m2 * (rate[3] * rate[3] + rate[4] * rate[4]);
-}
-
-/// q' of wheel speeds, straight from [P1, Eqs. (1)-(3)].
-FullCoordinates rolling(const Geometry& geometry, double phi, const WheelVector& eta) {
-  const double left_m_s = geometry.wheel_radius_m.left * eta[0];
-  const double right_m_s = geometry.wheel_radius_m.right * eta[1];
-  const double v = (left_m_s + right_m_s) / 2;
-  FullCoordinates rate;
-  rate << v * std::cos(phi), v * std::sin(phi), (right_m_s - left_m_s) / (2 * geometry.half_track_m), eta[0],
-      eta[1];
-  return rate;
-}
-
-/// dK/dq' by central differences (exact: K is quadratic in q').
-FullCoordinates momentum(const Robot& robot, double payload_kg, const FullCoordinates& q,
-                         const FullCoordinates& rate) {
-  FullCoordinates p;
-  for (int i = 0; i < 5; ++i) {
-    FullCoordinates step = FullCoordinates::Zero();
-    step[i] = 0.5;
-    p[i] = lagrangian_J(robot, payload_kg, q, rate + step) - lagrangian_J(robot, payload_kg, q, rate - step);
-  }
-  return p;
-}
-
-/// Torques on the wheels that a motion needs for its inertia: d/dt dK/dq' - dK/dq, projected on the
-/// motions that rolling allows.
-WheelVector lagrange_torque_Nm(const Robot& robot, double payload_kg, double phi, const WheelVector& eta,
-                               const WheelVector& acceleration) {
-  const double h = 1e-5;
-  FullCoordinates q = FullCoordinates::Zero();
-  q[2] = phi;
-  const FullCoordinates rate = rolling(robot.geometry, phi, eta);
-  const auto momentum_at = [&](double t) {
-    const FullCoordinates place = q + t * rate;
-    const WheelVector speed = eta + t * acceleration;
-    return momentum(robot, payload_kg, place, rolling(robot.geometry, place[2], speed));
-  };
-  FullCoordinates force = (momentum_at(h) - momentum_at(-h)) / (2 * h);
-  for (int i = 0; i < 5; ++i) {
-    FullCoordinates step = FullCoordinates::Zero();
-    step[i] = h;
-    force[i] -=
-        (lagrangian_J(robot, payload_kg, q + step, rate) - lagrangian_J(robot, payload_kg, q - step, rate)) /
-        (2 * h);
-  }
-  return {rolling(robot.geometry, phi, {1, 0}).dot(force), rolling(robot.geometry, phi, {0, 1}).dot(force)};
 }
 
 struct Instant {
@@ -104,15 +42,6 @@ Instant random_instant(std::mt19937& random) {
   for (int i = 0; i < 6; ++i) instant.state[i] = 5 * uniform(random);
   instant.acceleration_rad_s2 = {4 * uniform(random), 4 * uniform(random)};
   return instant;
-}
-
-EffectSetting setting_around(const EffectDescription& description) {
-  EffectSetting setting{.name = std::string(description.info.name)};
-  for (const ParameterDescription& p : description.parameters) setting.parameters[p.name] = p.typical;
-  if (description.has_side) setting.side = Side::right;
-  if (description.has_cells) setting.parameters["x_min_m"] = setting.parameters["y_min_m"] = -10;
-  if (description.has_cells) setting.parameters["x_max_m"] = setting.parameters["y_max_m"] = 10;
-  return setting;
 }
 
 TEST(StateSpace, VelocityMapObeysTheConstraints) {
@@ -218,7 +147,7 @@ TEST(StateSpace, IsThePapersMatrixEquation) {
 TEST(StateSpace, VoltagesGiveTheMotionBackForEveryEffectInTheCatalog) {
   std::mt19937 random(5);
   for (const EffectDescription& description : effect_catalog()) {
-    const Plant plant = make_plant(bent_robot(), {setting_around(description)});
+    const Plant plant = make_plant(bent_robot(), {typical_effect(description)});
     for (int i = 0; i < 20; ++i) {
       const Instant instant = random_instant(random);
       const DriveCircumstances circumstances{.payload_kg = 5.7, .time_of_day_s = 300, .memory = {0.2, -0.1}};
@@ -233,7 +162,7 @@ TEST(StateSpace, AgreesWithTheOperatingPointForEveryRigidEffect) {
   std::mt19937 random(6);
   for (const EffectDescription& description : effect_catalog()) {
     if (description.info.stage == Stage::contact) continue;  // creep is not rigid rolling
-    const Plant plant = make_plant(bent_robot(), {setting_around(description)});
+    const Plant plant = make_plant(bent_robot(), {typical_effect(description)});
     const Geometry& geometry = plant.robot.geometry;
     for (int i = 0; i < 20; ++i) {
       const Instant instant = random_instant(random);

@@ -1,134 +1,19 @@
 #include <gtest/gtest.h>
-#include <lz4frame.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <sstream>
 
-#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/bags/bag_survey.hpp"
-#include "scenarios/bags/mcap_writer.hpp"
 #include "scenarios/bags/message_numbers.hpp"
-#include "scenarios/bags/ros_definitions.hpp"
 #include "scenarios/bags/state_lines.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/run_log.hpp"
-#include "tests/scenarios/scratch_directory.hpp"
+#include "tests/scenarios/bag_fixture.hpp"
 #include "tests/support/nomad.hpp"
 
-namespace joulepath {
+namespace joulepath::testing {
 namespace {
-
-using testing::nomad;
-
-constexpr std::uint64_t kSecond_ns = 1'000'000'000, kStart_ns = 1'700'000'000 * kSecond_ns;
-
-BagChannel ros(const std::string& topic, const std::string& type) {
-  return {.topic = topic,
-          .type = type,
-          .schema_encoding = "ros2msg",
-          .schema = ros_definition(type),
-          .encoding = "cdr"};
-}
-
-void header(CdrWriter& out, std::uint64_t time_ns) {
-  out.number(static_cast<std::int32_t>(time_ns / kSecond_ns))
-      .number(static_cast<std::uint32_t>(time_ns % kSecond_ns));
-  out.text("odom");
-}
-
-std::string odometry(std::uint64_t time_ns, double v, double w) {
-  CdrWriter out;
-  header(out, time_ns);
-  out.text("base");
-  for (const double value : {1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0}) out.number(value);
-  for (int i = 0; i < 36; ++i) out.number(0.0);
-  for (const double value : {v, 0.0, 0.0, 0.0, 0.0, w}) out.number(value);
-  for (int i = 0; i < 36; ++i) out.number(0.0);
-  return out.bytes();
-}
-
-std::string joints(std::uint64_t time_ns, const std::vector<std::pair<std::string, double>>& velocities) {
-  CdrWriter out;
-  header(out, time_ns);
-  out.number(static_cast<std::uint32_t>(velocities.size()));
-  for (const auto& [name, velocity] : velocities) out.text(name);
-  out.number(std::uint32_t{0});  // no positions
-  out.number(static_cast<std::uint32_t>(velocities.size()));
-  for (const auto& [name, velocity] : velocities) out.number(velocity);
-  out.number(std::uint32_t{0});
-  return out.bytes();
-}
-
-double speed_at(int k) { return 0.3 * std::sin(0.05 * k); }
-
-/// Two seconds of odometry at 100 Hz.
-std::string drive() {
-  McapWriter bag;
-  const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
-  for (int k = 0; k < 200; ++k) {
-    const std::uint64_t time_ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 100;
-    bag.message(odom, time_ns + 3'000'000, odometry(time_ns, speed_at(k), 0.1));
-  }
-  return bag.finish();
-}
-
-template <class Number>
-void put(std::string& bytes, Number value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
-}
-
-/// The same bag with all its records in one chunk.
-std::string chunked(const std::string& bag, const std::string& compression) {
-  const std::string records = bag.substr(8, bag.size() - 8 - 8 - 29 - 13);  // less magics, footer, data end
-  std::string packed = records;
-  if (compression == "zstd") {
-    packed.resize(ZSTD_compressBound(records.size()));
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), records.data(), records.size(), 3));
-  } else if (compression == "lz4") {
-    packed.resize(LZ4F_compressFrameBound(records.size(), nullptr));
-    packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), records.data(), records.size(), nullptr));
-  }
-  std::string content;
-  put(content, std::uint64_t{0});
-  put(content, std::uint64_t{0});
-  put(content, static_cast<std::uint64_t>(records.size()));
-  put(content, std::uint32_t{0});
-  put(content, static_cast<std::uint32_t>(compression.size()));
-  content += compression;
-  put(content, static_cast<std::uint64_t>(packed.size()));
-  content += packed;
-  std::string file = bag.substr(0, 8);
-  file += '\x06';
-  put(file, static_cast<std::uint64_t>(content.size()));
-  return file + content + bag.substr(bag.size() - 8 - 29 - 13);
-}
-
-class Bags : public ::testing::Test {
- protected:
-  std::string written(const std::string& bytes, const std::string& name = "run.mcap") {
-    return scratch_.write(name, bytes);
-  }
-  BagLog read(const std::string& bytes, const ColumnSources& sources = {}) {
-    return read_bag_log(written(bytes), {}, sources, "run");
-  }
-  static ColumnSources one(const std::string& column, const std::string& from) {
-    ColumnSources sources;
-    sources[column].from = {from};
-    return sources;
-  }
-  static bool told(const BagLog& log, const std::string& kind) {
-    for (const LogArtifact& artifact : log.artifacts)
-      if (artifact.kind == kind) return true;
-    return false;
-  }
-
-  ScratchDirectory scratch_{};
-};
 
 TEST_F(Bags, ABagGivesTheSameRunAsItsColumnsInCsv) {
   const RunLog bag = read_run_log(written(drive()), nomad().geometry);
@@ -142,66 +27,6 @@ TEST_F(Bags, ABagGivesTheSameRunAsItsColumnsInCsv) {
   }
   const RunLog same = read_run_log(scratch_.write("run.csv", csv.str()), nomad().geometry);
   EXPECT_EQ(run_log_text(bag.trajectory), run_log_text(same.trajectory));
-}
-
-TEST_F(Bags, ChunksOfEveryCompressionReadTheSame) {
-  const BagLog plain = read(drive());
-  for (const char* compression : {"", "lz4", "zstd"}) {
-    const BagLog log = read(chunked(drive(), compression));
-    ASSERT_EQ(log.tables.size(), 1u) << compression;
-    EXPECT_EQ(log.tables[0].columns, plain.tables[0].columns) << compression;
-    EXPECT_TRUE(log.artifacts.empty()) << compression;
-  }
-}
-
-TEST_F(Bags, ABagThatEndsAnywhereGivesWhatIsWhole) {
-  const std::string whole = drive();
-  std::size_t before = 0;
-  for (std::size_t size = 9; size + 60 < whole.size(); size += 997) {
-    std::size_t rows = 0;
-    try {
-      const BagLog log = read(whole.substr(0, size));
-      EXPECT_TRUE(told(log, "truncated")) << size;
-      rows = log.tables[0].rows();
-    } catch (const ConfigError&) {
-    }
-    EXPECT_GE(rows, before) << size;
-    before = rows;
-  }
-  EXPECT_GT(before, 190u);
-}
-
-TEST_F(Bags, MutatedBagsAreReadOrRefused) {
-  std::mt19937 random(7);
-  for (const char* compression : {"none", "lz4", "zstd"}) {
-    const std::string whole = compression == std::string("none") ? drive() : chunked(drive(), compression);
-    for (int i = 0; i < 300; ++i) {
-      std::string broken = whole;
-      for (int n = 0; n < 4; ++n) {
-        const std::size_t range = i % 2 == 0 ? 3000 : broken.size();
-        broken[random() % std::min(range, broken.size())] = static_cast<char>(random());
-      }
-      try {
-        (void)read_run_log(written(broken), nomad().geometry);
-      } catch (const ConfigError&) {
-      }
-    }
-  }
-}
-
-TEST_F(Bags, AnAnnouncedSizeIsNotAllocated) {
-  std::string bag = chunked(drive(), "zstd");
-  const std::uint64_t huge = std::uint64_t{1} << 60;
-  std::memcpy(bag.data() + 8 + 9 + 16, &huge, sizeof huge);
-  EXPECT_THROW((void)read(bag), ConfigError);
-  std::string sequence = joints(kStart_ns, {{"left", 1.0}});
-  const std::uint32_t many = 0x7fffffff;
-  std::memcpy(sequence.data() + sequence.size() - 4, &many, sizeof many);
-  McapWriter writer;
-  const auto channel = writer.channel(ros("/joints", "sensor_msgs/msg/JointState"));
-  writer.message(channel, kStart_ns, sequence);
-  EXPECT_THROW((void)read(writer.finish(), one("wheel_speed_left_rad_s", "/joints.velocity[left]")),
-               ConfigError);
 }
 
 TEST_F(Bags, JointsAreFoundByNameWhateverTheirOrder) {
@@ -332,4 +157,4 @@ TEST_F(Bags, StatesOfVda5050AreALogPerRobot) {
 }
 
 }  // namespace
-}  // namespace joulepath
+}  // namespace joulepath::testing

@@ -46,7 +46,7 @@ jp.draw_compare = function (data) {
   jp.page(jp.header(data.title || "Comparison", data.subtitle || "Same path, same time.", null, true),
     jp.section("Energy", jp.h("div", {class: "columns"}, jp.h("div", {}, jp.h("h3", {}, "Motion, without standby"), bars("motion_energy_J")), jp.h("div", {}, jp.h("h3", {}, "At the battery, with standby"), bars("energy_J"))),
       jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least"}, "settings"], listed.map((one) => one.feasible === false
-        ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
+        ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
         : [jp.profile_name(one), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
     over ? over.section : null);
   if (over) over.ready();

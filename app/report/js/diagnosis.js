@@ -106,7 +106,7 @@ jp.which_section = function (d) {
   const rows = causes.map((cause) => [jp.cause_name(cause), {n: jp.fraction(cause.probability, 3)}, parameters(cause), {n: jp.fraction(cause.energy_share, 3)}, {n: jp.fraction(cause.shrink_fraction_alone, 3)}, (cause.indistinguishable_from || []).map(jp.words).join(", ") || "–"]);
   return jp.section("Which effect", rows.length ? jp.table(["cause", {n: "probability"}, "parameters, 95 % interval", {n: "share of the gap's energy"}, {n: "closes alone"}, "indistinguishable from"], rows)
     : jp.h("p", {}, "No cause is named."),
-  d.pinned_combination ? jp.h("p", {}, "What the data do pin: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
+  d.pinned_combination ? jp.h("p", {}, "Determined by the data: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
   ranking.length ? [jp.h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: jp.words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: jp.fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
     grouped.size ? jp.h("p", {class: "soft small"}, "◇ one group: these runs cannot separate its members.") : null] : null);
 };
@@ -149,12 +149,12 @@ jp.caveats_section = function (d) {
   const items = [];
   if (d.leftover && d.leftover.significant) items.push("Left over: " + (d.leftover.description || "a significant rest"));
   const artifacts = (d.artifacts || []).map((artifact) => (typeof artifact === "string" ? artifact : Object.entries(artifact).map(([key, value]) => jp.key_value(key, value)).join(", ")));
-  if (artifacts.length) items.push(jp.h("details", {open: artifacts.length < 6}, jp.h("summary", {}, `${artifacts.length} artifact${artifacts.length > 1 ? "s" : ""} in the logs, never fitted as physics`), jp.h("ul", {}, artifacts.map((artifact) => jp.h("li", {}, artifact)))));
-  if ((d.missing_channels || []).length) items.push("Channels that are missing, which narrows what can be told apart: " + d.missing_channels.map(jp.words).join(", "));
+  if (artifacts.length) items.push(jp.h("details", {open: artifacts.length < 6}, jp.h("summary", {}, `${artifacts.length} artifact${artifacts.length > 1 ? "s" : ""} in the logs, not fitted as effects`), jp.h("ul", {}, artifacts.map((artifact) => jp.h("li", {}, artifact)))));
+  if ((d.missing_channels || []).length) items.push("Missing channels, without which some effects cannot be separated: " + d.missing_channels.map(jp.words).join(", "));
   for (const note of d.notes || []) items.push(note);
   const decisions = d.decisions || {};
   if (decisions.missions) items.push(`In decisions: planning ${decisions.missions} missions with the nominal model loses ${jp.percent(decisions.joules_lost_with_nominal_percent)} of their energy.`);
-  return items.length ? jp.section("To keep in mind", jp.h("ul", {}, items.map((item) => jp.h("li", {}, item)))) : null;
+  return items.length ? jp.section("Notes", jp.h("ul", {}, items.map((item) => jp.h("li", {}, item)))) : null;
 };
 
 jp.draw_diagnosis = function (data) {

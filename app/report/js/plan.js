@@ -87,7 +87,7 @@ jp.baseline_section = function (plan) {
     jp.h("h3", {}, "Motion energy, without standby"),
     jp.bar_rows(rows.filter((one) => one === rows[0] || counted.includes(one)).map((one, k) => ({label: jp.words(one.name), value: one.motion_energy_J, text: jp.with_unit(one.motion_energy_J, "J"), color: k ? "var(--second)" : "var(--plan)"}))),
     jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
-      ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "breaks a limit")]
+      ? [jp.words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
       : [jp.words(one.name), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s)}, {n: jp.percent(one.saving_percent)}, {n: jp.percent(one.motion_saving_percent)},
         [one.later_s ? jp.number(one.later_s, 2) + " s later than the plan (the plan's time is infeasible for this profile)" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
 };

@@ -1,4 +1,4 @@
-/* `joulepath sweep`: the best design, the Pareto front, what each parameter does, why designs do not count. */
+/* `joulepath sweep`: the best design, the Pareto front, the effect of each parameter, the reasons why designs do not count. */
 
 /** Energy against duration: every design a dot, the Pareto front on top. */
 jp.design_cloud = function (sweep) {
@@ -27,7 +27,7 @@ jp.design_cloud = function (sweep) {
   return jp.h("div", {}, jp.h("p", {class: "small"}, jp.key("Pareto front", "var(--second)", "box"), jp.key("within the constraints", "var(--sixth)", "box"), jp.key("outside", "var(--soft)", "box")), picture);
 };
 
-/** What a parameter does: the mean of each level, and its share of the variance. */
+/** The effect of a parameter: the mean of each level, and its share of the variance. */
 jp.sweep_effects = function (effects, unit) {
   const shares = jp.bar_rows(effects.main.map((one) => ({label: one.parameter, value: one.share_of_variance, text: jp.fraction(one.share_of_variance)})), {most: 1});
   const means = effects.main.map((one) => {
@@ -37,7 +37,7 @@ jp.sweep_effects = function (effects, unit) {
   });
   const pairs = effects.interactions.filter((one) => one.share_of_variance > 1e-4).slice(0, 10);
   return [jp.h("h3", {}, "Share of the variance"), shares,
-    pairs.length ? jp.table(["together, beyond their sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: jp.fraction(one.share_of_variance)}])) : jp.h("p", {class: "soft"}, "No two parameters do anything together beyond the sum of what each does alone."),
+    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: jp.fraction(one.share_of_variance)}])) : jp.h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects."),
     jp.h("div", {class: "columns"}, means)];
 };
 
@@ -52,7 +52,7 @@ jp.draw_sweep = function (data) {
     best ? jp.h("div", {class: "tiles"}, jp.tile("Best energy", jp.with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", jp.with_unit(best.duration_s, "s"))) : null,
     jp.h("div", {class: "notice"}, jp.h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
-    sweep.planned > 1 ? jp.section("What each parameter does to the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
-    sweep.planned > 1 ? jp.section("What each parameter does to the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,
+    sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
+    sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,
     reasons.length ? jp.section("Not counted", jp.table(["reason", {n: "plans"}], reasons.map(([reason, count]) => [jp.words(reason), {n: String(count)}]))) : null);
 };

@@ -155,11 +155,7 @@ double JerkNewton::change(std::size_t k, const Jet& jet) const {
 
 StepSizes JerkNewton::expand() {
   StepSizes sizes;
-  const auto move = [&](Pair& pair, double ds) {
-    pair.ds = ds;
-    pair.dual_step();
-    sizes.keep_positive(pair);
-  };
+  const auto move = [&](Pair& pair, double ds) { sizes.move(pair, ds); };
   for (BoundSide& side : state_.bounds) move(side.pair, -side.sign * dx_[side.unknown]);
   for (RowSide& side : state_.sides)
     move(side.pair,
@@ -171,21 +167,13 @@ StepSizes JerkNewton::expand() {
     move(r.z, -(excess_of(r, p_.recovery_weight) + r.sum.sigma * moved) * r.inverse_sigma);
     move(r.sum, moved + r.z.ds);
   }
-  if (state_.has_budget()) {
-    Pair& time = state_.time;
-    time.dy = new_price_ - time.y;
-    time.ds = (time.corrected - time.s * new_price_) / time.y;
-    sizes.keep_positive(time);
-  }
+  if (state_.has_budget()) sizes.move_budget(state_.time, new_price_);
   return sizes;
 }
 
 void JerkNewton::take(const StepSizes& sizes) {
   for (std::size_t i = 0; i < dx_.size(); ++i) state_.x[i] += sizes.primal * dx_[i];
-  state_.for_each_pair([&](Pair& pair) {
-    pair.s += sizes.primal * pair.ds;
-    pair.y += sizes.dual * pair.dy;
-  });
+  state_.for_each_pair([&](Pair& pair) { sizes.take(pair); });
   for (BoundSide& side : state_.bounds) side.pair.s = side.sign * (side.bound - state_.x[side.unknown]);
   for (std::size_t k = 0; k < new_lambda_.size(); ++k)
     for (std::size_t i = 0; i < kKinematics; ++i)

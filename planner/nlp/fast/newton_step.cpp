@@ -167,11 +167,7 @@ StepSizes NewtonStep::expand() {
   const auto step_at = [&](std::size_t node) {
     return node == 0 || node == state_.b.size() - 1 ? 0.0 : step_[node - 1];
   };
-  const auto move = [&](Pair& pair, double ds) {
-    pair.ds = ds;
-    pair.dual_step();
-    sizes.keep_positive(pair);
-  };
+  const auto move = [&](Pair& pair, double ds) { sizes.move(pair, ds); };
   for (std::size_t k = 0; k < state_.low.size(); ++k) {
     move(state_.low[k], step_[k]);
     if (state_.high[k].s > 0) move(state_.high[k], -step_[k]);
@@ -190,21 +186,13 @@ StepSizes NewtonStep::expand() {
     move(r.z, -(excess + r.sum.sigma * moved) * r.inverse_sigma);
     move(r.sum, moved + r.z.ds);
   }
-  if (state_.has_budget()) {
-    Pair& time = state_.time;
-    time.dy = new_lambda_ - time.y;
-    time.ds = (time.corrected - time.s * new_lambda_) / time.y;
-    sizes.keep_positive(time);
-  }
+  if (state_.has_budget()) sizes.move_budget(state_.time, new_lambda_);
   return sizes;
 }
 
 void NewtonStep::take(const StepSizes& sizes) {
   for (std::size_t k = 0; k < step_.size(); ++k) state_.b[k + 1] += sizes.primal * step_[k];
-  state_.for_each_pair([&](Pair& pair) {
-    pair.s += sizes.primal * pair.ds;
-    pair.y += sizes.dual * pair.dy;
-  });
+  state_.for_each_pair([&](Pair& pair) { sizes.take(pair); });
   if (state_.has_duration() && !state_.has_budget())
     state_.lambda += sizes.dual * (new_lambda_ - state_.lambda);
   for (std::size_t k = 0; k < step_.size(); ++k) state_.low[k].s = state_.b[k + 1];

@@ -9,11 +9,29 @@ namespace joulepath::nlp {
 /// are much larger numbers than the gap.
 inline constexpr double kDualWeight = 1e-3;
 
-/// How far a step may be taken before a slack or a multiplier meets zero.
+/// Largest step lengths before a slack or a multiplier becomes zero.
 struct StepSizes {
   double primal{1.0}, dual{1.0};
 
-  /// Shortens the steps so that a pair stays positive.
+  /// Sets a pair's step, of which the dual part follows from the primal one.
+  void move(Pair& pair, double ds) {
+    pair.ds = ds;
+    pair.dual_step();
+    keep_positive(pair);
+  }
+  /// Sets the step of the duration's budget to a multiplier.
+  void move_budget(Pair& time, double multiplier) {
+    time.dy = multiplier - time.y;
+    time.ds = (time.corrected - time.s * multiplier) / time.y;
+    keep_positive(time);
+  }
+  /// Applies a pair's step.
+  void take(Pair& pair) const {
+    pair.s += primal * pair.ds;
+    pair.y += dual * pair.dy;
+  }
+
+ private:
   void keep_positive(const Pair& pair) {
     constexpr double kToBoundary = 0.995;
     if (pair.s + primal * pair.ds < (1 - kToBoundary) * pair.s) primal = -kToBoundary * pair.s / pair.ds;
