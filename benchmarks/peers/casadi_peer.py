@@ -33,7 +33,7 @@ def segment_function(ca, problem, cost="full"):
     (b0, b1, ds, curvature at begin, middle, end, its slope) -> ... The cost "full" is the
     energy; the others are what other planners minimize (see economy.py).
     """
-    robot = problem["robot_values"]
+    robot, along = problem["robot_values"], int(problem["kind"] != "turn")
     r, l = robot["wheel_radius_m"], robot["half_track_m"]
     mass, mu, yaw = rigid_body(problem)
     b0, b1, ds, k0, k1, k2, slope = (ca.SX.sym(n) for n in ("b0", "b1", "ds", "k0", "k1", "k2", "slope"))
@@ -41,12 +41,12 @@ def segment_function(ca, problem, cost="full"):
     dt = 2 * ds / (v0 + v1)
     energy, rows = [0, 0], []
     for v, k, weight in ((v0, k0, 1), ((v0 + v1) / 2, k1, 4), (v1, k2, 1)):
-        force = mass * a - mu * k * k * v * v
-        moment = yaw * (k * a + slope * v * v) + mu * k * v * v
-        rows += [k * v * v, k * a + slope * v * v] if weight == 1 else []
+        force = along * mass * a - mu * k * k * v * v
+        moment = yaw * (k * a + slope * v * v) + along * mu * k * v * v
+        rows += [along * k * v * v, k * a + slope * v * v] if weight == 1 else []
         for side, sign in enumerate((-1, 1)):
             motor = {key: value[side] for key, value in robot["motor"].items()}
-            g, contact = (1 + sign * l * k) / r, force / 2 + sign * moment / (2 * l)
+            g, contact = (along + sign * l * k) / r, force / 2 + sign * moment / (2 * l)
             torque = (
                 r * contact
                 + robot["wheel_axle_inertia_kg_m2"] * (g * a + sign * l * slope * v * v / r)
@@ -76,7 +76,7 @@ def segment_function(ca, problem, cost="full"):
             else:
                 energy[side] += dt * weight / 6 * voltage * current
             rows += [2 * contact / (mass * 9.80665), current, voltage] if weight == 1 else []
-    return ca.Function("segment", [b0, b1, ds, k0, k1, k2, slope], [dt, ca.vertcat(*energy), ca.vertcat(a, *rows)])
+    return ca.Function("segment", [b0, b1, ds, k0, k1, k2, slope], [dt, ca.vertcat(*energy), ca.vertcat(along * a, *rows)])
 
 
 class Program:
@@ -119,9 +119,10 @@ class Program:
         count = losses.numel()
         self.lbg = np.concatenate([[0], np.zeros(count), np.tile(low[kept], segments)])
         self.ubg = np.concatenate([[inf], np.full(count, inf), np.tile(high[kept], segments)])
-        cap = np.full(segments + 1, at("speed_m_s"))
         bend = np.maximum(abs(path.curvature(self.s)), 1e-12)
-        cap = np.minimum(cap, np.minimum(at("yaw_rate_rad_s") / bend, np.sqrt(at("lateral_acceleration_m_s2") / bend)))
+        cap = at("yaw_rate_rad_s") / bend
+        if path.along:
+            cap = np.minimum(at("speed_m_s"), np.minimum(cap, np.sqrt(at("lateral_acceleration_m_s2") / bend)))
         self.cap = cap[1:-1] ** 2
         self.inner, self.count = segments - 1, 2 * segments
         self.nlp = {"x": ca.vertcat(inner, ca.vec(lost)), "f": total, "g": g}
@@ -161,16 +162,17 @@ class Program:
         return {"s_m": self.s.tolist(), "speed_m_s": np.sqrt(np.maximum(b, 0)).tolist()}
 
 
-def run(problem, segments, jit=False, warm_share=0.01):
-    """Build, first solve, and a warm solve for a duration that is longer by a share (where there is one)."""
-    if not jit:
-        return timed_run(problem, segments, False, warm_share)
+def compiled(problem, segments, repeats):
+    """CPU times with generated and compiled C: the build with the compiler, and each solve."""
     with tempfile.TemporaryDirectory() as scratch, contextlib.chdir(scratch):  # where CasADi leaves its C files
-        return timed_run(problem, segments, True, warm_share)
+        build_ms, program = cpu_ms(lambda: Program(problem, segments, jit=True))
+        asked = problem["time"].get("duration_s")
+        return build_ms, [cpu_ms(lambda: program.solve(asked))[0] for _ in range(repeats)]
 
 
-def timed_run(problem, segments, jit, warm_share):
-    build_ms, program = cpu_ms(lambda: Program(problem, segments, jit))
+def run(problem, segments, warm_share=0.01):
+    """Build, first solve, and a warm solve for a duration that is longer by a share (where there is one)."""
+    build_ms, program = cpu_ms(lambda: Program(problem, segments))
     asked = problem["time"].get("duration_s")
     solve_ms, (answer, stats) = cpu_ms(lambda: program.solve(asked))
     result = {
@@ -180,7 +182,7 @@ def timed_run(problem, segments, jit, warm_share):
         "iterations": stats["iter_count"],
         "solution": program.solution(answer),
     }
-    if asked and not jit:
+    if asked:
         program.prepare_warm()
         result["warm_ms"], (_, stats) = cpu_ms(lambda: program.solve(asked * (1 + warm_share), answer))
         result["warm_iterations"] = stats["iter_count"]

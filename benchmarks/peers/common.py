@@ -14,7 +14,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "benchmarks/problems"
 sys.path.insert(0, str(PROBLEMS))
-from check import evaluate  # noqa: E402  the common judge shares no code with the program
+from check import evaluate, profile, states  # noqa: E402  the common judge shares no code with the program
 
 TOLERANCE = 1e-6
 
@@ -39,10 +39,10 @@ def problem_set():
 
 def judge(problem, solution):
     """Energy, duration and the greatest excess of a limit (0 where all hold)."""
-    limits = {key: limit for key, limit in problem["limits"].items() if key != "jerk_m_s3"}
+    limits = dict(problem["limits"])
+    if "speed_m_s" in solution:  # speeds at places have steps of acceleration: of them a jerk limit is not asked
+        limits.pop("jerk_m_s3", None)
     result = evaluate({**problem, "limits": limits}, problem["robot_values"], solution)
-    if "jerk_m_s3" in problem["limits"]:
-        result["uses"]["jerk_m_s3"] = greatest_jerk(solution) / problem["limits"]["jerk_m_s3"]
     limit, use = max(result["uses"].items(), key=lambda item: item[1])
     return {
         "energy_J": float(result["energy_J"]),
@@ -53,19 +53,21 @@ def judge(problem, solution):
     }
 
 
-def greatest_jerk(solution):
-    """Of a profile sampled more finely than its jerk changes: differences of mean accelerations.
+class Reference:
+    """Place and speed of a solution at a time."""
 
-    Next to rest the mean acceleration of a sample says little (squared speed is not linear there): ten are left out.
-    """
-    s, v = np.array(solution["s_m"]), np.array(solution["speed_m_s"])
-    dt = 2 * np.diff(s) / (v[1:] + v[:-1])
-    middle = np.cumsum(dt) - dt / 2
-    return float(abs(np.diff(np.diff(v) / dt) / np.diff(middle))[10:-10].max())
+    def __init__(self, problem, solution):
+        self.nodes = profile(problem, solution)
+        self.moving_s = self.nodes[0][-1]
+        self.duration = self.moving_s + solution.get("wait_s", 0.0)
+
+    def at(self, t):
+        s, v, _ = states(self.nodes, np.minimum(t, self.moving_s))
+        return s, np.where(t < self.moving_s, v, 0.0)
 
 
 class Path:
-    """Curvature, its slope and the heading of a problem's path."""
+    """Curvature, its slope and the heading of a problem's path; of a turn in place s is the angle, and `along` is 0."""
 
     def __init__(self, problem):
         self.knots = np.array(problem["path"]["s_m"], float)
@@ -73,7 +75,7 @@ class Path:
         self.slopes = np.diff(self.bend) / np.diff(self.knots)
         turned = (self.bend[1:] + self.bend[:-1]) / 2 * np.diff(self.knots)
         self.headings = np.concatenate([[0], np.cumsum(turned)])
-        self.length = self.knots[-1]
+        self.length, self.along = self.knots[-1], int(problem.get("kind") != "turn")
 
     def piece(self, s):
         return np.clip(np.searchsorted(self.knots, s, side="right") - 1, 0, len(self.slopes) - 1)
@@ -95,7 +97,7 @@ class Path:
         x, w = np.polynomial.legendre.leggauss(5)
         ds = np.diff(s)[:, None]
         inner = self.heading((s[:-1, None] + (x + 1) / 2 * ds)) + heading
-        steps = np.stack([(np.cos(inner) * w).sum(1), (np.sin(inner) * w).sum(1)], 1) * ds / 2
+        steps = np.stack([(np.cos(inner) * w).sum(1), (np.sin(inner) * w).sum(1)], 1) * ds / 2 * self.along
         return s, np.vstack([[0, 0], np.cumsum(steps, 0)]), self.heading(s) + heading
 
 
@@ -117,6 +119,10 @@ def spread(values, digits=3):
         return "none"
     low, mid, high = (0.0 if abs(x) < 1e-6 else x for x in (min(values), statistics.median(values), max(values)))
     return f"{mid:.{digits}g} ({low:.{digits}g} to {high:.{digits}g})"
+
+
+def mid(values, digits=2):
+    return f"{statistics.median(values):.{digits}g}" if len(values) else "none"
 
 
 def faster(peer, ratios):

@@ -121,6 +121,7 @@ def report(cases, found):
     )
     text += winners(found)
     return {
+        "short": f"**Diagnosis against regressions**: {winners(found).strip()}",
         "text": text
         + table(
             [

@@ -3,18 +3,18 @@
 import numpy as np
 
 import casadi_peer
-from common import Path, bench_peers, judge, problem_set, spread, table
-from mujoco_peer import Reference
+from common import Path, Reference, bench_peers, judge, mid, problem_set, spread, table
 
 EULER_STEP_S = 0.5
 
 
-def fleet_estimate_J(problem, solution):
+def fleet_estimate_J(problem, solution, whole=True):
     """The simple motion model of fleet managers: E = sum (m |a| v + I |alpha| |omega| + mu m g v) dt, dt = 0.5 s.
 
     Published with rmf_battery; restated from its formulas. mu is the Coulomb friction of the robot file over its weight.
+    Without `whole`, the first term alone. Standby is added to both.
     """
-    robot, path, drive = problem["robot_values"], Path(problem), Reference(solution)
+    robot, path, drive = problem["robot_values"], Path(problem), Reference(problem, solution)
     mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + problem["payload_kg"]
     inertia = robot["chassis_yaw_inertia_kg_m2"] + robot["payload_yaw_inertia_m2"] * problem["payload_kg"]
     friction_N = sum(robot["motor"]["friction_torque_Nm"]) / robot["wheel_radius_m"]
@@ -22,7 +22,7 @@ def fleet_estimate_J(problem, solution):
     s, v = drive.at(t)
     omega = v * path.curvature(s)
     a, alpha = (np.gradient(x, EULER_STEP_S) if len(t) > 1 else np.zeros(len(t)) for x in (v, omega))
-    watts = mass * abs(a) * v + inertia * abs(alpha * omega) + friction_N * v
+    watts = mass * abs(a) * v + (inertia * abs(alpha * omega) + friction_N * v if whole else 0)
     return float(watts.sum() * EULER_STEP_S + problem["standby_W"] * drive.duration)
 
 
@@ -38,20 +38,24 @@ def estimators(size):
     for robot in set(robots):  # fitted to these very legs: the best that one constant per robot can do
         own = np.array([r == robot for r in robots])
         per_metre[own] = length[own] * (truth[own] @ length[own]) / (length[own] @ length[own])
-    rows = []
+    rows, short = [], []
     for name, guess in (
-        ("mass × magnitude of acceleration × speed, half-second Euler", np.array([fleet_estimate_J(p, s) for p, s in legs])),
+        ("mass × magnitude of acceleration × speed, half-second Euler", np.array([fleet_estimate_J(p, s, False) for p, s in legs])),
+        ("rmf_battery's simple model: the same, yaw and friction added", np.array([fleet_estimate_J(p, s) for p, s in legs])),
         ("joules per metre, fitted per robot to these legs", per_metre),
     ):
         leg = 100 * (guess / truth - 1)
         own = [np.array([i for i, r in enumerate(robots) if r == robot]) for robot in dict.fromkeys(robots)]
         groups = [g[i : i + 5] for g in own for i in range(0, len(g) - 4, 5)]
         mission = np.array([100 * (guess[g].sum() / truth[g].sum() - 1) for g in groups])
-        rows.append([name, f"{np.median(leg):+.1f}", spread(abs(leg), 2), spread(abs(mission), 2)])
+        short.append(f"{name.split(',')[0].split(':')[0]} {mid(abs(leg))} % on a leg and {mid(abs(mission))} % on a mission")
+        rows.append([name, *(cell for x in (leg, mission) for cell in (f"{np.median(x):+.1f}", spread(abs(x), 2)))])
     return {
-        "text": f"{len(legs)} legs of least energy, {len(groups)} missions of five; the full model is the reference.\n\n"
-        + table(["estimator", "leg: median error, %", "absolute error of a leg, %", "of a mission, %"], rows),
+        "text": f"{len(legs)} legs of least energy, {len(groups)} missions of five legs of one robot; the full model is the "
+        "reference, standby is in all.\n\n"
+        + table(["estimator", *(f"{of}: {what}" for of in ("leg", "mission") for what in ("median error, %", "absolute error, %"))], rows),
         "summary": {},
+        "short": f"**Fleet estimators** err in the median by: {'; '.join(short)}.",
     }
 
 
@@ -102,5 +106,8 @@ def costs(size):
     return {
         "text": text,
         "summary": {},
-        "energy": {f"cost: {name}": [x for found in kinds_.values() for x in found] for name, kinds_ in lost.items()},
+        "energy": (pooled := {f"planned for: {name}": [x for v in found.values() for x in v] for name, found in lost.items()}),
+        "short": "**Other planners' costs**, paid with the full model, lose in the median: "
+        + "; ".join(f"{name.removeprefix('planned for: ')} {mid(values)} %" for name, values in pooled.items())
+        + ".",
     }

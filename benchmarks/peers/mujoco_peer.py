@@ -1,26 +1,28 @@
-"""Profiles driven by a wheel-speed controller in MuJoCo: rigid bodies, contacts, casters, motors as actuators.
+"""Wheel speeds driven in MuJoCo: rigid bodies, contacts, casters, motors as actuators.
 
-The controller has no knowledge of the program's model beyond the reference speeds of the wheels: PI at 100 Hz, encoder
-steps, 20 ms of latency, voltage held between its steps. There is no pose controller: what the floor does to the heading
-shows up as distance from the path. With a fourth of the physics step the energies change by less than 0.05 %.
+The controller knows nothing of the program's model but the reference: PI on the wheels at 100 Hz, encoder steps, 20 ms of
+latency, voltage held between its steps. A pose controller may correct the wheels' references; without it, what the floor
+does to the heading shows up as distance from the path. With a fourth of the physics step the energies change by less
+than 0.05 %.
 """
 
 import math
 
 import numpy as np
 
-from common import Path, package
+from common import Path, Reference, package
 
 PERIOD_S, LATENCY_PERIODS, SUBSTEPS = 0.01, 2, 5
 ENCODER_STEPS = 4096 * 8  # per turn of the wheel
 BANDWIDTH_PER_S = 12.0
 TIRE_FRICTION, CASTER_GAP_M = 0.9, 3e-4
 SETTLE_S = 1.5
+TRACKING_PER_S, ACROSS_PER_M2 = 2.0, 4.0  # of the pose controller
+RESPONSE_PERIODS = 8  # of the wheels' loop: so late the robot is where the reference was
 WORLDS = {"calm": {}, "payload error": {"payload_factor": 1.3}, "slope": {"grade": 0.01}}
 
 
-def model_text(problem, payload_factor=1.0, grade=0.0):
-    robot, pay = problem["robot_values"], problem["payload_kg"] * payload_factor
+def model_text(robot, pay, grade):
     motor, r, l = robot["motor"], robot["wheel_radius_m"], robot["half_track_m"]
     across, spin = robot["wheel_diameter_inertia_kg_m2"], robot["wheel_axle_inertia_kg_m2"]
     body, d = min(spin, 1.9 * across), robot["center_of_mass_offset_m"]  # a body's inertias obey A + B > C
@@ -59,62 +61,74 @@ def model_text(problem, payload_factor=1.0, grade=0.0):
 {casters}{payload}{wheels}</body></worldbody><actuator>{motors}</actuator></mujoco>"""
 
 
-class Reference:
-    """Speed and place of a profile at a time."""
-
-    def __init__(self, solution):
-        self.s, self.v = np.array(solution["s_m"]), np.array(solution["speed_m_s"])
-        dt = 2 * np.diff(self.s) / (self.v[1:] + self.v[:-1])
-        self.t = np.concatenate([[0], np.cumsum(dt)])
-        self.duration = self.t[-1] + solution.get("wait_s", 0.0)
-
-    def at(self, t):
-        v = np.interp(t, self.t, self.v)
-        k = np.clip(np.searchsorted(self.t, t, side="right") - 1, 0, len(self.s) - 2)
-        a = (self.v[k + 1] - self.v[k]) / (self.t[k + 1] - self.t[k])
-        tau = np.clip(t - self.t[k], 0, self.t[k + 1] - self.t[k])
-        return self.s[k] + self.v[k] * tau + a * tau**2 / 2, v
+def followed(pose, wanted, speeds):
+    """Speeds that lead back to a reference in motion: Kanayama's tracking law, with a turn towards its heading at rest."""
+    away, (v, omega) = wanted - pose, speeds
+    c, sine, turn = math.cos(pose[2]), math.sin(pose[2]), math.remainder(away[2], 2 * math.pi)
+    ahead, aside = c * away[0] + sine * away[1], -sine * away[0] + c * away[1]
+    return v * math.cos(turn) + TRACKING_PER_S * ahead, omega + ACROSS_PER_M2 * v * aside + TRACKING_PER_S * math.sin(turn)
 
 
-def drive(problem, solution, payload_factor=1.0, grade=0.0):
-    """Energy at the supply, time of arrival, distance from the path and from the goal as driven."""
+def execute(robot, payload_kg, most_V, poses, speeds, tracked=False, payload_factor=1.0, grade=0.0):
+    """Watts of each motor and poses at the ends of the periods; references are poses and (v, omega) at the same instants."""
     mujoco = package("mujoco")
-    model = mujoco.MjModel.from_xml_string(model_text(problem, payload_factor, grade))
+    model = mujoco.MjModel.from_xml_string(model_text(robot, payload_kg * payload_factor, grade))
     data = mujoco.MjData(model)
-    robot, path, reference = problem["robot_values"], Path(problem), Reference(solution)
     motor, r, l = robot["motor"], robot["wheel_radius_m"], robot["half_track_m"]
     K = np.array(motor["torque_constant_Nm_A"]) * motor["gear_ratio"]
     Kv = np.array(motor["voltage_constant_V_s_rad"]) * motor["gear_ratio"]
-    ohm, most_V = np.array(motor["resistance_ohm"]), problem["limits"].get("max_voltage_V", math.inf)
-    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + problem["payload_kg"]
+    ohm = np.array(motor["resistance_ohm"])
+    mass = robot["chassis_mass_kg"] + 2 * robot["wheel_mass_kg"] + payload_kg
     inertia = mass * r * r / 2 + robot["wheel_axle_inertia_kg_m2"]
     gain = BANDWIDTH_PER_S * inertia * ohm / K  # PI that cancels the motor's own pole
     integral_gain = gain * (K * Kv / ohm + np.array(motor["viscous_friction_Nm_s_rad"])) / inertia
-    data.qpos[3:7] = [1, 0, 0, 0]
+    x, y, heading = poses[0]
+    turned_by = [math.cos(heading / 2), 0, 0, math.sin(heading / 2)]
+    data.qpos[:2], data.qpos[3:7] = (x, y), turned_by
     mujoco.mj_step(model, data, 100)  # the casters settle
-    data.qvel[:] = 0
+    data.qpos[:2], data.qpos[3:7], data.qvel[:] = (x, y), turned_by, 0
     wheel_at = [model.jnt_qposadr[mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n)] for n in ("left", "right")]
-    origin, step_rad = data.qpos[:2].copy(), 2 * math.pi / ENCODER_STEPS
-    wheels = data.qpos[wheel_at].copy()
-    seen, integral = np.floor(wheels / step_rad) * step_rad, np.zeros(2)
-    pending = [np.zeros(2)] * LATENCY_PERIODS
-    periods = int(math.ceil((reference.duration + SETTLE_S) / PERIOD_S))
-    watts, places = np.empty((periods, 2)), np.empty((periods, 2))
-    times = (np.arange(periods) + 1) * PERIOD_S
-    s, v = reference.at(times)
-    wanted = np.stack([(1 + sign * l * path.curvature(s)) / r * v for sign in (-1, 1)], 1)
-    for i in range(periods):
+    step_rad, arms, wheels = 2 * math.pi / ENCODER_STEPS, np.array([-l, l]), data.qpos[wheel_at].copy()
+    seen, integral, pending = np.floor(wheels / step_rad) * step_rad, np.zeros(2), [np.zeros(2)] * LATENCY_PERIODS
+    watts, driven = np.empty((len(poses), 2)), np.empty((len(poses), 3))
+    pose = poses[0]
+    for i, (v, omega) in enumerate(speeds):
+        if tracked:
+            v, omega = followed(pose, poses[max(0, i - RESPONSE_PERIODS)], (v, omega))
         now = np.floor(data.qpos[wheel_at] / step_rad) * step_rad
-        error = wanted[i] - (now - seen) / PERIOD_S
+        error = (v + arms * omega) / r - (now - seen) / PERIOD_S
         seen, integral = now, integral + error * PERIOD_S
         pending.append(np.clip(gain * error + integral_gain * integral, -most_V, most_V))
-        volts = pending.pop(0)
-        data.ctrl[:] = volts
+        data.ctrl[:] = volts = pending.pop(0)
         mujoco.mj_step(model, data, SUBSTEPS)
         turned, wheels = data.qpos[wheel_at] - wheels, data.qpos[wheel_at].copy()
         watts[i] = volts * (volts - Kv * turned / PERIOD_S) / ohm  # mean of V i at constant V, exact
-        places[i] = data.qpos[:2] - origin
-    return judge_drive(problem, path, reference, watts, places, times)
+        q = data.qpos[3:7]
+        driven[i] = pose = (*data.qpos[:2], math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2)))
+    return watts, driven
+
+
+def drawn_W(watts, regeneration_efficiency, sharing):
+    """What the motors take from the supply."""
+    kept = lambda p: np.where(p < 0, regeneration_efficiency * p, p)
+    return kept(watts.sum(1)) if sharing == "bus" else kept(watts).sum(1)
+
+
+def drive(problem, solution, **world):
+    """Energy at the supply, time of arrival, distance from the path and from the goal as driven."""
+    robot, path, reference = problem["robot_values"], Path(problem), Reference(problem, solution)
+    times = (np.arange(math.ceil((reference.duration + SETTLE_S) / PERIOD_S)) + 1) * PERIOD_S
+    s, v = reference.at(times)
+    poses = np.zeros((len(times), 3))  # the wheels' references alone are used
+    watts, driven = execute(
+        robot,
+        problem["payload_kg"],
+        problem["limits"].get("max_voltage_V", math.inf),
+        poses,
+        np.stack([v, path.curvature(s) * v], 1),
+        **world,
+    )
+    return judge_drive(problem, path, reference, watts, driven[:, :2], times)
 
 
 def last_motion(places, times):
@@ -124,9 +138,7 @@ def last_motion(places, times):
 
 
 def judge_drive(problem, path, reference, watts, places, times):
-    eta = problem["regeneration_efficiency"]
-    kept = lambda p: np.where(p < 0, eta * p, p)
-    drawn = kept(watts.sum(1)) if problem["sharing"] == "bus" else kept(watts).sum(1)
+    drawn = drawn_W(watts, problem["regeneration_efficiency"], problem["sharing"])
     _, line, _ = path.places(count=400)
     arrival, planned = last_motion(places, times), last_motion(reference.at(times)[0][:, None], times)
     ended = reference.duration + max(0.0, arrival - planned)
@@ -134,8 +146,6 @@ def judge_drive(problem, path, reference, watts, places, times):
     distance = np.array([np.min(np.hypot(*(line - p).T)) for p in places[::10]])
     return {
         "energy_J": float(drawn[until].sum() * PERIOD_S + problem["standby_W"] * ended),
-        "motion_J": float(drawn[until].sum() * PERIOD_S),
         "late_s": arrival - planned,
         "off_path_m": float(distance.max()),
-        "off_goal_m": float(np.linalg.norm(places[-1] - line[-1])),
     }

@@ -14,10 +14,12 @@ import traceback
 
 import baselines
 import common
+import designs
 import diagnosis
 import driving
 import economy
 import figure
+import floors
 import speed
 
 SECTIONS = {
@@ -28,6 +30,8 @@ SECTIONS = {
     "estimators": ("What fleet managers estimate", economy.estimators),
     "costs": ("What other planners minimize", economy.costs),
     "driving": ("Driven by an independent simulator", driving.run),
+    "walls": ("Missions between walls, driven", floors.run),
+    "designs": ("The ranking of designs, driven", designs.run),
     "diagnosis": ("The diagnosis against regressions", diagnosis.run),
 }
 PACKAGES = ("casadi", "toppra", "ruckig", "mujoco", "pysindy", "scipy", "numpy")
@@ -61,8 +65,10 @@ def page(note, answers):
         "[public set](../problems/README.md). CPU times are of one thread. A figure with brackets is a median and its "
         "range: of ratios over "
         "interleaved repeats, of other figures over the problems. Ratios above 1: the peer takes "
-        "longer.\n\n![Summary](peers.svg)\n"
+        "longer.\n\n"
     )
+    text += "".join(f"- {answers[name]['short']}\n" for name in SECTIONS if "short" in answers.get(name, {}))
+    text += "\n![Summary](peers.svg)\n"
     for name, (title, _) in SECTIONS.items():
         if name in answers:
             own = answers[name].get("note", note)

@@ -19,8 +19,8 @@ def geometry(toppra, path):
     class Geometry(toppra.interpolator.AbstractGeometricPath):
         def __call__(self, s, order=0):
             s = np.asarray(s, float)
-            one, zero = np.ones_like(s), np.zeros_like(s)
-            columns = {0: (s, path.heading(s)), 1: (one, path.curvature(s)), 2: (zero, path.slope(s))}[order]
+            one, zero = np.full_like(s, path.along), np.zeros_like(s)
+            columns = {0: (path.along * s, path.heading(s)), 1: (one, path.curvature(s)), 2: (zero, path.slope(s))}[order]
             return np.stack(columns, -1)
 
         dof = property(lambda self: 2)
