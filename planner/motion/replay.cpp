@@ -25,6 +25,27 @@ double supply_at(const PathMotion& motion, const ProfileState& state) {
   return supply_power_W(supply, {wheels.left.power_W, wheels.right.power_W}) + supply.standby_W;
 }
 
+constexpr int kChecks = 8;             ///< of a segment, equal in time
+constexpr std::size_t kPlaces = 4000;  ///< about as many along a path, where its parts are few
+constexpr double kEdge = 1e-7;         ///< of a part: its law may change at its ends, so looks are inside
+
+/// Places between which neither curvature nor caps change much: some of every smooth part of the path.
+std::vector<double> places_along(const ProfileRequest& request) {
+  std::vector<double> ends = piece_breakpoints(request.piece);
+  for (const SpeedCap& cap : request.speed_caps)
+    for (const double s : {cap.from_m, cap.to_m})
+      if (s > 0 && s < ends.back()) ends.push_back(s);
+  std::sort(ends.begin(), ends.end());
+  const std::size_t parts = std::clamp<std::size_t>(kPlaces / ends.size(), 8, 64);
+  std::vector<double> places;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    for (std::size_t k = 0; k <= parts; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(parts);
+      places.push_back(ends[i] + (ends[i + 1] - ends[i]) * std::clamp(share, kEdge, 1 - kEdge));
+    }
+  return places;
+}
+
 struct Replayer {
   const ProfileRequest& request;
   PathMotion motion;
@@ -42,7 +63,6 @@ struct Replayer {
 
   /// Drives through one segment, in which the acceleration is a smooth function of time.
   void drive(const Profile& profile, std::size_t k, State& state) {
-    constexpr int kChecks = 8;
     const double start_s = profile.time_s[k], duration_s = profile.time_s[k + 1] - start_s;
     if (!(duration_s > 0)) return;
     const auto acceleration = [&](double t) {
@@ -66,6 +86,19 @@ struct Replayer {
       inside(to_s, i + 1 == kChecks ? -edge : 0.0);
     }
   }
+
+  /// A profile of few nodes may pass a corner between two checks of a long segment: looks at every place
+  /// inside of segments that have more places than checks.
+  void look_along(const Profile& profile) {
+    const std::vector<double> places = places_along(request);
+    auto from = places.begin();
+    for (std::size_t k = 0; k + 1 < profile.s.size(); ++k) {
+      const auto to = std::upper_bound(from, places.end(), profile.s[k + 1]);
+      if (to - from > kChecks)
+        for (auto s = from; s != to; ++s) check(profile.at_s(*s), profile.jerk[k]);
+      from = to;
+    }
+  }
 };
 
 }  // namespace
@@ -75,6 +108,7 @@ ReplayResult replay(const ProfileRequest& request, const Profile& profile) {
   const double standby_W = request.plant.robot.power.standby_W;
   State state{profile.s.front(), profile.rate.front(), 0.0};
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) replayer.drive(profile, k, state);
+  replayer.look_along(profile);
   ReplayResult& result = replayer.result;
   result.duration_s = profile.duration_s();
   result.energy_J = state[2] + standby_W * profile.wait_s;

@@ -40,6 +40,7 @@ class Guesses {
   Point2 start_m() const { return {request_.start.x_m, request_.start.y_m}; }
   void add(double start_handle_m, double goal_handle_m, const std::vector<Point2>& knots,
            std::optional<double> goal_heading_rad = {}, const std::vector<std::size_t>& moving = {});
+  void face(double leave_rad, double arrive_rad);
   void guess_spans();
   void guess_swings();
   void guess_joined();
@@ -148,24 +149,27 @@ void Guesses::guess_joined() {
   }
 }
 
-std::vector<SwingGuess> Guesses::all() {
+void Guesses::face(double leave_rad, double arrive_rad) {
   const double reach_m = distance_m(start_m(), request_.goal_m);
-  if (!(reach_m > 0.05)) return {};
-  const bool curved = request_.along && request_.along->segments().size() > 1;
-  const double leave_rad =
-      curved ? request_.along->at(0).pose.heading_rad : bearing_rad(start_m(), request_.goal_m);
-  const double arrive_rad =
-      curved ? request_.along->at(request_.along->length_m()).pose.heading_rad : leave_rad;
   from_ = {start_m(), leave_rad, std::remainder(leave_rad - request_.start.heading_rad, 2 * std::numbers::pi),
            reach_m};
   to_ = {request_.goal_m, arrive_rad + std::numbers::pi,
          std::remainder(arrive_rad - request_.goal_heading_rad.value_or(arrive_rad), 2 * std::numbers::pi),
          reach_m};
-  if (curved) {
+}
+
+/// A curve between the stops, too, may be on the way to a goal in sight (a lead along the start's heading is
+/// one): guesses that go straight for the goal are never left out.
+std::vector<SwingGuess> Guesses::all() {
+  if (!(distance_m(start_m(), request_.goal_m) > 0.05)) return {};
+  const double straight_rad = bearing_rad(start_m(), request_.goal_m);
+  face(straight_rad, straight_rad);
+  guess_spans();
+  guess_swings();
+  if (request_.along && request_.along->segments().size() > 1) {
+    face(request_.along->at(0).pose.heading_rad,
+         request_.along->at(request_.along->length_m()).pose.heading_rad);
     guess_joined();
-  } else {
-    guess_spans();
-    guess_swings();
   }
   return std::move(guesses_);
 }

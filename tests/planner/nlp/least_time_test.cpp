@@ -93,6 +93,23 @@ TEST(LeastTime, WhatAVerdictOffersIsPlannedAndNotUndercut) {
   }
 }
 
+/// Limits that leave long straights at full speed and hold at corners alone: a closed form of few nodes must
+/// not pass between two checks of the replay.
+TEST(LeastTime, WithAJerkLimitIsNotBelowThatWithout) {
+  testing::RandomProfiles random(9);
+  for (int i = 0; i < 8; ++i) {
+    ProfileRequest request = random.next(testing::kPathClasses[2 + i % 2]);
+    request.limits.speed_m_s = 0.65;
+    request.limits.acceleration_m_s2 = request.limits.deceleration_m_s2 = 0.8;
+    const double free_s = fastest(request).summary.lower_bound_s;
+    request.limits.jerk_m_s3 = 1;
+    const ProfileResult limited = fastest(request);
+    ASSERT_TRUE(limited.profile) << limited.summary.message;
+    EXPECT_GE(limited.profile->duration_s(), free_s) << i;
+    EXPECT_GE(limited.summary.lower_bound_s, free_s * (1 - 1e-9)) << i;
+  }
+}
+
 /// The limit that makes the drive slow is the one that is named.
 TEST(LeastTime, TheLimitThatHoldsTheDriveIsNamed) {
   ProfileRequest request = testing::RandomProfiles(5).next(testing::PathClass::straight);
