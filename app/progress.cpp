@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 namespace joulepath {
 namespace {
 
-constexpr double kSilent_s = 2.0;
+constexpr double kSilent_s = 1.0;
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -43,6 +44,32 @@ void Progress::show(Clock::time_point now) {
                on_terminal_ ? "\r\033[K%s %zu/%zu, %.3g/s, %.0f s left" : "%s %zu/%zu, %.3g/s, %.0f s left\n",
                what_.c_str(), done_, total_, rate, left_s);
   std::fflush(stderr);
+}
+
+Waiting::Waiting(std::string what, bool quiet) : what_(std::move(what)) {
+  if (quiet || isatty(STDERR_FILENO) != 1) return;
+  try {
+    teller_ = std::thread([this] { tell(); });
+  } catch (const std::system_error&) {  // what is waited for needs no teller
+  }
+}
+
+Waiting::~Waiting() {
+  if (!teller_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+  }
+  ended_.notify_all();
+  teller_.join();
+}
+
+void Waiting::tell() {
+  std::unique_lock lock(mutex_);
+  int seconds = 0;
+  for (; !ended_.wait_for(lock, std::chrono::seconds(1), [this] { return done_; }); std::fflush(stderr))
+    std::fprintf(stderr, "\r\033[K%s, %d s", what_.c_str(), ++seconds);
+  if (seconds > 0) std::fprintf(stderr, "\r\033[K");
 }
 
 }  // namespace joulepath

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace joulepath {
 
-/// Progress on stderr, silent for the first two seconds: a line with rate and time left that renews itself on
+/// Progress on stderr, silent for the first second: a line with rate and time left that renews itself on
 /// a terminal, a plain line every ten seconds elsewhere. Never a part of any result.
 class Progress {
  public:
@@ -28,6 +31,25 @@ class Progress {
   bool shown_{};
   Clock::time_point start_{Clock::now()};
   Clock::time_point last_{start_};
+};
+
+/// Tells on a terminal (stderr) what is waited for and for how many seconds already, from the first second
+/// on, as long as it exists; silent elsewhere.
+class Waiting {
+ public:
+  Waiting(std::string what, bool quiet);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  void tell();
+
+  std::string what_;
+  std::mutex mutex_{};
+  std::condition_variable ended_{};
+  bool done_{};
+  std::thread teller_{};  ///< none off a terminal, or where the system gives no thread
 };
 
 }  // namespace joulepath

@@ -32,7 +32,7 @@ class BatchCommand : public Command {
         .existing_path();
     add_job_options(line, options_, "results.jsonl, timings.jsonl, report.html");
     add_plan_options(line, plan_);
-    line.flag("--baselines", plan_.baselines, "compare every mission with trapezoids (takes twice the time)");
+    line.flag("--baselines", plan_.baselines, "compare every mission with trapezoids (takes longer)");
   }
 
   int run() override {
@@ -40,7 +40,7 @@ class BatchCommand : public Command {
     std::vector<MissionItem> items = mission_items(source_);
     OutputDirectory out = job_output(options_, run.shard, kBatchFiles);
     plan_.solver = SolverChoice::fast;
-    MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted});
+    MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
     const std::string title = printable(std::filesystem::path(source_).filename().string());

@@ -4,10 +4,12 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/kept_answers.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_results.hpp"
 #include "app/plan_summary.hpp"
+#include "app/progress.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/mission_file.hpp"
 
@@ -48,6 +50,12 @@ class PlanCommand : public Command {
                 "shortest), stops (turn on the spot there), refinement; or baselines (several: with commas)")
         .comma_separated()
         .one_of({"corners", "routes", "stops", "refinement", "baselines"});
+    line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
+        .between(1, 256)
+        .shows_default();
+    line.option(
+        "--cache", cache_,
+        "directory of answers kept for later runs, as batch and sweep keep them; default: nothing is kept");
     add_common_flags(line, common_, "qjfu");
   }
 
@@ -61,7 +69,14 @@ class PlanCommand : public Command {
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
-    Plan plan = plan_mission(mission, world, options_);
+    const std::unique_ptr<AnswerCache> answers = answer_cache({cache_, cache_.empty()});
+    // In memory nothing but this mission is kept, so that there is one world.
+    options_.answers.cache = answers.get();
+    if (!cache_.empty()) options_.answers.world = world_key(floor_key(mission, world), world.robot);
+    Plan plan = [&] {
+      const Waiting waiting("planning", common_.quiet);
+      return plan_mission(mission, world, options_);
+    }();
     const double planning_s = seconds_since(start) - reading_s;
 
     const PlanResults results = plan_results(std::move(mission), std::move(world), std::move(plan));
@@ -95,6 +110,7 @@ class PlanCommand : public Command {
   MissionSource source_{};
   std::string out_{};
   std::string solver_{"ipopt"};
+  std::string cache_{};
   std::vector<std::string> without_{};
   PlanOptions options_{};
   CommonOptions common_{};

@@ -48,7 +48,7 @@ class SweepCommand : public Command {
       throw UsageError("--optimize: found together with --shard, accepted: with a whole sweep");
     OutputDirectory out = job_output(options_, run.shard, kSweepFiles);
     plan_.solver = SolverChoice::fast;
-    SweepJobs jobs(study, plan_, {.untrusted = options_.common.untrusted});
+    SweepJobs jobs(study, plan_, {.untrusted = options_.common.untrusted}, options_.cache);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
     if (!run.shard.is_whole()) {

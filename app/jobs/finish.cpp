@@ -62,6 +62,7 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   line.option("--shard", options.shard,
               "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
   line.flag("--resume", options.resume, "continue an interrupted run: finished and unchanged plans are kept");
+  add_cache_options(line, options.cache);
   add_common_flags(line, options.common, "qjfu");
 }
 

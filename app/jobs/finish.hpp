@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "app/jobs/run_jobs.hpp"
+#include "app/kept_answers.hpp"
 #include "app/output_directory.hpp"
 #include "scenarios/study_file.hpp"
 
@@ -18,6 +19,7 @@ struct JobOptions {
   std::string shard{};
   unsigned jobs{};
   bool resume{};
+  CacheChoice cache{};
   CommonOptions common{};
 };
 

@@ -143,6 +143,7 @@ const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& miss
     auto made = std::make_unique<Place>();
     made->world = read_world(mission, reading_);
     made->space = route_space(mission, made->world);
+    made->floor = floor_key(mission, made->world);
     place = std::move(made);
   }
   return *place;
@@ -152,12 +153,20 @@ const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& miss
 Plan MissionPlanner::plan_of(const MissionRequest& mission, const MissionVariant* variant) {
   const Place& place = place_of(mission);
   const RouteSpace* space = place.space ? &*place.space : nullptr;
-  if (variant == nullptr) return plan_mission(mission, place.world, options_, space);
+  PlanOptions options = options_;
+  const auto share = [&](const Robot& robot) {
+    options.answers = {answers_.get(), world_key(place.floor, robot)};
+  };
+  if (variant == nullptr) {
+    share(place.world.robot);
+    return plan_mission(mission, place.world, options, space);
+  }
   MissionWorld world = place.world;
   world.robot = variant->robot(mission.robot_file);
+  share(world.robot);
   const Footprint &asked = world.robot.footprint, &known = place.world.robot.footprint;
   const bool same_outline = asked.radius_m == known.radius_m && asked.polygon_m == known.polygon_m;
-  return plan_mission(mission, world, options_, same_outline ? space : nullptr);
+  return plan_mission(mission, world, options, same_outline ? space : nullptr);
 }
 
 JobResult MissionPlanner::plan(const MissionItem& item, std::size_t index, Json json,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/jobs/run_jobs.hpp"
+#include "app/kept_answers.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/document.hpp"
 
@@ -41,11 +42,12 @@ class MissionVariant {
   [[nodiscard]] virtual Robot robot(const std::string& robot_file) const = 0;
 };
 
-/// Plans many missions; maps, keep-out masks and the floors prepared from them are made once and shared. Safe
-/// to call from several threads, but for fingerprint().
+/// Plans many missions; maps, keep-out masks and the floors prepared from them are made once and shared, and
+/// so are answers about equal legs. Safe to call from several threads, but for fingerprint().
 class MissionPlanner {
  public:
-  MissionPlanner(PlanOptions options, ReadOptions reading) : options_(options), reading_(reading) {}
+  MissionPlanner(PlanOptions options, ReadOptions reading, const CacheChoice& cache = {.none = true})
+      : options_(options), reading_(reading), answers_(answer_cache(cache)) {}
 
   /// The result line: `line` with the plan's figures, or the reason why there is none.
   [[nodiscard]] JobResult plan(const MissionItem& item, std::size_t index, nlohmann::ordered_json line,
@@ -63,6 +65,7 @@ class MissionPlanner {
   struct Place {
     MissionWorld world{};
     std::optional<RouteSpace> space{};
+    ContentKey floor{};
   };
   const Place& place_of(const MissionRequest& mission);
   [[nodiscard]] Plan plan_of(const MissionRequest& mission, const MissionVariant* variant);
@@ -70,6 +73,7 @@ class MissionPlanner {
 
   PlanOptions options_;
   ReadOptions reading_;
+  std::unique_ptr<AnswerCache> answers_;
   std::mutex mutex_{};
   std::map<std::string, std::unique_ptr<Place>> places_{};
   std::map<std::string, std::string> digests_{};
@@ -78,8 +82,9 @@ class MissionPlanner {
 /// The missions of a batch.
 class MissionJobs : public JobList {
  public:
-  MissionJobs(std::vector<MissionItem> items, PlanOptions options, ReadOptions reading)
-      : items_(std::move(items)), planner_(options, reading) {}
+  MissionJobs(std::vector<MissionItem> items, PlanOptions options, ReadOptions reading,
+              const CacheChoice& cache = {.none = true})
+      : items_(std::move(items)), planner_(options, reading, cache) {}
 
   [[nodiscard]] std::size_t size() const override { return items_.size(); }
   [[nodiscard]] JobResult plan(std::size_t index) override;

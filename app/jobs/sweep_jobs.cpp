@@ -39,8 +39,11 @@ Json json_value(const std::string& text) {
 
 }  // namespace
 
-SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions reading)
-    : study_(study), study_text_(read_text_file(study.file)), reading_(reading), planner_(options, reading) {
+SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions reading, const CacheChoice& cache)
+    : study_(study),
+      study_text_(read_text_file(study.file)),
+      reading_(reading),
+      planner_(options, reading, cache) {
   for (const std::string& source : study.missions)
     for (MissionItem& item : mission_items(source)) missions_.push_back(std::move(item));
   for (const std::size_t k : {std::size_t{0}, study.designs.size() - 1}) {

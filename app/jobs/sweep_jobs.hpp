@@ -14,7 +14,8 @@ class SweepJobs : public JobList {
  public:
   /// Throws ConfigError where the first or the last design cannot be read: a mistake in a parameter's key is
   /// then told at once, not once per design.
-  SweepJobs(const Study& study, PlanOptions options, ReadOptions reading);
+  SweepJobs(const Study& study, PlanOptions options, ReadOptions reading,
+            const CacheChoice& cache = {.none = true});
 
   [[nodiscard]] std::size_t size() const override { return study_.designs.size() * missions_.size(); }
   [[nodiscard]] JobResult plan(std::size_t index) override;

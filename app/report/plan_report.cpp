@@ -5,35 +5,33 @@
 
 #include "app/report/report.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
-#include "planner/baselines/baseline.hpp"
 
 namespace joulepath::report {
 namespace {
 
-using BaselineMaker = BaselineResult (*)(const ProfileRequest&, double);
-
-/// The plan with every stretch driven by a baseline instead; absent where one of them cannot drive it.
-std::optional<Plan> driven_by(const Plan& plan, BaselineMaker make) {
+/// The plan with every stretch driven by its baseline number `index` instead; absent where one of them does
+/// not keep the plan's time, or none was asked for.
+std::optional<Plan> driven_by(const Plan& plan, std::size_t index) {
+  constexpr double kSameTime = 1e-9;
   Plan other = plan;
-  for (LegPlan& leg : other.legs) {
+  for (LegPlan& leg : other.legs)
     for (StretchPlan& stretch : leg.stretches) {
-      BaselineResult baseline = make(stretch.request, stretch.profile.duration_s());
-      if (!baseline.feasible || !baseline.profile) return std::nullopt;
-      stretch.profile = std::move(*baseline.profile);
+      if (index >= stretch.baselines.size()) return std::nullopt;
+      const BaselineResult& baseline = stretch.baselines[index];
+      if (!baseline.feasible || !baseline.profile ||
+          baseline.duration_s > stretch.profile.duration_s() * (1 + kSameTime))
+        return std::nullopt;
+      stretch.profile = *baseline.profile;
     }
-  }
   return other;
 }
 
 std::vector<NamedColumns> baseline_motions(const Plan& plan, const Plant& plant) {
   constexpr double kRate_Hz = 20.0;
   std::vector<NamedColumns> motions;
-  const auto add = [&](const char* name, BaselineMaker make) {
-    if (const auto other = driven_by(plan, make))
-      motions.push_back({name, columns_of(plan_trajectory(*other, plant, kRate_Hz))});
-  };
-  add("trapezoid_max_acceleration", trapezoid_max_acceleration);
-  add("trapezoid_best_tuned", trapezoid_best_tuned);
+  for (std::size_t index = 0; index < plan.baselines.size(); ++index)
+    if (const auto other = driven_by(plan, index))
+      motions.push_back({plan.baselines[index].name, columns_of(plan_trajectory(*other, plant, kRate_Hz))});
   return motions;
 }
 

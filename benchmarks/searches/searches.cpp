@@ -10,6 +10,7 @@
 #include "planner/path/search/lattice.hpp"
 #include "planner/path/search/polyline.hpp"
 #include "planner/path/search/route.hpp"
+#include "planner/path/search/route_pool.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace {
@@ -92,6 +93,33 @@ void print_row(const char* name, const Row& row, const std::vector<double>& best
               quantile(row.time_ms, 1));
 }
 
+/// Pools of routes between the same ends: without OMPL against with it.
+void pool_section(const RouteSpace& space, const std::vector<Pair>& pairs) {
+  const PoolOptions choices[] = {{}, {.searches = 1}, {.searches = 0}};
+  const char* const names[] = {"lattice and BIT* twice", "lattice and BIT* once", "lattice"};
+  std::vector<Row> rows(3);
+  std::vector<double> best(pairs.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> classes(3, 0.0);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      RouteRequest request{.start = {pairs[i].first[0], pairs[i].first[1], 0}};
+      request.goal_x_m = pairs[i].second[0], request.goal_y_m = pairs[i].second[1];
+      const double begin_s = cpu_s();
+      const std::vector<PooledRoute> pool = pool_routes(space, request, choices[c]);
+      rows[c].time_ms.push_back(1e3 * (cpu_s() - begin_s));
+      rows[c].length_m.push_back(pool.empty() ? std::numeric_limits<double>::infinity()
+                                              : polyline_length_m(pool.front().polyline_m));
+      best[i] = std::min(best[i], rows[c].length_m.back());
+      classes[c] += static_cast<double>(pool.size());
+    }
+  for (std::size_t c = 0; c < 3; ++c) {
+    char name[80];
+    std::snprintf(name, sizeof name, "pool: %s (%.1f routes)", names[c],
+                  classes[c] / static_cast<double>(pairs.size()));
+    print_row(name, rows[c], best);
+  }
+}
+
 void floor_section(const char* title, const OccupancyGrid& map, const OccupancyGrid* keepout) {
   const double begin_s = cpu_s();
   const RouteSpace space(map, keepout, {0.25, {}}, 0.05);
@@ -121,6 +149,7 @@ void floor_section(const char* title, const OccupancyGrid& map, const OccupancyG
                                             : std::numeric_limits<double>::infinity());
   }
   print_row("plan_route (BIT*, lattice, blends, check)", route, best_m);
+  pool_section(space, pairs);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/nuisance.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 
@@ -20,9 +19,16 @@ struct LegLoss {
 };
 
 LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
-  EnergySum sum(plant);
-  LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
-  LegLoss loss{sum.battery_loss_J(), sum.lowest_voltage_V()};
+  LegLoss loss;
+  for (const StretchPlan& stretch : leg.stretches) {
+    loss.loss_J += stretch.battery_loss_J;
+    loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, stretch.lowest_voltage_V);
+  }
+  if (leg.prescribed) {
+    EnergySum sum(plant);
+    LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
+    loss = {sum.battery_loss_J(), sum.lowest_voltage_V()};
+  }
   if (leg.charger_W > 0) return loss;
   const BatteryLoad load = battery_load(plant.robot.battery, plant.robot.power.standby_W);
   if (!load.possible) return loss;
@@ -31,24 +37,16 @@ LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
   return loss;
 }
 
-/// Energies of the legs as planned when the robot differs from its file by one uncertain constant.
-std::vector<double> energies_with(const Plan& plan, const Plant& plant, const Nuisance& nuisance,
-                                  double fraction) {
-  Plant other = plant;
-  apply_nuisance(nuisance, fraction, other.robot);
-  if (is_payload_nuisance(nuisance)) other.payload_factor *= 1.0 + fraction;
-  std::vector<double> energies_J;
-  for (const LegPlan& leg : plan.legs) {
-    double energy_J = other.robot.power.standby_W * leg.dwell_s;
-    for (const StretchPlan& stretch : leg.stretches) {
-      ProfileRequest request = stretch.request;
-      request.plant = other;
-      energy_J += energy_by_cause(path_motion(request), stretch.profile).total_J();
-    }
-    if (leg.prescribed) energy_J += prescribed_energy(leg, other).total_J();
-    energies_J.push_back(energy_J);
-  }
-  return energies_J;
+/// By how much the energy of a leg as planned rises when an uncertain constant is one sigma higher: half the
+/// difference between one sigma more and one less.
+double sigma_shift_J(const LegPlan& leg, const UncertainPlant& plant, std::size_t constant) {
+  const auto& [more, less] = plant.shifted[constant];
+  const double still_s = leg.prescribed ? leg.dwell_s : leg.duration_s + leg.dwell_s;
+  double shift_J = 0.5 * still_s * (more.robot.power.standby_W - less.robot.power.standby_W);
+  for (const StretchPlan& stretch : leg.stretches) shift_J += stretch.sigma_shift_J[constant];
+  if (leg.prescribed)
+    shift_J += 0.5 * (prescribed_energy(leg, more).total_J() - prescribed_energy(leg, less).total_J());
+  return shift_J;
 }
 
 /// State of charge as the legs go by.
@@ -83,17 +81,15 @@ class Charge {
 
 }  // namespace
 
-void find_energy_sigmas(Plan& plan, const Plant& plant) {
-  double variance_J2 = 0.0;
+void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
   std::vector<double> leg_variance_J2(plan.legs.size(), 0.0);
-  for (const Nuisance& nuisance : nuisances_of(plant.robot)) {
-    const std::vector<double> more_J = energies_with(plan, plant, nuisance, nuisance.sigma);
-    const std::vector<double> less_J = energies_with(plan, plant, nuisance, -nuisance.sigma);
+  double variance_J2 = 0.0;
+  for (std::size_t i = 0; i < plant.shifted.size(); ++i) {
     double sum_J = 0.0;
     for (std::size_t k = 0; k < plan.legs.size(); ++k) {
-      const double half_J = 0.5 * (more_J[k] - less_J[k]);
-      leg_variance_J2[k] += half_J * half_J;
-      sum_J += half_J;
+      const double shift_J = sigma_shift_J(plan.legs[k], plant, i);
+      leg_variance_J2[k] += shift_J * shift_J;
+      sum_J += shift_J;
     }
     variance_J2 += sum_J * sum_J;
   }
@@ -102,9 +98,10 @@ void find_energy_sigmas(Plan& plan, const Plant& plant) {
     plan.legs[k].energy_sigma_J = std::sqrt(leg_variance_J2[k]);
 }
 
-std::optional<BatteryAccount> battery_account(Plan& plan, const Plant& plant, double start_fraction,
-                                              double charge_to_fraction) {
-  find_energy_sigmas(plan, plant);
+std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& uncertain,
+                                              double start_fraction, double charge_to_fraction) {
+  find_energy_sigmas(plan, uncertain);
+  const Plant& plant = uncertain.plant;
   const Battery& battery = plant.robot.battery;
   if (!std::isfinite(battery.capacity_Wh)) return std::nullopt;
   const double standby_W = plant.robot.power.standby_W;

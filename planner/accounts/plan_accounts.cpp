@@ -81,21 +81,21 @@ double saving_percent(double energy_J, double baseline_J) {
   return baseline_J > 0 ? 100.0 * (baseline_J - energy_J) / baseline_J : 0.0;
 }
 
-std::vector<BaselineTotal> leg_baselines(const LegPlan& leg) {
-  BaselineTotal maximum{.name = "trapezoid_max_acceleration"};
-  BaselineTotal tuned{.name = "trapezoid_best_tuned"};
-  for (const StretchPlan& stretch : leg.stretches) {
+void add_baselines(LegPlan& leg) {
+  leg.baselines = {{.name = "trapezoid_max_acceleration"}, {.name = "trapezoid_best_tuned"}};
+  for (StretchPlan& stretch : leg.stretches) {
     const double planned_s = stretch.profile.duration_s();
-    add_stretch(maximum, soonest(trapezoid_max_acceleration, stretch.request, planned_s), planned_s);
-    add_stretch(tuned, soonest(trapezoid_best_tuned, stretch.request, planned_s), planned_s);
+    for (const auto make : {trapezoid_max_acceleration, trapezoid_best_tuned})
+      stretch.baselines.push_back(soonest(make, stretch.request, planned_s));
+    for (std::size_t b = 0; b < leg.baselines.size(); ++b)
+      add_stretch(leg.baselines[b], stretch.baselines[b], planned_s);
   }
   if (leg.prescribed)  // every way of planning drives it the same
-    for (BaselineTotal* baseline : {&maximum, &tuned}) {
-      baseline->energy_J = leg.energy.total_J();
-      baseline->motion_energy_J = leg.energy.motion_J();
-      baseline->duration_s = leg.duration_s;
+    for (BaselineTotal& baseline : leg.baselines) {
+      baseline.energy_J = leg.energy.total_J();
+      baseline.motion_energy_J = leg.energy.motion_J();
+      baseline.duration_s = leg.duration_s;
     }
-  return {maximum, tuned};
 }
 
 void sum_up(Plan& plan, const Plant& plant, double accuracy) {

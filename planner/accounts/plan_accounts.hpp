@@ -4,8 +4,8 @@
 
 namespace joulepath {
 
-/// The two trapezoids over all stretches of a leg, at the plan's own times.
-[[nodiscard]] std::vector<BaselineTotal> leg_baselines(const LegPlan& leg);
+/// Adds the two trapezoids to the stretches of a leg, at the plan's own times, and their totals to the leg.
+void add_baselines(LegPlan& leg);
 
 /// Totals over the legs: energy by cause, time, gap, replay, baselines, status.
 void sum_up(Plan& plan, const Plant& plant, double accuracy);

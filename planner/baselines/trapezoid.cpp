@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "planner/baselines/least_rate.hpp"
 #include "planner/nlp/transcription/forward_backward.hpp"
 
 namespace joulepath {
@@ -76,23 +77,22 @@ std::optional<double> TrapezoidFamily::rate_for(double acceleration, double dece
                                                 double duration_s) const {
   const LocalLimits::Grid grid = local_.grid(curve_share);
   const nlp::Problem& problem = local_.problem();
-  const auto slow = [&](double rate) {
-    return this->duration_s(squares_on(grid, {rate, acceleration, deceleration, curve_share})) > duration_s;
+  const auto excess_s = [&](double rate) {
+    return this->duration_s(squares_on(grid, {rate, acceleration, deceleration, curve_share})) - duration_s;
   };
-  double high = std::sqrt(std::min(*std::max_element(grid.cap.begin(), grid.cap.end()),
-                                   std::max(problem.b_start, problem.b_end) +
-                                       2 * std::max(acceleration, deceleration) * problem.s.back()));
+  const double high = std::sqrt(std::min(*std::max_element(grid.cap.begin(), grid.cap.end()),
+                                         std::max(problem.b_start, problem.b_end) +
+                                             2 * std::max(acceleration, deceleration) * problem.s.back()));
   // Twice over: an exact deadline, met to rounding, is met.
   const auto fastest = squares({high, acceleration, deceleration, curve_share});
   if (!fastest) return std::nullopt;
   const double least_s = this->duration_s(*fastest);
   if (least_s > duration_s * (1 + 1e-9)) return std::nullopt;
-  double low = 0.0;
-  for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
-    const double middle = 0.5 * (low + high);
-    (slow(middle) ? low : high) = middle;
-  }
-  return high;
+  if (!(excess_s(high) <= 0)) return high;
+  constexpr int kTries = 12;
+  double low = std::min(high, problem.s.back() / duration_s);
+  for (int i = 0; i < kTries && !(excess_s(low) > 0); ++i) low *= 0.1;
+  return excess_s(low) > 0 ? least_rate(excess_s, low, high) : low;
 }
 
 Profile TrapezoidFamily::profile(const TrapezoidSettings& settings) const {

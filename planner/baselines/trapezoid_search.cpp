@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/baselines/least_rate.hpp"
 #include "planner/baselines/local_limits.hpp"
 #include "planner/baselines/pattern_search.hpp"
 #include "planner/baselines/rounded.hpp"
@@ -17,14 +18,8 @@ BaselineResult finish_trapezoid(const ProfileRequest& request, const TrapezoidFa
     trial.rate = rate;
     return family.profile(trial).time_s.back() - duration_s;
   };
-  double low = settings.rate * (1 - 1e-2), high = settings.rate * (1 + 1e-2);
-  if (excess_s(low) > 0 && excess_s(high) < 0) {
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (low + high);
-      (excess_s(middle) > 0 ? low : high) = middle;
-    }
-    settings.rate = high;
-  }
+  const double low = settings.rate * (1 - 1e-2), high = settings.rate * (1 + 1e-2);
+  if (excess_s(low) > 0 && excess_s(high) < 0) settings.rate = least_rate(excess_s, low, high);
   return finish_baseline(request, name, family.profile(settings), duration_s, family.parameters(settings));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/profile/profile_solver.hpp"
+#include "planner/values/answer_fields.hpp"
 
 namespace joulepath {
 namespace {
@@ -23,7 +24,8 @@ const std::vector<ProfileResult>& LegTiming::solve(double price_W, SolverChoice 
     for (ProfileRequest request : stretches_) {
       request.time = goal_for(price_W, given_s_);
       request.solver = solver;
-      entry->second.push_back(solve_profile(request));
+      entry->second.push_back(remembered(
+          answers_, "profile", [&] { return solve_profile(request); }, request));
     }
   return entry->second;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <vector>
 
+#include "planner/cache/answer_cache.hpp"
 #include "planner/values/profile_request.hpp"
 #include "planner/values/profile_result.hpp"
 
@@ -12,7 +13,8 @@ namespace joulepath {
 /// those of another. Solutions are kept, so that a search over prices solves each problem once.
 class LegTiming {
  public:
-  explicit LegTiming(std::vector<ProfileRequest> stretches) : stretches_(std::move(stretches)) {}
+  explicit LegTiming(std::vector<ProfileRequest> stretches, const SharedAnswers& answers = {})
+      : stretches_(std::move(stretches)), answers_(answers) {}
 
   const std::vector<ProfileRequest>& stretches() const { return stretches_; }
   std::vector<ProfileRequest>& stretches() { return stretches_; }
@@ -36,6 +38,7 @@ class LegTiming {
 
  private:
   std::vector<ProfileRequest> stretches_{};
+  SharedAnswers answers_{};
   double given_s_{kNoLimit};
   std::map<std::pair<double, SolverChoice>, std::vector<ProfileResult>> solved_{};
 };

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/cache/answer_cache.hpp"
 #include "planner/values/mission_request.hpp"
 #include "planner/values/profile_request.hpp"
 
@@ -21,7 +22,9 @@ struct PlanOptions {
   double accuracy{1e-4};
   unsigned seed{1};
   WaySteps steps{};
-  bool baselines{true};  ///< compare with classic profiles; costs more than the plan itself
+  bool baselines{true};     ///< compare with classic profiles
+  unsigned threads{1};      ///< for the legs of one mission; the plan does not depend on it
+  SharedAnswers answers{};  ///< of other missions, kept; the plan does not depend on them
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.

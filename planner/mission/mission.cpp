@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "model/assert.hpp"
+#include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/mission/charging.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/visit_order.hpp"
-#include "planner/motion/motion_energy.hpp"
-#include "planner/motion/path_motion.hpp"
-#include "planner/motion/replay.hpp"
 #include "planner/profile/holding_limit.hpp"
 
 namespace joulepath {
@@ -33,7 +31,9 @@ const std::vector<ProfileResult>& final_results(LegTiming& timing, double price_
 
 /// Replays and accounts for a leg's profiles.
 void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
-                double price_W, double duration_s, const Plant& plant) {
+                double price_W, double duration_s, const UncertainPlant& uncertain,
+                const SharedAnswers& answers) {
+  const Plant& plant = uncertain.plant;
   if (leg.prescribed) {
     leg.energy = prescribed_energy(leg, plant);
     leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
@@ -47,8 +47,7 @@ void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
     StretchPlan stretch{
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
-    stretch.replay = replay(stretch.request, stretch.profile);
-    stretch.energy = energy_by_cause(path_motion(stretch.request), stretch.profile);
+    account_for(stretch, uncertain, answers);
     leg.duration_s += stretch.profile.duration_s();
     leg.energy += stretch.energy;
     leg.stretches.push_back(std::move(stretch));
@@ -90,7 +89,11 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
     return plan.status == SolveStatus::optimal;
   };
   const auto share = [&](bool roughly) {
-    for (LegTiming& timing : timed.prepared.timing) timing.solve_roughly(roughly);
+    std::vector<LegTiming>& timing = timed.prepared.timing;
+    for_each_index(timing.size(), options.threads, [&](std::size_t k) {
+      timing[k].solve_roughly(roughly);
+      (void)timing[k].solve(floor_W, SolverChoice::fast);
+    });
     if (!check_each_leg(timed.prepared, floor_W, SolverChoice::fast, plan)) return false;
     timed.split = share_time(timed.prepared, mission, plant, SolverChoice::fast);
     return true;
@@ -155,19 +158,25 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   if (auto verdict = too_late(timed, mission))
     return infeasible(std::move(plan), verdict->leg, verdict->arc_length_m, verdict->reason);
 
-  for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
-    LegPlan& leg = timed.prepared.legs[k];
-    leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.prepared.legs[k - 1].dwell_s;
-    LegTiming& timing = timed.prepared.timing[k];
-    const double price_W = timed.split.price_W[k], duration_s = timed.split.duration_s[k];
-    const std::vector<ProfileResult>& results = final_results(timing, price_W, duration_s, options);
-    if (!all_driven(k, timing.stretches(), results, plan)) return plan;
-    settle_leg(leg, timing, results, price_W, duration_s, plant);
-    if (options.baselines) leg.baselines = leg_baselines(leg);
-  }
-  plan.legs = std::move(timed.prepared.legs);
+  std::vector<LegPlan>& legs = timed.prepared.legs;
+  std::vector<LegTiming>& timing = timed.prepared.timing;
+  const TimeSplit& split = timed.split;
+  std::vector<std::vector<ProfileResult>> results(legs.size());
+  for_each_index(legs.size(), options.threads, [&](std::size_t k) {
+    results[k] = final_results(timing[k], split.price_W[k], split.duration_s[k], options);
+  });
+  for (std::size_t k = 0; k < legs.size(); ++k)
+    if (!all_driven(k, timing[k].stretches(), results[k], plan)) return plan;
+  const UncertainPlant uncertain_plant = uncertain(plant);
+  for_each_index(legs.size(), options.threads, [&](std::size_t k) {
+    legs[k].start_s = k == 0 ? 0.0 : split.arrival_s[k - 1] + legs[k - 1].dwell_s;
+    settle_leg(legs[k], timing[k], results[k], split.price_W[k], split.duration_s[k], uncertain_plant,
+               options.answers);
+    if (options.baselines) add_baselines(legs[k]);
+  });
+  plan.legs = std::move(legs);
   sum_up(plan, plant, options.accuracy);
-  plan.battery = battery_account(plan, plant, mission.start.battery_fraction.value_or(1.0),
+  plan.battery = battery_account(plan, uncertain_plant, mission.start.battery_fraction.value_or(1.0),
                                  mission.charging ? mission.charging->to_fraction : 1.0);
   if (auto reason = battery_too_small(plan, plant)) {
     const std::size_t leg = *plan.battery->fails_on_leg;

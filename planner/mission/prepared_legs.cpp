@@ -94,7 +94,8 @@ PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& wor
       memory = prescribed_motion(prepared.legs.back(), plant).memory(end_s);
       continue;
     }
-    prepared.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory));
+    prepared.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory),
+                                 options.answers);
     prepared.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
                              .path_source = way.source,
                              .payload = leg.payload,

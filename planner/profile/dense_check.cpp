@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "planner/motion/limit_check.hpp"
 #include "planner/motion/motion_energy.hpp"
@@ -28,19 +28,26 @@ class SegmentLook {
         ds_(profile.s[k + 1] - profile.s[k]),
         jerk_(profile.jerk[k]) {}
 
-  std::map<std::string_view, double> worst_uses() const {
-    std::map<std::string_view, std::array<double, kLooks + 1>> uses;
+  /// Worst use of each limit, by name.
+  std::vector<std::pair<std::string_view, double>> worst_uses() const {
+    std::vector<Uses> all;
     for (std::size_t i = 0; i <= kLooks; ++i)
       look(static_cast<double>(i) / kLooks, [&](std::string_view name, double ratio) {
-        double& most = uses[name][i];
-        most = std::max(most, ratio);
+        auto uses = std::find_if(all.begin(), all.end(), [&](const Uses& some) { return some.name == name; });
+        if (uses == all.end()) uses = all.insert(all.end(), {.name = name});
+        uses->ratio[i] = std::max(uses->ratio[i], ratio);
       });
-    std::map<std::string_view, double> worst;
-    for (const auto& [name, ratios] : uses) worst[name] = std::max(peak(name, ratios), 0.0);
+    std::sort(all.begin(), all.end(), [](const Uses& a, const Uses& b) { return a.name < b.name; });
+    std::vector<std::pair<std::string_view, double>> worst;
+    for (const Uses& uses : all) worst.emplace_back(uses.name, std::max(peak(uses.name, uses.ratio), 0.0));
     return worst;
   }
 
  private:
+  struct Uses {
+    std::string_view name{};
+    std::array<double, kLooks + 1> ratio{};
+  };
   template <class Use>
   void look(double share, Use&& use) const {
     const ProfileState state = profile_.at_s(from_ + ds_ * std::clamp(share, 1e-7, 1 - 1e-7));

@@ -143,8 +143,7 @@ class ProfileSolver {
     }
     if (settling_ || given_over_) {
       solver = "ipopt";
-      solution_ = nlp::solve_with_ipopt(problem, start);
-      summary.iterations += solution_.iterations;
+      solution_ = settle(problem, start);
     }
     if (!solution_.converged) {
       summary.solver = solver;
@@ -155,6 +154,19 @@ class ProfileSolver {
     const bool priced = request_.time.mode == TimeMode::time_price;
     summary.price_of_time_W = solution_.price_W + (priced ? request_.time.price_W : 0.0);
     return take(problem, solution_.b, solver);
+  }
+
+  /// By Ipopt: from the fast solver's solution where there is one on this grid, else from a guess.
+  nlp::Solution settle(const Problem& problem, const std::vector<double>& guess) {
+    const bool near = settling_ && solution_.b.size() == problem.node_count() &&
+                      solution_.row_multiplier.size() == problem.rows.size();
+    nlp::Solution found;
+    if (near) found = nlp::solve_with_ipopt(problem, solution_.b, {.warm = true, .near = &solution_});
+    result_.summary.iterations += found.iterations;
+    if (found.converged) return found;
+    found = nlp::solve_with_ipopt(problem, guess);
+    result_.summary.iterations += found.iterations;
+    return found;
   }
 
   /// The fast solver finds the grid; where Ipopt is asked for it has the last word on it.

@@ -22,7 +22,11 @@ struct StretchPlan {
   Profile profile{};
   SolveSummary summary{};
   ReplayResult replay{};
-  EnergyByCause energy{};  ///< while driving
+  EnergyByCause energy{};   ///< while driving
+  double battery_loss_J{};  ///< in the internal resistance, while driving
+  double lowest_voltage_V{kNoLimit};
+  std::vector<double> sigma_shift_J{};  ///< of the energy, per uncertain constant that is one sigma higher
+  std::vector<BaselineResult> baselines{};  ///< of the trapezoids, as far as they were asked for
 };
 
 /// A baseline over several stretches: same path, same distance, same time; later where no such profile keeps
@@ -40,7 +44,7 @@ struct BaselineTotal {
 };
 
 /// What the planner looked at before it settled on a leg's path: driven between the chosen ways of its
-/// neighbors, turns at both stops included.
+/// neighbors, turns at both stops included; where a stop names a heading, this leg's own turns.
 struct PathAlternative {
   std::string name{};
   double energy_J{};  ///< standby included

@@ -1,30 +1,91 @@
 #include "planner/ways/mission_ways.hpp"
 
+#include "model/workers.hpp"
 #include "planner/legs/floor_check.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/search/graph_route.hpp"
+#include "planner/ways/way_fields.hpp"
 // Design: docs/decisions/0004-ways-by-energy.md
 namespace joulepath {
+namespace {
 
-std::optional<LegRoutes> MissionWays::routes_of(std::size_t leg, const LegStart& start,
-                                                double price_W) const {
+LegQuestion question_of(const ChoiceContext& context, std::size_t leg) {
+  const LegRequest& asked = context.mission.legs[leg];
+  const Station& stop = context.mission.stations.at(asked.to);
+  LegQuestion question{.payload = asked.payload,
+                       .start_speed_m_s = asked.start_speed_m_s,
+                       .end_speed_m_s = asked.end_speed_m_s,
+                       .yaw_rate_rad_s = asked.yaw_rate_rad_s,
+                       .price_W = context.price_W,
+                       .goal_x_m = stop.x_m,
+                       .goal_y_m = stop.y_m,
+                       .goal_heading_rad = stop.heading_rad};
+  for (const SpeedZone& zone : context.mission.speed_zones)
+    if (zone.leg == leg) question.zones.push_back({zone.from_m, zone.to_m, zone.speed_m_s});
+  return question;
+}
+
+}  // namespace
+
+bool MissionWays::has_choice(std::size_t leg, const LegStart& start) const {
   const LegRequest& asked = mission_.legs[leg];
-  if (asked.path || asked.motion || !space_) return std::nullopt;
-  LegRoutes routes{.request = route_request(asked, start, mission_, options_)};
-  if (is_there_already(routes.request) || no_way(*space_, routes.request)) return std::nullopt;
-  const ChoiceContext at_price = context(price_W);
-  TurnScores turns(at_price);
-  routes.request.cost = travel_cost(asked, at_price, turns);
-  routes.routes = pool_routes(*space_, routes.request, {});
-  if (world_.route_graph) {
-    const RouteResult on_graph = plan_graph_route(*space_, routes.request, *world_.route_graph);
-    if (on_graph.found())
-      routes.routes.push_back({.polyline_m = on_graph.polyline_m,
-                               .cost = on_graph.polyline_cost,
-                               .searched_by = on_graph.searched_by});
+  if (asked.path || asked.motion || !space_) return false;
+  const RouteRequest request = route_request(asked, start, mission_, options_);
+  return !is_there_already(request) && !no_way(*space_, request);
+}
+
+std::vector<MissionWays::Together> MissionWays::groups_from(std::size_t leg, LegStart start) const {
+  std::vector<Together> groups;
+  for (bool joined = false; leg < mission_.legs.size() && has_choice(leg, start); ++leg) {
+    if (!joined) groups.push_back({.first = leg, .start = start});
+    ++groups.back().count;
+    const Station& stop = stop_of(leg);
+    start = {{stop.x_m, stop.y_m, stop.heading_rad.value_or(0.0)}, !stop.heading_rad};
+    joined = !stop.heading_rad;
   }
-  if (routes.routes.empty()) return std::nullopt;
+  return groups;
+}
+
+std::vector<PooledRoute> MissionWays::routes_of(std::size_t leg, const RouteRequest& request,
+                                                double price_W) const {
+  const LegQuestion question = question_of(context(price_W), leg);
+  const auto search = [&] { return pool_routes(*space_, request, {}); };
+  std::vector<PooledRoute> routes =
+      request.cost.rate ? search()
+                        : remembered(options_.answers, "routes", search, request.start.x_m, request.start.y_m,
+                                     request.goal_x_m, request.goal_y_m, request.cost.per_rad, request.seed);
+  if (!world_.route_graph) return routes;
+  const RouteResult on_graph = plan_graph_route(*space_, request, *world_.route_graph);
+  if (on_graph.found())
+    routes.push_back({.polyline_m = on_graph.polyline_m,
+                      .cost = on_graph.polyline_cost,
+                      .searched_by = on_graph.searched_by});
   return routes;
+}
+
+std::vector<LegPath> MissionWays::choose_together(const Together& legs, const std::vector<double>& price_W,
+                                                  bool quick) const {
+  std::vector<LegQuestion> questions;
+  for (std::size_t leg = legs.first; leg < legs.first + legs.count; ++leg)
+    questions.push_back(question_of(context(price_W[leg]), leg));
+  const auto compute = [&] {
+    WayRun run{.first = legs.first, .start = legs.start, .quick = quick};
+    LegStart there = legs.start;
+    for (std::size_t leg = legs.first; leg < legs.first + legs.count; ++leg) {
+      const ChoiceContext at_price = context(price_W[leg]);
+      TurnScores turns(at_price);
+      LegRoutes routes{.request = route_request(mission_.legs[leg], there, mission_, options_)};
+      routes.request.cost = travel_cost(mission_.legs[leg], at_price, turns);
+      routes.routes = routes_of(leg, routes.request, price_W[leg]);
+      if (routes.routes.empty()) break;
+      run.contexts.push_back(at_price);
+      run.routes.push_back(std::move(routes));
+      there = {{stop_of(leg).x_m, stop_of(leg).y_m, 0.0}, true};
+    }
+    return choose_run(run);
+  };
+  return remembered(options_.answers, "ways", compute, quick, legs.start, questions, options_.steps,
+                    options_.nodes, options_.accuracy, options_.seed);
 }
 
 LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
@@ -36,30 +97,35 @@ LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
   return way;
 }
 
+LegStart MissionWays::after(std::size_t leg, const LegPath& path, const LegStart& start) const {
+  if (mission_.legs[leg].motion) {
+    const Trajectory motion = *prescribed_leg(mission_.legs[leg], plant_, start.pose).prescribed;
+    return {.pose = sampled_state(motion, motion.time_s.back()).pose, .heading_free = start.heading_free};
+  }
+  if (path.path.pieces.empty()) return start;
+  return {.pose = path.path.end(), .heading_free = false};
+}
+
 std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, bool quick) const {
   std::vector<LegPath> paths;
   LegStart here{.pose = mission_.start.pose, .heading_free = !mission_.start.heading_given};
   while (paths.size() < mission_.legs.size()) {
-    WayRun run{.first = paths.size(), .start = here, .quick = quick};
-    LegStart there = here;
-    for (std::size_t leg = paths.size(); leg < mission_.legs.size(); ++leg) {
-      auto routes = routes_of(leg, there, price_W[leg]);
-      if (!routes) break;
-      run.contexts.push_back(context(price_W[leg]));
-      run.routes.push_back(std::move(*routes));
-      const Station& stop = mission_.stations.at(mission_.legs[leg].to);
-      there = {{stop.x_m, stop.y_m, stop.heading_rad.value_or(0.0)}, !stop.heading_rad};
-    }
-    std::vector<LegPath> chosen = choose_run(run);
-    if (chosen.empty()) chosen.push_back(settled(paths.size(), here));
-    for (LegPath& path : chosen) {
-      const std::size_t leg = paths.size();
-      if (mission_.legs[leg].motion) {
-        const Trajectory motion = *prescribed_leg(mission_.legs[leg], plant_, here.pose).prescribed;
-        here.pose = sampled_state(motion, motion.time_s.back()).pose;
-      } else if (!path.path.pieces.empty()) {
-        here = {.pose = path.path.end(), .heading_free = false};
+    const std::vector<Together> groups = groups_from(paths.size(), here);
+    std::vector<std::vector<LegPath>> chosen(groups.size());
+    for_each_index(groups.size(), options_.threads,
+                   [&](std::size_t i) { chosen[i] = choose_together(groups[i], price_W, quick); });
+    bool whole = !groups.empty();
+    for (std::size_t i = 0; i < groups.size() && whole; ++i) {
+      whole = chosen[i].size() == groups[i].count;
+      for (LegPath& path : chosen[i]) {
+        here = after(paths.size(), path, here);
+        paths.push_back(std::move(path));
       }
+    }
+    if (paths.size() == mission_.legs.size()) break;
+    if (!whole || groups.empty() || !has_choice(paths.size(), here)) {
+      LegPath path = settled(paths.size(), here);
+      here = after(paths.size(), path, here);
       paths.push_back(std::move(path));
       if (paths.back().infeasibility) return paths;
     }

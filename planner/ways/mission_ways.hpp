@@ -16,17 +16,33 @@ class MissionWays {
       : mission_(mission), world_(world), space_(space), plant_(plant), options_(options) {}
 
   /// Paths of all legs, up to the first one that has none (its `infeasibility` has the reason). Consecutive
-  /// legs between stations are chosen together; a prescribed motion has an empty path. A quick choice
+  /// legs between stations are chosen together, up to a station that names a heading: what comes after it
+  /// does not depend on what was before. A prescribed motion has an empty path. A quick choice
   /// (WayRun::quick) is for learning prices. Throws ConfigError as leg_path() does.
   [[nodiscard]] std::vector<LegPath> choose(const std::vector<double>& price_W, bool quick) const;
 
  private:
+  /// Legs that are chosen together.
+  struct Together {
+    std::size_t first{};
+    std::size_t count{};
+    LegStart start{};
+  };
   ChoiceContext context(double price_W) const {
     return {mission_, world_, space_, plant_, options_, price_W};
   }
-  /// The routes of a leg between places; nothing where there is nothing to choose.
-  std::optional<LegRoutes> routes_of(std::size_t leg, const LegStart& start, double price_W) const;
+  /// Whether there is a way to choose for a leg.
+  bool has_choice(std::size_t leg, const LegStart& start) const;
+  const Station& stop_of(std::size_t leg) const { return mission_.stations.at(mission_.legs[leg].to); }
+  /// The legs from one on, up to the first without a choice.
+  std::vector<Together> groups_from(std::size_t leg, LegStart start) const;
+  /// The routes of a leg between places; may be none.
+  std::vector<PooledRoute> routes_of(std::size_t leg, const RouteRequest& request, double price_W) const;
+  /// Paths of the legs, up to the first without a route; none where no choice can be driven.
+  std::vector<LegPath> choose_together(const Together& legs, const std::vector<double>& price_W,
+                                       bool quick) const;
   LegPath settled(std::size_t leg, const LegStart& start) const;
+  LegStart after(std::size_t leg, const LegPath& path, const LegStart& start) const;
 
   const MissionRequest& mission_;
   const MissionWorld& world_;

@@ -7,6 +7,7 @@
 #include "planner/legs/leg_timing.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/ways/way_fields.hpp"
 
 namespace joulepath {
 namespace {
@@ -64,27 +65,35 @@ PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_in
 bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
                  const ChoiceContext& context) {
   LegTiming timing(
-      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options));
+      stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options),
+      context.options.answers);
   return std::ranges::all_of(timing.solve(context.price_W, SolverChoice::fast),
                              [](const ProfileResult& result) { return result.profile.has_value(); });
 }
 
 const TurnScores::Table& TurnScores::table(double payload_kg) {
   const auto [entry, fresh] = tables_.try_emplace(payload_kg);
-  if (!fresh) return entry->second;
+  if (fresh)
+    entry->second = remembered(
+        context_.options.answers, "turns", [&] { return tabulate(payload_kg); }, payload_kg,
+        context_.price_W);
+  return entry->second;
+}
+
+TurnScores::Table TurnScores::tabulate(double payload_kg) const {
+  Table table{};
   LegRequest leg{.payload = {payload_kg, payload_kg}};
   PlanOptions options = context_.options;
   options.nodes = kTurnNodes;
-  entry->second.at[0].drivable = true;
+  table[0].drivable = true;
   for (std::size_t i = 1; i <= kAngles; ++i) {
     const double share = static_cast<double>(i) / kAngles;
     const Path path{{TurnInPlace{{}, std::numbers::pi * share * share}}};
-    entry->second.at[i] =
-        score_stretches(stretches_of(path, leg, context_.mission.legs.size(), context_.mission,
-                                     context_.world, context_.plant, options),
-                        context_.price_W);
+    table[i] = score_stretches(stretches_of(path, leg, context_.mission.legs.size(), context_.mission,
+                                            context_.world, context_.plant, options),
+                               context_.price_W);
   }
-  return entry->second;
+  return table;
 }
 
 PathScore TurnScores::turn(double from_rad, double to_rad, double payload_kg) {
@@ -94,7 +103,7 @@ PathScore TurnScores::turn(double from_rad, double to_rad, double payload_kg) {
   const double place = std::sqrt(angle_rad / std::numbers::pi) * kAngles;
   const auto i = std::min(static_cast<std::size_t>(place), kAngles - 1);
   const double t = place - static_cast<double>(i);
-  const PathScore &a = scores.at[i], &b = scores.at[i + 1];
+  const PathScore &a = scores[i], &b = scores[i + 1];
   return {.energy_J = (1 - t) * a.energy_J + t * b.energy_J,
           .duration_s = (1 - t) * a.duration_s + t * b.duration_s,
           .drivable = a.drivable && b.drivable};

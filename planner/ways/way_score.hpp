@@ -52,10 +52,9 @@ class TurnScores {
 
  private:
   static constexpr std::size_t kAngles = 12;
-  struct Table {
-    std::array<PathScore, kAngles + 1> at{};  ///< at angles pi (i / kAngles)^2
-  };
+  using Table = std::array<PathScore, kAngles + 1>;  ///< at angles pi (i / kAngles)^2
   const Table& table(double payload_kg);
+  Table tabulate(double payload_kg) const;
 
   ChoiceContext context_;
   std::map<double, Table> tables_{};

@@ -4,9 +4,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <set>
 
 #include "app/jobs/journal.hpp"
 #include "app/jobs/mission_planner.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/plan_file.hpp"
+#include "scenarios/robot_file.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -49,6 +54,131 @@ TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
               std::string::npos)
         << results[bad];
   }
+}
+
+/// Missions that share legs, and some that differ from each other in one thing alone.
+std::vector<std::string> sharing_missions() {
+  const std::string legs[] = {
+      R"([{"to": "shelf"}, {"to": "dock", "payload_kg": 5}])",
+      R"([{"to": "shelf"}, {"to": "free"}])",
+      R"([{"to": "free"}, {"to": "dock", "payload_kg": 5}])",
+      R"([{"to": "shelf", "payload_kg": 5}])",
+      R"([{"to": "shelf"}, {"to": "dock"}], "speed_zones": [{"leg": 0, "from_m": 0.2, "to_m": 0.6, "speed_m_s": 0.2}])",
+      R"([{"to": "shelf", "deadline_s": 6}])"};
+  std::vector<std::string> missions;
+  for (const std::string& some : legs)
+    missions.push_back(
+        R"({"robot": "robot.yaml", "map": "map.yaml", "start": {"station": "dock"}, "stations": {)"
+        R"("dock": {"x_m": 0.5, "y_m": 0.5, "heading_rad": 0.0},)"
+        R"("shelf": {"x_m": 1.5, "y_m": 0.5, "heading_rad": 1.5},)"
+        R"("free": {"x_m": 1.1, "y_m": 0.6}}, "legs": )" +
+        some + "}\n");
+  return missions;
+}
+
+/// The figures of a result line, without its place in the list.
+std::string figures(Json line) {
+  line.erase("index");
+  line.erase("name");
+  return line.dump();
+}
+
+TEST(Batch, ResultsDependNeitherOnOrderNorOnThreadsNorOnWhatIsKept) {
+  const ScratchDirectory scratch;
+  const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";
+  for (const char* file : {"robot.yaml", "map.yaml", "map.pgm"}) scratch.write(file, text_of(good + file));
+  const std::vector<std::string> missions = sharing_missions();
+  const auto batch = [&](const std::vector<std::string>& some, const std::string& options) {
+    std::string text;
+    for (const std::string& mission : some) text += mission;
+    const std::string file = scratch.write("m.jsonl", text);
+    const auto result = run_program(
+        scratch, "batch " + file + " --force -q --nodes 30 --out " + scratch.at("out") + " " + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    std::vector<std::string> found;
+    for (const Json& line : lines_of(scratch.at("out/results.jsonl"))) found.push_back(figures(line));
+    return found;
+  };
+  std::vector<std::string> alone;
+  for (const std::string& mission : missions) {
+    alone.push_back(batch({mission}, "--no-cache -j 1").at(0));
+    EXPECT_NE(alone.back().find("energy_J"), std::string::npos) << alone.back();
+  }
+  EXPECT_EQ(std::set<std::string>(alone.begin(), alone.end()).size(), missions.size()) << "none is another's";
+  EXPECT_EQ(batch(missions, "--no-cache -j 1"), alone);
+  EXPECT_EQ(batch(missions, "--no-cache -j 2"), alone);
+  const std::string cache = "--cache " + scratch.at("cache");
+  EXPECT_EQ(batch({missions.rbegin(), missions.rend()}, cache + " -j 2"),
+            std::vector<std::string>(alone.rbegin(), alone.rend()));
+  EXPECT_EQ(batch(missions, cache + " -j 1"), alone) << "from the disk";
+  std::mt19937 random(7);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch.at("cache")))
+    if (entry.is_regular_file() && random() % 2)
+      std::filesystem::resize_file(entry.path(), random() % entry.file_size());
+  EXPECT_EQ(batch(missions, cache + " -j 2"), alone) << "every second file damaged";
+}
+
+TEST(Batch, AnotherRobotOrFloorIsAnotherWorld) {
+  const Robot robot = read_robot(kGoodRobot);
+  MissionRequest mission{.clearance_m = 0.1};
+  MissionWorld world{.robot = robot, .map = OccupancyGrid{2, 1, 0.1, {}, {0, 100}, "map"}};
+  std::vector<ContentKey> keys;
+  const auto note = [&](const Robot& with) { keys.push_back(world_key(floor_key(mission, world), with)); };
+  note(robot);
+  Robot other = robot;
+  other.motor.right.friction_torque_Nm = std::nextafter(other.motor.right.friction_torque_Nm, 1.0);
+  note(other);
+  mission.clearance_m = 0.2;
+  note(robot);
+  world.map->occupancy_percent[0] = 1;
+  note(robot);
+  world.keepout = world.map;
+  note(robot);
+  world.speed_mask = SpeedMask{.grid = *world.map};
+  note(robot);
+  world.speed_mask->base = 50;
+  note(robot);
+  world.route_graph = RouteGraph{.nodes = {{1, 0, 0}}};
+  note(robot);
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
+}
+
+/// A leg's own duration is tried with ways that stop at corners where no other keeps it: the second choice is
+/// another question than the first.
+TEST(Batch, OtherStepsAreAnotherQuestion) {
+  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
+  const MissionWorld world = read_world(mission);
+  AnswerCache kept;
+  const auto energy_J = [&](const WaySteps& steps, AnswerCache* cache) {
+    PlanOptions options{
+        .solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .steps = steps, .baselines = false};
+    options.answers.cache = cache;
+    return plan_mission(mission, world, options).energy.total_J();
+  };
+  const WaySteps plain{.corners = false, .stops = false, .refinement = false};
+  const WaySteps arcs{.stops = false, .refinement = false};
+  const double plain_J = energy_J(plain, nullptr), arcs_J = energy_J(arcs, nullptr);
+  EXPECT_NE(plain_J, arcs_J);
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_EQ(energy_J(plain, &kept), plain_J);
+    EXPECT_EQ(energy_J(arcs, &kept), arcs_J);
+  }
+}
+
+TEST(Plan, DependsNeitherOnThreadsNorOnWhatIsKept) {
+  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
+  const MissionWorld world = read_world(mission);
+  AnswerCache kept;
+  const auto text = [&](unsigned threads, AnswerCache* cache) {
+    PlanOptions options{.solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .threads = threads};
+    options.answers.cache = cache;
+    return plan_json_text(plan_mission(mission, world, options));
+  };
+  const std::string plan = text(1, nullptr);
+  EXPECT_EQ(text(2, nullptr), plan);
+  EXPECT_EQ(text(2, &kept), plan);
+  EXPECT_EQ(text(1, &kept), plan) << "from kept answers";
 }
 
 TEST(Batch, TheFirstExceptionStopsAllThreadsAndReachesTheCaller) {

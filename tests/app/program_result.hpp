@@ -29,8 +29,8 @@ inline std::string text_of(const std::string& file) {
 inline ProgramResult run_program(const ScratchDirectory& scratch, const std::string& arguments,
                                  const std::string& before = "") {
   const std::string out = scratch.at("stdout"), err = scratch.at("stderr");
-  const std::string command = "env -u JOULEPATH_DATA_DIR " + before + " '" JOULEPATH_PROGRAM "' " +
-                              arguments + " >'" + out + "' 2>'" + err + "'";
+  const std::string command = "env -u JOULEPATH_DATA_DIR -u HOME -u XDG_CACHE_HOME " + before +
+                              " '" JOULEPATH_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out), text_of(err)};
 }

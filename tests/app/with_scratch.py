@@ -30,6 +30,7 @@ class WithScratch(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.mkdtemp(prefix="joulepath_faults_")
         os.chmod(self.scratch, 0o777)
+        os.environ["XDG_CACHE_HOME"] = self.scratch + "/cache"
         self.addCleanup(shutil.rmtree, self.scratch, ignore_errors=True)
         shutil.copy(ROBOT, self.at("robot.yaml"))
         with open(self.at("m.jsonl"), "w") as file:

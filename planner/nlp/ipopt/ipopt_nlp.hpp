@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planner/nlp/transcription/segment_program.hpp"
+#include "planner/nlp/transcription/solution.hpp"
 
 namespace joulepath::nlp {
 
@@ -22,11 +23,13 @@ class IpoptNlp : public Ipopt::TNLP {
   static constexpr Number kInfinity = 2e19;
 
  public:
-  /// `first_mu`: the barrier parameter that Ipopt begins with (mu_init).
-  IpoptNlp(const Program& program, ProgramSolution& solution, double first_mu)
+  /// `first_mu`: the barrier parameter that Ipopt begins with (mu_init). `near` (may be null): a solution of
+  /// another solver on the same problem, for its multipliers.
+  IpoptNlp(const Program& program, ProgramSolution& solution, double first_mu, const Solution* near)
       : program_(program),
         p_(program.problem()),
         solution_(solution),
+        near_(near),
         first_mu_(first_mu),
         values_(p_.segment_count()),
         recovered_(p_.channels * Program::kParts),
@@ -66,7 +69,8 @@ class IpoptNlp : public Ipopt::TNLP {
     return true;
   }
 
-  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
+  bool get_starting_point(Index, bool, Number* x, bool with_bounds, Number* z_low, Number* z_high, Index,
+                          bool with_rows, Number* lambda) override {
     std::copy(start_.begin(), start_.end(), x);
     update(x, true);
     for_channels([&](std::size_t k, std::size_t c, Index i) {
@@ -74,6 +78,8 @@ class IpoptNlp : public Ipopt::TNLP {
       const double E = values_[k].energy_J[c].value, width = 2 * first_mu_ / p_.recovery_weight;
       x[unknowns_ + i] = 0.5 * (width - E + std::hypot(E, width));
     });
+    if (with_rows) start_multipliers(lambda);
+    if (with_rows && with_bounds) start_bound_multipliers(x, lambda, z_low, z_high);
     return true;
   }
 
@@ -151,6 +157,33 @@ class IpoptNlp : public Ipopt::TNLP {
   static void set(const Bounds& bounds, Number& low, Number& high) {
     low = std::max(bounds.low, -kInfinity);
     high = std::min(bounds.high, kInfinity);
+  }
+
+  /// Those of `near_`, in Ipopt's signs: L = f + lambda g.
+  void start_multipliers(Number* lambda) const {
+    lambda = std::copy(near_->row_multiplier.begin(), near_->row_multiplier.end(), lambda);
+    for (const double multiplier : near_->recovery_multiplier) *lambda++ = -multiplier;
+    if (has_duration_) *lambda = near_->price_W;
+  }
+
+  /// Those that make the Lagrangian stationary, and no less than on the central path.
+  void start_bound_multipliers(const Number* x, const Number* lambda, Number* z_low, Number* z_high) const {
+    std::vector<double> slope(static_cast<std::size_t>(unknowns_), 0.0);
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      for_gradient(k, lagrangian(lambda, 1.0, k),
+                   [&](Index column, double value) { slope[static_cast<std::size_t>(column)] += value; });
+    const auto on_path = [&](double room) { return first_mu_ / std::max(room, first_mu_); };
+    for (Index i = 0; i < unknowns_; ++i) {
+      const auto [low, high] = program_.unknown_bounds(static_cast<std::size_t>(i));
+      const double own = slope[static_cast<std::size_t>(i)];
+      z_low[i] = std::max(own, on_path(x[i] - low));
+      z_high[i] = std::isfinite(high) ? std::max(-own, on_path(high - x[i])) : 0.0;
+    }
+    for (Index i = 0; i < recoveries_; ++i) {
+      z_low[unknowns_ + i] =
+          std::max(p_.recovery_weight + lambda[row_count() + i], on_path(x[unknowns_ + i]));
+      z_high[unknowns_ + i] = 0.0;
+    }
   }
 
   Index row_count() const { return first_row_.back(); }
@@ -231,6 +264,7 @@ class IpoptNlp : public Ipopt::TNLP {
   const Program& program_;
   const Problem& p_;
   ProgramSolution& solution_;
+  const Solution* near_;
   double first_mu_;
   std::vector<SegmentValues<kLocal>> values_;  ///< of the last point
   std::vector<double> start_{};

@@ -30,8 +30,13 @@ void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetNumericValue("mu_superlinear_decrease_power", 1.8);
   ipopt.SetNumericValue("mu_init", first_mu(options));
   if (!options.warm) return;
-  for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})
+  for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
     ipopt.SetNumericValue(push, 1e-8);
+    if (options.near != nullptr) ipopt.SetNumericValue(std::string("warm_start_") + push, 1e-8);
+  }
+  if (options.near == nullptr) return;
+  ipopt.SetStringValue("warm_start_init_point", "yes");
+  ipopt.SetNumericValue("warm_start_mult_bound_push", 1e-8);
 }
 
 template <SegmentProgram Program>
@@ -43,7 +48,8 @@ ProgramSolution solve(const Program& program, const IpoptOptions& options) {
     solution.message = "ipopt does not start";
     return solution;
   }
-  Ipopt::SmartPtr<Ipopt::TNLP> nlp = new IpoptNlp<Program>(program, solution, first_mu(options));
+  Ipopt::SmartPtr<Ipopt::TNLP> nlp =
+      new IpoptNlp<Program>(program, solution, first_mu(options), options.near);
   static std::mutex one_at_a_time;  // MUMPS keeps state of its own between calls
   const std::lock_guard lock(one_at_a_time);
   const Ipopt::ApplicationReturnStatus status = app->OptimizeTNLP(nlp);

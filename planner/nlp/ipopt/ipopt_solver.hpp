@@ -9,7 +9,8 @@ namespace joulepath::nlp {
 struct IpoptOptions {
   double tolerance{1e-9};
   int max_iterations{300};
-  bool warm{};  ///< the guess is nearly the solution
+  bool warm{};             ///< the guess is nearly the solution
+  const Solution* near{};  ///< with `warm`: multipliers to begin with, of a solution of the same Problem
 };
 
 /// Solves with Ipopt (interior point, MUMPS), exact sparse derivatives, no output. `b_guess`: all nodes.

@@ -46,10 +46,23 @@ class Transcriber {
   Transcriber(const ProfileRequest& request, const PathMotion& motion, const Profile* previous)
       : request_(request), motion_(motion), previous_(previous) {}
 
-  Segment segment(double s0, double s1) const {
+  /// The segments of a grid.
+  std::vector<Segment> segments(const std::vector<double>& s) const {
+    std::vector<Segment> all;
+    all.reserve(s.size());
+    double before = rate(s.front());
+    for (std::size_t k = 0; k + 1 < s.size(); ++k) {
+      const double after = rate(s[k + 1]);
+      all.push_back(segment(s[k], s[k + 1], before, after));
+      before = after;
+    }
+    return all;
+  }
+
+ private:
+  Segment segment(double s0, double s1, double u0, double u1) const {
     Segment segment{.s0 = s0, .ds = s1 - s0, .plant = &request_.plant};
     constexpr std::array<double, kLimitPoints> fractions{0.0, 0.5, 1.0};
-    const double u0 = rate(s0), u1 = rate(s1);
     for (std::size_t i = 0; i < kLimitPoints; ++i)
       segment.limit_points[i] = point(segment, fractions[i], time_at(segment, u0, u1, fractions[i]));
     for (std::size_t q = 0; q < kEnergyPoints; ++q) {
@@ -59,7 +72,6 @@ class Transcriber {
     return segment;
   }
 
- private:
   double rate(double s) const {
     if (s <= 0) return request_.start_rate;
     if (s >= motion_.length()) return request_.end_rate;
@@ -102,20 +114,23 @@ class Transcriber {
 void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
                 const std::vector<Tightening>& tightenings, RateCap& cap0, RateCap& cap1) {
   const double s1 = segment.s0 + segment.ds;
-  const auto capped = [&](double f) {
+  const auto capped_at = [&](double f, const PathRates& rates) {
     const double s = segment.s0 + segment.ds * std::clamp(f, kInset, 1 - kInset);
-    RateCap cap = rate_cap(request, motion.rates(s), s);
+    RateCap cap = rate_cap(request, rates, s);
     const double factor = factor_for(tightenings, cap.limit, segment.s0, s1);
     cap.squared *= cap.limit == "lateral_acceleration" ? factor : factor * factor;
     return cap;
   };
+  const auto capped = [&](double f) {
+    return capped_at(f, motion.rates(segment.s0 + segment.ds * std::clamp(f, kInset, 1 - kInset)));
+  };
   const auto lower = [](RateCap& cap, const RateCap& to) {
     if (to.squared < cap.squared) cap = to;
   };
-  const RateCap at0 = capped(0), at1 = capped(1);
+  const PathRates first = segment.limit_points[0].rates, last = segment.limit_points[2].rates;
+  const RateCap at0 = capped_at(0, first), at1 = capped_at(1, last);
   lower(cap0, at0);
   lower(cap1, at1);
-  const PathRates first = segment.limit_points[0].rates, last = segment.limit_points[2].rates;
   if (first.turn == last.turn && first.turn_slope == 0 && last.turn_slope == 0) return;
   RateCap dip0 = at0, dip1 = at1;
   for (double f : {0.2, 0.4, 0.6, 0.8}) {
@@ -171,8 +186,7 @@ Problem transcribe(const ProfileRequest& request, const PathMotion& motion, cons
                   .b_end = request.end_rate * request.end_rate,
                   .terms = rows_for(request.limits)};
   const Transcriber transcriber(request, motion, previous);
-  for (std::size_t k = 0; k + 1 < s.size(); ++k)
-    problem.segments.push_back(transcriber.segment(s[k], s[k + 1]));
+  problem.segments = transcriber.segments(s);
   for (std::size_t k = 0; k + 1 < s.size(); ++k)
     lower_caps(request, motion, problem.segments[k], tightenings, problem.cap[k], problem.cap[k + 1]);
   select_rows(problem, tightenings);

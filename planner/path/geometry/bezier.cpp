@@ -116,8 +116,9 @@ const BezierSegment::Knot& BezierSegment::knot_before(double s_m) const {
   return knots_[static_cast<std::size_t>(index)];
 }
 
-double BezierSegment::parameter(double s_m) const {
-  const Knot& from = knot_before(s_m);
+double BezierSegment::parameter(double s_m) const { return parameter_after(knot_before(s_m), s_m); }
+
+double BezierSegment::parameter_after(const Knot& from, double s_m) const {
   const Knot& to = *(&from + 1);
   // Cubic Hermite interpolation of t(s), dt/ds = 1 / |B'|, then Newton on the exact arc length.
   const double h_m = to.s_m - from.s_m, x = std::clamp((s_m - from.s_m) / h_m, 0.0, 1.0), dt = to.t - from.t;
@@ -137,7 +138,7 @@ double BezierSegment::parameter(double s_m) const {
 
 PathPoint BezierSegment::at(double s_m) const {
   const Knot& from = knot_before(s_m);
-  const BezierDerivatives d = derivatives(parameter(s_m));
+  const BezierDerivatives d = derivatives(parameter_after(from, s_m));
   const double speed = norm(d.first_m), speed3 = speed * speed * speed;
   const double bend = cross(d.first_m, d.second_m);
   PathPoint point;

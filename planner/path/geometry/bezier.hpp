@@ -29,6 +29,8 @@ class BezierSegment {
   PathPoint at(double s_m) const;
   /// Curve parameter at an arc length.
   double parameter(double s_m) const;
+  const BezierPoints& points_m() const { return points_m_; }                   ///< of a cubic
+  const std::optional<RationalBezier>& rational() const { return rational_; }  ///< else
 
  private:
   struct Knot {
@@ -48,8 +50,9 @@ class BezierSegment {
   void refine(double from_t, double to_t, double whole_m, int depth);
   void append_knot(double t, double arc_from_last_m);
   const Knot& knot_before(double s_m) const;
+  double parameter_after(const Knot& from, double s_m) const;
 
-  BezierPoints points_m_{};                   ///< of a cubic
+  BezierPoints points_m_{};                            ///< of a cubic
   std::array<std::array<double, 3>, 2> velocity_m_{};  ///< of a cubic: B' = c[0] + c[1] t + c[2] t² per axis
   std::optional<RationalBezier> rational_{};           ///< else
   double scale_m_{};

@@ -20,6 +20,9 @@ class LinearCurvature {
 
   double length_m() const { return length_m_; }
   PathPoint at(double s_m) const;
+  const Pose& start() const { return start_; }
+  double curvature_per_m() const { return curvature_; }  ///< at the start
+  double curvature_slope_per_m2() const { return slope_; }
 
  private:
   double heading_rad(double s_m) const {

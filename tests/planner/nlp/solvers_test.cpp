@@ -12,9 +12,11 @@
 namespace joulepath::nlp {
 namespace {
 
-/// 240 random problems of all four classes; standby makes them convex, so that both have to agree.
+/// 240 random problems of all four classes; standby makes them convex, so that both have to agree, and Ipopt
+/// from the fast solution needs few iterations.
 TEST(FastSolver, FindsTheOptimumOfIpopt) {
   joulepath::testing::RandomProfiles random(2024);
+  int cold_iterations = 0, warm_iterations = 0;
   for (int i = 0; i < 240; ++i) {
     ProfileRequest request = random.next(joulepath::testing::kPathClasses[i % 4]);
     const double factor = random.uniform(1.05, 2);
@@ -36,7 +38,15 @@ TEST(FastSolver, FindsTheOptimumOfIpopt) {
     ASSERT_TRUE(fast.converged) << i << " " << fast.message;
     EXPECT_NEAR(fast.objective, reference.objective, 1e-6 * std::abs(reference.objective)) << i;
     EXPECT_NEAR(fast.price_W, reference.price_W, 1e-3 * (1 + std::abs(reference.price_W))) << i;
+    const Solution warm = solve_with_ipopt(problem, fast.b, {.warm = true, .near = &fast});
+    ASSERT_TRUE(warm.converged) << i << " " << warm.message;
+    EXPECT_NEAR(warm.objective, reference.objective, 1e-7 * std::abs(reference.objective)) << i;
+    cold_iterations += reference.iterations;
+    warm_iterations += warm.iterations;
   }
+  RecordProperty("cold_iterations", cold_iterations);
+  RecordProperty("warm_iterations", warm_iterations);
+  EXPECT_LT(2 * warm_iterations, cold_iterations) << "the fast solver's multipliers save most iterations";
 }
 
 /// On a fine grid the fast solver starts from a coarser one of its own.

@@ -1,0 +1,82 @@
+#include "app/kept_answers.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "app/command_line.hpp"
+#include "planner/values/answer_fields.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath {
+namespace {
+
+/// The running program's file: another build keeps answers of its own.
+const ContentKey& program_key() {
+  static const ContentKey key = [] {
+    std::ostringstream content;
+    content << JOULEPATH_VERSION << std::ifstream("/proc/self/exe", std::ios::binary).rdbuf();
+    return content_key(content.str());
+  }();
+  return key;
+}
+
+void add(ByteWriter& writer, const OccupancyGrid& grid) {
+  const auto& [width, height, resolution_m, origin, occupancy_percent, file] = grid;
+  writer(width, height, resolution_m, origin,
+         std::string_view(reinterpret_cast<const char*>(occupancy_percent.data()), occupancy_percent.size()));
+}
+
+void add(ByteWriter& writer, const RouteGraph& graph) {
+  for (const auto& [id, x_m, y_m] : graph.nodes) writer(id, x_m, y_m);
+  for (const auto& [id, start, end, speed_limit_m_s, via_m] : graph.edges)
+    writer(id, start, end, speed_limit_m_s, via_m);
+}
+
+}  // namespace
+
+void add_cache_options(CommandLine& line, CacheChoice& choice) {
+  line.option(
+      "--cache", choice.folder,
+      "directory of answers kept for later runs; default: $XDG_CACHE_HOME/joulepath, 512 MiB at most");
+  line.flag("--no-cache", choice.none, "keep nothing on disk");
+}
+
+std::string default_cache_folder() {
+  for (const auto& [variable, below] :
+       {std::pair{"XDG_CACHE_HOME", "/joulepath"}, {"HOME", "/.cache/joulepath"}})
+    if (const char* folder = std::getenv(variable); folder != nullptr && *folder == '/')
+      return std::string(folder) + below;
+  return "";
+}
+
+std::unique_ptr<AnswerCache> answer_cache(const CacheChoice& choice) {
+  const std::string folder = choice.folder.empty() ? default_cache_folder() : choice.folder;
+  if (choice.none || folder.empty()) return std::make_unique<AnswerCache>();
+  return std::make_unique<AnswerCache>(folder);
+}
+
+ContentKey floor_key(const MissionRequest& mission, const MissionWorld& world) {
+  ByteWriter writer;
+  writer(mission.clearance_m);
+  for (const auto* grid : {&world.map, &world.keepout}) {
+    writer(grid->has_value());
+    if (*grid) add(writer, **grid);
+  }
+  writer(world.speed_mask.has_value(), world.route_graph.has_value());
+  if (world.speed_mask) {
+    const auto& [grid, kind, base, multiplier] = *world.speed_mask;
+    add(writer, grid);
+    writer(kind, base, multiplier);
+  }
+  if (world.route_graph) add(writer, *world.route_graph);
+  return content_key(writer.bytes());
+}
+
+ContentKey world_key(const ContentKey& floor, const Robot& robot) {
+  ByteWriter writer;
+  writer(program_key().first, program_key().second, floor.first, floor.second, robot_text(robot));
+  return content_key(writer.bytes());
+}
+
+}  // namespace joulepath

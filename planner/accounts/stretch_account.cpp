@@ -1,0 +1,79 @@
+#include "planner/accounts/stretch_account.hpp"
+
+#include "model/nuisance.hpp"
+#include "planner/motion/motion_energy.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/values/answer_fields.hpp"
+
+namespace joulepath {
+
+namespace {
+
+struct DriveAccount {
+  ReplayResult replay{};
+  EnergyByCause energy{};
+  double battery_loss_J{};
+  double lowest_voltage_V{};
+  std::vector<double> sigma_shift_J{};
+};
+
+template <class Archive>
+void each_field(Archive& archive, DriveAccount& value) {
+  auto& [replay, energy, battery_loss_J, lowest_voltage_V, sigma_shift_J] = value;
+  archive(replay, energy, battery_loss_J, lowest_voltage_V, sigma_shift_J);
+}
+
+Plant changed(const Plant& plant, const Nuisance& nuisance, double fraction) {
+  Plant other = plant;
+  apply_nuisance(nuisance, fraction, other.robot);
+  if (is_payload_nuisance(nuisance)) other.payload_factor *= 1.0 + fraction;
+  return other;
+}
+
+/// One pass over the nodes of the energy integral, for all constants.
+DriveAccount drive_account(const ProfileRequest& request, const Profile& profile,
+                           const UncertainPlant& plant) {
+  const PathMotion motion = path_motion(request);
+  DriveAccount account{.replay = replay(request, profile),
+                       .sigma_shift_J = std::vector<double>(plant.shifted.size(), 0.0)};
+  EnergySum sum(request.plant);
+  integrate_profile(motion, profile, 0.0, profile.duration_s(), [&](const EnergyNode& node) {
+    sum.add(node);
+    for (std::size_t i = 0; i < plant.shifted.size(); ++i) {
+      const auto power_W = [&](const Plant& other) {
+        return drive_power_W(other, energy_node(other, node.instant, node.time_s));
+      };
+      account.sigma_shift_J[i] +=
+          0.5 * node.weight_s * (power_W(plant.shifted[i][0]) - power_W(plant.shifted[i][1]));
+    }
+  });
+  account.energy = sum.by_cause();
+  account.energy.standby_J += request.plant.robot.power.standby_W * profile.wait_s;
+  account.battery_loss_J = sum.battery_loss_J();
+  account.lowest_voltage_V = sum.lowest_voltage_V();
+  return account;
+}
+
+}  // namespace
+
+UncertainPlant uncertain(Plant plant) {
+  UncertainPlant all{.plant = std::move(plant)};
+  for (const Nuisance& nuisance : nuisances_of(all.plant.robot))
+    all.shifted.push_back(
+        {changed(all.plant, nuisance, nuisance.sigma), changed(all.plant, nuisance, -nuisance.sigma)});
+  return all;
+}
+
+void account_for(StretchPlan& stretch, const UncertainPlant& plant, const SharedAnswers& answers) {
+  DriveAccount account = remembered(
+      answers, "stretch account", [&] { return drive_account(stretch.request, stretch.profile, plant); },
+      stretch.request, stretch.profile);
+  stretch.replay = std::move(account.replay);
+  stretch.energy = std::move(account.energy);
+  stretch.battery_loss_J = account.battery_loss_J;
+  stretch.lowest_voltage_V = account.lowest_voltage_V;
+  stretch.sigma_shift_J = std::move(account.sigma_shift_J);
+}
+
+}  // namespace joulepath
