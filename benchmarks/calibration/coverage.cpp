@@ -1,4 +1,4 @@
-// How often the calibration's 95 % intervals hold the truth, and how far its values are from it, over
+// How often the calibration's 95 % intervals cover the truth, and how far its values are from it, over
 // simulated calibrations by a plant that shares no code with the product.
 //   bench_calibration PLANT_PROGRAM SCRATCH_FOLDER SETS_PER_LEVEL FIRST_SEED
 // Prints Markdown tables.
@@ -62,7 +62,7 @@ std::map<std::string, double> truth_of(const std::string& file, const Robot& nom
 
 void print_table(const std::string& title, const std::vector<std::pair<std::string, Tally>>& tallies) {
   std::printf(
-      "\n### %s\n\n| parameter | intervals | hold the truth %% | rms error %% | bias %% | worst %% | mean "
+      "\n### %s\n\n| parameter | intervals | cover the truth %% | rms error %% | bias %% | worst %% | mean "
       "half "
       "width %% | unseen |\n|---|---|---|---|---|---|---|---|\n",
       title.c_str());

@@ -85,8 +85,8 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         scratch = pathlib.Path(temporary)
         folders = sorted(folder for folder in practice.glob("*/") if (folder / "truth.yaml").exists())
-        lines += ["24 runs each from a plant that shares nothing with this project. Energy gap, shrink with its interval and ceiling on runs that took no part; in decisions: energy that planning "
-                  "with the uncorrected robot costs on top.", "",
+        lines += ["24 runs each from a plant that shares no code with this project. Energy gap, shrink with its interval and ceiling on held-out runs; joules lost: additional energy of plans "
+                  "with the uncorrected robot.", "",
                   "| set | truth | verdict | names (probability) | error of the first parameter | energy gap %, before → after | noise floor % | shrink [95 %] | ceiling | joules lost % |",
                   "|---|---|---|---|---|---|---|---|---|---|", *(practice_row(folder, scratch) for folder in folders)] if folders else ["The practice sets are not here."]
         lines += ["", "## Speed and memory", "", f"The whole program (reading, diagnosis, decisions, report), best of {REPEATS}; memory is the largest of them.",

@@ -215,7 +215,7 @@ int run(const char* file, int count, const char* provenance) {
     for (const std::string& failure : campaign.failures) text += "- " + failure + "\n";
   }
   text +=
-      "\nInfeasible and degenerate inputs: tests/planner/nlp/verdicts_test.cpp holds them, each with the "
+      "\nInfeasible and degenerate inputs: tests/planner/nlp/hopeless_requests.cpp has them, each with the "
       "constraint that "
       "has to be named; dynamic programming and closed forms: tests/planner/nlp/optimality_test.cpp.\n";
   std::ofstream(file) << text;

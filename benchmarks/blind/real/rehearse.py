@@ -36,7 +36,7 @@ def paper(scratch):
 
 def main():
     data = pathlib.Path(os.environ.get("JOULEPATH_DATA_DIR", workspace.ROOT.parent / "shared" / "data" / "real"))
-    lines = ["# Real logs: the rehearsal that counts most", "",
+    lines = ["# Real logs", "",
              f"Command `benchmarks/blind/real/run`; commit `{workspace.head()}`. The cause is what the folder's name says; the calibration sees the normal condition alone. "
              "Shares of the gap by wheel and phase with their 95 % intervals over runs.", ""]
     with tempfile.TemporaryDirectory(prefix="blind_real_") as folder:
