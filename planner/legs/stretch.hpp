@@ -22,6 +22,7 @@ struct PlanOptions {
   unsigned seed{1};
   WaySteps steps{};
   bool baselines{true};  ///< compare with classic profiles; costs more than the plan itself
+  bool draft{};          ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.

@@ -29,6 +29,8 @@ class BezierSegment {
   PathPoint at(double s_m) const;
   /// Curve parameter at an arc length.
   double parameter(double s_m) const;
+  const BezierPoints& points_m() const { return points_m_; }  ///< of a cubic
+  const std::optional<RationalBezier>& rational_curve() const { return rational_; }
 
  private:
   struct Knot {
