@@ -14,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 constexpr double kBinds = 0.995;  ///< of a limit: what an optimum that follows it uses, between nodes too
+constexpr double kJustBefore_s = 1e-6;
 constexpr std::size_t kLeastSamples = 6;  ///< per stretch
 
 struct TightestLimit {
@@ -81,7 +82,10 @@ std::vector<double> drawn_times_s(const Plan& plan, std::size_t count) {
       add_evenly(times_s, leg.start_s, leg.start_s + leg.duration_s, samples(leg.duration_s));
     end_s = leg.start_s + leg.duration_s;
     times_s.push_back(end_s);
-    if (leg.dwell_s > 0) times_s.push_back(end_s += leg.dwell_s);
+    if (leg.dwell_s <= 0) continue;
+    end_s += leg.dwell_s;
+    times_s.push_back(end_s - kJustBefore_s);  // at rest until then: the next leg begins with a step
+    times_s.push_back(end_s);
   }
   std::sort(times_s.begin(), times_s.end());
   const auto same = [](double a_s, double b_s) { return b_s - a_s < 1e-9; };

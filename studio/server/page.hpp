@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+// Design: docs/decisions/0331-a-page-of-plain-modules.md
 
 namespace joulepath::studio {
 

@@ -77,7 +77,7 @@ class StudioPage(Browser):
 
     def settle(self):
         """Until the mission as it is now is planned."""
-        self.until("return document.documentElement.dataset.state === 'planned' || document.documentElement.dataset.state === 'problem'")
+        self.until("return ['planned', 'certified', 'problem'].includes(document.documentElement.dataset.state)")
 
     def width(self, pixels, height=1000):
         self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride",

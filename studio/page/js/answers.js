@@ -30,6 +30,9 @@ onmessage = async ({data}) => {
   }
 };`;
 
+/** What a benchmark asks of drafts: {nodes, by_program}. */
+const studio_draft = () => window.studio.draft || {};
+
 let wasm_bytes;
 async function core_bytes() {
   if (!wasm_bytes) {
@@ -84,7 +87,7 @@ async function in_program(text) {
 export async function ask(mode, extra = {}) {
   const question = JSON.stringify({mode, page: page_name, name: store.files.name, mission: store.mission, robot: store.robot, paths: store.ways, ...extra});
   const draft = mode === "draft";
-  const by_program = store.served && (!draft || !has_core());
+  const by_program = store.served && (!draft || !has_core() || studio_draft().by_program);
   if (!by_program && !has_core()) return {error: {message: "this page holds no planner: open the mission with joulepath studio"}};
   const text = by_program ? await in_program(question) : await in_core(mode, question, !draft);
   return JSON.parse(text);
@@ -120,7 +123,7 @@ async function draft() {
   do {
     draft_again = false;
     const edits = store.edits;
-    const answer = await ask("draft", {samples: 300});
+    const answer = await ask("draft", {samples: 300, nodes: studio_draft().nodes});
     if (settled < edits) take(answer, "draft", edits);
     emit("drafted", edits);
   } while (draft_again);

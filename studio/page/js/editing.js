@@ -36,8 +36,29 @@ function set_curves(k, curves) {
   path.bezier_m = curves.map((curve) => curve.map(([x, y]) => [Number(x.toFixed(6)), Number(y.toFixed(6))]));
 }
 
+/** Paths drawn in the map that begin where a leg ends are taken along to its new end. */
+function follow(k, x, y) {
+  const next = legs()[k + 1];
+  if (!next || !next.path || next.path.frame !== "map") return;
+  const [first] = next.path.bezier_m, dx = x - first[0][0], dy = y - first[0][1];
+  first[1] = [Number((first[1][0] + dx).toFixed(6)), Number((first[1][1] + dy).toFixed(6))];
+  first[0] = [Number(x.toFixed(6)), Number(y.toFixed(6))];
+  const curves = next.path.bezier_m;
+  if (curves.length > 1) set_curves(k + 1, smooth(curves));
+}
+/** A chain through its joints with its first and last handle. */
+function smooth(curves) {
+  const points = waypoints_of(curves), last = curves.at(-1);
+  return spline_chain(points, [0, 1].map((a) => curves[0][1][a] - points[0][a]), [0, 1].map((a) => last[3][a] - last[2][a]));
+}
+
 export function move_station(name, x_m, y_m, gesture) {
-  change(() => Object.assign(store.mission.stations[name], {x_m: tidy(x_m), y_m: tidy(y_m)}), gesture);
+  const x = tidy(x_m), y = tidy(y_m);
+  change(() => {
+    Object.assign(store.mission.stations[name], {x_m: x, y_m: y});
+    if ((store.mission.start || {}).station === name) follow(-1, x, y);
+    legs().forEach((leg, k) => { if (leg.to === name) follow(k, x, y); });
+  }, gesture);
 }
 export function turn_station(name, heading_rad, gesture) {
   change(() => {
@@ -48,7 +69,10 @@ export function turn_station(name, heading_rad, gesture) {
 export function move_start(x_m, y_m, gesture) {
   const name = (store.mission.start || {}).station;
   if (name) return move_station(name, x_m, y_m, gesture);
-  change(() => { store.mission.start = {...store.mission.start, x_m: tidy(x_m), y_m: tidy(y_m)}; }, gesture);
+  change(() => {
+    store.mission.start = {...store.mission.start, x_m: tidy(x_m), y_m: tidy(y_m)};
+    follow(-1, tidy(x_m), tidy(y_m));
+  }, gesture);
 }
 export function turn_start(heading_rad, gesture) {
   const start = store.mission.start || {};
@@ -62,20 +86,11 @@ export function move_handle(k, curve, point, x, y, gesture) {
     const curves = curves_of(k).map((one) => one.map((p) => [...p]));
     const last = curves.length - 1;
     if (point === 0 && curve === 0) return;
+    // The handle before an end goes with it.
+    if (point === 3 && curve === last) curves[curve][2] = [0, 1].map((a) => curves[curve][2][a] + [x, y][a] - curves[curve][3][a]);
     curves[curve][point] = [x, y];
-    if (curves.length > 1) {
-      const points = waypoints_of(curves);
-      if (point === 3) points[curve + 1] = [x, y];
-      const leave = [curves[0][1][0] - points[0][0], curves[0][1][1] - points[0][1]];
-      const arrive = [points[last + 1][0] - curves[last][2][0], points[last + 1][1] - curves[last][2][1]];
-      set_curves(k, spline_chain(points, leave, arrive));
-    } else {
-      if (point === 3) {
-        const before = curves_of(k)[curve];
-        curves[curve][2] = [before[2][0] + x - before[3][0], before[2][1] + y - before[3][1]];
-      }
-      set_curves(k, curves);
-    }
+    set_curves(k, curves.length > 1 ? smooth(curves) : curves);
+    if (point === 3 && curve === last) follow(k, x, y);
   }, gesture);
 }
 

@@ -13,6 +13,8 @@ export function front_panel() {
   const slider = h("input", {type: "range", id: "front-time", min: 0, max: 1000, value: 0, "aria-label": "Duration of the mission in seconds", disabled: true});
   const text = h("p", {class: "small soft"}, "");
   const compute = button("Compute the front", load);
+  const box = h("div", {class: "front", hidden: true}, canvas);
+  slider.hidden = true;
   let frame = null, dragging = false;
 
   async function load() {
@@ -40,6 +42,7 @@ export function front_panel() {
   function show() {
     const points = curve();
     slider.disabled = !points.length;
+    box.hidden = slider.hidden = !points.length;
     compute.textContent = store.front ? "Compute again" : "Compute the front";
     if (!canvas.isConnected || !canvas.parentElement.clientWidth) return;
     const {context, width, height} = sharp(canvas, 190);
@@ -76,5 +79,5 @@ export function front_panel() {
   on("view", show);
   on_theme(show);
   window.addEventListener("resize", show);
-  return [h("div", {class: "tools"}, compute), h("div", {class: "front"}, canvas), slider, text];
+  return [h("div", {class: "tools"}, compute), box, slider, text];
 }

@@ -31,8 +31,9 @@ function start_handles() {
 
 function path_handles(k) {
   const curves = curves_of(k), list = [], leg_chosen = store.selection.leg === k;
+  const has_name = ([x, y]) => Object.values(store.mission.stations || {}).some((place) => Math.hypot(place.x_m - x, place.y_m - y) < 0.3);
   curves.forEach((curve, c) => {
-    const add = (point, kind, from) => list.push(with_choice({kind, x: curve[point][0], y: curve[point][1], from, text: kind === "joint" && c === curves.length - 1 ? `leg ${k + 1}` : "",
+    const add = (point, kind, from) => list.push(with_choice({kind, x: curve[point][0], y: curve[point][1], from, text: kind === "joint" && c === curves.length - 1 && !has_name(curve[3]) ? `leg ${k + 1}` : "",
       selects: {kind: "handle", leg: k, curve: c, point}, name: `${kind === "joint" ? "waypoint" : "control point"} ${c + 1}.${point} of leg ${k + 1}`,
       drag: (x, y, gesture) => move_handle(k, c, point, x, y, gesture)}));
     add(3, "joint");

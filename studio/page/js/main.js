@@ -1,13 +1,13 @@
 /** The studio's page. */
 import {announce, button, h, section} from "studio/dom.js";
-import {can_redo, can_undo, on, redo, store, undo} from "studio/store.js";
+import {can_redo, can_undo, on, once, redo, store, undo} from "studio/store.js";
 import * as answers from "studio/answers.js";
 import {canvas, draw, show_all, view} from "studio/floor_view.js";
 import {handles} from "studio/handles.js";
 import "studio/pointing.js";
 import {plots_panel} from "studio/plots.js";
 import {timeline} from "studio/timeline.js";
-import {causes, leg_list, status_text, tiles} from "studio/summary.js";
+import {causes, collides, leg_list, status_text, tiles} from "studio/summary.js";
 import {fields_of} from "studio/fields.js";
 import {selection_panel} from "studio/selection.js";
 import {front_panel} from "studio/front.js";
@@ -21,8 +21,8 @@ function top_bar() {
   const back = button("Undo", undo, {id: "undo"}), again = button("Redo", redo, {id: "redo"}), {buttons, told} = file_tools();
   const show = () => {
     status.textContent = status_text();
-    status.className = "badge" + (store.problem ? " bad" : store.state === "planned" && !store.working ? "" : " soft-badge");
-    if (store.state === "planned" && !store.working && !store.problem) status.textContent = store.answer.plan.status;
+    status.className = "badge" + (store.problem || (collides() && !store.working) ? " bad" : store.state === "planned" && !store.working ? "" : " soft-badge");
+    if (store.state === "planned" && !store.working && !store.problem && !collides()) status.textContent = store.answer.plan.status;
     problem.textContent = store.problem;
     back.disabled = !can_undo();
     again.disabled = !can_redo();
@@ -78,7 +78,8 @@ function start() {
   draw();
 }
 window.studio.store = store;
-Object.assign(window.studio, {answers, view, handles});
+// What tests and benchmarks look at.
+Object.assign(window.studio, {answers, view, handles, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))});
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;
 start();

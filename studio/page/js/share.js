@@ -1,7 +1,7 @@
 /** Save, copy the command, write the page as one file. */
 import {announce, button, h} from "studio/dom.js";
 import {has_core} from "studio/answers.js";
-import {emit, is_saved, on, set_files, store} from "studio/store.js";
+import {is_saved, on, set_files, store} from "studio/store.js";
 
 let told;
 export function tell(text, bad) {
@@ -42,6 +42,7 @@ async function copy() {
 export function page_text() {
   const copy = document.documentElement.cloneNode(true);
   const data = {files: JSON.stringify({...store.files, mission: store.mission, robot: store.robot}), floor: store.floor, schemas: store.schemas, served: false, version: store.version_of_program, answer: store.answer};
+  for (const mark of ["ready", "state"]) delete copy.dataset[mark];
   copy.querySelector("#app").replaceChildren();
   copy.querySelectorAll("script[type=importmap], script[type=module], .unseen[aria-live]").forEach((element) => element.remove());
   copy.querySelector("#data").textContent = JSON.stringify(data).replaceAll("<", "\\u003c");
@@ -63,4 +64,3 @@ export function file_tools() {
   window.addEventListener("beforeunload", (event) => { if (store.served && !is_saved()) event.preventDefault(); });
   return {buttons: [...(store.served ? [saving, reloading, button("Copy command", copy, {id: "copy"})] : []), button("Share as a file", share, {id: "share"})], told};
 }
-export {emit};

@@ -24,7 +24,12 @@ export const store = {
 
 const listeners = {};
 export const on = (event, listener) => (listeners[event] = listeners[event] || []).push(listener);
-export const emit = (event, detail) => (listeners[event] || []).forEach((listener) => listener(detail));
+/** Calls a listener at the next event alone. */
+export function once(event, listener) {
+  const first = (detail) => { listeners[event].splice(listeners[event].indexOf(first), 1); listener(detail); };
+  on(event, first);
+}
+export const emit = (event, detail) => [...(listeners[event] || [])].forEach((listener) => listener(detail));
 
 const snapshot = () => JSON.stringify({mission: store.mission, robot: store.robot, ways: store.ways});
 const past = [], future = [];

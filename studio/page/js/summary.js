@@ -1,15 +1,17 @@
 /** What the plan takes: figures, joules by cause, legs. */
 import {button, h} from "studio/dom.js";
 import {number, percent, short, signed, with_unit, words} from "studio/numbers.js";
-import {can_redo, can_undo, has_legs, on, select, store} from "studio/store.js";
-import {draw_by_hand, legs, remove_leg, reorder} from "studio/editing.js";
+import {has_legs, on, select, store} from "studio/store.js";
+import {legs, remove_leg, reorder} from "studio/editing.js";
 
 const kStates = {draft: "draft", certified: "certified on these ways", planned: "", none: "planning"};
 
 /** Status in words: how good the plan is, and how much of it is certified. */
+export const collides = () => !!store.answer && store.answer.legs.some((leg) => leg.blocked);
 export function status_text() {
   if (store.problem) return store.verdict && store.verdict.infeasibility ? "infeasible" : "no plan";
   if (store.working) return store.working + " …";
+  if (collides()) return "collides";
   return kStates[store.state] || words(store.verdict ? store.verdict.status : "planning");
 }
 
@@ -78,5 +80,3 @@ export function leg_list() {
   show();
   return h("table", {class: "legs"}, h("caption", {class: "unseen"}, "Legs"), h("thead", {}, h("tr", {}, h("th", {scope: "col"}, "leg"), h("th", {scope: "col", class: "n"}, "J"), h("th", {scope: "col", class: "n"}, "s"), h("th", {scope: "col"}, h("span", {class: "unseen"}, "order")))), body);
 }
-
-export {can_redo, can_undo, draw_by_hand};
