@@ -19,7 +19,7 @@ import urllib.request
 
 from studio_page import MISSION, Served, StudioPage, chromium, write_mission
 
-DRAGS = 10
+DRAGS = 6
 
 
 def energy_J(page):

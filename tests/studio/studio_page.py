@@ -63,12 +63,12 @@ class Served:
 class StudioPage(Browser):
     """The page in a browser."""
 
-    def show(self, address, patience_s=120):
+    def show(self, address, patience_s=300):
         self.call("POST", "/url", {"url": "about:blank"})
         self.call("POST", "/url", {"url": str(address)})
         self.until("return document.documentElement.dataset.ready === 'true'", patience_s)
 
-    def until(self, condition, patience_s=120):
+    def until(self, condition, patience_s=300):
         end = time.monotonic() + patience_s
         while not self.run(condition):
             if time.monotonic() > end:

@@ -4,7 +4,7 @@ export const is_number = (value) => typeof value === "number" && isFinite(value)
 /** About `digits` significant digits, thin spaces between thousands, a real minus. */
 export function number(value, digits = 4) {
   if (!is_number(value)) return "–";
-  if (value === 0) return "0";
+  if (Math.abs(value) < 1e-9) return "0";
   const size = Math.floor(Math.log10(Math.abs(value)));
   if (size >= 7 || size < -4) return value.toExponential(digits - 1).replace("-", "\u2212");
   const places = Math.max(0, Math.min(digits - 1 - size, 6));

@@ -52,7 +52,7 @@ export function causes() {
     if (!store.answer) return;
     const rows = causes_of(store.answer.plan), kept = store.kept && causes_of(store.kept.answer.plan), most = Math.max(1e-9, ...rows.map((row) => Math.abs(row.value)));
     head.replaceChildren(h("th", {scope: "col"}, "cause"), h("th", {scope: "col", class: "n"}, "J"), h("th", {scope: "col"}, h("span", {class: "unseen"}, "share")), ...(kept ? [h("th", {scope: "col", class: "n"}, "against A")] : []));
-    body.replaceChildren(...rows.filter((row) => Math.abs(row.value) > 1e-9 * most || row.name === "standby").map((row) => h("tr", {}, h("th", {scope: "row"}, words(row.name)), h("td", {class: "n"}, number(row.value, 5)),
+    body.replaceChildren(...rows.filter((row) => Math.abs(row.value) > 1e-6 * most || row.name === "standby").map((row) => h("tr", {}, h("th", {scope: "row"}, words(row.name)), h("td", {class: "n"}, number(row.value, 5)),
       h("td", {class: "bar"}, h("span", {style: `width:${(100 * Math.abs(row.value) / most).toFixed(1)}%;background:var(--${row.color})`})),
       kept ? h("td", {class: "n"}, signed(row.value - ((kept.find((one) => one.name === row.name) || {}).value || 0))) : null)));
   };
