@@ -22,6 +22,7 @@ namespace joulepath {
   COMMAND(effects)                  \
   COMMAND(compare)                  \
   COMMAND(front)                    \
+  COMMAND(studio)                   \
   COMMAND(check)                    \
   COMMAND(calibrate)                \
   COMMAND(schema)                   \

@@ -1,7 +1,6 @@
 #include "scenarios/document.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "model/printable.hpp"
@@ -25,17 +24,6 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
-
-std::optional<double> parse_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') {
-    text.remove_prefix(1);
-    if (!text.empty() && (text.front() == '-' || text.front() == '+')) return std::nullopt;
-  }
-  double value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;

@@ -1,5 +1,3 @@
-#include "planner/profile/front.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -14,6 +12,7 @@
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
+#include "planner/mission/plan_front.hpp"
 #include "scenarios/mission_file.hpp"
 
 namespace joulepath {
@@ -61,9 +60,7 @@ class FrontCommand : public Command {
       leg.duration_s.reset();
     }
     const Plan plan = plan_mission(mission, world, study_.plan);
-    std::vector<ProfileRequest> stretches;
-    for (const LegPlan& leg : plan.legs)
-      for (const StretchPlan& stretch : leg.stretches) stretches.push_back(stretch.request);
+    const std::vector<ProfileRequest> stretches = planned_stretches(plan);
     Front front = energy_time_front(stretches, points_);
     if (front.points.empty()) {
       const std::string& why = plan.message.empty() ? front.summary.message : plan.message;
@@ -80,27 +77,6 @@ class FrontCommand : public Command {
   }
 
  private:
-  /// Dwell and prescribed motions: the same at every point.
-  static FrontPoint rest_of(const Plan& plan) {
-    FrontPoint rest{.duration_s = plan.duration_s,
-                    .energy_J = plan.energy.total_J(),
-                    .motion_energy_J = plan.energy.motion_J()};
-    for (const LegPlan& leg : plan.legs)
-      for (const StretchPlan& stretch : leg.stretches) {
-        rest.duration_s -= stretch.profile.duration_s();
-        rest.energy_J -= stretch.energy.total_J();
-        rest.motion_energy_J -= stretch.energy.motion_J();
-      }
-    return rest;
-  }
-
-  static FrontPoint sum_of(FrontPoint point, const FrontPoint& rest) {
-    point.duration_s += rest.duration_s;
-    point.energy_J += rest.energy_J;
-    point.motion_energy_J += rest.motion_energy_J;
-    return point;
-  }
-
   /// The classic profiles beside one point of the front.
   struct Beside {
     std::size_t point{};

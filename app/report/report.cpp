@@ -6,11 +6,13 @@
 #include <string_view>
 #include <utility>
 
+#include "app/report/page_text.hpp"
 #include "model/limit_table.hpp"
 
 namespace joulepath::embedded {
 extern const std::string_view page, style, notice, library, library_css, script_core, script_plots,
-    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_sweep, script_main;
+    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_sweep,
+    script_main;
 }  // namespace joulepath::embedded
 
 namespace joulepath::report {
@@ -71,56 +73,6 @@ json json_of(const Limits& limits) {
 double number_at(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
-}
-
-/// JSON that may stand inside of a script element: no "<" can close it or open a comment.
-std::string script_safe(const json& data) {
-  std::string text;
-  for (const char c : data.dump(-1, ' ', true, json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-/// One pass over the page: a name between @ signs is replaced where it is known, and nothing that is put in
-/// is looked at again.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& values) {
-  std::string out;
-  while (!page.empty()) {
-    const std::size_t at = page.find('@');
-    out += page.substr(0, at);
-    if (at == std::string_view::npos) break;
-    page.remove_prefix(at);
-    bool known = false;
-    for (const auto& [name, value] : values) {
-      if (!page.starts_with(name)) continue;
-      out += value;
-      page.remove_prefix(name.size());
-      known = true;
-      break;
-    }
-    if (known) continue;
-    out += '@';
-    page.remove_prefix(1);
-  }
-  return out;
 }
 
 /// What a report of thousands of missions needs: counts, the numbers that are spread over all of them, and

@@ -25,6 +25,7 @@ struct PlanOptions {
   bool baselines{true};     ///< compare with classic profiles
   unsigned threads{1};      ///< for the legs of one mission; the plan does not depend on it
   SharedAnswers answers{};  ///< of other missions, kept; the plan does not depend on them
+  bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
 /// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.

@@ -106,7 +106,7 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
   }
   if (!choose(false)) return timed;
   check_end_speeds(timed.prepared, mission);
-  share(false);
+  share(options.draft);
   return timed;
 }
 
@@ -150,6 +150,17 @@ bool has_own_duration(const MissionRequest& mission) {
                      [](const LegRequest& leg) { return leg.duration_s.has_value(); });
 }
 
+/// A draft's limits hold at nodes alone and it has no bound: neither says that it is no plan, or the best.
+void mark_as_draft(Plan& plan) {
+  plan.status = SolveStatus::feasible;
+  plan.message.clear();
+  plan.gap_percent = std::nan("");
+  for (LegPlan& leg : plan.legs) {
+    leg.status = SolveStatus::feasible;
+    leg.gap_percent = std::nan("");
+  }
+}
+
 /// Plans the legs as they are, in their order; `plan` has what is known about the mission already.
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, Plan plan) {
@@ -176,6 +187,7 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   });
   plan.legs = std::move(legs);
   sum_up(plan, plant, options.accuracy);
+  if (options.draft) mark_as_draft(plan);
   plan.battery = battery_account(plan, uncertain_plant, mission.start.battery_fraction.value_or(1.0),
                                  mission.charging ? mission.charging->to_fraction : 1.0);
   if (auto reason = battery_too_small(plan, plant)) {

@@ -30,8 +30,10 @@ VisitSearch::VisitSearch(const ChoiceContext& context)
 std::optional<VisitLabel> VisitSearch::best(const RelaxedVisits& relaxed) const {
   Layer layer{{.last = count_}};
   for (std::size_t step = 0; step < count_ && !layer.empty(); ++step) layer = next_layer(layer, relaxed);
-  const auto least = std::ranges::min_element(
-      layer, {}, [](const VisitLabel& label) { return std::pair(label.late_s, label.front.least_J()); });
+  const auto rank = [](const VisitLabel& label) { return std::pair(label.late_s, label.front.least_J()); };
+  const auto least =
+      std::min_element(layer.begin(), layer.end(),
+                       [&](const VisitLabel& a, const VisitLabel& b) { return rank(a) < rank(b); });
   return least == layer.end() ? std::nullopt : std::optional(*least);
 }
 
@@ -105,7 +107,8 @@ VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisi
       std::optional<VisitLabel> after = extend(label, next, relaxed);
       if (!after) continue;
       Layer& rivals = best[{after->visited, after->last, std::lround(1e6 * after->payload_kg)}];
-      if (std::ranges::any_of(rivals, [&](const VisitLabel& rival) { return beats(rival, *after); }))
+      if (std::any_of(rivals.begin(), rivals.end(),
+                      [&](const VisitLabel& rival) { return beats(rival, *after); }))
         continue;
       std::erase_if(rivals, [&](const VisitLabel& rival) { return beats(*after, rival); });
       rivals.push_back(std::move(*after));
@@ -113,7 +116,9 @@ VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisi
   Layer all;
   for (auto& [key, labels] : best) std::move(labels.begin(), labels.end(), std::back_inserter(all));
   if (count_ > kExactStops && all.size() > kBeam) {
-    std::ranges::stable_sort(all, {}, [](const VisitLabel& label) { return label.front.least_J(); });
+    std::stable_sort(all.begin(), all.end(), [](const VisitLabel& a, const VisitLabel& b) {
+      return a.front.least_J() < b.front.least_J();
+    });
     all.resize(kBeam);
   }
   return all;

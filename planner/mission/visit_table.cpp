@@ -28,8 +28,8 @@ double heaviest_kg(const ChoiceContext& context) {
 /// Without a window the cheapest drive is enough.
 std::vector<double> prices_W(const ChoiceContext& context) {
   std::vector<double> prices_W;
-  if (std::ranges::any_of(context.mission.visit,
-                          [](const VisitRequest& visit) { return visit.window_s.has_value(); }))
+  if (std::any_of(context.mission.visit.begin(), context.mission.visit.end(),
+                  [](const VisitRequest& visit) { return visit.window_s.has_value(); }))
     for (double price_W : kPrices_W)
       if (price_W > context.price_W) prices_W.push_back(price_W);
   prices_W.push_back(context.price_W);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/profile/front.hpp"
+#include "planner/values/plan.hpp"
+
+namespace joulepath {
+
+/// The requests of a plan's stretches, in the order of driving.
+[[nodiscard]] std::vector<ProfileRequest> planned_stretches(const Plan& plan);
+
+/// What a plan takes beside its stretches (dwell, prescribed motions): the same at every point of its front.
+[[nodiscard]] FrontPoint rest_of(const Plan& plan);
+
+/// A point of the stretches' front with the rest added.
+[[nodiscard]] FrontPoint sum_of(FrontPoint point, const FrontPoint& rest);
+
+}  // namespace joulepath

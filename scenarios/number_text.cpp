@@ -1,0 +1,28 @@
+#include <charconv>
+#include <cmath>
+
+#include "scenarios/document.hpp"
+#include "scenarios/significant.hpp"
+
+// Numbers from and to text by <charconv>, which some libraries lack for floating-point numbers.
+
+namespace joulepath {
+
+std::optional<double> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+    if (!text.empty() && (text.front() == '-' || text.front() == '+')) return std::nullopt;
+  }
+  double value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string significant_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, six_digits(value)).ptr;
+  return {buffer, end};
+}
+
+}  // namespace joulepath

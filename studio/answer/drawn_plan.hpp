@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "planner/values/plan.hpp"
+
+namespace joulepath::studio {
+
+/// Instants at which a plan is drawn: about `count`, the ends of stretches and of dwells among them.
+[[nodiscard]] std::vector<double> drawn_times_s(const Plan& plan, std::size_t count);
+
+/// The motion of a valid plan at these instants: columns by the names of trajectory.csv, and
+/// `limit` (index into `limits`, -1: none binds) with `limit_use` (of the tightest limit, 1 = at the limit).
+[[nodiscard]] nlohmann::json drawn_motion(const Plan& plan, const Plant& plant,
+                                          const std::vector<double>& times_s);
+
+/// The names of limits that `limit` counts in.
+[[nodiscard]] nlohmann::json limit_names();
+
+/// The path that a planned leg follows; empty for a prescribed motion.
+[[nodiscard]] Path path_of(const LegPlan& leg);
+
+}  // namespace joulepath::studio

@@ -1,0 +1,47 @@
+/** Elements. h("p", {class: "soft", onclick: f}, "text", child): null children are left out. */
+export function h(tag, attributes, ...children) {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes || {})) {
+    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+    else if (key === "style") element.style.cssText = value;
+    else if (value !== null && value !== undefined && value !== false) element.setAttribute(key, value === true ? "" : value);
+  }
+  element.append(...children.flat(4).filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+const live = h("div", {class: "unseen", "aria-live": "polite"});
+
+/** Says a sentence to who listens to the page. */
+export function announce(text) {
+  if (!live.isConnected) document.body.append(live);
+  live.textContent = text;
+}
+
+export const button = (text, onclick, attributes = {}) => h("button", {type: "button", onclick, ...attributes}, text);
+
+/** A section that can be closed; what is open stays in mind. */
+export function section(title, id, ...children) {
+  const open = sessionStorageGet("open:" + id) !== "no";
+  const details = h("details", {id, class: "section", open}, h("summary", {}, h("h2", {}, title)), ...children);
+  details.addEventListener("toggle", () => sessionStorageSet("open:" + id, details.open ? "yes" : "no"));
+  return details;
+}
+
+function sessionStorageGet(key) { try { return sessionStorage.getItem(key); } catch { return null; } }
+function sessionStorageSet(key, value) { try { sessionStorage.setItem(key, value); } catch { /* a page from a file may have no storage */ } }
+
+/** A canvas of its element's size in sharp pixels; {context, width, height} in CSS pixels. */
+export function sharp(canvas, height) {
+  const width = Math.max(60, canvas.parentElement.clientWidth), ratio = Math.max(1, window.devicePixelRatio || 1);
+  const tall = Math.max(40, height ?? canvas.parentElement.clientHeight);
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(tall * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(tall * ratio);
+    canvas.style.width = width + "px";
+    canvas.style.height = tall + "px";
+  }
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return {context, width, height: tall};
+}

@@ -1,0 +1,98 @@
+/**
+ * What the page knows: the mission and the robot as their files have them, the ways of the legs as the last answer
+ * gave them, the last answer, what is selected. Every change goes through change(), so that all of them can be undone.
+ */
+const data = JSON.parse(document.getElementById("data").textContent);
+const files = JSON.parse(data.files);
+
+export const store = {
+  served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null,
+  files, mission: structuredClone(files.mission), robot: structuredClone(files.robot), ways: [],
+  answer: null,      // the last with a motion
+  verdict: null,     // the plan of the last answer, which may have no motion
+  state: "none",     // none | draft | certified | planned: how much the last answer is worth
+  problem: "",       // why there is no newer answer
+  working: "",       // what is being computed
+  selection: {kind: "none"},
+  cursor_s: 0,
+  kept: null,        // plan A of a comparison: {name, answer}
+  classics: null,    // classic profiles beside the plan
+  front: null,
+  edits: 0,          // counts changes: an answer to an older one is no longer wanted
+  searched: 0,       // `edits` at the last answer that searched routes
+};
+
+const listeners = {};
+export const on = (event, listener) => (listeners[event] = listeners[event] || []).push(listener);
+/** Calls a listener at the next event alone. */
+export function once(event, listener) {
+  const first = (detail) => { listeners[event].splice(listeners[event].indexOf(first), 1); listener(detail); };
+  on(event, first);
+}
+export const emit = (event, detail) => [...(listeners[event] || [])].forEach((listener) => listener(detail));
+
+const snapshot = () => JSON.stringify({mission: store.mission, robot: store.robot, ways: store.ways});
+const past = [], future = [];
+let gesture = "", saved = snapshot_of_files();
+function snapshot_of_files() { return JSON.stringify({mission: store.files.mission, robot: store.files.robot}); }
+
+/**
+ * Changes mission, robot or ways by `edit(store)`. Changes of the same gesture (a drag, a slider) are one step of undo.
+ * `release`: the gesture is over, and the plan is to be certified.
+ */
+export function change(edit, {of = "", release = true} = {}) {
+  const before = snapshot();
+  edit(store);
+  const after = snapshot();
+  if (after !== before) {
+    if (!of || of !== gesture) past.push(before);
+    if (past.length > 300) past.shift();
+    gesture = of;
+    future.length = 0;
+    store.edits += 1;
+  }
+  if (release) gesture = "";
+  if (after !== before || release) emit("edit", {release});
+}
+
+function restore(text) {
+  Object.assign(store, JSON.parse(text));
+  store.edits += 1;
+  gesture = "";
+  emit("edit", {release: true});
+  emit("selection");
+}
+export const can_undo = () => past.length > 0;
+export const can_redo = () => future.length > 0;
+export function undo() { if (past.length) { future.push(snapshot()); restore(past.pop()); } }
+export function redo() { if (future.length) { past.push(snapshot()); restore(future.pop()); } }
+
+export const is_saved = () => saved === JSON.stringify({mission: store.mission, robot: store.robot});
+
+/** Files as they are on the disk now. `adopt`: the page takes their values. */
+export function set_files(next, adopt) {
+  store.files = next;
+  saved = snapshot_of_files();
+  if (adopt) {
+    past.push(snapshot());
+    store.mission = structuredClone(next.mission);
+    store.robot = structuredClone(next.robot);
+    store.edits += 1;
+    emit("edit", {release: true});
+  }
+  emit("files");
+}
+
+export function select(selection) {
+  store.selection = selection;
+  emit("selection");
+}
+
+export function set_cursor(time_s) {
+  const end_s = store.answer ? store.answer.motion.time_s.at(-1) : 0;
+  store.cursor_s = Math.min(end_s, Math.max(0, time_s));
+  emit("cursor");
+}
+
+/** Legs whose order and number the page can edit: given as `legs:`, not left to the planner. */
+export const has_legs = () => Array.isArray(store.mission.legs) && store.mission.legs.length > 0;

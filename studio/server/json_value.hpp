@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scenarios/document.hpp"
+
+namespace joulepath::studio {
+
+/// A parsed value as JSON: numbers, true and false as such, everything else as a text.
+[[nodiscard]] nlohmann::ordered_json json_of(const Value& value);
+
+/// JSON as YAML in one line: {to: dock, payload_kg: 5.7}.
+[[nodiscard]] std::string flow_text(const nlohmann::ordered_json& value);
+
+}  // namespace joulepath::studio

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "scenarios/document.hpp"
+
+namespace joulepath::studio {
+
+/// Where values stand in a text, as offsets.
+struct Span {
+  std::size_t begin{};
+  std::size_t end{};
+};
+
+/// Places of the values of one text in YAML (or JSON, which is YAML's flow style).
+class TextSpans {
+ public:
+  explicit TextSpans(const std::string& text);
+
+  [[nodiscard]] std::size_t offset(int line, int column) const;
+  /// From a value's first character to behind its last; comments beside it are not part of it. `in_flow`:
+  /// inside of braces or brackets.
+  [[nodiscard]] Span of(const Value& value, bool in_flow) const;
+  /// Whether a map or a list is written with braces or brackets.
+  [[nodiscard]] bool is_flow(const Value& value) const;
+  /// Behind the line break of the line that holds an offset.
+  [[nodiscard]] std::size_t line_end(std::size_t at) const;
+  [[nodiscard]] std::size_t line_begin(std::size_t at) const;
+
+ private:
+  [[nodiscard]] std::size_t quoted_end(std::size_t begin) const;
+  [[nodiscard]] std::size_t flow_end(std::size_t begin) const;
+  [[nodiscard]] std::size_t plain_end(std::size_t begin, bool in_flow) const;
+
+  const std::string& text_;
+  std::vector<std::size_t> lines_{};
+};
+
+}  // namespace joulepath::studio

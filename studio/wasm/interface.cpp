@@ -1,0 +1,39 @@
+#include <emscripten/emscripten.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "studio/answer/grid_json.hpp"
+#include "studio/answer/session.hpp"
+
+namespace {
+
+std::unique_ptr<joulepath::studio::Session>& session() {
+  static auto one = std::make_unique<joulepath::studio::Session>(joulepath::MissionWorld{}, "/");
+  return one;
+}
+
+}  // namespace
+
+extern "C" {
+
+/// Takes a floor (grid_json.hpp) as JSON; "" or what is wrong with it. The text stays until the next call.
+EMSCRIPTEN_KEEPALIVE const char* joulepath_open(const char* floor) {
+  static std::string error;
+  error.clear();
+  try {
+    session() = std::make_unique<joulepath::studio::Session>(
+        joulepath::studio::floor_from(nlohmann::json::parse(floor)), "/");
+  } catch (const std::exception& problem) {
+    error = problem.what();
+  }
+  return error.c_str();
+}
+
+/// The answer to a question (session.hpp). The text stays until the next call.
+EMSCRIPTEN_KEEPALIVE const char* joulepath_answer(const char* question) {
+  static std::string answer;
+  answer = session()->answer(question);
+  return answer.c_str();
+}
+}
