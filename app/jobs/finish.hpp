@@ -16,6 +16,7 @@ class CommandLine;
 struct JobOptions {
   std::string out{};
   std::string shard{};
+  std::string quarantine{};
   unsigned jobs{};
   bool resume{};
   CommonOptions common{};
