@@ -73,19 +73,21 @@ def sharded(program, count, processes):
     return costs, merge, same
 
 
-def merged_again(program, count, shards=16):
-    """The cost of the merge of a batch whose lines are there already: its shards plan nothing, and get those lines."""
-    lines = pathlib.Path(f"one_{count}/results.jsonl").read_text().splitlines(keepends=True)
-    pathlib.Path("held.jsonl").write_text("".join(json.dumps({"index": k, "reason": "known"}) + "\n" for k in range(count)))
+def beside_planning(program, count, planned, shards=4):
+    """What `count` missions cost beside their planning: a batch that plans none of them, and the merge of lines like real ones."""
+    file = write_missions(count)
+    pathlib.Path("held.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(count)))
+    words = [program, "batch", file, "-j", "1", "--quiet", "--force", *NODES, "--quarantine", "held.jsonl", "--out"]
+    books, = wait([start([*words, "books"])])
+    known = [json.loads(line) for line in pathlib.Path(f"one_{planned}/results.jsonl").read_text().splitlines()]
     folders = [pathlib.Path(f"again_{k}") for k in range(shards)]
     for k, folder in enumerate(folders):
-        wait([start([program, "batch", f"missions_{count}.jsonl", "--out", folder, "-j", "1", "--quiet", "--force", *NODES, "--shard",
-                     f"{k + 1}/{shards}", "--quarantine", "held.jsonl"])])
-        (folder / "results.jsonl").write_text("".join(lines[k::shards]))
-    cost, = wait([start([program, "merge", *folders, "--out", "merged_again", "--quiet", "--force"])])
-    if pathlib.Path("merged_again/report.html").read_bytes() != pathlib.Path(f"one_{count}/report.html").read_bytes():
-        raise SystemExit("the merge differs from the batch")
-    return cost
+        wait([start([*words, folder, "--shard", f"{k + 1}/{shards}"])])
+        with open(folder / "results.jsonl", "w", encoding="utf-8") as out:
+            for index in range(k, count, shards):
+                out.write(json.dumps({**known[index % planned], "index": index}, separators=(",", ":")) + "\n")
+    merge, = wait([start([program, "merge", *folders, "--out", "merged_again", "--quiet", "--force"])])
+    return books, merge, sum(f.stat().st_size for f in pathlib.Path("merged_again").iterdir()) / 2**20
 
 
 def on_dask(count, workers, shards):
@@ -113,22 +115,21 @@ def yes(same):
     return "the same" if same else "DIFFERENT"
 
 
-def projection(per_mission_s, task, merge, merged, results_MiB_per_mission):
-    plan_s = GOAL * per_mission_s / CORES
-    tasks_s = SHARDS * task.cpu_s / CORES
-    merge_s = merge.cpu_s * GOAL / merged
-    total_s = plan_s + tasks_s + merge_s
+def projection(per_mission_s, task, books, merge, count, files_MiB):
+    plan_s, tasks_s = GOAL * per_mission_s / CORES, SHARDS * task.cpu_s / CORES
+    merge_s = merge.cpu_s * GOAL / count
     return [f"## Projection: {GOAL:,} missions on {CORES} cores, {SHARDS} shards", "",
             "| part | from | s |", "|---|---|---:|",
             f"| planning | {1000 * per_mission_s:.1f} ms of CPU per mission, divided by {CORES} | {plan_s:.0f} |",
             f"| processes of shards | {task.cpu_s:.2f} s of CPU each, divided by {CORES} | {tasks_s:.0f} |",
-            f"| merge, one process | {merge.cpu_s:.2f} s of CPU for {merged:,} missions, in proportion | {merge_s:.0f} |",
-            f"| sum | efficiency {100 * plan_s / total_s:.0f} % | {total_s:.0f} |", "",
-            f"Results take {GOAL * results_MiB_per_mission:,.0f} MiB, and as much again in the shards until the merge. The merge holds all lines in "
-            f"memory: {merge.peak_MiB:.0f} MiB for {merged:,} missions, so about {merge.peak_MiB * GOAL / merged / 1024:.1f} GiB here. **What breaks first "
-            "is the merge**: its memory, and the page of the report, which lists every mission. The longest shard decides the end: "
-            "shards are strided, so that hard missions spread over all of them. The projection leaves out the waiting for the scheduler of the "
-            "cluster and for a shared disk, which were not measured."]
+            f"| merge, one process | {merge.cpu_s:.1f} s of CPU for {count:,} lines, in proportion | {merge_s:.0f} |",
+            f"| sum | efficiency {100 * plan_s / (plan_s + tasks_s + merge_s):.0f} % | {plan_s + tasks_s + merge_s:.0f} |", "",
+            f"The files of the merged results take {files_MiB * GOAL / count:,.0f} MiB, and about as much again in the shards until the merge.", "",
+            f"**What breaks first** is memory in one process: the merge takes {merge.peak_MiB:.0f} MiB for {count:,} lines, "
+            f"{merge.peak_MiB * GOAL / count / 1024:.1f} GiB in proportion, and every shard reads the whole list of missions "
+            f"({books.peak_MiB:.0f} MiB for {count:,} missions with their fingerprints). The page of the report lists every mission. Shards are strided, so "
+            "that hard missions spread over all of them; the slowest one decides the end. The projection leaves out the waiting for "
+            "a cluster's scheduler and for a shared disk, which were not measured."]
 
 
 def main():
@@ -156,9 +157,12 @@ def main():
     for workers in (1, 2):
         wall_s, peak_MiB, same = on_dask(count, workers, 8)
         lines.append(f"| {workers} Dask worker{'s' * (workers > 1)}, 8 shards | | | {wall_s:.0f} | {peak_MiB:.0f} (the worker itself) | {yes(same)} |")
-    largest, cost, all_MiB, _ = rows[-1]
-    merge = merged_again(program, largest)
-    lines += ["", *projection(cost.cpu_s / largest, task_cost(), merge, largest, all_MiB / largest)]
+    books, merge, files_MiB = beside_planning(program, 100_000, count)
+    lines += ["", "## 100,000 missions without their planning", "", "| part | CPU, s | peak memory, MiB |", "|---|---:|---:|",
+              f"| `batch` that reads all missions and plans none (`--quarantine`) | {books.cpu_s:.1f} | {books.peak_MiB:.0f} |",
+              f"| `merge` of 4 shards with lines like real ones: {files_MiB:.0f} MiB of files | {merge.cpu_s:.1f} | {merge.peak_MiB:.0f} |"]
+    largest, cost, *_ = rows[-1]
+    lines += ["", *projection(cost.cpu_s / largest, task_cost(), books, merge, 100_000, files_MiB)]
     result.write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._errors import refused
+from ._errors import ConfigError, refused
 
 
 def numbers(name: str, value: ArrayLike, ndim: int = 1, least: float = -math.inf, most: float = math.inf) -> NDArray[np.float64]:
@@ -115,6 +115,8 @@ def text_of(name: str, value: Any) -> str:
 
     try:
         text = json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False)
+    except ConfigError:
+        raise
     except ValueError as error:
         if "Out of range" not in str(error):
             raise refused(name, "a value that holds itself", "what JSON can hold") from error

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import importlib
 import json
 import os
 import re
@@ -20,7 +21,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, cast
 
 from . import _core
 from ._errors import refused
@@ -69,7 +70,7 @@ def _run_shard(shard: _Shard) -> None:
         raise ClusterError(f"a worker has joulepath {build_id()}, the client {shard.build}")
     deaths: Counter[tuple[int, int]] = Counter()
     words = (sys.executable, "-m", __name__, str(os.getpid()), str(shard.memory_MiB), *shard.words, "--resume", "-j1", "-q",
-             "--shard", f"{shard.number}/{shard.of}", "--quarantine", shard.file("quarantine.jsonl"), "--out", shard.file())
+             "--shard", f"{shard.number}/{shard.of}", "--quarantine", str(shard.file("quarantine.jsonl")), "--out", str(shard.file()))
     while not shard.file("shard.json").exists():
         child = subprocess.Popen(words, cwd=shard.here, stderr=subprocess.PIPE, text=True)
         while child.returncode is None:
@@ -86,15 +87,15 @@ def _run_shard(shard: _Shard) -> None:
 
 def _wait(client: Any, shards: list[_Shard], progress: Callable[[int, int], None] | None) -> None:
     """Runs all shards. One whose workers died is begun again."""
-    from distributed import KilledWorker, as_completed
+    dask: Any = importlib.import_module("distributed")
 
     running = {client.submit(_run_shard, shard, pure=False): shard for shard in shards}
     deaths: Counter[tuple[int, int]] = Counter()
-    finished = as_completed(list(running))
+    finished = dask.as_completed(list(running))
     try:
         for future in finished:
             shard, error = running.pop(future), future.exception()
-            if isinstance(error, KilledWorker):
+            if isinstance(error, dask.KilledWorker):
                 shard.blame(deaths, "ended its workers")
                 running[again := client.submit(_run_shard, shard, pure=False)] = shard
                 finished.add(again)
@@ -124,7 +125,7 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     if strangers := {worker: build for worker, build in client.run(build_id).items() if build != build_id()}:
         raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
     count = whole("shards", shards or 4 * len(client.nthreads()), 1, 1_000_000)
-    is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in _core.load_document(os.fspath(study))
+    is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(os.fspath(study)))
     words = ("sweep" if is_study else "batch", os.fspath(study), *options)
     shutil.rmtree(folder / "cancelled" if resume else folder, ignore_errors=True)
     common = (words, os.getcwd(), folder, memory_MiB, build_id())
@@ -133,7 +134,7 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
         part.file().mkdir(parents=True, exist_ok=True)
         part.file("quarantine.jsonl").touch()
     _wait(client, parts, progress)
-    merge = (sys.executable, "-m", "joulepath", "merge", *(part.file() for part in parts), "-q", "--out", target)
+    merge = (sys.executable, "-m", "joulepath", "merge", *(str(part.file()) for part in parts), "-q", "--out", str(target))
     if (merged := subprocess.run(merge, stderr=subprocess.PIPE, text=True)).returncode != 0:
         raise ClusterError(merged.stderr.strip())
     shutil.rmtree(folder)

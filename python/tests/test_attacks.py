@@ -42,7 +42,7 @@ for _ in range(100_000):
     (lambda r: jp.simulate(r), "plan: found Robot"),
     (lambda r: jp.simulate(PLAN(r), effects="rolling_resistance"), "effects"),
     (lambda r: jp.simulate(PLAN(r), effects=None), "effects"),
-    (lambda r: jp.simulate(PLAN(r), effects={"rolling_resistance": {"coefficient": {1, 2}}}), "what JSON can hold"),
+    (lambda r: jp.simulate(PLAN(r), effects={"rolling_resistance": {"coefficient": {1, 2}}}), "a value of type set"),
     (lambda r: jp.simulate(PLAN(r), sample_rate_Hz=1e-9), "sample_rate_Hz: found 1e-09, accepted: a number >= 1 and <= 1000"),
     (lambda r: jp.simulate(PLAN(r), sample_rate_Hz=1e300), "sample_rate_Hz"),
     (lambda r: jp.simulate(PLAN(r), seed=2**64), "seed"),
