@@ -40,7 +40,7 @@ struct CommandText {
 
 /// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
 /// options bound to its members; `run` reads, calculates, prints results on stdout and talk on stderr, and
-/// gives the exit code; errors are thrown (main.cpp reports them).
+/// gives the exit code; errors are thrown (program.cpp reports them).
 class Command {
  public:
   explicit Command(CommandText text) : text_(std::move(text)) {}

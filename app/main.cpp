@@ -1,70 +1,10 @@
-#include <filesystem>
 #include <iostream>
-#include <new>
-#include <system_error>
 
-#include "app/command_line.hpp"
-#include "app/commands.hpp"
 #include "app/interrupt.hpp"
-#include "app/terminal.hpp"
-#include "model/assert.hpp"
-#include "model/config_error.hpp"
-#include "model/printable.hpp"
-#include "scenarios/document.hpp"
-
-namespace joulepath {
-namespace {
-
-int tell(const std::string& message, int code, const std::string& hint = {}) {
-  std::cout.flush();
-  std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(message) << '\n';
-  if (!hint.empty()) std::cerr << hint << '\n';
-  return code;
-}
-
-/// Runs a command; every error ends in one message and its exit code.
-int guarded(Command& command) {
-  try {
-    const int code = command.run();
-    std::cout.flush();
-    if (!std::cout) return tell("cannot write to the standard output", kEnvironment);
-    return code;
-  } catch (const ConfigError& error) {
-    return tell(error.what(), kBadInput);
-  } catch (const UsageError& error) {
-    return tell(error.what(), kBadInput, "see: joulepath " + command.text().name + " --help");
-  } catch (const Interrupted&) {
-    return tell("interrupted", kInterrupted);
-  } catch (const EnvironmentError& error) {
-    return tell(error.what(), kEnvironment);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return tell(error.path1().string() + ": " + error.code().message(), kEnvironment);
-  } catch (const std::system_error& error) {
-    return tell(error.what(), kEnvironment);
-  } catch (const std::bad_alloc&) {
-    return tell("not enough memory", kEnvironment);
-  } catch (const std::exception& error) {
-    return tell(std::string("internal error: ") + error.what(), kInternalError,
-                "This is a bug in joulepath; please report it with the command and its files.");
-  }
-}
-
-int run(int argc, char** argv) {
-  const Commands commands = all_commands();
-  const ParsedCommandLine parsed = parse_command_line(argc, argv, commands, JOULEPATH_VERSION);
-  if (!parsed.error.empty()) return tell(parsed.error, parsed.exit_code, parsed.hint);
-  if (parsed.command) return guarded(*parsed.command);
-  (parsed.exit_code == kDone ? std::cout : std::cerr) << parsed.output;
-  std::cout.flush();
-  if (!std::cout) return tell("cannot write to the standard output", kEnvironment);
-  return parsed.exit_code;
-}
-
-}  // namespace
-}  // namespace joulepath
+#include "app/program.hpp"
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   joulepath::install_interrupt_handler();
-  return joulepath::run(argc, argv);
+  return joulepath::program_main(argc, argv);
 }

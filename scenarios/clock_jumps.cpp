@@ -28,10 +28,10 @@ std::vector<std::size_t> stretch_bounds(const std::vector<double>& time_s) {
   return bounds;
 }
 
-Trajectory samples_between(Trajectory& log, std::size_t first, std::size_t end) {
+Trajectory samples_between(const Trajectory& log, std::size_t first, std::size_t end) {
   Trajectory part;
   for (const LogColumn& column : log_columns()) {
-    const std::vector<double>& all = column.channel(log);
+    const std::vector<double>& all = column.of(log);
     if (all.empty()) continue;
     column.channel(part).assign(all.begin() + static_cast<std::ptrdiff_t>(first),
                                 all.begin() + static_cast<std::ptrdiff_t>(end));
@@ -66,10 +66,14 @@ Run later_stretch(const Run& run, Trajectory log, std::size_t number) {
 }  // namespace
 
 std::vector<Run> split_at_clock_jumps(Run run, std::vector<LogArtifact>& artifacts) {
-  if (run.log.size() < 3) return {std::move(run)};
-  const std::vector<std::size_t> bounds = stretch_bounds(run.log.time_s);
-  if (bounds.size() == 2) return {std::move(run)};
   std::vector<Run> stretches;
+  const bool has_steps = run.log.size() > 2;
+  const auto bounds =
+      has_steps ? stretch_bounds(run.log.time_s) : std::vector<std::size_t>{0, run.log.size()};
+  if (bounds.size() == 2) {
+    stretches.push_back(std::move(run));
+    return stretches;
+  }
   for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
     if (k > 0) artifacts.push_back(jump_before(run, bounds[k]));
     if (bounds[k + 1] - bounds[k] < 2) continue;

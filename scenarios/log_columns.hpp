@@ -15,6 +15,10 @@ struct LogColumn {
   std::string name{};
   std::vector<double>& (*channel)(Trajectory&){};
   bool measured{};  ///< a run log may have it; the others only `plan` writes
+
+  [[nodiscard]] const std::vector<double>& of(const Trajectory& trajectory) const {
+    return channel(const_cast<Trajectory&>(trajectory));  // it only finds the channel
+  }
 };
 
 /// All columns, in the order in which they are written.

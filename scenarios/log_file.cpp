@@ -31,6 +31,7 @@ class LogFileReader {
                          std::to_string(file_.table.rows()) + (file_.table.rows() == 1 ? " row" : " rows"),
                          "at least 2 samples",
                          ""});
+    count_uses();
     read_times();
     for (const auto& column : log_columns())
       if (column.measured && column.name != "time_s") read_channel(column.name);
@@ -42,10 +43,22 @@ class LogFileReader {
   LogFile take() { return std::move(file_); }
 
  private:
-  const std::vector<double>* raw(const std::string& column) const {
+  std::vector<double>* raw(const std::string& column) {
     for (const auto& name : names_in_file(column, sources_))
-      if (const auto* values = file_.table.find(name)) return values;
+      if (const auto at = std::ranges::find(file_.table.header, name); at != file_.table.header.end())
+        return &file_.table.columns[static_cast<std::size_t>(at - file_.table.header.begin())];
     return nullptr;
+  }
+
+  /// How many channels read each column: the last one takes it, so that a long log is not in memory twice.
+  void count_uses() {
+    for (const auto& column : log_columns())
+      if (column.measured) ++uses_[raw(column.name)];
+    for (const char* name_of : kOrientationColumns) ++uses_[raw(name_of)];
+  }
+
+  std::vector<double> take(std::vector<double>& values) {
+    return --uses_[&values] == 0 ? std::move(values) : values;
   }
 
   ColumnSource source(const std::string& column) const {
@@ -63,7 +76,7 @@ class LogFileReader {
   }
 
   void read_times() {
-    const auto* values = raw("time_s");
+    auto* values = raw("time_s");
     if (!values) {
       const std::string expected = names_in_file("time_s", sources_).front();
       const std::string near = nearest_word(expected, file_.table.header);
@@ -74,7 +87,7 @@ class LogFileReader {
                          near.empty() ? "map the log's own name under columns: time_s: {from: ...}"
                                       : "map it under columns: time_s: {from: " + near + "}?"});
     }
-    file_.times = *values;
+    file_.times = take(*values);
     const ColumnSource mapping = source("time_s");
     for (std::size_t i = 0; i < file_.times.size(); ++i)
       if (!std::isfinite(file_.times[i])) fail_time(i, "an empty cell", "the time of every sample");
@@ -98,9 +111,9 @@ class LogFileReader {
   }
 
   void read_channel(const std::string& name) {
-    const auto* values = raw(name);
+    auto* values = raw(name);
     if (!values) return;
-    std::vector<double> channel = *values;
+    std::vector<double> channel = take(*values);
     const ColumnSource mapping = source(name);
     if (const auto missing = fill_missing(file_.times, channel))
       file_.artifacts.push_back(
@@ -152,6 +165,7 @@ class LogFileReader {
 
   const ColumnSources& sources_;
   const std::string& run_;
+  std::map<const std::vector<double>*, int> uses_{};
   LogFile file_{};
 };
 

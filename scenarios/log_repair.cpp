@@ -197,6 +197,7 @@ std::vector<double> change_per_second(const std::vector<double>& times, const st
 }
 
 std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values) {
+  if (std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return 0;
   std::vector<double> known_times, known_values;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i])) {

@@ -1,6 +1,7 @@
 #include "scenarios/physical_bounds.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 // Design: docs/decisions/0150-input-is-bounded.md
 
@@ -90,6 +91,11 @@ void bind(Schema& schema, std::string_view key) {
 Schema with_physical_bounds(Schema schema) {
   bind(schema, "");
   return schema;
+}
+
+double greatest_size(std::string_view key) {
+  const Bounds* bounds = bounds_of(key);
+  return bounds ? bounds->most : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace joulepath

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
@@ -8,6 +10,9 @@ namespace joulepath {
 /// or by the name itself. Bounds are wide; beyond them a value is a slip of the unit or of a digit, and the
 /// numerics would fail far from its cause. Keys of `effects` and `uncertainty` keep their own bounds.
 [[nodiscard]] Schema with_physical_bounds(Schema schema);
+
+/// The greatest size that a number may have when its key ends like this; infinity without such a bound.
+[[nodiscard]] double greatest_size(std::string_view key);
 
 inline constexpr double kFarthest_m = 1e6;  ///< of a coordinate from the origin
 

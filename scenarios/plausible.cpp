@@ -83,11 +83,11 @@ void check_robot(const Trajectory& log, const Geometry& geometry, const Node& na
 }  // namespace
 
 void check_plausible(const Run& run, const Robot& robot, const Node& named_by) {
-  Trajectory log = run.log;
+  const Trajectory& log = run.log;
   check_time(log, named_by);
   check_wheels(log, robot.geometry, named_by);
   for (const Bound& bound : kColumnBounds)
-    if (const double most = greatest(find_log_column(bound.column)->channel(log)); most > bound.most)
+    if (const double most = greatest(find_log_column(bound.column)->of(log)); most > bound.most)
       refuse(named_by, std::string(bound.column) + " up to " + four_digits(most),
              "at most " + four_digits(bound.most), bound.hint);
   check_robot(log, robot.geometry, named_by);

@@ -43,13 +43,14 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
       if (f == 0) {
-        column->channel(log.trajectory)
-            .assign(values.begin() + static_cast<long>(skip),
-                    values.begin() + static_cast<long>(skip + rows));
+        values.erase(values.begin() + static_cast<long>(skip + rows), values.end());
+        values.erase(values.begin(), values.begin() + static_cast<long>(skip));
+        column->channel(log.trajectory) = std::move(values);
         continue;
       }
       if (name == "heading_rad") unwrap_angle(values);
       column->channel(log.trajectory) = interpolated(files[f].times, values, log.trajectory.time_s);
+      values = std::vector<double>();
     }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
@@ -200,11 +201,10 @@ RunLog read_run_log(const std::string& file, const Geometry& geometry) {
 }
 
 std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraColumn>& extra) {
-  Trajectory copy = trajectory;
   std::vector<const std::vector<double>*> channels;
   std::string text;
   for (const auto& column : log_columns()) {
-    const auto& values = column.channel(copy);
+    const auto& values = column.of(trajectory);
     if (values.empty()) continue;
     text += (channels.empty() ? "" : ",") + column.name;
     channels.push_back(&values);

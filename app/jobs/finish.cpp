@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/command_line.hpp"
+#include "app/jobs/quarantine.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
@@ -61,6 +62,8 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
   line.option("--shard", options.shard,
               "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
+  line.option("--quarantine", options.quarantine,
+              "JSON lines {index, reason}: not planned, because they killed their process");
   line.flag("--resume", options.resume, "continue an interrupted run: finished and unchanged plans are kept");
   add_cache_options(line, options.cache);
   add_common_flags(line, options.common, "qjfu");
@@ -73,7 +76,8 @@ JobRun job_run(const JobOptions& options, const std::string& noun) {
           .force = options.common.force,
           .quiet = options.common.quiet,
           .noun = noun,
-          .shard = shard_from(options.shard)};
+          .shard = shard_from(options.shard),
+          .quarantine = read_quarantine(options.quarantine)};
 }
 
 OutputDirectory job_output(const JobOptions& options, const Shard& shard,

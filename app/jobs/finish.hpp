@@ -17,6 +17,7 @@ class CommandLine;
 struct JobOptions {
   std::string out{};
   std::string shard{};
+  std::string quarantine{};
   unsigned jobs{};
   bool resume{};
   CacheChoice cache{};

@@ -199,7 +199,12 @@ JobResult MissionPlanner::plan(const MissionItem& item, std::size_t index, Json 
 }
 
 JobResult MissionJobs::plan(std::size_t index) {
-  return planner_.plan(items_[index], index, {{"index", index}, {"name", items_[index].name}});
+  return planner_.plan(items_[index], index, Json::parse(name_line(index)));
+}
+
+std::string MissionJobs::name_line(std::size_t index) const {
+  return Json{{"index", index}, {"name", items_[index].name}}.dump(-1, ' ', false,
+                                                                   Json::error_handler_t::replace);
 }
 
 }  // namespace joulepath

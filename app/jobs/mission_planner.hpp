@@ -88,6 +88,7 @@ class MissionJobs : public JobList {
 
   [[nodiscard]] std::size_t size() const override { return items_.size(); }
   [[nodiscard]] JobResult plan(std::size_t index) override;
+  [[nodiscard]] std::string name_line(std::size_t index) const override;
   [[nodiscard]] std::string fingerprint(std::size_t index) override {
     return planner_.fingerprint(items_[index]);
   }

@@ -6,17 +6,27 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "app/interrupt.hpp"
 #include "app/jobs/journal.hpp"
 #include "app/progress.hpp"
 #include "model/config_error.hpp"
+#include "model/printable.hpp"
 #include "model/workers.hpp"
 
 namespace joulepath {
 namespace {
 
 std::string journal_file(const std::string& directory) { return directory + "/results.partial.jsonl"; }
+
+/// The result of a job that is not run.
+JobResult quarantined(const JobList& jobs, std::size_t index, const std::string& reason) {
+  auto line = nlohmann::ordered_json::parse(jobs.name_line(index));
+  line["status"] = "quarantined";
+  line["message"] = printable(reason);
+  return {.index = index, .line = line.dump(), .status = "quarantined"};
+}
 
 }  // namespace
 
@@ -36,7 +46,9 @@ std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& 
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     fingerprints.push_back(jobs.fingerprint(indices[i]));
-    if (const JobResult* earlier = journal.find(indices[i], fingerprints[i]))
+    if (const auto held = run.quarantine.find(indices[i]); held != run.quarantine.end())
+      results[i] = quarantined(jobs, indices[i], held->second);
+    else if (const JobResult* earlier = journal.find(indices[i], fingerprints[i]))
       results[i] = *earlier;
     else
       open.push_back(i);

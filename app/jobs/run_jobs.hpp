@@ -17,7 +17,8 @@ namespace joulepath {
 struct JobResult {
   std::size_t index{};
   std::string line{};    ///< one JSON object
-  std::string status{};  ///< a plan's status, or `bad_input`, `environment_error`, `internal_error`
+  std::string status{};  ///< a plan's status, or `bad_input`, `environment_error`, `internal_error`,
+                         ///< `quarantined`
   double seconds{};
 };
 
@@ -34,6 +35,9 @@ class JobList {
   /// A result depends on its job alone. Safe to call from several threads; every mistake in a job's input
   /// is told in its line.
   [[nodiscard]] virtual JobResult plan(std::size_t index) = 0;
+
+  /// The begin of a job's line: what names it.
+  [[nodiscard]] virtual std::string name_line(std::size_t index) const = 0;
 
   /// Identifies a job and all that its result depends on: the content of every file that it reads, the
   /// options and the program's version. Empty when a file cannot be read. Not for several threads.
@@ -55,6 +59,7 @@ struct JobRun {
   bool quiet{};
   std::string noun{"missions"};  ///< for the progress
   Shard shard{};
+  std::map<std::size_t, std::string> quarantine{};  ///< jobs that are not run, with the reason
 };
 
 /// Runs the jobs of the shard that the journal does not know yet. Results by index; none where the user

@@ -54,13 +54,23 @@ SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions readin
   }
 }
 
-JobResult SweepJobs::plan_on(const MissionItem& mission, const std::vector<std::string>& design,
-                             std::size_t number, std::size_t index) {
+Json SweepJobs::line_of(const MissionItem& mission, const std::vector<std::string>& design,
+                        std::size_t number, std::size_t index) const {
   Json line{{"index", index}, {"design", number}, {"mission", mission.name}};
   for (std::size_t p = 0; p < design.size(); ++p)
     line["parameters"][study_.designs.parameters()[p].name] = json_value(design[p]);
+  return line;
+}
+
+std::string SweepJobs::name_line(std::size_t index) const {
+  const std::size_t number = index / missions_.size();
+  return line_of(missions_[index % missions_.size()], study_.designs.at(number), number, index).dump();
+}
+
+JobResult SweepJobs::plan_on(const MissionItem& mission, const std::vector<std::string>& design,
+                             std::size_t number, std::size_t index) {
   const DesignVariant variant(study_, design, reading_);
-  return planner_.plan(mission, index, std::move(line), &variant);
+  return planner_.plan(mission, index, line_of(mission, design, number, index), &variant);
 }
 
 JobResult SweepJobs::plan(std::size_t index) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ class SweepJobs : public JobList {
 
   [[nodiscard]] std::size_t size() const override { return study_.designs.size() * missions_.size(); }
   [[nodiscard]] JobResult plan(std::size_t index) override;
+  [[nodiscard]] std::string name_line(std::size_t index) const override;
   [[nodiscard]] std::string fingerprint(std::size_t index) override;
   [[nodiscard]] std::string digest() const override;
   [[nodiscard]] std::map<std::string, std::string> files_read() const override {
@@ -30,6 +32,9 @@ class SweepJobs : public JobList {
                                                    std::size_t number);
 
  private:
+  [[nodiscard]] nlohmann::ordered_json line_of(const MissionItem& mission,
+                                               const std::vector<std::string>& design, std::size_t number,
+                                               std::size_t index) const;
   [[nodiscard]] JobResult plan_on(const MissionItem& mission, const std::vector<std::string>& design,
                                   std::size_t number, std::size_t index);
 

@@ -187,6 +187,7 @@ void add_leg(const LegPlan& leg, std::size_t index, const PlanRows& rows, NodeRo
 }  // namespace
 
 Trajectory plan_trajectory_at(const Plan& plan, const Plant& plant, const std::vector<double>& times_s) {
+  if (plan.legs.empty()) return {};
   PlanRows rows(plan, plant);
   std::size_t index = 0;
   for (const double time_s : times_s) {

@@ -1,10 +1,12 @@
 #include "python/bindings/arrays.hpp"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include "python/bindings/bindings.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/physical_bounds.hpp"
 #include "scenarios/run_log.hpp"
 
 namespace joulepath::python {
@@ -19,6 +21,8 @@ nb::ndarray<nb::numpy, const double, nb::ndim<1>> view_of(const std::vector<doub
 }
 
 void bind_arrays(nb::module_& module) {
+  module.def("greatest_size", &greatest_size, nb::arg("key"),
+             "The greatest size of a number whose name ends in this unit.");
   nb::class_<Log>(module, "Log", "Samples over time; absent channels are empty.")
       .def(
           "columns",

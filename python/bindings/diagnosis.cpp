@@ -1,10 +1,10 @@
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/set.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "app/diagnosis_results.hpp"
+#include "app/left_out_effects.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/errors.hpp"
@@ -32,7 +32,8 @@ CsvTable table_of(const std::string& name, const std::map<std::string, Numbers>&
 
 DiagnosisResults diagnose_text(const std::string& text, const std::string& name, const RobotValue& robot,
                                const std::map<std::string, std::map<std::string, Numbers>>& frames,
-                               const std::set<std::string>& without) {
+                               const std::vector<std::string>& without) {
+  const DiagnoseOptions options{.without = left_out_effects(without)};
   Tables logs;
   for (const auto& [log, columns] : frames) logs[log] = table_of(log, columns);
   const LongCall call;
@@ -41,15 +42,16 @@ DiagnosisResults diagnose_text(const std::string& text, const std::string& name,
     return dataset_from(document, {}, {}, {.robot = &robot.robot, .logs = &logs});
   });
   dataset.file.clear();  // there is no file that a corrected one could be made of
-  return diagnosis_results(std::move(dataset), {.without = without});
+  return diagnosis_results(std::move(dataset), options);
 }
 
 DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
-                               const std::set<std::string>& without) {
+                               const std::vector<std::string>& without) {
+  const DiagnoseOptions options{.without = left_out_effects(without)};
   const LongCall call;
   const Document document = Document::load(file);
   return diagnosis_results(dataset_from(document, {}, {}, {.robot = robot ? &robot->robot : nullptr}),
-                           {.without = without});
+                           options);
 }
 
 std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const std::string& directory) {

@@ -29,6 +29,8 @@ void bind_errors(nb::module_&) {
       std::rethrow_exception(raised);
     } catch (const ConfigError& error) {
       raise_config_error(error);
+    } catch (const UsageError& error) {
+      raise_config_error(ConfigError({{}, "without", printable(error.what()), "names of the catalog", ""}));
     } catch (const EnvironmentError& error) {
       PyErr_SetString(PyExc_OSError, printable(error.what()).c_str());
     }

@@ -2,8 +2,10 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
 
 #include <ctime>
+#include <memory>
 #include <optional>
 
 #include "planner/accounts/plan_trajectory.hpp"
@@ -73,15 +75,20 @@ double thread_cpu_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Plans without the GIL.
-PlanValue planned(MissionRequest mission, const RobotValue* robot, const PlanOptions& options) {
-  PlanValue value;
+/// Plans a mission without the GIL.
+template <class MakeMission>
+std::unique_ptr<PlanValue> planned(const MakeMission& make_mission, const RobotValue* robot,
+                                   const PlanOptions& options) {
+  auto value = std::make_unique<PlanValue>();
   const LongCall call;
   const double start_s = thread_cpu_s();
-  MissionWorld world = read_world(mission, {}, robot ? &robot->robot : nullptr);
-  Plan plan = plan_mission(mission, world, options);
-  value.results = plan_results(std::move(mission), std::move(world), std::move(plan));
-  value.cpu_s = thread_cpu_s() - start_s;
+  {
+    MissionRequest mission = make_mission();
+    MissionWorld world = read_world(mission, {}, robot ? &robot->robot : nullptr);
+    Plan plan = plan_mission(mission, world, options);
+    value->results = plan_results(std::move(mission), std::move(world), std::move(plan));
+  }
+  value->cpu_s = thread_cpu_s() - start_s;
   return value;
 }
 
@@ -99,6 +106,7 @@ void bind_plan_value(nb::module_& module) {
       .def_prop_ro("status",
                    [](const PlanValue& self) { return solve_status_name(self.results.plan.status); })
       .def_prop_ro("message", [](const PlanValue& self) { return self.results.plan.message; })
+      .def_prop_ro("driven", [](const PlanValue& self) { return self.results.valid; })
       .def_prop_ro(
           "json", [](const PlanValue& self) { return self.results.json; }, "plan.json")
       .def_prop_ro("cpu_s", [](const PlanValue& self) { return self.cpu_s; })
@@ -130,7 +138,7 @@ void bind_plan(nb::module_& module) {
          const std::string& solver, std::size_t nodes, double accuracy) {
         const MissionSource source{
             .file = "path", .robot_at_hand = true, .payload_kg = payload_kg, .duration_s = time_s};
-        return planned(mission_along(source, path.path), &robot,
+        return planned([&] { return mission_along(source, path.path); }, &robot,
                        plan_options(solver, nodes, 1, accuracy, false));
       },
       nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(), nb::arg("solver"),
@@ -140,13 +148,14 @@ void bind_plan(nb::module_& module) {
       [](const std::string& file, const std::string& robot_file, const RobotValue* robot,
          const std::string& map_file, std::optional<double> payload_kg, std::optional<double> time_s,
          const std::string& solver, std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
-        return planned(read_mission_source({.file = file,
-                                            .robot_file = robot_file,
-                                            .map_file = map_file,
-                                            .robot_at_hand = robot != nullptr,
-                                            .payload_kg = payload_kg,
-                                            .duration_s = time_s}),
-                       robot, plan_options(solver, nodes, seed, accuracy, baselines));
+        const MissionSource source{.file = file,
+                                   .robot_file = robot_file,
+                                   .map_file = map_file,
+                                   .robot_at_hand = robot != nullptr,
+                                   .payload_kg = payload_kg,
+                                   .duration_s = time_s};
+        return planned([&] { return read_mission_source(source); }, robot,
+                       plan_options(solver, nodes, seed, accuracy, baselines));
       },
       nb::arg("file"), nb::arg("robot_file"), nb::arg("robot").none(), nb::arg("map_file"),
       nb::arg("payload_kg").none(), nb::arg("time_s").none(), nb::arg("solver"), nb::arg("nodes"),
@@ -156,7 +165,7 @@ void bind_plan(nb::module_& module) {
       [](const std::string& text, const std::string& name, const RobotValue* robot, const std::string& solver,
          std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
         return from_object(name, [&] {
-          return planned(mission_from(Document::parse(text, name)), robot,
+          return planned([&] { return mission_from(Document::parse(text, name)); }, robot,
                          plan_options(solver, nodes, seed, accuracy, baselines));
         });
       },

@@ -14,7 +14,7 @@ struct PathValue {
 /// A plan that Python owns, with its trajectory.
 struct PlanValue {
   PlanResults results{};
-  double cpu_s{};  ///< of this thread inside of the planner, without the conversion of its input
+  double cpu_s{};  ///< of this thread inside of C++: mission, plan, trajectory and JSON
 };
 
 }  // namespace joulepath::python

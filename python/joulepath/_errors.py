@@ -39,11 +39,20 @@ def refused(key: str, found: str, accepted: str, hint: str = "") -> ConfigError:
 
 
 class PlanningError(RuntimeError):
-    """The solver failed; ``plan`` is what there is of the answer."""
+    """The solver failed; ``plan`` is what there is of the answer (None in another process than that which planned)."""
 
     def __init__(self, message: str, plan: Plan) -> None:
         super().__init__(message)
-        self.plan = plan
+        self.plan: Plan | None = plan
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (_again, (type(self), str(self), {**self.__dict__, "plan": None}))
+
+
+def _again(kind: type[PlanningError], message: str, values: dict[str, object]) -> PlanningError:
+    error = kind.__new__(kind, message)
+    error.__dict__.update(values)
+    return error
 
 
 class Infeasible(PlanningError):

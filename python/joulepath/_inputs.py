@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
+import os
 from typing import Any, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._errors import refused
+from . import _core
+from ._errors import ConfigError, refused
 
 
-def numbers(name: str, value: ArrayLike, ndim: int = 1) -> NDArray[np.float64]:
+def numbers(name: str, value: ArrayLike, ndim: int = 1, least: float = -math.inf, most: float = math.inf) -> NDArray[np.float64]:
     """Finite numbers as a contiguous float64 array; integers and other floats are converted."""
     if np.ma.isMaskedArray(value):
         raise refused(name, "a masked array", "an array without a mask", "drop or fill the masked samples")
@@ -23,18 +26,21 @@ def numbers(name: str, value: ArrayLike, ndim: int = 1) -> NDArray[np.float64]:
         raise refused(name, f"values of type {array.dtype}", "real numbers")
     if array.ndim != ndim:
         raise refused(name, f"shape {array.shape}", f"an array with {ndim} {'axis' if ndim == 1 else 'axes'}")
-    array = np.ascontiguousarray(array, dtype=np.float64)
-    finite = np.isfinite(array)
-    if not finite.all():
-        index = tuple(int(i) for i in np.argwhere(~finite)[0])
+    with np.errstate(over="ignore"):  # of long double
+        array = np.ascontiguousarray(array, dtype=np.float64)
+    good = np.isfinite(array) & (array >= least) & (array <= most)
+    if not good.all():
+        index = tuple(int(i) for i in np.argwhere(~good)[0])
         where = "".join(f"[{i}]" for i in index)
-        raise refused(name + where, str(array[index]), "a finite number")
+        bounded = least > -math.inf or most < math.inf
+        raise refused(name + where, f"{array[index]:g}", f"a number from {least:g} to {most:g}" if bounded else "a finite number")
     return array
 
 
 def points(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Two points or more as an (N, 2) array."""
-    array = numbers(name, value, ndim=2)
+    most_m = _core.greatest_size("x_m")
+    array = numbers(name, value, 2, -most_m, most_m)
     if array.shape[1] != 2:
         hint = "transpose it?" if array.shape[0] == 2 else ""
         raise refused(name, f"shape {array.shape}", "shape (N, 2): one row per point", hint)
@@ -43,11 +49,11 @@ def points(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def samples(name: str, value: ArrayLike, count: int) -> NDArray[np.float64]:
-    """``count`` samples; one number stands for all."""
+def samples(name: str, value: ArrayLike, count: int, least: float, most: float) -> NDArray[np.float64]:
+    """``count`` samples within bounds; one number stands for all."""
     if np.ndim(value) == 0:
-        return np.full(count, number(name, value))
-    array = numbers(name, value)
+        value = np.full(count, number(name, value))
+    array = numbers(name, value, 1, least, most)
     if len(array) != count:
         raise refused(name, f"{len(array)} samples", f"{count}, as t has, or one number")
     return array
@@ -63,32 +69,37 @@ def times(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def number(name: str, value: Any, least: float | None = None, above: float | None = None) -> float:
-    """A finite number; ``least`` is accepted itself, ``above`` is not."""
-    accepted = ("a finite number" if least is None and above is None
-                else f"a number >= {least:g}" if least is not None else f"a number > {above:g}")
+def number(name: str, value: Any, least: float = -math.inf, above: float = -math.inf, most: float = math.inf) -> float:
+    """A finite number; ``least`` and ``most`` are accepted themselves, ``above`` is not."""
+    if type(value) is float and math.isfinite(value) and above < value and least <= value <= most:
+        return value
+    accepted = f"a number > {above:g}" if above > -math.inf else f"a number >= {least:g}" if least > -math.inf else "a finite number"
+    accepted += f" and <= {most:g}" if most < math.inf else ""
     if isinstance(value, (bool, np.bool_, str, bytes)) or value is None:
         raise refused(name, repr(value), accepted)
     try:
         result = float(value)
     except (TypeError, ValueError) as error:
         raise refused(name, repr(value), accepted) from error
-    good = np.isfinite(result) and (least is None or result >= least) and (above is None or result > above)
-    if not good:
+    except OverflowError as error:
+        raise refused(name, "a number beyond the range of float64", accepted) from error
+    if not (math.isfinite(result) and above < result and least <= result <= most):
         raise refused(name, f"{result:g}", accepted)
     return result
 
 
 def whole(name: str, value: Any, least: int, most: int) -> int:
     """A whole number between two bounds."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+    if type(value) is int and least <= value <= most:
+        return value
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
         raise refused(name, repr(value), f"a whole number from {least} to {most}")
     return int(value)
 
 
 def one_of(name: str, value: Any, words: tuple[str, ...]) -> str:
     """One of some words."""
-    if value not in words:
+    if not isinstance(value, str) or value not in words:
         raise refused(name, repr(value), "one of: " + ", ".join(words))
     return str(value)
 
@@ -103,8 +114,34 @@ def text_of(name: str, value: Any) -> str:
         raise refused(name, f"a value of type {type(item).__name__}", "what JSON can hold")
 
     try:
-        return json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False)
+        text = json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False)
+    except ConfigError:
+        raise
     except ValueError as error:
         if "Out of range" not in str(error):
-            raise
+            raise refused(name, "a value that holds itself", "what JSON can hold") from error
         raise refused(name, "a number that is not finite", "finite numbers", "leave the key out instead") from error
+    except TypeError as error:
+        raise refused(name, "a key that is no text", "what JSON can hold") from error
+    except RecursionError as error:
+        raise refused(name, "lists and maps of great depth", "what JSON can hold") from error
+    return encodable(name, text)
+
+
+def encodable(name: str, text: str) -> str:
+    """A text that UTF-8 can hold."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise refused(name, ascii(text[max(0, error.start - 20):error.end]), "text that UTF-8 can hold") from error
+    return text
+
+
+def file_name(name: str, value: Any) -> str:
+    """The name of a file."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise refused(name, f"a value of type {type(value).__name__}", "a file's name")
+    text = encodable(name, os.fsdecode(value))
+    if "\0" in text:
+        raise refused(name, ascii(text), "a file's name")
+    return text

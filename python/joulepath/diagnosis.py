@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from . import _core
 from ._errors import refused
 from ._files import save
-from ._inputs import text_of
+from ._inputs import file_name, text_of
 from ._records import Record
 from .robots import Robot, robot_of
 
@@ -95,10 +95,12 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
     dataset file. ``without``: effects taken out of the catalog. ``robot`` may be None with a dataset file, which names
     its own. Raises ConfigError.
     """
-    left_out = set(without)
+    left_out = [without] if isinstance(without, str) else list(without)
     if isinstance(logs, (str, os.PathLike)):
         value = None if robot is None else robot_of(robot)._value
-        return Diagnosis(_core.diagnose_file(os.fspath(logs), value, left_out))
+        return Diagnosis(_core.diagnose_file(file_name("logs", logs), value, left_out))
+    if not isinstance(logs, Iterable):
+        raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, or a list of logs")
     if robot is None:
         raise refused("robot", "None", "a Robot", "only a dataset file names its robot")
     frames: dict[str, dict[str, NDArray[np.float64]]] = {}
@@ -109,7 +111,7 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
 
 def _entry(index: int, run: Run, frames: dict[str, dict[str, NDArray[np.float64]]]) -> dict[str, Any]:
     if isinstance(run.log, (str, os.PathLike)):
-        name = os.fspath(run.log)
+        name = file_name(f"logs[{index}]", run.log)
     else:
         name = run.name or f"logs[{index}]"
         frames[name] = _columns_of(name, run.log)

@@ -64,5 +64,7 @@ def energy(robot: Robot, t: ArrayLike, v: ArrayLike, w: ArrayLike = 0.0, *, payl
     at = times("t", t)
     if len(at) < 2:
         raise refused("t", f"{len(at)} samples", "2 samples or more")
-    return Energy(_core.energy(robot_of(robot)._value, at, samples("v", v, len(at)), samples("w", w, len(at)),
-                               samples("payload_kg", payload_kg, len(at))))
+    most = {unit: _core.greatest_size(unit) for unit in ("speed_m_s", "rate_rad_s", "payload_kg")}
+    return Energy(_core.energy(robot_of(robot)._value, at, samples("v", v, len(at), -most["speed_m_s"], most["speed_m_s"]),
+                               samples("w", w, len(at), -most["rate_rad_s"], most["rate_rad_s"]),
+                               samples("payload_kg", payload_kg, len(at), 0.0, most["payload_kg"])))

@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Callable, Iterable, Mapping, TypeVar
 
 from . import _core
+from ._inputs import whole
 
 Result = TypeVar("Result")
 
@@ -20,7 +21,7 @@ def map(function: Callable[..., Result], jobs: Iterable[Any], *, threads: int = 
     >>> first, type(second).__name__
     (1, 'ValueError')
     """
-    token = _core.StopToken()
+    token, threads = _core.StopToken(), whole("threads", threads, 1, 256)
 
     def call(job: Any) -> Result | Exception:
         try:

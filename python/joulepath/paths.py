@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import refused
-from ._inputs import number, numbers, points
+from ._inputs import file_name, number, numbers, points
 
 
 class Path:
@@ -43,7 +43,7 @@ class Path:
     def load(cls, file: str | os.PathLike[str]) -> Path:
         """The path of a file: waypoints (CSV) or Bezier curves (YAML)."""
         path = cls.__new__(cls)
-        path._value = _core.load_path(os.fspath(file))
+        path._value = _core.load_path(file_name("file", file))
         return path
 
     @property
@@ -58,7 +58,7 @@ class Path:
 
     def poses(self, step_m: float = 0.05) -> NDArray[np.float64]:
         """Poses along the path, shape (N, 3): x and y in m, heading in rad."""
-        log = self._value.poses(number("step_m", step_m, above=0.0))
+        log = self._value.poses(number("step_m", step_m, 1e-6 * self.length_m, above=0.0))
         return np.stack([log.column(name) for name in ("position_x_m", "position_y_m", "heading_rad")], axis=1)
 
     def __repr__(self) -> str:

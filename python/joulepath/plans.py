@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._errors import Infeasible, PlanningError, refused
 from ._files import save
-from ._inputs import number, numbers, one_of, text_of, times, whole
+from ._inputs import file_name, number, numbers, one_of, text_of, times, whole
 from ._records import Record
 from .logs import Log
 from .paths import Path
@@ -75,11 +75,19 @@ class Plan:
     @functools.cached_property
     def trajectory(self) -> Log:
         """The samples of trajectory.csv (50 Hz)."""
+        if not self._driven:
+            raise AttributeError(f"no trajectory: the plan is {self.status}")
         return Log(self._value.trajectory())
+
+    @property
+    def _driven(self) -> bool:
+        return self._value.driven
 
     def at(self, t: ArrayLike) -> Log:
         """The plan at a time or at increasing times (s), exact at each; ``energy_J`` counts from the first."""
         at = times("t", np.atleast_1d(numbers("t", t, ndim=np.ndim(t))))
+        if not self._driven:
+            raise AttributeError(f"no trajectory: the plan is {self.status}")
         if len(at) and (at[0] < 0 or at[-1] > self.duration_s):
             raise refused("t", f"{at[0]:g} to {at[-1]:g} s", f"times from 0 to {self.duration_s:g} s")
         return Log(self._value.at(at))
@@ -109,10 +117,9 @@ class Plan:
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
         """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does."""
-        driven = self.status in ("optimal", "feasible")
         return save(directory, {"plan.json": self._value.json,
-                                "trajectory.csv": self.trajectory.text() if driven else None,
-                                "profile.csv": self._value.profile_text() if driven else None,
+                                "trajectory.csv": self.trajectory.text() if self._driven else None,
+                                "profile.csv": self._value.profile_text() if self._driven else None,
                                 "report.html": self.report()}, force)
 
     def _repr_html_(self) -> str:
@@ -120,7 +127,7 @@ class Plan:
                 'style="border: 0"></iframe>')
 
     def __repr__(self) -> str:
-        if self.status in ("optimal", "feasible"):
+        if self._driven:
             return f"{type(self).__name__}({self.status}, {self.energy_J:.6g} J, {self.duration_s:.6g} s)"
         return f"{type(self).__name__}({self.status})"
 
@@ -166,11 +173,8 @@ class Profile(Plan):
         return self.trajectory["battery_power_W"]
 
 
-def _checked(result: Plan) -> None:
-    if result.status == "infeasible":
-        raise Infeasible(result._value.message, result)
-    if result.status == "failed":
-        raise PlanningError(result._value.message, result)
+def _failure(result: Plan) -> PlanningError:
+    return (Infeasible if result.status == "infeasible" else PlanningError)(result._value.message, result)
 
 
 def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time_s: float | None = None,
@@ -181,12 +185,13 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     ``solver``: ``ipopt`` (reference) or ``fast``. The GIL is released meanwhile. Raises Infeasible, ConfigError.
     """
     path = xy if isinstance(xy, Path) else Path(xy)
-    result = Profile(_core.profile(
-        robot_of(robot)._value, path._value, number("payload_kg", payload_kg, least=0.0),
+    value = _core.profile(
+        robot._value if type(robot) is Robot else robot_of(robot)._value, path._value, number("payload_kg", payload_kg, least=0.0),
         None if time_s is None else number("time_s", time_s, above=0.0), one_of("solver", solver, SOLVERS),
-        whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0)))
-    _checked(result)
-    return result
+        whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0))
+    if not value.driven:
+        raise _failure(Profile(value))
+    return Profile(value)
 
 
 def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | str | os.PathLike[str] | None = None,
@@ -211,15 +216,16 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
         if robot is not None:
             values["robot"] = "robot"  # not read: the value takes its place
         if map is not None:
-            values["map"] = os.fspath(map)
+            values["map"] = file_name("map", map)
         at_hand = None if robot is None else robot_of(robot)._value
         result = Plan(_core.plan_text(text_of("mission", values), "mission", at_hand, *options))
     else:
-        name = os.fspath(robot) if isinstance(robot, (str, os.PathLike)) else ""
-        value = robot._value if isinstance(robot, Robot) else None
+        name = file_name("robot", robot) if isinstance(robot, (str, os.PathLike)) else ""
+        value = None if robot is None or name else robot_of(robot)._value
         result = Plan(_core.plan_file(
-            os.fspath(mission), name, value, "" if map is None else os.fspath(map),
+            file_name("mission", mission), name, value, "" if map is None else file_name("map", map),
             None if payload_kg is None else number("payload_kg", payload_kg, least=0.0),
             None if time_s is None else number("time_s", time_s, above=0.0), *options))
-    _checked(result)
+    if not result._driven:
+        raise _failure(result)
     return result

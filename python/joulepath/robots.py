@@ -7,7 +7,8 @@ from pathlib import Path as FilePath
 from typing import Any, Mapping
 
 from . import _core
-from ._inputs import text_of
+from ._errors import refused
+from ._inputs import encodable, file_name, text_of
 from ._records import Record
 
 
@@ -33,6 +34,8 @@ class Robot:
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         """A robot of a dict with the keys of a robot file. Raises ConfigError."""
+        if not isinstance(values, Mapping):
+            raise refused("robot", f"a value of type {type(values).__name__}", "a dict with the keys of a robot file")
         self._set(_core.robot_of_object(text_of("robot", dict(values))))
 
     def _set(self, value: _core.RobotValue) -> None:
@@ -50,12 +53,12 @@ class Robot:
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Robot:
         """The robot of a file (YAML or JSON). Raises ConfigError with file, line and key."""
-        return cls._of(_core.load_robot(os.fspath(file)))
+        return cls._of(_core.load_robot(file_name("robot", file)))
 
     @classmethod
     def parse(cls, text: str, name: str = "robot.yaml") -> Robot:
         """The robot of a file's text; ``name`` stands in error messages."""
-        return cls._of(_core.parse_robot(text, name))
+        return cls._of(_core.parse_robot(encodable("text", text), name))
 
     @classmethod
     def example(cls) -> Robot:

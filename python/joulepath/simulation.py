@@ -55,9 +55,11 @@ def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Seque
     """
     if not isinstance(plan, Plan):
         raise refused("plan", type(plan).__name__, "a Plan or a Profile")
-    groups = [effects] if isinstance(effects, Mapping) else list(effects)
+    groups = [effects] if isinstance(effects, Mapping) else effects
+    if isinstance(groups, str) or not isinstance(groups, Sequence) or not all(isinstance(group, Mapping) for group in groups):
+        raise refused("effects", repr(effects), "a dict {effect: {parameter: value}}, or a list of such dicts")
     listed = [{name: settings} for group in groups for name, settings in group.items()]
     return Simulation(_core.simulate(
         plan._value, None if robot is None else robot_of(robot)._value, text_of("effects", listed),
-        bool(ideal_sensors), number("time_of_day_s", time_of_day_s), number("sample_rate_Hz", sample_rate_Hz, above=0.0),
+        bool(ideal_sensors), number("time_of_day_s", time_of_day_s), number("sample_rate_Hz", sample_rate_Hz, 1.0, most=1000.0),
         whole("seed", seed, 0, 2**64 - 1)))

@@ -54,6 +54,7 @@ class McapReader {
              const std::function<void(const BagChannel&)>& on_channel,
              const std::function<void(const BagMessage&)>& on_message)
       : in_(file, std::ios::binary), on_channel_(on_channel), on_message_(on_message) {
+    if (!in_) throw named_by.error(file, "no readable file", "a bag in the MCAP format");
     in_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(in_.tellg(), 0));
     in_.seekg(0);

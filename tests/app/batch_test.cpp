@@ -192,6 +192,32 @@ TEST(Batch, TheFirstExceptionStopsAllThreadsAndReachesTheCaller) {
     EXPECT_THROW(run_jobs(indices, threads, work, done, [] { return false; }), std::runtime_error);
 }
 
+TEST(Batch, AQuarantinedMissionHasItsReasonAndNoPlan) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string lines =
+      scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n" + mission("c", 5) + "\n");
+  const std::string run = "batch " + lines + " -j 1 -q --nodes 20 --out ";
+  const std::string held = scratch.write("held.jsonl", R"({"index": 1, "reason": "killed by SIGKILL"})");
+  ASSERT_EQ(run_program(scratch, run + scratch.at("all")).code, 0);
+  const auto done = run_program(scratch, run + scratch.at("out") + " --quarantine " + held);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto all = lines_of(scratch.at("all/results.jsonl")),
+             kept = lines_of(scratch.at("out/results.jsonl"));
+  ASSERT_EQ(kept.size(), 3u);
+  EXPECT_EQ(kept[0], all[0]);
+  EXPECT_EQ(kept[2], all[2]);
+  EXPECT_EQ(
+      kept[1],
+      (Json{{"index", 1}, {"name", "line_2"}, {"status", "quarantined"}, {"message", "killed by SIGKILL"}}));
+  for (const char* wrong : {"{}", "[1]", "x", R"({"index": -1, "reason": "x"})", R"({"index": 1})"}) {
+    const auto refused =
+        run_program(scratch, run + scratch.at("no") + " --quarantine " + scratch.write("wrong.jsonl", wrong));
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_NE(refused.err.find("wrong.jsonl:1"), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
   const ScratchDirectory scratch;
   const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace joulepath {
+
+/// The program: parses the command line, runs the command and tells every error on stderr. Gives the exit
+/// code. The caller installs the handler of interrupts.
+[[nodiscard]] int program_main(int argc, char** argv);
+
+}  // namespace joulepath
