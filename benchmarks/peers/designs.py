@@ -118,6 +118,6 @@ def verdict(swept_J, driven_J, voltage):
         return text + "\n"
     return text + (
         f" Without the {(~within).sum()} whose plan uses more than {100 * HEADROOM:.0f} % of the voltage: "
-        f"{rank_correlation(swept_J[within], driven_J[within]):.3f}. A plan at the limit of the voltage leaves the controller nothing "
-        "to catch up with: it arrives late and pays standby.\n"
+        f"{rank_correlation(swept_J[within], driven_J[within]):.3f}. A plan that cruises at that limit leaves the controller nothing to "
+        "catch up with: it arrives late and pays standby.\n"
     )
