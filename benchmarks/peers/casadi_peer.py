@@ -167,7 +167,9 @@ def compiled(problem, segments, repeats):
     with tempfile.TemporaryDirectory() as scratch, contextlib.chdir(scratch):  # where CasADi leaves its C files
         build_ms, program = cpu_ms(lambda: Program(problem, segments, jit=True))
         asked = problem["time"].get("duration_s")
-        return build_ms, [cpu_ms(lambda: program.solve(asked))[0] for _ in range(repeats)]
+        solves_ms = [cpu_ms(lambda: program.solve(asked))[0] for _ in range(repeats)]
+        program = None  # it removes its files itself
+        return build_ms, solves_ms
 
 
 def run(problem, segments, warm_share=0.01):

@@ -114,7 +114,7 @@ def svg(answers):
             found.update({name.replace("_", " "): values for name, values in answer.get(key, {}).items() if values})
     ratios, bars = list(merged["summary"].items()), answers.get("baselines", {}).get("bars", {})
     saved = [(f"against the {name}", values) for name, values in pooled(bars).items() if values]
-    if saved:
+    if saved and "own_error" in answers["baselines"]:  # not in a kept answer of an older run
         saved.append((OWN_ERROR, answers["baselines"]["own_error"]))
     panels = [
         ("Energy above the optimum, same path and time", list(merged["energy"].items())),

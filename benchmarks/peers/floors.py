@@ -35,7 +35,7 @@ def planned(robot, payload_kg, count, scratch):
     for i, row in enumerate(rows):
         mission, folder = scratch / f"{robot}_{i}.yaml", scratch / f"{robot}_{i}"
         mission.write_text(mission_text(robot, payload_kg, row))
-        if not plans.program("plan", mission, "--out", folder, "--without", "baselines", check=False):
+        if not plans.program("plan", mission, "--out", folder, "--without", "baselines", "--solver", "fast", check=False):
             found.append((row["floor"], folder))
         if len(found) == count:
             break
@@ -64,7 +64,8 @@ def run(size):
         "Missions between poses of the public set on two maps, planned with 5 cm of clearance for half of the greatest payload, "
         f"{turning} of {total // len(WORLDS)} with a turn in place. Gaps are those between the robot's outline and the occupied cells "
         "of the map, at 20 Hz. Wheels alone: the controller knows the reference speeds of the wheels; errors of the heading add "
-        "up along the way. Pose controller: Kanayama's tracking law at 100 Hz with the simulator's pose.\n\n"
+        "up along the way. Pose controller: Kanayama's tracking law at 100 Hz with the simulator's pose. "
+        "Joules include standby until arrival: on short missions the tenth of a second of delay shows.\n\n"
     )
     text += table(HEADER, rows)
     short = f"**Between walls**, {total} drives of each kind in MuJoCo, touched a wall: " + "; ".join(

@@ -3,12 +3,9 @@
 //   bench_peers plan PROBLEMS.json OUT.json NODES      whole solves of the product
 //   bench_peers programs PROBLEMS.json OUT.json NODES  one nonlinear program on a fixed grid, by both solvers
 //   bench_peers baselines PROBLEMS.json OUT.json       classic profiles in the time of the optimum
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <numbers>
 
 #include "benchmarks/problems/problem.hpp"
 #include "benchmarks/support/cpu_time.hpp"
@@ -21,28 +18,6 @@
 namespace joulepath::problems {
 namespace {
 
-constexpr int kSamples = 4000;
-
-constexpr double kLeastStep_m = 1e-12;  ///< below it rounding of s decides the acceleration
-
-/// A profile with jerk has no constant acceleration between its nodes: it is sampled, closer next to rest,
-/// where squared speed is not linear in s and equal steps of time would shorten the duration by 1e-4.
-Json sampled_json(const Profile& profile) {
-  if (std::all_of(profile.jerk.begin(), profile.jerk.end(), [](double jerk) { return jerk == 0; }))
-    return solution_json(profile);
-  Profile sampled{.wait_s = profile.wait_s};
-  for (int k = 0; k <= kSamples; ++k) {
-    const double share = 0.5 * (1 - std::cos(std::numbers::pi * k / kSamples));
-    const ProfileState state = profile.at_time(share * profile.time_s.back());
-    if (!sampled.s.empty() && state.s <= sampled.s.back() + kLeastStep_m) continue;
-    sampled.s.push_back(state.s);
-    sampled.rate.push_back(state.rate);
-  }
-  sampled.s.back() = profile.s.back();
-  sampled.rate.back() = profile.rate.back();
-  return solution_json(sampled);
-}
-
 Json plan(ProfileRequest request, std::size_t nodes) {
   request.nodes = nodes;
   Json json;
@@ -52,7 +27,7 @@ Json plan(ProfileRequest request, std::size_t nodes) {
   json["status"] = solve_status_name(result.summary.status);
   json["lower_bound_J"] = result.summary.lower_bound_J;
   json["message"] = result.summary.message;
-  if (result.profile) json["solution"] = sampled_json(*result.profile);
+  if (result.profile) json["solution"] = solution_json(*result.profile);
   return json;
 }
 
@@ -79,9 +54,9 @@ Json programs(const ProfileRequest& request, std::size_t nodes) {
 Json classic(const ProfileRequest& request) {
   const ProfileResult optimum = solve_profile(request);
   if (!optimum.profile) return {{"message", optimum.summary.message}};
-  Json json{{"optimum", sampled_json(*optimum.profile)}};
+  Json json{{"optimum", solution_json(*optimum.profile)}};
   for (const BaselineResult& result : all_baselines(request, optimum.profile->duration_s()))
-    if (result.feasible && result.profile) json[result.name] = sampled_json(*result.profile);
+    if (result.feasible && result.profile) json[result.name] = solution_json(*result.profile);
   return json;
 }
 

@@ -167,8 +167,8 @@ def toppra(size):
     none = sum(t["solution"] is None for t in theirs.values())
     turns = sum(p["kind"] == "turn" for p in problems)
     least = (
-        f"Least time, {len(problems)} problems ({turns} turns in place), toppra on 1,000 points and two beside each knot of the path: CPU time "
-        f"toppra / whole solve with bound {spread(ratios)}: {faster('toppra', ratios)} "
+        f"Least time, {len(problems)} problems ({turns} turns in place), toppra on 1,000 points and two beside each knot of the "
+        f"path: CPU time toppra / whole solve with bound {spread(ratios)}: {faster('toppra', ratios)} "
         f"No answer {none}; duration above ours {spread([100 * x for x in longer], 2)} %; its excess of a limit "
         f"{spread([100 * x for x in excesses], 2)} %, ours {max(ours_excess):.1e}. "
         f"Shorter than ours by more than 1e-6 within all limits: {quicker}; below the bound: {below}.\n\n"
@@ -178,8 +178,8 @@ def toppra(size):
         "text": least + text,
         "summary": {"toppra / least time with bound": ratios},
         "energy": {"toppra, fixed duration": more},
-        "short": f"**toppra**, least time: CPU time over ours {mid(ratios)}, {faster('toppra', ratios).strip('*.').lower()}; shorter within "
-        f"all limits in {quicker} of {len(problems)} problems. In a given time its profiles take {mid(more)} % more energy.",
+        "short": f"**toppra**, least time: CPU time over ours {mid(ratios)}, {faster('toppra', ratios).strip('*.').lower()}; shorter "
+        f"within all limits in {quicker} of {len(problems)} problems. In a given time its profiles take {mid(more)} % more energy.",
     }
 
 

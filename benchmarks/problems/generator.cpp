@@ -1,7 +1,6 @@
 #include "benchmarks/problems/generator.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "model/limit_table.hpp"
 
@@ -55,8 +54,12 @@ void Generator::vary_limits(Limits& limits) {
     limits.*limit = rounded(limits.*limit * uniform(0.6, 1.2));
 }
 
-Problem Generator::next(std::size_t index) {
-  const std::size_t kind = index % 4;
+PathPiece Generator::turn() {
+  return TurnInPlace{{}, (choice(2) == 0 ? 1 : -1) * rounded(uniform(0.2, 3.1))};
+}
+
+Problem Generator::next(std::size_t index, Part part) {
+  const std::size_t kind = part == Part::jerk ? index % 3 : index % 4;  // no tight corners under a jerk limit
   Robot robot = robots_[(index / 4) % robots_.size()];
   const double eta[] = {0, 0.6, 1}, standby_share[] = {0, 0.5, 1, 2};
   robot.power.standby_W *= standby_share[choice(4)];
@@ -64,20 +67,18 @@ Problem Generator::next(std::size_t index) {
   robot.power.sharing = choice(2) == 0 ? PowerSharing::wheel : PowerSharing::bus;
   const double payload_kg = rounded(uniform(0, 0.9) * robot.limits->max_payload_kg);
   Limits limits = limits_for_payload(robot, payload_kg);
-  limits.jerk_m_s3 = kNoLimit;
+  limits.jerk_m_s3 = part == Part::jerk ? rounded(uniform(0.3, 1.5)) : kNoLimit;
   vary_limits(limits);
   // Half the track of the smallest robot, 0.165 m, is the unit: the inner wheel reverses in tight corners.
   const double scale = robot.geometry.half_track_m / 0.165;
-  const Knots knots = kind == 0   ? straight()
-                      : kind == 1 ? bend(scale)
-                      : kind == 2 ? corners(scale * uniform(0.4, 1.5))
-                                  : corners(scale * uniform(0.09, 0.16));
-  char id[8];
-  std::snprintf(id, sizeof id, "p%03zu", index + 1);
-  return {.id = id,
-          .kind = kKinds[kind],
+  const PathPiece piece = part == Part::turns ? turn()
+                          : kind == 0         ? curve_through(straight())
+                          : kind == 1         ? curve_through(bend(scale))
+                          : kind == 2         ? curve_through(corners(scale * uniform(0.4, 1.5)))
+                                              : curve_through(corners(scale * uniform(0.09, 0.16)));
+  return {.kind = part == Part::turns ? kTurn : kKinds[kind],
           .robot_name = robot.name,
-          .request = {.piece = curve_through(knots),
+          .request = {.piece = piece,
                       .plant = make_plant(robot),
                       .limits = limits,
                       .payload = {payload_kg, payload_kg},

@@ -8,6 +8,9 @@ namespace joulepath::problems {
 
 inline constexpr const char* kKinds[] = {"straight", "bend", "corners", "tight_corners"};
 
+/// What a stream of problems holds.
+enum class Part { paths, turns, jerk };
+
 /// Seeded random problems; a problem depends on the seed and the problems before it alone. The time goal is
 /// least time: what a deadline may be is known after the solve.
 class Generator {
@@ -18,9 +21,10 @@ class Generator {
     return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
   }
   std::size_t choice(std::size_t count) { return random_() % count; }
-  [[nodiscard]] Problem next(std::size_t index);
+  [[nodiscard]] Problem next(std::size_t index, Part part);
 
  private:
+  PathPiece turn();
   /// Robots of more than a metre across turn less tightly: lengths grow with the track.
   Knots straight();
   Knots bend(double scale);

@@ -1,6 +1,6 @@
 // Writes the public problem set and solves problems of it.
 //
-//   bench_problems generate COUNT SEED PROBLEMS.json SOLUTIONS.json ROBOT.yaml...
+//   bench_problems generate PATHS TURNS JERK SEED PROBLEMS.json SOLUTIONS.json ROBOT.yaml...
 //   bench_problems solve PROBLEMS.json SOLUTIONS.json [NODES]
 // Design: docs/decisions/0250-peers-and-a-public-problem-set.md
 #include <cstdio>
@@ -16,7 +16,14 @@ namespace joulepath::problems {
 namespace {
 
 constexpr double kAccuracy = 1e-4;
-constexpr std::size_t kSamples = 12;  ///< problems whose solutions the set holds as examples
+
+/// The problems of one part come from a stream of their own, so that a part can grow without a change of the
+/// others.
+struct Stream {
+  Part part{};
+  std::size_t count{};
+  std::size_t samples{};  ///< problems whose solutions the set holds as examples
+};
 
 /// A time goal: free (40 %), at most (40 %), exactly (10 %) or least time (10 %).
 bool set_time(Generator& random, ProfileRequest& request) {
@@ -53,36 +60,50 @@ void write_lines(std::ofstream& out, const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) out << lines[i] << (i + 1 < lines.size() ? ",\n" : "\n");
 }
 
-int generate(std::size_t count, unsigned seed, const char* problems_file, const char* solutions_file,
-             const std::vector<const char*>& robot_files) {
-  std::vector<Robot> robots;
-  for (const char* file : robot_files) robots.push_back(read_robot(file));
-  Generator random(seed, robots);
-  std::vector<std::string> problems, solutions, robot_lines;
-  for (const Robot& robot : robots)
-    robot_lines.push_back(Json(robot.name).dump() + ": " + robot_json(robot).dump());
-  for (std::size_t index = 0; index < count; ++index) {
-    Problem problem = random.next(index);
-    if (!set_time(random, problem.request)) return 1;
+/// What a set's files are made of.
+struct Lines {
+  std::vector<std::string> problems{}, solutions{};
+};
+
+bool append(const Stream& stream, Generator random, Lines& lines) {
+  for (std::size_t index = 0; index < stream.count; ++index) {
+    Problem problem = random.next(index, stream.part);
+    char id[8];
+    std::snprintf(id, sizeof id, "p%03zu", lines.problems.size() + 1);
+    problem.id = id;
+    if (!set_time(random, problem.request)) return false;
     const Solved solved = solve(problem.request);
-    if (solved.solution.is_null()) return 1;
+    if (solved.solution.is_null()) return false;
     Json json = problem_json(problem);
     json["best"] = solved.best;
-    problems.push_back(json.dump());
-    if (index < kSamples) solutions.push_back(Json(problem.id).dump() + ": " + solved.solution.dump());
-    std::fprintf(stderr, "%s %s %zu nodes, bound %.2g below\n", problem.id.c_str(), problem.kind.c_str(),
-                 solved.solution["s_m"].size(),
+    lines.problems.push_back(json.dump());
+    if (index < stream.samples)
+      lines.solutions.push_back(Json(problem.id).dump() + ": " + solved.solution.dump());
+    std::fprintf(stderr, "%s %s, bound %.2g below\n", id, problem.kind.c_str(),
                  1 - solved.best["lower_bound"].get<double>() / solved.best["value"].get<double>());
   }
+  return true;
+}
+
+int generate(const std::vector<Stream>& streams, unsigned seed, const char* problems_file,
+             const char* solutions_file, const std::vector<const char*>& robot_files) {
+  std::vector<Robot> robots;
+  for (const char* file : robot_files) robots.push_back(read_robot(file));
+  std::vector<std::string> robot_lines;
+  for (const Robot& robot : robots)
+    robot_lines.push_back(Json(robot.name).dump() + ": " + robot_json(robot).dump());
+  Lines lines;
+  for (const Stream& stream : streams)
+    if (!append(stream, Generator(seed + static_cast<unsigned>(stream.part), robots), lines)) return 1;
   std::ofstream out(problems_file);
   out << "{\"schema\": \"joulepath/problems/1\",\n\"robots\": {\n";
   write_lines(out, robot_lines);
   out << "},\n\"problems\": [\n";
-  write_lines(out, problems);
+  write_lines(out, lines.problems);
   out << "]}\n";
   std::ofstream best(solutions_file);
   best << "{\n";
-  write_lines(best, solutions);
+  write_lines(best, lines.solutions);
   best << "}\n";
   return 0;
 }
@@ -104,14 +125,16 @@ int solve_all(const char* problems_file, const char* solutions_file, std::size_t
 
 int main(int argc, char** argv) {
   using namespace joulepath::problems;
-  if (argc >= 7 && !std::strcmp(argv[1], "generate"))
-    return generate(std::stoul(argv[2]), static_cast<unsigned>(std::stoul(argv[3])), argv[4], argv[5],
-                    {argv + 6, argv + argc});
+  if (argc >= 9 && !std::strcmp(argv[1], "generate"))
+    return generate({{Part::paths, std::stoul(argv[2]), 12},
+                     {Part::turns, std::stoul(argv[3]), 2},
+                     {Part::jerk, std::stoul(argv[4]), 3}},
+                    static_cast<unsigned>(std::stoul(argv[5])), argv[6], argv[7], {argv + 8, argv + argc});
   if (argc >= 4 && !std::strcmp(argv[1], "solve"))
     return solve_all(argv[2], argv[3], argc > 4 ? std::stoul(argv[4]) : 200);
   std::fputs(
-      "usage: bench_problems generate COUNT SEED PROBLEMS SOLUTIONS ROBOT... | solve PROBLEMS SOLUTIONS "
-      "[NODES]\n",
+      "usage: bench_problems generate PATHS TURNS JERK SEED PROBLEMS SOLUTIONS ROBOT... | solve PROBLEMS "
+      "SOLUTIONS [NODES]\n",
       stderr);
   return 2;
 }

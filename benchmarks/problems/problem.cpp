@@ -1,5 +1,6 @@
 #include "benchmarks/problems/problem.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -57,6 +58,13 @@ TimeGoal time_from_json(const Json& json) {
   throw std::runtime_error("unknown mode " + json["mode"].get<std::string>());
 }
 
+/// Of a turn in place: the angle (rad) stands for the arc length, the sense (+-1) for the curvature.
+PathPiece piece_from_json(const Json& json) {
+  const Knots knots{json["path"]["s_m"], json["path"]["curvature_per_m"]};
+  if (json["kind"] == kTurn) return TurnInPlace{{}, knots.s_m.back() * knots.curvature_per_m.back()};
+  return curve_through(knots);
+}
+
 Problem problem_from(const Json& json, const Json& robots) {
   Robot robot = robot_from_json(robots.at(json["robot"].get<std::string>()));
   robot.power = {.standby_W = json["standby_W"],
@@ -66,7 +74,7 @@ Problem problem_from(const Json& json, const Json& robots) {
   Problem problem{.id = json["id"],
                   .kind = json["kind"],
                   .robot_name = json["robot"],
-                  .request = {.piece = curve_through({json["path"]["s_m"], json["path"]["curvature_per_m"]}),
+                  .request = {.piece = piece_from_json(json),
                               .plant = make_plant(robot),
                               .payload = {payload_kg, payload_kg},
                               .start_rate = json["end_speeds_m_s"][0],
@@ -91,9 +99,11 @@ Curve curve_through(const Knots& knots) {
   return Curve(std::move(segments));
 }
 
-Knots knots_of(const Curve& curve) {
-  Knots knots{.s_m = curve.breakpoints_m()};
-  for (const double s_m : knots.s_m) knots.curvature_per_m.push_back(curve.at(s_m).curvature_per_m);
+Knots knots_of(const PathPiece& piece) {
+  Knots knots{.s_m = piece_breakpoints(piece)};
+  for (const double s : knots.s_m)
+    knots.curvature_per_m.push_back(is_turn(piece) ? turn_sign(piece)
+                                                   : piece_point(piece, s).curvature_per_m);
   return knots;
 }
 
@@ -120,7 +130,7 @@ Json robot_json(const Robot& robot) {
 Json problem_json(const Problem& problem) {
   const ProfileRequest& request = problem.request;
   const PowerSupply& power = request.plant.robot.power;
-  const Knots knots = knots_of(std::get<Curve>(request.piece));
+  const Knots knots = knots_of(request.piece);
   Json time;
   for (const auto& [mode, name] : kModes)
     if (mode == request.time.mode) time["mode"] = name;
@@ -139,7 +149,10 @@ Json problem_json(const Problem& problem) {
 }
 
 Json solution_json(const Profile& profile) {
-  Json json{{"s_m", profile.s}, {"speed_m_s", profile.rate}};
+  const bool steps =
+      std::all_of(profile.jerk.begin(), profile.jerk.end(), [](double jerk) { return jerk == 0; });
+  Json json = steps ? Json{{"s_m", profile.s}, {"speed_m_s", profile.rate}}
+                    : Json{{"time_s", profile.time_s}, {"jerk_m_s3", profile.jerk}};
   if (profile.wait_s > 0) json["wait_s"] = profile.wait_s;
   return json;
 }

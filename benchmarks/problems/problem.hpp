@@ -10,7 +10,10 @@
 
 namespace joulepath::problems {
 
-/// One problem of the public set: a request whose path has a curvature that is linear between knots.
+inline constexpr const char* kTurn = "turn";  ///< the kind of a turn in place
+
+/// One problem of the public set: a request whose path has a curvature that is linear between knots, or a
+/// turn in place.
 struct Problem {
   std::string id{};
   std::string kind{};        ///< of path
@@ -24,13 +27,13 @@ struct Knots {
   std::vector<double> curvature_per_m{};
 };
 [[nodiscard]] Curve curve_through(const Knots& knots);
-[[nodiscard]] Knots knots_of(const Curve& curve);
+[[nodiscard]] Knots knots_of(const PathPiece& piece);
 
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json robot_json(const Robot& robot);
 [[nodiscard]] Json problem_json(const Problem& problem);
-/// The profile's nodes as a solution of the set.
+/// A profile as a solution of the set: speeds at places, or, where acceleration has no steps, jerk over time.
 [[nodiscard]] Json solution_json(const Profile& profile);
 
 /// All problems of a file that problem_json() and robot_json() wrote.

@@ -91,7 +91,11 @@ def test_each_limit_is_seen():
 
 
 def test_the_set_is_as_described():
-    assert len(DATA["problems"]) == 200 and len({p["id"] for p in DATA["problems"]}) == 200
+    assert [p["id"] for p in DATA["problems"]] == [f"p{i:03}" for i in range(1, 241)]
+    for i, p in enumerate(DATA["problems"]):
+        assert (p["kind"] == "turn", "jerk_m_s3" in p["limits"]) == (200 <= i < 220, i >= 220), p["id"]
+        if p["kind"] == "turn":
+            assert p["path"]["curvature_per_m"] in ([1, 1], [-1, -1]) and p["path"]["s_m"][0] == 0, p["id"]
     schema = json.loads((FOLDER / "schema.json").read_text())["$defs"]["problem"]
     for p in DATA["problems"]:
         assert set(p) == set(schema["required"]) == set(schema["properties"]), p["id"]
@@ -119,8 +123,8 @@ def test_poses_are_fifty_on_two_maps():
 
 
 def test_the_program_reads_its_own_set(program):
-    """The solver's fresh answers to three problems keep every limit and repeat the committed values."""
-    subset = {**DATA, "problems": [problem_of(i) for i in list(GIVEN)[:3]]}
+    """The solver's fresh answers keep every limit and repeat the committed values, in turns and under a jerk limit, too."""
+    subset = {**DATA, "problems": [problem_of(i) for i in (*list(GIVEN)[:3], "p201", "p221")]}
     folder = pathlib.Path(sys.argv[2])
     (folder / "subset.json").write_text(json.dumps(subset))
     subprocess.run([program, "solve", folder / "subset.json", folder / "answers.json"], check=True)
