@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/correction/ceiling.hpp"
 #include "diagnosis/correction/control.hpp"
@@ -15,6 +16,15 @@ namespace {
 Diagnosis diagnose_without_logs(const Dataset& dataset, const DiagnoseOptions& options) {
   if (std::ranges::any_of(dataset.runs, is_energy_run)) return diagnose_energies(dataset, options);
   return {.notes = {"no run has a log with wheel speeds, nor an energy with its motion"}};
+}
+
+/// Broken channels say nothing about the robot: no cause is sought.
+Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<DataCheck> checks) {
+  const Survey survey = survey_dataset(dataset, runs.signals);
+  return {.verdict = Verdict::data_suspect,
+          .data_checks = std::move(checks),
+          .missing_channels = survey.missing_channels,
+          .notes = survey.notes};
 }
 
 std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {
@@ -87,8 +97,10 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   const RunsByUse runs = sort_runs(dataset);
-  Diagnosis diagnosis =
-      runs.signals.empty() ? diagnose_without_logs(dataset, options) : diagnose_logs(dataset, runs, options);
+  std::vector<DataCheck> checks = check_data(dataset, runs);
+  Diagnosis diagnosis = !checks.empty()        ? stopped_by(dataset, runs, std::move(checks))
+                        : runs.signals.empty() ? diagnose_without_logs(dataset, options)
+                                               : diagnose_logs(dataset, runs, options);
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;
 }

@@ -43,6 +43,31 @@ inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Motor currents below it may lie in a driver's dead band. Physical scale.
 inline constexpr double kDeadBand_A = 0.1;
 
+// Data that contradict physics.
+
+/// A channel that shows less of the change that the others ask for is dead. Chosen (0220).
+inline constexpr double kDeadShare = 0.1;
+/// And whose own change is smaller than this part of it. Chosen (0220).
+inline constexpr double kDeadSize = 0.3;
+/// A relation between channels that leaves less unexplained is sound, whatever repair would suit it better:
+/// of the windings, the motors' torques, a turning rate, a position, the battery. Chosen (0220).
+inline constexpr double kSoundWinding = 0.004;
+inline constexpr double kSoundTorque = 0.3;
+inline constexpr double kSoundTurn = 0.1;
+inline constexpr double kSoundPosition = 0.1;
+inline constexpr double kSoundBattery = 0.05;
+/// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
+inline constexpr double kRepairGain = 4.0;
+/// And may raise it for no other one by more than this, unless that stays sound. Chosen (0220).
+inline constexpr double kRepairHarm = 1.5;
+/// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0220).
+inline constexpr double kUnusualFault = 1.0;
+/// Factors inside may be effects. Declared.
+inline constexpr double kLeastEffectFactor = 0.67;
+inline constexpr double kMostEffectFactor = 1.5;
+/// Faults of one dataset that are sought. Declared: bounds time.
+inline constexpr int kMostFaults = 6;
+
 // What runs cannot show.
 
 /// A sample turns where the wheels differ by this share of their speeds. Physical scale.

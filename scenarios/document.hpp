@@ -96,7 +96,8 @@ struct NamedBy {
 
 /// How files that name other files are read.
 struct ReadOptions {
-  bool untrusted{};  ///< names in the input may not be absolute or leave the input's folder
+  bool untrusted{};           ///< names in the input may not be absolute or leave the input's folder
+  bool accept_implausible{};  ///< logs with numbers that no robot has are read: the caller reports them
 };
 
 /// One parsed file.

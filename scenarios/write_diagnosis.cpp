@@ -105,6 +105,17 @@ Json next_json(const NextExperiment& next) {
 
 }  // namespace
 
+Json data_checks_json(const std::vector<DataCheck>& checks) {
+  Json json = Json::array();
+  for (const DataCheck& check : checks)
+    json.push_back({{"run", check.run.empty() ? "all" : check.run},
+                    {"channel", check.channel},
+                    {"kind", check.kind},
+                    {"evidence", check.evidence},
+                    {"repair", check.repair}});
+  return json;
+}
+
 std::string diagnosis_json(const Diagnosis& d) {
   Json where = Json::array(), causes = Json::array(), ranking = Json::array();
   for (const WhereCell& cell : d.where) where.push_back(where_json(cell));
@@ -126,6 +137,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
+      {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
       {"missing_channels", d.missing_channels},
       {"notes", d.notes},
