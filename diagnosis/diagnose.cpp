@@ -2,6 +2,7 @@
 
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/survey.hpp"
+#include "diagnosis/correction/all_clear.hpp"
 #include "diagnosis/correction/ceiling.hpp"
 #include "diagnosis/correction/control.hpp"
 #include "diagnosis/correction/correction.hpp"
@@ -59,8 +60,10 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   const Names names = choose_names(x);
   const std::vector<RankedEffect> ranking = rank_effects(names.probabilities);
   const Validation validation = validate(x, judge(x, names));
-  const auto& [verdict, named, leftover, judgment_notes] = validation.judgment;
-  const GapReport gap = held_out_gap(x, validation, options.bootstrap);
+  const auto& [judged, named, leftover, judgment_notes] = validation.judgment;
+  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);
+  GapReport gap = held_out_gap(x, validation, options.bootstrap);
+  gap.energy.detectable_percent = detectable_percent;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const double ceiling = ceiling_shrink_fraction(x, !named.empty(), gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
@@ -84,6 +87,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
                            {told_by_others(runs.signals, others)},
                            names.notes,
                            judgment_notes,
+                           {all_clear_note},
                            correction.notes,
                            {told_by_energies(dataset, correction)}}),
           .validation_runs = names_of(dataset, runs.validation.runs),

@@ -213,6 +213,15 @@ inline constexpr double kWrongLawEvidence = 25.0;
 /// The same from fewer than kRunsForSmallEffects. Chosen.
 inline constexpr double kWrongLawEvidenceOfFewRuns = 100.0;
 
+// An all-clear.
+
+/// Of simulated gaps, that the runs must show. Declared.
+inline constexpr double kShareSeen = 0.9;
+/// Runs that would not show a greater gap are too few. Declared.
+inline constexpr double kGreatestUnseen_percent = 10.0;
+/// Effects whose usual size changes less of the energy are no gap of energy. Chosen (0221).
+inline constexpr double kLeastEnergyOfStep = 0.002;
+
 // Held-out runs and the correction.
 
 /// Loss that held-out runs may differ by, in units of their noise. Chosen.

@@ -70,7 +70,8 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
 }
 
 FileSummary summary_of_dataset(const std::string& file, const ReadOptions& options) {
-  const Dataset dataset = read_dataset(file, {.untrusted = options.untrusted, .accept_implausible = true});
+  const Dataset dataset =
+      read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
   for (const auto& run : dataset.runs) samples += run.log.size();
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),

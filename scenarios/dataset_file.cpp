@@ -10,6 +10,7 @@
 #include "scenarios/physical_bounds.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
+#include "scenarios/standstill_cuts.hpp"
 
 namespace joulepath {
 namespace {
@@ -201,6 +202,7 @@ Dataset read_dataset(const std::string& file, const ReadOptions& options,
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   RunReader reader(dataset, sources, options);
   for (const auto& run : root["runs"].items()) reader.read(run);
+  if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }
 

@@ -22,7 +22,8 @@ Json energy_json(const EnergyGap& e) {
           {"before_J", six_digits(e.before_J)},
           {"after_J", six_digits(e.after_J)},
           {"shrink_fraction", six_digits(e.shrink_fraction)},
-          {"shrink_interval_95", interval(e.shrink_interval_95)}};
+          {"shrink_interval_95", interval(e.shrink_interval_95)},
+          {"detectable_percent", six_digits(e.detectable_percent)}};
 }
 
 void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, const std::string& unit) {

@@ -78,7 +78,8 @@ class Check : public Command {
   void write_repaired(const std::string& file, const FileSummary& summary) const {
     if (summary.kind != "dataset" || files_.size() != 1)
       throw ConfigError({{file, 0, 0}, "--repair", "no single dataset", "one dataset file", ""});
-    const Dataset dataset = read_dataset(file, {.untrusted = options_.untrusted, .accept_implausible = true});
+    const Dataset dataset = read_dataset(
+        file, {.untrusted = options_.untrusted, .cut_long_logs = true, .accept_implausible = true});
     const std::string directory = std::filesystem::absolute(repair_).parent_path().string();
     write_output_file(repair_, repaired_dataset_text(dataset, summary.data_checks, directory),
                       options_.force);

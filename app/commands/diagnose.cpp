@@ -135,9 +135,9 @@ class Diagnose : public Command {
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
-    const Dataset dataset =
-        read_dataset(dataset_, {.untrusted = common_.untrusted, .accept_implausible = true},
-                     robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Dataset dataset = read_dataset(
+        dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+        robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
     Diagnosis diagnosis = diagnose(dataset, {.without = without});
     describe_repairs(dataset, diagnosis.data_checks);
     if (diagnosis.corrected_robot) {

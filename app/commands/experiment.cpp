@@ -30,8 +30,9 @@ class Experiment : public Command {
   }
 
   int run() override {
-    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted},
-                                         robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
+    const Dataset dataset = read_dataset(
+        dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+        robot_.empty() ? std::nullopt : std::optional<std::string>(robot_));
     const Diagnosis diagnosis = diagnose(dataset);
     if (diagnosis.next.motions.empty()) {
       if (!common_.quiet)

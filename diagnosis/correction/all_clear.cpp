@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <set>
 
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "diagnosis/where/gap.hpp"
 // Design: docs/decisions/0221-an-all-clear-needs-power.md
 namespace joulepath {
 namespace {
 
+constexpr double kAnySize_percent = 1000;  ///< of the energy
+
 bool energies_were_measured(const Examination& x) {
-  return std::ranges::any_of(x.runs.signals,
-                             [](const RunSignals& run) { return measures_energy(run); });
+  return std::ranges::any_of(x.runs.signals, [](const RunSignals& run) { return measures_energy(run); });
 }
 
 /// An effect that changes the energy: how far its evidence stands above the noise at a gap of 1 %.
@@ -31,7 +30,8 @@ double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
   amplitude[0] = candidate.step[0];
   with_it.effects.push_back({candidate, amplitude});
   const Impact impact = impact_between(x.id.signals, x.point_of(with_it), x.point_of(x.id.state));
-  return std::max(impact.motor_power, impact.battery_power) / candidate.step[0];
+  const bool motors = std::ranges::any_of(x.id.signals, measures_motors);
+  return (motors ? impact.motor_power : impact.battery_power) / candidate.step[0];
 }
 
 std::vector<Visibility> visibilities(const Examination& x) {
@@ -61,15 +61,14 @@ double probability_seen(const Visibility& effect, double gap_percent) {
 }
 
 double detectable_percent(const std::vector<Visibility>& effects) {
-  if (effects.empty()) return std::numeric_limits<double>::infinity();
+  if (effects.empty()) return kAnySize_percent;
   const auto seen = [&](double gap_percent) {
     double sum = 0;
     for (const Visibility& effect : effects) sum += probability_seen(effect, gap_percent);
     return sum / static_cast<double>(effects.size());
   };
-  constexpr double kMost_percent = 1000;
-  if (seen(kMost_percent) < kShareSeen) return std::numeric_limits<double>::infinity();
-  double low = 0, high = kMost_percent;
+  if (seen(kAnySize_percent) < kShareSeen) return kAnySize_percent;
+  double low = 0, high = kAnySize_percent;
   for (int halving = 0; halving < 60; ++halving)
     (seen(0.5 * (low + high)) < kShareSeen ? low : high) = 0.5 * (low + high);
   return high;
@@ -78,7 +77,7 @@ double detectable_percent(const std::vector<Visibility>& effects) {
 std::string size_text(double percent) {
   char text[64];
   std::snprintf(text, sizeof text, "%.2g %%", percent);
-  return std::isfinite(percent) ? text : "any size";
+  return percent < kAnySize_percent ? text : "any size";
 }
 
 }  // namespace
@@ -86,8 +85,9 @@ std::string size_text(double percent) {
 AllClear examine_all_clear(const Examination& x, Verdict verdict) {
   if (verdict != Verdict::no_gap && verdict != Verdict::explained) return {.verdict = verdict};
   if (!energies_were_measured(x))
-    return {.verdict = verdict == Verdict::no_gap ? Verdict::too_little_data : Verdict::partly_explained,
-            .note = "no run measures the energy of the motors or of the battery: an energy gap cannot be seen"};
+    return {
+        .verdict = verdict == Verdict::no_gap ? Verdict::too_little_data : Verdict::partly_explained,
+        .note = "no run measures the energy of the motors or of the battery: an energy gap cannot be seen"};
   if (verdict != Verdict::no_gap) return {.verdict = verdict};
   const double percent = detectable_percent(visibilities(x));
   if (percent > kGreatestUnseen_percent)
