@@ -49,12 +49,15 @@ inline constexpr double kDeadBand_A = 0.1;
 inline constexpr double kDeadShare = 0.1;
 /// And whose own change is smaller than this part of it. Chosen (0220).
 inline constexpr double kDeadSize = 0.3;
-/// A relation between channels that leaves less unexplained is sound, whatever repair would suit it better:
-/// of the windings, the motors' torques, a turning rate, a position, the battery. Chosen (0220).
+/// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0220).
 inline constexpr double kSoundWinding = 0.004;
+/// The same of currents against the motion's torques. Chosen (0220).
 inline constexpr double kSoundTorque = 0.3;
+/// The same of turning rates against each other. Chosen (0220).
 inline constexpr double kSoundTurn = 0.1;
+/// The same of positions against the wheels. Chosen (0220).
 inline constexpr double kSoundPosition = 0.1;
+/// The same of the battery's power against the motors'. Chosen (0220).
 inline constexpr double kSoundBattery = 0.05;
 /// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
 inline constexpr double kRepairGain = 4.0;
@@ -62,8 +65,9 @@ inline constexpr double kRepairGain = 4.0;
 inline constexpr double kRepairHarm = 1.5;
 /// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0220).
 inline constexpr double kUnusualFault = 1.0;
-/// Factors inside may be effects. Declared.
+/// A factor above it, and below kMostEffectFactor, may be an effect. Declared.
 inline constexpr double kLeastEffectFactor = 0.67;
+/// See kLeastEffectFactor. Declared.
 inline constexpr double kMostEffectFactor = 1.5;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
