@@ -44,12 +44,14 @@ struct Effectiveness {
   std::size_t most{};  ///< the relation that gains most
 };
 
-Effectiveness compare(const Relations& before, const Relations& after) {
+/// `by_factor`: a factor that is no unit is sure only where a measured channel shows it: resistances of the
+/// floor may ask for several times the torque.
+Effectiveness compare(const Relations& before, const Relations& after, bool by_factor = false) {
   Effectiveness result;
   double greatest = 0;
   bool harmed = false;
   for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!before[k] || !after[k]) continue;
+    if (!before[k] || !after[k] || (by_factor && before[k]->sound >= kSoundTorque)) continue;
     const double old_share = before[k]->unexplained + kExact, new_share = after[k]->unexplained + kExact;
     const double nats = std::log(old_share / new_share);
     result.nats += nats;
@@ -157,7 +159,8 @@ class DataCheckSearch {
       std::vector<Effectiveness> effect(broken.size());
       parallel_for(broken.size(), [&](std::size_t k) {
         const Examined& examined = runs_[broken[k]];
-        effect[k] = compare(examined.relations, relations_with(examined, fault.columns));
+        effect[k] =
+            compare(examined.relations, relations_with(examined, fault.columns), fault.kind == "scaled");
       });
       Found found{.fault = fault, .nats = fault.kind == "scaled" ? -kUnusualFault : 0.0};
       for (std::size_t k = 0; k < broken.size(); ++k)
@@ -217,7 +220,7 @@ class DataCheckSearch {
     }
     const Relations before = runs_[shown].relations,
                     after = relations_with(runs_[shown], found->fault.columns);
-    const std::size_t most = compare(before, after).most;
+    const std::size_t most = compare(before, after, found->fault.kind == "scaled").most;
     widen(*found);
     for (std::size_t r : found->which) mend(runs_[r], found->fault.columns);
     report({.channel = found->fault.channel,
