@@ -114,7 +114,7 @@ TEST_P(SpoiltChannel, OfOneRunIsNamedWithItsRun) {
 TEST_P(SpoiltChannel, OfAllRunsIsNamedAndStopsTheDiagnosis) {
   if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = day();
-  for (Run& run : dataset.runs) GetParam().spoil(run.log);
+  for (auto& run : dataset.runs) GetParam().spoil(run.log);
   const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
   EXPECT_EQ(d.verdict, Verdict::data_suspect) << verdict_name(d.verdict);
   EXPECT_TRUE(d.causes.empty());

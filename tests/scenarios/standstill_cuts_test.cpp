@@ -21,12 +21,12 @@ Run drives(int count) {
 
 TEST(StandstillCuts, ALongLogBecomesRunsThatBeginAndEndAtRest) {
   std::vector<LogArtifact> artifacts;
-  const std::vector<Run> parts = cut_at_standstill({drives(20)}, artifacts);
+  const auto parts = cut_at_standstill({drives(20)}, artifacts);
   ASSERT_EQ(parts.size(), 20u);
   ASSERT_EQ(artifacts.size(), 1u);
   EXPECT_EQ(artifacts[0].kind, "cut");
   std::size_t samples = 0;
-  for (const Run& part : parts) {
+  for (const auto& part : parts) {
     samples += part.log.size();
     EXPECT_EQ(part.log.payload_kg.front(), part.log.payload_kg.back());
   }
@@ -46,7 +46,7 @@ TEST(StandstillCuts, TheNumberOfPartsIsBounded) {
 TEST(StandstillCuts, AShortLogAndOneWithAnEnergyOfTheWholeStayWhole) {
   std::vector<LogArtifact> artifacts;
   EXPECT_EQ(cut_at_standstill({drives(3)}, artifacts).size(), 1u);
-  Run measured = drives(20);
+  auto measured = drives(20);
   measured.battery_energy_Wh = 1.0;
   EXPECT_EQ(cut_at_standstill({measured}, artifacts).size(), 1u);
   EXPECT_TRUE(artifacts.empty());
