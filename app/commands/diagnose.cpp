@@ -12,6 +12,7 @@
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/decision_cost.hpp"
+#include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
@@ -44,6 +45,9 @@ std::string advice(const Diagnosis& d) {
       return "These runs cannot separate the effects below. Drive the proposed run.";
     case Verdict::too_little_data:
       return "There is too little data to name a cause. The list shows candidates only.";
+    case Verdict::data_suspect:
+      return "Channels of the log contradict physics. Repair the dataset (joulepath check --repair), then "
+             "diagnose it.";
   }
   return {};
 }
@@ -65,6 +69,8 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& note : d.notes) out << "note: " << note << '\n';
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << advice(d) << '\n';
+  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
+  if (d.verdict == Verdict::data_suspect) return;
   const EnergyGap& e = d.gap.energy;
   out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
@@ -127,8 +133,11 @@ class Diagnose : public Command {
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
-    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted}, robot_);
+    const Dataset dataset = read_dataset(
+        dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+        robot_);
     Diagnosis diagnosis = diagnose(dataset, {.without = without});
+    describe_repairs(dataset, diagnosis.data_checks);
     if (diagnosis.corrected_robot) {
       const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);
       diagnosis.decision_missions = cost.missions;

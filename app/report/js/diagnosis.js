@@ -6,6 +6,7 @@ const kVerdicts = {
   partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is not in the catalog.", false],
   unexplained: ["Unexplained", "No effect of the catalog fits the gap.", false],
   ambiguous: ["Ambiguous", "These runs cannot separate the effects of the group below.", false],
+  data_suspect: ["Suspect data", "Channels of the log contradict physics. Repair the dataset first.", false],
   too_little_data: ["Too little data", "The report shows the location of the gap and candidates, but names no cause.", false],
 };
 
