@@ -127,9 +127,9 @@ FileSummary summary_of_path(const Path& path) {
   return {"path", std::string(length) + " in " + counted(static_cast<std::size_t>(curves), "piece"), {}};
 }
 
-FileSummary summary_of_chain(const Document& document) {
+FileSummary summary_of_chain(const Document& document, const ReadOptions& options) {
   std::vector<std::string> notes;
-  FileSummary summary = summary_of_path(path_from(document, &notes));
+  FileSummary summary = summary_of_path(path_from(document, options, &notes));
   summary.notes = std::move(notes);
   return summary;
 }
@@ -160,6 +160,7 @@ std::string kind_of(const Document& document) {
                                   {"visit", "mission"},
                                   {"order", "mission"},
                                   {"bezier_m", "path"},
+                                  {"waypoints", "path"},
                                   {"features", "route graph"},
                                   {"geometry", "robot"},
                                   {"motor", "robot"},
@@ -184,7 +185,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options);
-  if (kind == "path") return summary_of_chain(document);
+  if (kind == "path") return summary_of_chain(document, options);
   if (kind == "study") return summary_of_study(document, options);
   if (kind == "fleet") return summary_of_fleet(file, options);
   if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};

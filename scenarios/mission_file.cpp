@@ -8,6 +8,7 @@
 #include "model/printable.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/robot_check.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
 
@@ -261,12 +262,23 @@ void check_payloads(const MissionRequest& request, const Robot& robot) {
   for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
 }
 
+/// Without an outline nothing can be held against a map.
+void check_footprint(const MissionRequest& request, const Robot& robot) {
+  if (has_footprint(robot) || request.map_file.empty()) return;
+  throw ConfigError({{request.robot_file, 1, 1},
+                     "footprint",
+                     "nothing, although the robot drives on the map " + request.map_file,
+                     "footprint: {radius_m: } or {polygon_m: }",
+                     "every path is checked against the map"});
+}
+
 }  // namespace
 
 MissionWorld read_world(const MissionRequest& request, const ReadOptions& options) {
   const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
   MissionWorld world{.robot = read_robot(request.robot_file, named("robot"))};
   check_payloads(request, world.robot);
+  check_footprint(request, world.robot);
   if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
   if (!request.keepout_file.empty())
     world.keepout = read_map(request.keepout_file, named("keepout"), options);

@@ -63,7 +63,7 @@ MissionRequest read_mission_source(const MissionSource& source, const ReadOption
   };
   if (is_waypoint_file(source.file)) return with_files(along_path(source, read_waypoints(source.file)));
   const Document document = Document::load(source.file);
-  if (is_path(document)) return with_files(along_path(source, path_from(document)));
+  if (is_path(document)) return with_files(along_path(source, path_from(document, options)));
   refuse_beside_mission("--payload", "payload_kg of a leg", source.payload_kg.has_value());
   refuse_beside_mission("--time", "duration_s of a leg", source.duration_s.has_value());
   return with_files(is_order(document) ? order_mission(source) : mission_from(document, options));

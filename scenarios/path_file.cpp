@@ -72,8 +72,12 @@ std::vector<double> radii_of(const CsvTable& table) {
 Schema path_schema() {
   return with_physical_bounds(
       map({optional("schema", text(), "joulepath/path/1"),
-           required("bezier_m", bezier_schema(),
-                    "chain of cubic Bezier curves in the map frame, four control points each")}));
+           optional("bezier_m", bezier_schema(),
+                    "chain of cubic Bezier curves in the map frame, four control points each"),
+           optional("waypoints", text(), "CSV file with columns x_m and y_m, in the map frame"),
+           optional("tolerance_m", number(kNotNegative),
+                    "how far the curve may be from dense waypoints; default 0.01, 0: through all of them")})
+          .with_exactly_one({"bezier_m", "waypoints"}));
 }
 
 bool is_path(const Document& document) {
@@ -81,7 +85,7 @@ bool is_path(const Document& document) {
   if (root.kind() != Value::Kind::map) return false;
   const auto line = root.find("schema");
   if (line && line->kind() == Value::Kind::scalar) return line->text().rfind("joulepath/path/", 0) == 0;
-  return root.has("bezier_m");
+  return root.has("bezier_m") || root.has("waypoints");
 }
 
 bool is_waypoint_file(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
@@ -92,9 +96,15 @@ bool has_waypoints(const std::string& file) {
   return has("x_m") && !has("time_s");
 }
 
-Path path_from(const Document& document, std::vector<std::string>* notes) {
+Path path_from(const Document& document, const ReadOptions& options, std::vector<std::string>* notes) {
   check_document(document, "path", path_schema());
-  const Node curves = document.root()["bezier_m"];
+  const Node root = document.root();
+  if (const auto file = root.find("waypoints"))
+    return read_waypoints(resolve_file(*file, options), root.number_or("tolerance_m", kWaypointTolerance_m),
+                          NamedBy(*file));
+  if (const auto tolerance = root.find("tolerance_m"))
+    tolerance->fail("no such key", "only allowed with waypoints:");
+  const Node curves = root["bezier_m"];
   const std::vector<BezierPoints> bezier_m = read_bezier(curves);
   BezierChainResult chain = bezier_chain(bezier_m, start_of(bezier_m), BezierFrame::map);
   if (!chain.ok()) {
@@ -107,15 +117,17 @@ Path path_from(const Document& document, std::vector<std::string>* notes) {
   return std::move(chain.path);
 }
 
-Path read_waypoints(const std::string& file) {
-  const CsvTable table = read_csv(file, [](const std::string& name) {
-    return name == "x_m" || name == "y_m" || name == "corner_radius_m";
-  });
+Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& named_by) {
+  const CsvTable table = read_csv(
+      file,
+      [](const std::string& name) { return name == "x_m" || name == "y_m" || name == "corner_radius_m"; },
+      named_by);
   const std::vector<double> x_m = column_of(table, "x_m"), y_m = column_of(table, "y_m");
   std::vector<Point2> waypoints_m;
   for (std::size_t row = 0; row < x_m.size(); ++row) waypoints_m.push_back({x_m[row], y_m[row]});
   const bool lines = table.find("corner_radius_m") != nullptr;
-  WaypointPath along = lines ? lines_between(waypoints_m, radii_of(table)) : curve_through(waypoints_m);
+  WaypointPath along =
+      lines ? lines_between(waypoints_m, radii_of(table)) : curve_through(waypoints_m, tolerance_m);
   if (!along.defect) return std::move(along.path);
   const std::size_t row = along.defect->waypoint;
   const int line = row < table.rows() ? table.line_of_row[row] : 1;

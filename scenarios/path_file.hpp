@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "planner/path/geometry/path.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
 
-/// `schema: joulepath/path/1`: a chain of cubic Bezier curves in the map frame.
+/// `schema: joulepath/path/1`: a chain of cubic Bezier curves in the map frame, or a file of waypoints.
 [[nodiscard]] Schema path_schema();
 
-/// Whether a document is a path: by its schema line, or by `bezier_m` at its top.
+/// Whether a document is a path: by its schema line, or by `bezier_m` or `waypoints` at its top.
 [[nodiscard]] bool is_path(const Document& document);
 
 /// Whether a file is read as waypoints: by its extension, `.csv`.
@@ -21,11 +21,13 @@ namespace joulepath {
 
 /// The path of a document. It begins looking along its first curve; where the heading breaks the robot turns.
 /// `notes` gets the joints at which it stops or turns. Throws ConfigError at a curve that cannot be driven.
-[[nodiscard]] Path path_from(const Document& document, std::vector<std::string>* notes = nullptr);
+[[nodiscard]] Path path_from(const Document& document, const ReadOptions& options = {},
+                             std::vector<std::string>* notes = nullptr);
 
-/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature through all of them, or, with a
-/// column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
+/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature along them (curve_through), or, with
+/// a column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
 /// turned on the spot). Throws ConfigError at a row that cannot be driven.
-[[nodiscard]] Path read_waypoints(const std::string& file);
+[[nodiscard]] Path read_waypoints(const std::string& file, double tolerance_m = kWaypointTolerance_m,
+                                  const NamedBy& named_by = {});
 
 }  // namespace joulepath

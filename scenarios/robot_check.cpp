@@ -93,16 +93,19 @@ void check_robot(const Node& root, const Robot& robot) {
       check_footprint(*polygon, robot.footprint.polygon_m);
 }
 
+bool has_footprint(const Robot& robot) {
+  return robot.footprint.radius_m > 0.0 || !robot.footprint.polygon_m.empty();
+}
+
 std::vector<std::string> robot_notes(const Robot& robot) {
   std::vector<std::string> notes;
   const double ratio = ratio_of(robot.motor.left);
   if (ratio < kUsualLeast || ratio > kUsualMost)
     notes.push_back("torque constant " + four_digits(ratio) +
                     " times the voltage constant: for most motors both are the same number in SI units");
-  const bool has_footprint = robot.footprint.radius_m > 0.0 || !robot.footprint.polygon_m.empty();
   const double half_track_m = robot.geometry.half_track_m;
   const double inner_m = half_track_m * (1.0 - 1e-6);  // a wheel on the edge is not outside
-  if (has_footprint &&
+  if (has_footprint(robot) &&
       !(is_inside(robot.footprint, 0.0, inner_m) && is_inside(robot.footprint, 0.0, -inner_m)))
     notes.push_back("the wheels touch the floor " + four_digits(half_track_m) +
                     " m beside the middle of the axle, outside of the footprint: half_track_m is HALF the "

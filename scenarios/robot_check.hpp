@@ -12,6 +12,9 @@ namespace joulepath {
 /// motor has together, a footprint that crosses itself.
 void check_robot(const Node& root, const Robot& robot);
 
+/// Whether the robot's outline is known.
+[[nodiscard]] bool has_footprint(const Robot& robot);
+
 /// What is possible but odd: constants that differ, wheels outside of the footprint.
 [[nodiscard]] std::vector<std::string> robot_notes(const Robot& robot);
 

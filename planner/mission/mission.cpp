@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/assert.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/legs/prescribed_leg.hpp"
@@ -17,28 +18,32 @@
 namespace joulepath {
 namespace {
 
-constexpr int kRounds = 3;  ///< of choosing ways at the prices that the last round's times led to
+constexpr double kNoWait = 1e-6;  ///< relative: a wait shorter than this is rounding
+constexpr int kRounds = 3;        ///< of choosing ways at the prices that the last round's times led to
 
-/// The final solution of a leg at its price, replayed and accounted for.
-void settle_leg(LegPlan& leg, LegTiming& timing, double price_W, double duration_s,
-                const PlanOptions& options, const Plant& plant) {
+/// The final solutions of a leg at its price; none for a prescribed motion.
+const std::vector<ProfileResult>& final_results(LegTiming& timing, double price_W, double duration_s,
+                                                const PlanOptions& options) {
+  // A duration longer than any use: the bound is to know that there is no more of it. The times that
+  // were shared are the fast solver's, so Ipopt has not been asked yet.
+  if (price_W <= 0 && timing.duration_s(price_W, SolverChoice::fast) < duration_s * (1 - kNoWait))
+    timing.give(duration_s);
+  return timing.solve(price_W, options.solver);
+}
+
+/// Replays and accounts for a leg's profiles.
+void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
+                double price_W, double duration_s, const Plant& plant) {
   if (leg.prescribed) {
     leg.energy = prescribed_energy(leg, plant);
     leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
     return;
   }
-  constexpr double kNoWait = 1e-6;  ///< relative
-  // A duration longer than any use: the bound is to know that there is no more of it. The times that
-  // were shared are the fast solver's, so Ipopt has not been asked yet.
-  if (price_W <= 0 && timing.duration_s(price_W, SolverChoice::fast) < duration_s * (1 - kNoWait))
-    timing.give(duration_s);
-  const std::vector<ProfileResult>& results = timing.solve(price_W, options.solver);
   leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;
   for (std::size_t k = 0; k < results.size(); ++k) {
     const ProfileResult& result = results[k];
     leg.status = std::max(leg.status, result.summary.status);
-    if (!result.profile) return;
     StretchPlan stretch{
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
@@ -96,7 +101,9 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
     price_W = timed.split.price_W;
     if (settled) break;
   }
-  if (choose(false)) share(false);
+  if (!choose(false)) return timed;
+  check_end_speeds(timed.prepared, mission);
+  share(false);
   return timed;
 }
 
@@ -151,8 +158,11 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
     LegPlan& leg = timed.prepared.legs[k];
     leg.start_s = k == 0 ? 0.0 : timed.split.arrival_s[k - 1] + timed.prepared.legs[k - 1].dwell_s;
-    settle_leg(leg, timed.prepared.timing[k], timed.split.price_W[k], timed.split.duration_s[k], options,
-               plant);
+    LegTiming& timing = timed.prepared.timing[k];
+    const double price_W = timed.split.price_W[k], duration_s = timed.split.duration_s[k];
+    const std::vector<ProfileResult>& results = final_results(timing, price_W, duration_s, options);
+    if (!all_driven(k, timing.stretches(), results, plan)) return plan;
+    settle_leg(leg, timing, results, price_W, duration_s, plant);
     if (options.baselines) leg.baselines = leg_baselines(leg);
   }
   plan.legs = std::move(timed.prepared.legs);
@@ -216,7 +226,10 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     Plan other = plan_given_legs(legs, world, plain, space, plant, plan);
     return other.status == SolveStatus::infeasible ? chosen : other;
   };
-  return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+  Plan answer = charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+  JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
+                   "a mission without a plan has a reason");
+  return answer;
 }
 
 }  // namespace joulepath

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "planner/legs/floor_check.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
+// Design: docs/decisions/0200-every-path-is-checked.md
 
 namespace joulepath {
 namespace {
@@ -17,16 +19,52 @@ namespace {
                      .hint = hint});
 }
 
-LegPath along_bezier(const LegRequest& leg, const Pose& start) {
+bool in_map(const std::vector<BezierPoints>& curves_m, const OccupancyGrid& map) {
+  for (const BezierPoints& curve : curves_m)
+    for (const auto& [x_m, y_m] : curve)
+      if (!map.contains(map.cell_of(x_m, y_m))) return false;
+  return true;
+}
+
+/// A hint where control points look as if they counted from the other frame; empty where they do not.
+/// `space` may be null.
+std::string frame_hint(const PathRequest& path, const Pose& start, const RouteSpace* space) {
+  const auto [x_m, y_m] = path.bezier_m.front().front();
+  if (path.frame == PathRequest::Frame::map) {
+    const bool counts_from_robot = x_m == 0 && y_m == 0;
+    return counts_from_robot
+               ? "points that count from the robot, ahead and to its left, are in `frame: start`"
+               : "";
+  }
+  const BezierChainResult on_map = bezier_chain(path.bezier_m, start, BezierFrame::map);
+  const bool begins_here = on_map.ok() && !(space && blocked_path(on_map.path, *space));
+  const bool begins_elsewhere =
+      std::hypot(x_m, y_m) > 0 && space && in_map(path.bezier_m, space->field().map());
+  return begins_here || begins_elsewhere ? "these look like coordinates of the map: `frame: map`?" : "";
+}
+
+LegPath along_bezier(const LegRequest& leg, const Pose& start, const RouteSpace* space) {
   const BezierFrame frame =
       leg.path->frame == PathRequest::Frame::start ? BezierFrame::start : BezierFrame::map;
   BezierChainResult chain = bezier_chain(leg.path->bezier_m, start, frame);
   if (!chain.ok()) {
     const BezierFinding& defect = chain.defects.front();
     refuse(leg.marks, "path", defect.message,
-           "a chain of cubic Bezier curves without cusps or gaps, at least 1 mm long");
+           "a chain of cubic Bezier curves without cusps or gaps, at least 1 mm long",
+           defect.kind == BezierFinding::Kind::gap ? frame_hint(*leg.path, start, space) : "");
   }
   return {.path = std::move(chain.path), .source = "bezier"};
+}
+
+/// A path that the mission gives, held against the floor where there is one.
+LegPath along_given(const LegRequest& leg, const Pose& start, const RouteSpace* space) {
+  LegPath way = leg.path->ready ? LegPath{.path = *leg.path->ready, .source = "given"}
+                                : along_bezier(leg, start, space);
+  if (space) way.infeasibility = blocked_path(way.path, *space);
+  if (!way.infeasibility || leg.path->ready) return way;
+  if (const std::string hint = frame_hint(*leg.path, start, space); !hint.empty())
+    way.infeasibility->message += "; " + hint;
+  return way;
 }
 
 std::string metres(double value) {
@@ -87,8 +125,7 @@ RouteRequest route_request(const LegRequest& leg, const LegStart& start, const M
 
 LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                  const MissionRequest& mission, const RouteSpace* space, const PlanOptions& options) {
-  if (leg.path && leg.path->ready) return {.path = *leg.path->ready, .source = "given"};
-  if (leg.path) return along_bezier(leg, start.pose);
+  if (leg.path) return along_given(leg, start.pose, space);
   if (!space)
     refuse(leg.marks, "to", "a leg to a station without a map",
            "`map:` in the mission, or a leg with `path:` or `motion:`");

@@ -25,8 +25,9 @@ struct LegStart {
   bool heading_free{};
 };
 
-/// Finds the way of one leg from where the robot stands. Throws ConfigError, at the leg's own marks, for
-/// what is a mistake in the file (a curve with a cusp, a start inside of an obstacle, no map to search).
+/// Finds the way of one leg from where the robot stands; one that the mission gives is held against the map.
+/// Throws ConfigError, at the leg's own marks, for what is a mistake in the file (a curve with a cusp, a
+/// start inside of an obstacle, no map to search).
 [[nodiscard]] LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                                const MissionRequest& mission, const RouteSpace* space,
                                const PlanOptions& options);

@@ -1,5 +1,6 @@
 #include "planner/ways/mission_ways.hpp"
 
+#include "planner/legs/floor_check.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/search/graph_route.hpp"
 // Design: docs/decisions/0004-ways-by-energy.md
@@ -29,7 +30,10 @@ std::optional<LegRoutes> MissionWays::routes_of(std::size_t leg, const LegStart&
 LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
   const LegRequest& asked = mission_.legs[leg];
   if (!asked.motion) return leg_path(asked, leg, start, mission_, space_, options_);
-  return {.source = "motion"};
+  LegPath way{.source = "motion"};
+  if (space_)
+    way.infeasibility = blocked_motion(*prescribed_leg(asked, plant_, start.pose).prescribed, *space_);
+  return way;
 }
 
 std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, bool quick) const {

@@ -114,6 +114,29 @@ TEST(Mission, NeitherTrapezoidTakesLessOnAnyLegAndBothTakeMoreInAll) {
   }
 }
 
+TEST(Mission, ASpeedAtAnEndThatIsATurnInPlaceIsRefused) {
+  MissionRequest mission{.name = "ends", .legs = {leg_along(kStraight, 0.0)}};
+  mission.legs[0].end_speed_m_s = 0.3;
+  EXPECT_LE(plan_of(mission).status, SolveStatus::feasible) << "it ends driving";
+  const auto key_refused = [](const MissionRequest& asked) {
+    try {
+      static_cast<void>(plan_of(asked));
+    } catch (const ConfigError& error) {
+      return error.detail().key;
+    }
+    return std::string();
+  };
+  Path path;
+  path.pieces.push_back(straight_piece({}, 2.0));
+  append_turn_to(path, {}, 1.0);
+  mission.legs[0].path = PathRequest{.ready = path};
+  EXPECT_EQ(key_refused(mission), "end_speed_m_s");
+  mission.legs[0].path = PathRequest{.bezier_m = {{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}}}};  // begins with a turn
+  EXPECT_EQ(key_refused(mission), "");
+  mission.legs[0].start_speed_m_s = 0.3;
+  EXPECT_EQ(key_refused(mission), "start_speed_m_s");
+}
+
 TEST(Mission, AnImpossibleDeadlineIsRefusedAndItsRelaxationWorks) {
   MissionRequest mission = two_legs();
   mission.objective.deadline_s = 12.0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/robot_check.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
 
@@ -24,6 +25,16 @@ TEST(RobotFile, NomadHoldsThePapersTables) {
   ASSERT_EQ(robot.limits_by_payload.size(), 2u);
   EXPECT_EQ(robot.limits_by_payload[1].limit_by_key.at("acceleration_m_s2"), 0.3);
   EXPECT_EQ(robot.uncertainty.at("friction_torque_Nm"), 0.015);
+}
+
+TEST(RobotFile, OddButPossibleFiguresAreNoted) {
+  Robot robot = read_robot(kNomad);
+  EXPECT_TRUE(robot_notes(robot).empty());
+  robot.footprint = {.polygon_m = {{0.3, 0.15}, {-0.3, 0.15}, {-0.3, -0.15}, {0.3, -0.15}}};
+  ASSERT_EQ(robot_notes(robot).size(), 1u);
+  EXPECT_NE(robot_notes(robot).front().find("outside of the footprint"), std::string::npos);
+  robot.motor.left.torque_constant_Nm_A = 0.85 * robot.motor.left.voltage_constant_V_s_rad;
+  EXPECT_EQ(robot_notes(robot).size(), 2u);
 }
 
 TEST(RobotFile, TextReadsBackAsTheSameRobot) {

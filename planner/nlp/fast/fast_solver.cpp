@@ -135,10 +135,12 @@ class FastSolver {
   double mu_{}, error_{}, tolerance_{};
 };
 
-/// A rough optimum on fewer nodes, as a start for all of them: nothing where even that is not found.
+/// A rough optimum on fewer nodes, as a start for all of them: nothing where even that is not found, or where
+/// kinks of curvature keep so many nodes that it would cost as much as the problem itself.
 std::optional<std::vector<double>> start_from_coarse(const Problem& problem,
                                                      const std::vector<double>& b_guess) {
   const CoarseProblem coarse = coarsen(problem, kMerged);
+  if (2 * coarse.problem.segment_count() > problem.segment_count()) return std::nullopt;
   const Solution near = solve_fast(coarse.problem, coarse.restricted(b_guess),
                                    {.tolerance = kCoarseTolerance, .max_iterations = kCoarseIterations});
   if (!near.converged) return std::nullopt;

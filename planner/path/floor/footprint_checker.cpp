@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "model/assert.hpp"
+#include "planner/path/floor/outline_sweep.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kShortestStep_m = 0.002;
-constexpr double kReportStep_m = 0.01;
 constexpr double kSlackStep_m = 0.03;
 constexpr double kShortestSearchStep_m = 0.005;
 constexpr double kLookAhead_m = 0.1;  ///< beyond this slack a polygon's exact distance is not needed
@@ -39,8 +38,7 @@ double FootprintChecker::slack_m(const Pose& pose) const {
 
 double FootprintChecker::polygon_slack_m(const Pose& pose) const {
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
-  const double half_diagonal_m = 0.5 * kHalfDiagonalPerHalfSide * field_->map().resolution_m;
-  const double within_m = outer_m_ + clearance_m_ + kLookAhead_m + half_diagonal_m;
+  const double within_m = outer_m_ + clearance_m_ + kLookAhead_m;
   double best_m = clearance_m_ + kLookAhead_m;
   double frame_rad = 0;  // of the cells' axes
   std::vector<Point2> outline;
@@ -51,24 +49,45 @@ double FootprintChecker::polygon_slack_m(const Pose& pose) const {
     for (const auto& p : polygon_m_) points.push_back({rc * p[0] - rs * p[1], rs * p[0] + rc * p[1]});
     return points;
   };
-  field_->for_blocked_cells(
-      pose.x_m, pose.y_m, within_m, [&](double x, double y, double half, double heading_rad) {
-        const double dx = x - pose.x_m, dy = y - pose.y_m;
-        const Point2 in_robot{c * dx + s * dy, c * dy - s * dx};
-        const double center_m = signed_distance_m(polygon_m_, in_robot);
-        if (center_m - half * kHalfDiagonalPerHalfSide >= best_m) return true;
-        if (outline.empty() || heading_rad != frame_rad) {
-          outline = turned(heading_rad);
-          frame_rad = heading_rad;
-        }
-        const double fc = std::cos(heading_rad), fs = std::sin(heading_rad);
-        best_m = std::min(best_m, square_distance_m(outline, {fc * dx + fs * dy, fc * dy - fs * dx}, half));
-        return true;
-      });
+  field_->for_blocked_cells(pose.x_m, pose.y_m, within_m, [&](const ObstacleField::BlockedCell& cell) {
+    const double dx = cell.x_m - pose.x_m, dy = cell.y_m - pose.y_m, half_m = cell.half_side_m;
+    const Point2 in_robot{c * dx + s * dy, c * dy - s * dx};
+    const double center_m = signed_distance_m(polygon_m_, in_robot);
+    if (center_m - half_m * kHalfDiagonalPerHalfSide >= best_m) return;
+    if (outline.empty() || cell.heading_rad != frame_rad) {
+      outline = turned(cell.heading_rad);
+      frame_rad = cell.heading_rad;
+    }
+    const double fc = std::cos(frame_rad), fs = std::sin(frame_rad);
+    best_m = std::min(best_m, square_distance_m(outline, {fc * dx + fs * dy, fc * dy - fs * dx}, half_m));
+  });
   return best_m - clearance_m_;
 }
 
+/// Of the corners and centers of all blocked cells, the place deepest inside of the outline.
+Collision FootprintChecker::polygon_collision(double s, const Pose& pose, double slack) const {
+  const double c = std::cos(pose.heading_rad), sn = std::sin(pose.heading_rad);
+  double least_m = std::numeric_limits<double>::infinity();
+  ObstacleField::Nearest deepest;
+  field_->for_blocked_cells(
+      pose.x_m, pose.y_m, outer_m_ + clearance_m_, [&](const ObstacleField::BlockedCell& cell) {
+        const double fc = cell.half_side_m * std::cos(cell.heading_rad),
+                     fs = cell.half_side_m * std::sin(cell.heading_rad);
+        constexpr int kPlaces[][2] = {{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+        for (const auto& [i, k] : kPlaces) {
+          const double x_m = cell.x_m + i * fc - k * fs, y_m = cell.y_m + i * fs + k * fc;
+          const double dx = x_m - pose.x_m, dy = y_m - pose.y_m;
+          const double distance_m = signed_distance_m(polygon_m_, {c * dx + sn * dy, c * dy - sn * dx});
+          if (distance_m >= least_m) continue;
+          least_m = distance_m;
+          deepest = {std::max(0.0, distance_m), cell.layer, x_m, y_m};
+        }
+      });
+  return {s, pose, std::max(-slack, clearance_m_ - least_m), deepest};
+}
+
 Collision FootprintChecker::collision_at(double s, const Pose& pose, double slack) const {
+  if (!is_disc()) return polygon_collision(s, pose, slack);
   return {s, pose, -slack, field_->nearest(pose.x_m, pose.y_m)};
 }
 
@@ -94,16 +113,14 @@ std::optional<Collision> FootprintChecker::pose_collision(const Pose& pose) cons
 }
 
 template <class Place>
-std::optional<Collision> FootprintChecker::sweep(double length, double reach_per_s,
-                                                 const Place& place) const {
-  const double shortest = kShortestStep_m / reach_per_s;
-  for (double s = 0;;) {
-    const Pose pose = place(s);
-    const double slack = slack_m(pose);
-    if (slack < -kTolerance_m) return collision_at(s, pose, slack);
-    if (s >= length) return std::nullopt;
-    s = std::min(length, s + std::max(shortest, slack / reach_per_s));
-  }
+std::optional<Collision> FootprintChecker::first_on(double length, double reach_per_s,
+                                                    const Place& place) const {
+  std::optional<Collision> first;
+  sweep_outline(*this, length, reach_per_s, place, [&](double s, const Pose& pose, double slack) {
+    if (slack < -kTolerance_m) first = collision_at(s, pose, slack);
+    return !first;
+  });
+  return first;
 }
 
 namespace {
@@ -122,18 +139,19 @@ double largest_curvature_per_m(const CurveSegment& segment) {
 
 }  // namespace
 
-std::optional<Collision> FootprintChecker::first_collision(const PathPiece& piece) const {
-  const double length = piece_length(piece);
-  const auto place = [&piece](double s) { return piece_point(piece, s).pose; };
-  if (is_turn(piece)) {
-    if (is_disc()) return pose_collision(place(0));
-    return sweep(length, std::max(outer_m_, 1e-3), place);
-  }
+double FootprintChecker::reach_per_s(const PathPiece& piece) const {
+  if (is_turn(piece)) return std::max(outer_m_, 1e-3);
   double reach = 1;
   if (!is_disc())
     for (const CurveSegment& segment : std::get<Curve>(piece).segments())
       reach = std::max(reach, 1 + outer_m_ * largest_curvature_per_m(segment));
-  return sweep(length, reach, place);
+  return reach;
+}
+
+std::optional<Collision> FootprintChecker::first_collision(const PathPiece& piece) const {
+  const auto place = [&piece](double s) { return piece_point(piece, s).pose; };
+  if (is_turn(piece) && is_disc()) return pose_collision(place(0));
+  return first_on(piece_length(piece), reach_per_s(piece), place);
 }
 
 std::optional<Collision> FootprintChecker::first_collision(const Path& path) const {
@@ -142,29 +160,13 @@ std::optional<Collision> FootprintChecker::first_collision(const Path& path) con
   return std::nullopt;
 }
 
-std::optional<Collision> FootprintChecker::worst_collision(const Path& path) const {
-  std::optional<Collision> worst;
-  for (const PathPiece& piece : path.pieces) {
-    const double length = piece_length(piece), reach = is_turn(piece) ? outer_m_ : 1.0;
-    const int steps = static_cast<int>(length * reach / kReportStep_m) + 1;
-    for (int k = 0; k <= steps; ++k) {
-      const double s = length * k / steps;
-      const Pose pose = piece_point(piece, s).pose;
-      const double slack = slack_m(pose);
-      if (slack < -kTolerance_m && (!worst || -slack > worst->short_by_m))
-        worst = collision_at(s, pose, slack);
-    }
-  }
-  return worst;
-}
-
 bool FootprintChecker::segment_free(const CurveSegment& segment) const {
   const double reach = is_disc() ? 1 : 1 + outer_m_ * largest_curvature_per_m(segment);
   const double length_m = std::visit([](const auto& s) { return s.length_m(); }, segment);
   const auto place = [&](double s_m) {
     return std::visit([s_m](const auto& s) { return s.at(s_m).pose; }, segment);
   };
-  return !sweep(length_m, reach, place).has_value();
+  return !first_on(length_m, reach, place).has_value();
 }
 
 bool FootprintChecker::line_free(double x0_m, double y0_m, double x1_m, double y1_m) const {

@@ -14,9 +14,9 @@ namespace joulepath {
 struct Collision {
   double s{};           ///< path coordinate in the piece (0 for a pose)
   Pose pose{};          ///< of the robot
-  double short_by_m{};  ///< of the clearance asked; more than the clearance means contact (for
-                        ///< polygons the depth is then that of cell centers)
-  ObstacleField::Nearest obstacle{};
+  double short_by_m{};  ///< of the clearance asked; beyond the clearance it is how deep the obstacle reaches
+                        ///< into the outline (for polygons: corners and centers of cells)
+  ObstacleField::Nearest obstacle{};  ///< its place deepest in the outline, or nearest to it
 };
 
 /// Checks a robot's outline, kept a clearance away from every obstacle. The field must outlive it.
@@ -30,6 +30,10 @@ class FootprintChecker {
   [[nodiscard]] bool free(const Pose& pose) const { return slack_m(pose) >= -kTolerance_m; }
 
   [[nodiscard]] std::optional<Collision> pose_collision(const Pose& pose) const;
+  /// The collision of a pose whose slack is known.
+  [[nodiscard]] Collision collision_at(double s, const Pose& pose, double slack) const;
+  /// How far a point of the outline moves at most per unit of a piece's path coordinate.
+  [[nodiscard]] double reach_per_s(const PathPiece& piece) const;
   /// The least slack along a path, sampled at steps of 3 cm and more: a step is as long as the least slack
   /// found so far cannot be undercut by much. For optimizers; first_collision() decides.
   [[nodiscard]] double least_slack_m(const Path& path) const;
@@ -37,8 +41,6 @@ class FootprintChecker {
   /// slack lets no point of the outline reach an obstacle, and at least 2 mm (2 mm at the outline).
   [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;
   [[nodiscard]] std::optional<Collision> first_collision(const Path& path) const;
-  /// The place of a path where the clearance is missed by most, sampled every centimetre (of the outline).
-  [[nodiscard]] std::optional<Collision> worst_collision(const Path& path) const;
   [[nodiscard]] bool segment_free(const CurveSegment& segment) const;
   /// Straight driving between two points, looking along.
   [[nodiscard]] bool line_free(double x0_m, double y0_m, double x1_m, double y1_m) const;
@@ -60,9 +62,9 @@ class FootprintChecker {
 
  private:
   double polygon_slack_m(const Pose& pose) const;
-  Collision collision_at(double s, const Pose& pose, double slack) const;
+  Collision polygon_collision(double s, const Pose& pose, double slack) const;
   template <class Place>
-  std::optional<Collision> sweep(double length, double reach_per_s, const Place& place) const;
+  std::optional<Collision> first_on(double length, double reach_per_s, const Place& place) const;
 
   const ObstacleField* field_{};
   std::vector<std::array<double, 2>> polygon_m_{};  ///< empty: a disc

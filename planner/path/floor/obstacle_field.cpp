@@ -12,11 +12,12 @@ namespace {
 constexpr double kRounding = 1e-4;  // cells; distances are stored as float
 }
 ObstacleField::ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout) {
-  layers_.push_back(layer(map, true));
-  if (keepout != nullptr) layers_.push_back(layer(*keepout, false));
+  layers_.push_back(layer_of(map, Layer::map));
+  if (keepout != nullptr) layers_.push_back(layer_of(*keepout, Layer::keepout));
 }
 
-ObstacleField::LayerField ObstacleField::layer(const OccupancyGrid& grid, bool is_map) {
+ObstacleField::LayerField ObstacleField::layer_of(const OccupancyGrid& grid, Layer layer) {
+  const bool is_map = layer == Layer::map;
   JOULEPATH_ASSERT(grid.width > 0 && grid.height > 0 && grid.resolution_m > 0 &&
                        grid.occupancy_percent.size() ==
                            static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
@@ -33,6 +34,7 @@ ObstacleField::LayerField ObstacleField::layer(const OccupancyGrid& grid, bool i
   field.cosine = std::cos(grid.origin.heading_rad);
   field.sine = std::sin(grid.origin.heading_rad);
   field.outside_blocked = is_map;
+  field.layer = layer;
   field.distance_cells = squared_distance_transform(field.blocked, grid.width, grid.height);
   for (float& squared : field.distance_cells) squared = std::sqrt(squared);
   return field;
@@ -59,17 +61,19 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
   return {lower * grid.resolution_m, upper * grid.resolution_m};
 }
 
-bool ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, Nearest& best) const {
+void ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, Nearest& best) const {
   const Local here = local(x_m, y_m);
   const double u = here.u, v = here.v;  // not a structured binding: Clang 14 cannot capture those
   const double reach = upper_m / grid.resolution_m;
   double best_squared = std::pow(best.distance_m / grid.resolution_m, 2);
   double best_u = 0, best_v = 0;
   bool found = false;
+  Layer found_in = Layer::edge;
   const auto consider = [&](double near_u, double near_v) {
     const double squared = (near_u - u) * (near_u - u) + (near_v - v) * (near_v - v);
-    if (squared >= best_squared) return;
+    if (squared >= best_squared) return false;
     best_squared = squared, best_u = near_u, best_v = near_v, found = true;
+    return true;
   };
   if (outside_blocked) {
     const bool inside = u > 0 && v > 0 && u < grid.width && v < grid.height;
@@ -89,13 +93,14 @@ bool ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, 
     const std::uint8_t* cells =
         blocked.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width);
     for (int column = first_column; column <= last_column; ++column)
-      if (cells[column] != 0) consider(std::clamp(u, static_cast<double>(column), column + 1.0), near_v);
+      if (cells[column] != 0 && consider(std::clamp(u, static_cast<double>(column), column + 1.0), near_v))
+        found_in = layer;
   }
-  if (!found) return false;
+  if (!found) return;
+  best.layer = found_in;
   best.distance_m = std::sqrt(best_squared) * grid.resolution_m;
   best.x_m = grid.origin.x_m + (cosine * best_u - sine * best_v) * grid.resolution_m;
   best.y_m = grid.origin.y_m + (sine * best_u + cosine * best_v) * grid.resolution_m;
-  return true;
 }
 
 ObstacleField::Bounds ObstacleField::distance_bounds_m(double x_m, double y_m) const {
@@ -110,11 +115,10 @@ ObstacleField::Bounds ObstacleField::distance_bounds_m(double x_m, double y_m) c
 ObstacleField::Nearest ObstacleField::nearest(double x_m, double y_m) const {
   const double upper_m = distance_bounds_m(x_m, y_m).upper_m;
   Nearest best{std::numeric_limits<double>::infinity(), Layer::map, x_m, y_m};
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const Bounds bounds = layers_[i].bounds(x_m, y_m);
+  for (const LayerField& field : layers_) {
+    const Bounds bounds = field.bounds(x_m, y_m);
     if (bounds.lower_m > std::min(upper_m, best.distance_m)) continue;
-    const double reach_m = std::min(upper_m, best.distance_m) + layers_[i].grid.resolution_m;
-    if (layers_[i].nearest(x_m, y_m, reach_m, best)) best.layer = i == 0 ? Layer::map : Layer::keepout;
+    field.nearest(x_m, y_m, std::min(upper_m, best.distance_m) + field.grid.resolution_m, best);
   }
   return best;
 }

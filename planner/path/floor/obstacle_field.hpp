@@ -19,7 +19,7 @@ class ObstacleField {
  public:
   explicit ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout = nullptr);
 
-  enum class Layer { map, keepout };
+  enum class Layer { map, keepout, edge };  ///< edge: everything outside of the map
   /// The obstacle nearest to a point.
   struct Nearest {
     double distance_m{};  ///< to the cell's square, 0 inside of it
@@ -41,10 +41,17 @@ class ObstacleField {
   /// Whether a disc about a point is free: exact, and fast away from its limit.
   [[nodiscard]] bool disc_free(double x_m, double y_m, double radius_m) const;
 
-  /// Calls visit(center_x_m, center_y_m, half_side_m, heading_rad) for the squares of all blocked cells
-  /// whose centers lie within a distance of a point; stops when it returns false.
+  /// The square of a blocked cell; its axes are turned by heading_rad.
+  struct BlockedCell {
+    double x_m{};  ///< center
+    double y_m{};
+    double half_side_m{};
+    double heading_rad{};
+    Layer layer{};
+  };
+  /// Calls visit(cell) for all blocked cells that may have a point within a distance of a place.
   template <class Visit>
-  bool for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const;
+  void for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const;
 
   const OccupancyGrid& map() const { return layers_.front().grid; }
   /// The rectangle around the map, in the map frame.
@@ -60,30 +67,41 @@ class ObstacleField {
     std::vector<float> distance_cells{};  ///< from a cell's center to the nearest blocked square
     double cosine{}, sine{};
     bool outside_blocked{};
+    Layer layer{};
 
     struct Local {
       double u{}, v{};  ///< in cells, in the grid's frame
     };
     Local local(double x_m, double y_m) const;
     Bounds bounds(double x_m, double y_m) const;
-    bool nearest(double x_m, double y_m, double upper_m, Nearest& best) const;
+    void nearest(double x_m, double y_m, double upper_m, Nearest& best) const;
   };
-  static LayerField layer(const OccupancyGrid& grid, bool is_map);
+  static LayerField layer_of(const OccupancyGrid& grid, Layer layer);
 
   std::vector<LayerField> layers_{};
 };
 
+/// What an obstacle is called in messages.
+[[nodiscard]] inline const char* name_of(ObstacleField::Layer layer) {
+  if (layer == ObstacleField::Layer::edge) return "the map's edge";
+  return layer == ObstacleField::Layer::keepout ? "the keep-out area" : "the obstacle";
+}
+
 template <class Visit>
-bool ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const {
+void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const {
   for (const LayerField& field : layers_) {
     const auto [u, v] = field.local(x_m, y_m);
     const OccupancyGrid& grid = field.grid;
-    const double reach = within_m / grid.resolution_m, side_m = grid.resolution_m;
-    // One ring of cells around the map stands for everything outside of it.
-    const int rim = field.outside_blocked ? static_cast<int>(reach) + 2 : 0;
-    const auto first = [&](double w) { return std::max(-rim, static_cast<int>(std::floor(w - reach))); };
+    constexpr double kHalfDiagonal = 0.7071067811865476;  // of a cell, in cells
+    const double reach = within_m / grid.resolution_m + kHalfDiagonal;
+    const bool unbounded = field.outside_blocked;
+    const auto first = [&](double w) {
+      const int cell = static_cast<int>(std::floor(w - reach));
+      return unbounded ? cell : std::max(0, cell);
+    };
     const auto last = [&](double w, int n) {
-      return std::min(n - 1 + rim, static_cast<int>(std::floor(w + reach)));
+      const int cell = static_cast<int>(std::floor(w + reach));
+      return unbounded ? cell : std::min(n - 1, cell);
     };
     for (int row = first(v); row <= last(v, grid.height); ++row)
       for (int column = first(u); column <= last(u, grid.width); ++column) {
@@ -95,10 +113,10 @@ bool ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, c
         const double du = column + 0.5 - u, dv = row + 0.5 - v;
         if (du * du + dv * dv > reach * reach) continue;
         const auto center = grid.center_of(cell);
-        if (!visit(center[0], center[1], 0.5 * side_m, grid.origin.heading_rad)) return false;
+        visit(BlockedCell{center[0], center[1], 0.5 * grid.resolution_m, grid.origin.heading_rad,
+                          inside ? field.layer : Layer::edge});
       }
   }
-  return true;
 }
 
 }  // namespace joulepath

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace joulepath {
 namespace {
@@ -20,20 +21,22 @@ double point_box_squared(const Point2& p, double half) {
   return x * x + y * y;
 }
 
-/// Liang-Barsky clipping of a segment against |x|, |y| <= half.
-bool segment_meets_box(const Point2& a, const Point2& b, double half) {
+/// Middle of the part of a segment within |x|, |y| <= half, by Liang and Barsky's clipping.
+std::optional<Point2> middle_in_box(const Point2& a, const Point2& b, double half) {
   double from = 0, to = 1;
   for (std::size_t i = 0; i < 2; ++i) {
     const double d = b[i] - a[i];
     if (d == 0) {
-      if (std::abs(a[i]) > half) return false;
+      if (std::abs(a[i]) > half) return std::nullopt;
       continue;
     }
     const double t0 = (-half - a[i]) / d, t1 = (half - a[i]) / d;
     from = std::max(from, std::min(t0, t1));
     to = std::min(to, std::max(t0, t1));
   }
-  return from <= to;
+  if (from > to) return std::nullopt;
+  const double t = 0.5 * (from + to);
+  return Point2{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
 
 }  // namespace
@@ -52,8 +55,9 @@ double signed_distance_m(const std::vector<Point2>& polygon_m, const Point2& p) 
 
 double square_distance_m(const std::vector<Point2>& polygon_m, const Point2& center_m, double half_side_m) {
   const double center_distance_m = signed_distance_m(polygon_m, center_m);
-  if (center_distance_m <= 0) return center_distance_m;
+  if (center_distance_m < 0) return center_distance_m;
   double best2 = std::numeric_limits<double>::infinity();
+  std::optional<double> depth_m;
   const Point2 corners[] = {{-half_side_m, -half_side_m},
                             {half_side_m, -half_side_m},
                             {half_side_m, half_side_m},
@@ -61,11 +65,15 @@ double square_distance_m(const std::vector<Point2>& polygon_m, const Point2& cen
   for (std::size_t i = 0, j = polygon_m.size() - 1; i < polygon_m.size(); j = i++) {
     const Point2 a{polygon_m[i][0] - center_m[0], polygon_m[i][1] - center_m[1]};
     const Point2 b{polygon_m[j][0] - center_m[0], polygon_m[j][1] - center_m[1]};
-    if (segment_meets_box(a, b, half_side_m)) return 0;
+    if (const auto middle = middle_in_box(a, b, half_side_m)) {
+      const double inside_m = half_side_m - std::max(std::abs((*middle)[0]), std::abs((*middle)[1]));
+      depth_m = std::max(depth_m.value_or(0.0), inside_m);
+    }
+    if (depth_m) continue;
     best2 = std::min(best2, point_box_squared(a, half_side_m));
     for (const Point2& corner : corners) best2 = std::min(best2, point_segment_squared(corner, a, b));
   }
-  return std::sqrt(best2);
+  return depth_m ? -*depth_m : std::sqrt(best2);
 }
 
 }  // namespace joulepath

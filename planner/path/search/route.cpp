@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "planner/path/floor/path_conflict.hpp"
 #include "planner/path/search/homotopy.hpp"
 #include "planner/path/search/route_cache.hpp"
 #include "planner/path/search/route_pool.hpp"
@@ -18,11 +19,9 @@ constexpr double kArrived_m = 1e-6;
 
 std::string obstruction_text(const char* what, const Collision& c) {
   char text[320];
-  std::snprintf(text, sizeof text,
-                "%s (%.3f, %.3f) m: the clearance is short by %.3f m to %s at (%.3f, %.3f) m", what,
-                c.pose.x_m, c.pose.y_m, c.short_by_m,
-                c.obstacle.layer == ObstacleField::Layer::keepout ? "the keep-out area" : "the obstacle",
-                c.obstacle.x_m, c.obstacle.y_m);
+  std::snprintf(
+      text, sizeof text, "%s (%.3f, %.3f) m: the clearance is short by %.3f m to %s at (%.3f, %.3f) m", what,
+      c.pose.x_m, c.pose.y_m, c.short_by_m, name_of(c.obstacle.layer), c.obstacle.x_m, c.obstacle.y_m);
   return text;
 }
 
@@ -149,14 +148,13 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
         way->blend_goal ? way->goal_heading_rad : std::nullopt, careful, way->corners);
     result.path = with_end_turns(smooth.path, request);
     result.corners = smooth.corners;
-    const auto collision = checker.first_collision(result.path);
-    if (!collision) {
+    const auto conflict = path_conflict(checker, result.path);
+    if (!conflict) {
       result.verdict = {};
       return result;
     }
-    if (way != &request) continue;
-    result.verdict = blocked(RouteStatus::no_room_to_turn, "no room on the way at",
-                             checker.worst_collision(result.path).value_or(*collision));
+    if (way == &request)
+      result.verdict = blocked(RouteStatus::no_room_to_turn, "no room on the way at", conflict->deepest);
   }
   result.path = {};
   return result;

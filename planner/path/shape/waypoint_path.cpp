@@ -7,12 +7,18 @@
 
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/corner_blend.hpp"
+#include "planner/path/shape/smoothing_spline.hpp"
+// Design: docs/decisions/0201-dense-waypoints.md
 
 namespace joulepath {
 namespace {
 
 constexpr double kSamePlace_m = 1e-6;
 constexpr double kTurnsBack_rad = 1e-6;  ///< a corner this close to half a turn leads back along its line
+constexpr double kTurnsBackDense_rad = 2.8;
+constexpr double kLook = 5;   ///< tolerances over which the direction of dense waypoints is looked at
+constexpr double kDense = 8;  ///< tolerances between neighbors
+constexpr std::size_t kMany = 1000;
 
 std::string metres(double value_m) {
   char text[32];
@@ -103,48 +109,108 @@ std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
                         "at most " + metres(proposed_m(most_m)) + " between its neighbors"};
 }
 
-/// The next waypoint lies exactly behind: a smooth curve would have to stop and reverse its heading here.
-bool turns_back(const std::vector<Point2>& points_m, std::size_t i) {
-  return std::abs(corner_angle_rad(points_m, i)) > std::numbers::pi - kTurnsBack_rad;
+bool are_dense(const std::vector<Point2>& points_m, double tolerance_m) {
+  if (tolerance_m <= 0 || points_m.size() < 3) return false;
+  double length_m = 0;
+  for (const double chord : chords_m(points_m)) length_m += chord;
+  return points_m.size() > kMany ||
+         length_m < kDense * tolerance_m * static_cast<double>(points_m.size() - 1);
 }
 
-/// Appends the spline through the waypoints first to last, after a turn in place to its heading.
-void append_stretch(const std::vector<Point2>& waypoints_m, std::size_t first, std::size_t last,
-                    WaypointPath& along) {
-  const auto at = [&](std::size_t i) { return waypoints_m.begin() + static_cast<std::ptrdiff_t>(i); };
-  const std::vector<Point2> points_m(at(first), at(last + 1));
+/// The places at which a curve ends and the next begins, behind a turn in place: inner waypoints whose next
+/// one lies exactly behind.
+std::vector<std::size_t> turning_points(const std::vector<Point2>& points_m) {
+  std::vector<std::size_t> turns;
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i)
+    if (std::abs(corner_angle_rad(points_m, i)) > std::numbers::pi - kTurnsBack_rad) turns.push_back(i);
+  return turns;
+}
+
+/// The same of dense waypoints: looked at over a few tolerances, because the direction between neighbors is
+/// rounding and noise.
+std::vector<std::size_t> turning_points_of_dense(const std::vector<Point2>& points_m, double tolerance_m) {
+  const auto apart_m = [&](const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
+  std::vector<std::size_t> kept{0};
+  std::vector<Point2> coarse_m{points_m.front()};
+  for (std::size_t i = 1; i < points_m.size(); ++i)
+    if (apart_m(points_m[i], coarse_m.back()) >= kLook * tolerance_m) {
+      kept.push_back(i);
+      coarse_m.push_back(points_m[i]);
+    }
+  std::vector<std::size_t> turns;
+  for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
+    if (std::abs(corner_angle_rad(coarse_m, k)) < kTurnsBackDense_rad) continue;
+    const Point2 &a = coarse_m[k - 1], &b = coarse_m[k + 1];
+    const Point2 middle_m{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+    std::size_t apex = kept[k];
+    for (std::size_t i = kept[k - 1] + 1; i < kept[k + 1]; ++i)
+      if (apart_m(points_m[i], middle_m) > apart_m(points_m[apex], middle_m)) apex = i;
+    if (turns.empty() || turns.back() < apex) turns.push_back(apex);
+  }
+  return turns;
+}
+
+/// Appends the curve along some waypoints, after a turn in place to its heading; the number of a waypoint
+/// that prevents it counts from the first of these.
+std::optional<WaypointDefect> append_stretch(const std::vector<Point2>& points_m, bool dense,
+                                             double tolerance_m, Path& path) {
   Path stretch;
   if (points_m.size() == 2) {
     stretch = blended_polyline(points_m, {0.0, 0.0});
   } else {
+    SmoothingSpline spline;
+    if (dense)
+      spline = smoothing_spline(points_m, tolerance_m);
+    else
+      spline.curves_m = spline_m(points_m);
+    if (spline.deviation_m > tolerance_m && dense)
+      return WaypointDefect{spline.worst, false,
+                            metres(spline.deviation_m) + " beside the nearest smooth curve",
+                            "waypoints that a curve can follow within " + metres(tolerance_m)};
     std::vector<CurveSegment> segments;
-    const std::vector<BezierPoints> curves = spline_m(points_m);
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      if (const auto defects = bezier_defects(curves[i], i); !defects.empty()) {
-        along.defect = WaypointDefect{first + i + 1, false, defects.front().message,
-                                      "waypoints that a smooth curve can follow"};
-        return;
-      }
-      segments.push_back(BezierSegment(curves[i]));
+    for (std::size_t i = 0; i < spline.curves_m.size(); ++i) {
+      if (const auto defects = bezier_defects(spline.curves_m[i], i); !defects.empty())
+        return WaypointDefect{dense ? 0 : i + 1, false, defects.front().message,
+                              "waypoints that a smooth curve can follow"};
+      segments.push_back(BezierSegment(spline.curves_m[i]));
     }
     stretch.pieces.push_back(Curve(std::move(segments)));
   }
-  if (first > 0) append_turn_to(along.path, {}, stretch.start().heading_rad);
-  for (PathPiece& piece : stretch.pieces) along.path.pieces.push_back(std::move(piece));
+  if (!path.pieces.empty()) append_turn_to(path, {}, stretch.start().heading_rad);
+  for (PathPiece& piece : stretch.pieces) path.pieces.push_back(std::move(piece));
+  return std::nullopt;
 }
 
 }  // namespace
 
-WaypointPath curve_through(const std::vector<Point2>& waypoints_m) {
-  if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
+WaypointPath curve_through(const std::vector<Point2>& waypoints_m, double tolerance_m) {
+  const bool dense = are_dense(waypoints_m, tolerance_m);
+  std::vector<Point2> points_m;
+  std::vector<std::size_t> number;  // of a point among the waypoints
+  for (std::size_t i = 0; i < waypoints_m.size(); ++i) {
+    const Point2& here = waypoints_m[i];
+    if (dense && i > 0 &&
+        std::hypot(here[0] - points_m.back()[0], here[1] - points_m.back()[1]) <= kSamePlace_m)
+      continue;
+    points_m.push_back(here);
+    number.push_back(i);
+  }
+  if (auto defect = senseless(points_m)) return {.defect = std::move(defect)};
+  std::vector<std::size_t> ends =
+      dense ? turning_points_of_dense(points_m, tolerance_m) : turning_points(points_m);
+  ends.push_back(points_m.size() - 1);
   WaypointPath along;
   std::size_t first = 0;
-  for (std::size_t i = 1; i < waypoints_m.size() && !along.defect; ++i) {
-    if (i + 1 < waypoints_m.size() && !turns_back(waypoints_m, i)) continue;
-    append_stretch(waypoints_m, first, i, along);
-    first = i;
+  for (const std::size_t last : ends) {
+    const auto at = [&](std::size_t i) { return points_m.begin() + static_cast<std::ptrdiff_t>(i); };
+    along.defect = append_stretch({at(first), at(last + 1)}, dense, tolerance_m, along.path);
+    if (along.defect) {
+      along.defect->waypoint = number[first + along.defect->waypoint];
+      along.path = {};
+      break;
+    }
+    first = last;
   }
-  if (along.defect) along.path = {};
   return along;
 }
 

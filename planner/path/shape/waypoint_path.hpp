@@ -24,10 +24,17 @@ struct WaypointPath {
   std::optional<WaypointDefect> defect{};
 };
 
-/// The natural cubic spline through waypoints (m) by chord length: one curve with continuous curvature,
-/// driven forward without a stop. Where the waypoints lead straight back, the robot stops and turns in place
-/// between two splines. Two waypoints or more, neighbors at different places.
-[[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m);
+inline constexpr double kWaypointTolerance_m = 0.01;
+
+/// A curve with continuous curvature along waypoints (m), driven forward without a stop: the natural cubic
+/// spline through them by chord length, or, where they are dense, a smoothing spline within `tolerance_m` of
+/// each (0: always through them). Dense are more than 1000 waypoints, and neighbors closer than 8 tolerances
+/// on average: a slip by the tolerance at one would bend the curve through it to a radius below 8 tolerances.
+///
+/// Where the waypoints lead straight back, the robot stops and turns in place between two splines. Two
+/// waypoints or more, neighbors at different places; dense ones may repeat a place (a robot that stood).
+[[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m,
+                                         double tolerance_m = kWaypointTolerance_m);
 
 /// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of
 /// smallest radius radius_m[i]; 0: the robot stops and turns there. The ends' radii are not looked at.

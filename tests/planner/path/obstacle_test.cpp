@@ -103,8 +103,12 @@ TEST(PolygonDistance, SquareAgainstSquare) {
   EXPECT_NEAR(square_distance_m(unit, {3, 0}, 0.5), 1.5, 1e-15);
   EXPECT_NEAR(square_distance_m(unit, {2, 2}, 0.5), std::hypot(0.5, 0.5), 1e-15);
   EXPECT_LE(square_distance_m(unit, {0, 0}, 0.1), 0.0);
-  EXPECT_LE(square_distance_m(unit, {0, 0}, 5.0), 0.0);    // the square holds the polygon
-  EXPECT_LE(square_distance_m(unit, {1.2, 0}, 0.5), 0.0);  // edges cross
+  EXPECT_LE(square_distance_m(unit, {0, 0}, 5.0), 0.0);     // the square holds the polygon
+  EXPECT_LT(square_distance_m(unit, {1.2, 0}, 0.5), 0.0);   // edges cross, its center is outside
+  EXPECT_LT(square_distance_m(unit, {1.49, 0}, 0.5), 0.0);  // it reaches in by 1 cm
+  EXPECT_EQ(square_distance_m(unit, {1.5, 0}, 0.5), 0.0);   // they touch
+  const std::vector<Point2> strip{{-5, -0.1}, {5, -0.1}, {5, 0.1}, {-5, 0.1}};
+  EXPECT_LT(square_distance_m(strip, {0, 0.5}, 0.5), 0.0);  // across it, all corners outside
 }
 
 TEST(FootprintChecker, DiscAndManyCorneredPolygonAgree) {
@@ -151,6 +155,56 @@ TEST(FootprintChecker, SaysWhereAndByHowMuch) {
   EXPECT_NEAR(hit->obstacle.x_m, 6.0, 1e-9);
   EXPECT_LT(hit->short_by_m, 0.003);
   EXPECT_NEAR(checker.pose_collision({5.9, 5, 0})->short_by_m, 0.2, 1e-9);
+}
+
+TEST(FootprintChecker, NoRobotIsFreeOutsideOfTheMapHoweverFar) {
+  const OccupancyGrid grid = free_grid(40, 40, 0.1);
+  const ObstacleField field(grid);
+  const FootprintChecker disc(field, {0.3, {}}, 0.0),
+      box(field, {0, {{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {-0.4, 0.3}}}, 0.0);
+  for (const double out_m : {0.1, 0.5, 2.0, 7.0, 300.0, 1e6})
+    for (const Pose& pose :
+         {Pose{4 + out_m, 2, 0.4}, Pose{-out_m, 2, 0.4}, Pose{2, 4 + out_m, 0.4}, Pose{-out_m, -out_m, 0.4}})
+      for (const FootprintChecker* checker : {&disc, &box}) {
+        const auto collision = checker->pose_collision(pose);
+        ASSERT_TRUE(collision) << pose.x_m << ", " << pose.y_m;
+        EXPECT_EQ(collision->obstacle.layer, ObstacleField::Layer::edge);
+      }
+}
+
+TEST(FootprintChecker, ACellThatReachesInByLessThanHalfIsACollisionWithoutAnyClearance) {
+  OccupancyGrid grid = free_grid(100, 100, 0.1);
+  grid.occupancy_percent[50 * 100 + 60] = 100;  // from x = 6.0, y from 5.0 to 5.1
+  const ObstacleField field(grid);
+  const FootprintChecker box(field, {0, {{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {-0.4, 0.3}}}, 0.0);
+  EXPECT_FALSE(box.pose_collision({5.6 - 1e-6, 5, 0}));
+  ASSERT_TRUE(box.pose_collision({5.61, 5, 0}));
+  EXPECT_NEAR(box.pose_collision({5.61, 5, 0})->short_by_m, 0.01, 1e-9);
+}
+
+TEST(FootprintChecker, ACoarseKeepoutIsSeenByPolygonsUpToItsBorder) {
+  const OccupancyGrid map = free_grid(200, 200, 0.05);
+  OccupancyGrid keepout = free_grid(5, 5, 2.0);
+  keepout.occupancy_percent[2 * 5 + 2] = 100;  // x and y from 4 to 6 m
+  const ObstacleField field(map, &keepout);
+  const FootprintChecker box(field, {0, {{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {-0.4, 0.3}}}, 0.0);
+  EXPECT_TRUE(box.pose_collision({3.61, 5, 0}));
+  EXPECT_FALSE(box.pose_collision({3.59, 5, 0}));
+}
+
+TEST(FootprintChecker, ACollisionNamesTheObstacleThatItMeets) {
+  // The nearest obstacle to the axle is beside the robot; what it meets is the pallet at its nose.
+  OccupancyGrid map = free_grid(100, 100, 0.1), keepout = free_grid(100, 100, 0.1);
+  map.occupancy_percent[60 * 100 + 50] = 100;      // (5.0..5.1, 6.0..6.1)
+  keepout.occupancy_percent[50 * 100 + 68] = 100;  // (6.8..6.9, 5.0..5.1)
+  const ObstacleField field(map, &keepout);
+  const FootprintChecker truck(field, {0, {{-0.5, -0.3}, {2.0, -0.3}, {2.0, 0.3}, {-0.5, 0.3}}}, 0.0);
+  const auto collision = truck.pose_collision({5.0, 5.05, 0});
+  ASSERT_TRUE(collision);
+  EXPECT_EQ(collision->obstacle.layer, ObstacleField::Layer::keepout);
+  EXPECT_NEAR(collision->obstacle.x_m, 6.8, 0.11);
+  EXPECT_NEAR(collision->obstacle.y_m, 5.05, 0.06);
+  EXPECT_NEAR(collision->short_by_m, 0.2, 0.051) << "from the nose at x = 7 to the near side at 6.8";
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/prescribed_motion.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
+
+namespace joulepath {
+
+/// A cubic spline near many points.
+struct SmoothingSpline {
+  std::vector<BezierPoints> curves_m{};  ///< its spans; curvature is continuous where they meet
+  double deviation_m{};                  ///< largest distance of a point from the spline
+  std::size_t worst{};                   ///< that point
+};
+
+/// A cubic spline with continuous curvature that begins at the first of some points, ends at the last and
+/// comes within `tolerance_m` of all others. How many spans it has depends on the shape and the length, not
+/// on the number of points.
+///
+/// Weighted least squares over a cubic B-spline by chord length u, with a weak penalty of the third
+/// derivative that settles what the points leave open (P. Dierckx, "Curve and Surface Fitting with Splines",
+/// Oxford 1993, chapters 4 and 5):
+///
+///   min sum_i w_i |x(u_i) - p_i|^2 + sum_j (r h_j)^6 int_j |x'''|^2 du,   w_i = du there, h_j = length of
+///   span j.
+///
+/// A span is halved, at a point, while it misses the tolerance, or while it is longer than 0.5 m and misses a
+/// tenth of the tolerance in a way that neighboring points share: that is shape, not noise. `deviation_m` is
+/// above the tolerance only where a spline through every point cannot be had. Two points or more, neighbors
+/// at different places.
+[[nodiscard]] SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m);
+
+}  // namespace joulepath
