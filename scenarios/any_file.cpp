@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "scenarios/bags/bag_file.hpp"
+#include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
@@ -134,6 +136,25 @@ FileSummary summary_of_chain(const Document& document, const ReadOptions& option
   return summary;
 }
 
+FileSummary summary_of_bag(const std::string& file) {
+  const BagSurvey survey = survey_bag(file);
+  std::size_t messages = 0;
+  FileSummary summary{.kind = "bag"};
+  for (const BagTopic& topic : survey.topics) {
+    messages += topic.messages;
+    summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
+                            topic.channel.type + (topic.readable ? "" : ", cannot be read"));
+  }
+  if (survey.damage.truncated) summary.notes.push_back("the bag ends in the middle");
+  if (survey.damage.broken_chunks > 0)
+    summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
+  char duration[32];
+  std::snprintf(duration, sizeof duration, "%.1f s", survey.duration_s);
+  summary.text = counted(messages, "message") + ", " + duration;
+  if (!suggested_columns(survey).empty()) summary.proposal = suggested_dataset(survey, file);
+  return summary;
+}
+
 FileSummary summary_of_output(const Document& document, const FileKind& kind) {
   check_document(document, kind.name, kind.schema());
   return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
@@ -178,6 +199,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
     return summary_of_path(read_waypoints(file));
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
+  if (given_kind == "bag" || (given_kind.empty() && is_bag(file))) return summary_of_bag(file);
   const Document document = Document::load(file);
   if (given_kind.empty() && is_order(document)) return summary_of_order(file);
   const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
@@ -192,14 +214,14 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   for (const auto& known : file_kinds())
     if (known.name == kind) return summary_of_output(document, known);
   const bool empty = document.root().kind() == Value::Kind::null;
-  throw ConfigError(
-      {{file, 1, 1},
-       "",
-       empty                ? "an empty file"
-       : given_kind.empty() ? "a file of unknown kind"
-                            : "kind " + given_kind,
-       "robot, map, mission, order, path, dataset, fleet, study, run log, route graph, plan or diagnosis",
-       "a first line like `schema: joulepath/robot/1` states the kind"});
+  throw ConfigError({{file, 1, 1},
+                     "",
+                     empty                ? "an empty file"
+                     : given_kind.empty() ? "a file of unknown kind"
+                                          : "kind " + given_kind,
+                     "robot, map, mission, order, path, dataset, fleet, study, run log, bag, route graph, "
+                     "plan or diagnosis",
+                     "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 
 }  // namespace joulepath

@@ -14,6 +14,7 @@ struct FileSummary {
   std::string text{};
   std::vector<std::string> notes{};
   std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
+  std::string proposal{};                ///< a file to begin with: the dataset of a bag
 };
 
 /// Reads a file of any kind, with the files that it names, to see whether it is right. The kind is told by

@@ -75,7 +75,7 @@ std::string comment_on(const EffectSetting& effect) {
 
 std::string corrected_dataset_text(const Dataset& dataset, const std::vector<EffectSetting>& instruments,
                                    const std::string& directory) {
-  const Document document = Document::load(dataset.file);
+  const Document document = document_of(dataset);
   const auto columns = document.root().find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   DatasetEdit edit{.comment = "# Readings as they would be without the instruments' errors:\n",

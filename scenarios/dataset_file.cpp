@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "diagnosis/checks/plausible.hpp"
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
@@ -48,8 +49,9 @@ void fill_payload(Run& run) {
 
 class RunReader {
  public:
-  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options)
-      : dataset_(dataset), sources_(sources), options_(options) {}
+  RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options,
+            const DatasetInMemory& memory)
+      : dataset_(dataset), sources_(sources), options_(options), memory_(memory) {}
 
   void read(const Node& node) {
     Run run{.name = node.path(),
@@ -99,7 +101,10 @@ class RunReader {
   void read_log(const Node& node, Run& run) {
     std::vector<LogFileName> files;
     const auto add = [&](const Node& name) {
-      files.push_back({resolve_file(name, options_), NamedBy(name)});
+      if (const CsvTable* table = in_memory(name.text()))
+        files.push_back({name.text(), NamedBy(name), table});
+      else
+        files.push_back({resolve_file(name, options_), NamedBy(name)});
     };
     if (const auto names = node.find("files"))
       for (const auto& name : names->items()) add(name);
@@ -120,6 +125,12 @@ class RunReader {
                             channel.hint + " `columns:` with scale converts");
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
     if (const auto predicted = node.find("predicted")) read_predicted(*predicted, sources, run);
+  }
+
+  [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
+    if (!memory_.logs) return nullptr;
+    const auto found = memory_.logs->find(name);
+    return found == memory_.logs->end() ? nullptr : &found->second;
   }
 
   /// The same log twice would count twice as evidence, and be held out from itself.
@@ -158,6 +169,7 @@ class RunReader {
   Dataset& dataset_;
   const ColumnSources& sources_;
   const ReadOptions& options_;
+  const DatasetInMemory& memory_;
 };
 
 Schema run_schema() {
@@ -188,30 +200,54 @@ Schema dataset_schema() {
 }
 
 Dataset read_dataset(const std::string& file, const ReadOptions& options, const std::string& robot_file) {
+  return dataset_from(Document::load(file), options, robot_file);
+}
+
+Dataset dataset_from(const Document& document, const ReadOptions& options, const std::string& robot_file,
+                     const DatasetInMemory& memory) {
   static const Schema schema = dataset_schema();
-  const Document document = Document::load(file);
   check_document(document, "dataset", schema);
   const Node root = document.root();
-  Dataset dataset{.file = file};
-  if (robot_file.empty() && !root.has("robot"))
-    root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
-  dataset.robot_file = robot_file.empty() ? resolve_file(root["robot"], options) : robot_file;
-  dataset.robot = read_robot(dataset.robot_file, robot_file.empty() ? NamedBy(root["robot"]) : NamedBy{});
+  Dataset dataset{.file = document.file()};
+  if (memory.robot) {
+    dataset.robot = *memory.robot;
+  } else {
+    if (robot_file.empty() && !root.has("robot"))
+      root.fail_found("no robot", "robot: with the name of a robot file", "or give it with --robot");
+    dataset.robot_file = robot_file.empty() ? resolve_file(root["robot"], options) : robot_file;
+    dataset.robot = read_robot(dataset.robot_file, robot_file.empty() ? NamedBy(root["robot"]) : NamedBy{});
+  }
   const auto columns = root.find("columns");
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
-  RunReader reader(dataset, sources, options);
+  RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }
 
-Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file) {
+Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
+                            const std::string& robot_file) {
+  if (!is_log_file(file)) return read_dataset(file, options, robot_file);
+  if (robot_file.empty())
+    throw ConfigError(
+        {{file, 1, 1}, "", "a log, which names no robot", "--robot with the name of a robot file", ""});
+  return dataset_of_log(file, robot_file, options);
+}
+
+Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file,
+                       const ReadOptions& options) {
   Dataset dataset{.file = log_file, .robot_file = robot_file, .robot = read_robot(robot_file)};
   RunLog log = read_run_log(log_file, dataset.robot.geometry);
   Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
+  run.wheels_from_body_speeds = log.wheels_from_body_speeds;
+  if (!options.accept_implausible)
+    for (const Implausible& channel : implausible_channels(run, dataset.robot))
+      throw ConfigError({run.mark, "", channel.found, channel.accepted,
+                         channel.hint + " `columns:` with scale, in a dataset that names the log, converts"});
   fill_payload(run);
   dataset.artifacts = std::move(log.artifacts);
   dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
+  if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <optional>
+#include <map>
 #include <string>
 
 #include "diagnosis/values/dataset.hpp"
+#include "scenarios/csv_table.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
@@ -15,7 +16,22 @@ namespace joulepath {
 [[nodiscard]] Dataset read_dataset(const std::string& file, const ReadOptions& options = {},
                                    const std::string& robot_file = {});
 
-/// A dataset of one log, for commands that take a bare CSV file.
-[[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file);
+/// What stands in memory in place of files that a dataset names.
+struct DatasetInMemory {
+  const Robot* robot{};                           ///< null: its file is read
+  const std::map<std::string, CsvTable>* logs{};  ///< by the names under which runs have them
+};
+
+/// The dataset of a parsed document; `robot_file` as above. Throws ConfigError.
+[[nodiscard]] Dataset dataset_from(const Document& document, const ReadOptions& options,
+                                   const std::string& robot_file, const DatasetInMemory& memory = {});
+
+/// Reads a dataset file, or a log alone (CSV, bag), which needs the robot's file. Throws ConfigError.
+[[nodiscard]] Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
+                                          const std::string& robot_file);
+
+/// A dataset of one log. Throws ConfigError.
+[[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file,
+                                     const ReadOptions& options = {});
 
 }  // namespace joulepath

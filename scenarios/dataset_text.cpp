@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/quoted.hpp"
 
@@ -93,6 +94,12 @@ std::string run_text(const Node& run, const Relocation& relocation, const Column
 
 }  // namespace
 
+Document document_of(const Dataset& dataset) {
+  if (!is_log_file(dataset.file)) return Document::load(dataset.file);
+  const std::string log = fs::absolute(dataset.file).lexically_normal().string();
+  return Document::parse("{\"runs\": [{\"file\": " + quoted(log) + "}]}", dataset.file);
+}
+
 std::string columns_text(const ColumnSources& sources) {
   std::string text;
   for (const auto& [column, source] : sources)
@@ -101,7 +108,7 @@ std::string columns_text(const ColumnSources& sources) {
 }
 
 std::string dataset_text(const Dataset& dataset, const DatasetEdit& edit, const std::string& directory) {
-  const Document document = Document::load(dataset.file);
+  const Document document = document_of(dataset);
   std::string text = "schema: joulepath/dataset/1\n" + edit.comment;
   const Relocation relocation(dataset.file, directory);
   const fs::path robot = fs::absolute(dataset.robot_file)

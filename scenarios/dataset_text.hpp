@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagnosis/values/dataset.hpp"
+#include "scenarios/document.hpp"
 #include "scenarios/log_columns.hpp"
 
 namespace joulepath {
@@ -16,6 +17,9 @@ struct DatasetEdit {
   std::map<std::size_t, ColumnSources> run_columns{};  ///< by the index of the file's entry under `runs:`
   std::set<std::size_t> left_out{};                    ///< entries
 };
+
+/// The file of a dataset; of a log alone, a dataset that names it. Throws ConfigError.
+[[nodiscard]] Document document_of(const Dataset& dataset);
 
 /// A `columns:` map in YAML's flow style, with exact numbers.
 [[nodiscard]] std::string columns_text(const ColumnSources& sources);

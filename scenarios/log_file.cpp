@@ -9,14 +9,24 @@
 namespace joulepath {
 namespace {
 
+/// Whether a column of a file is one that its run wants.
+bool wanted(const std::string& header, const ColumnSources& sources) {
+  const auto names = [&](const std::string& column) {
+    const auto in_file = names_in_file(column, sources);
+    return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
+  };
+  for (const auto& column : log_columns())
+    if (column.measured && names(column.name)) return true;
+  return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
+}
+
 class LogFileReader {
  public:
-  LogFileReader(const LogFileName& name, const ColumnSources& sources, const std::string& run)
+  LogFileReader(CsvTable table, const ColumnSources& sources, const std::string& run)
       : sources_(sources), run_(run) {
-    file_.table = read_csv(
-        name.file, [&](const std::string& header) { return wanted(header); }, name.named_by);
+    file_.table = std::move(table);
     if (file_.table.rows() < 2)
-      throw ConfigError({{name.file, 0, 0},
+      throw ConfigError({{file_.table.file, 0, 0},
                          "",
                          std::to_string(file_.table.rows()) + (file_.table.rows() == 1 ? " row" : " rows"),
                          "at least 2 samples",
@@ -25,23 +35,13 @@ class LogFileReader {
     for (const auto& column : log_columns())
       if (column.measured && column.name != "time_s") read_channel(column.name);
     for (const char* name_of : kOrientationColumns) read_channel(name_of);
-    if (!used_orientation()) return;
-    heading_from_orientation();
+    if (used_orientation()) heading_from_orientation();
+    file_.table.columns = {};  // their values are in the channels
   }
 
   LogFile take() { return std::move(file_); }
 
  private:
-  [[nodiscard]] bool wanted(const std::string& header) const {
-    const auto names = [&](const std::string& column) {
-      const auto in_file = names_in_file(column, sources_);
-      return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
-    };
-    for (const auto& column : log_columns())
-      if (column.measured && names(column.name)) return true;
-    return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
-  }
-
   const std::vector<double>* raw(const std::string& column) const {
     for (const auto& name : names_in_file(column, sources_))
       if (const auto* values = file_.table.find(name)) return values;
@@ -164,8 +164,16 @@ std::vector<std::string> names_in_file(const std::string& column, const ColumnSo
                                                                 : source->second.from;
 }
 
+LogFile read_log_table(CsvTable table, const ColumnSources& sources, const std::string& run) {
+  return LogFileReader(std::move(table), sources, run).take();
+}
+
 LogFile read_log_file(const LogFileName& name, const ColumnSources& sources, const std::string& run) {
-  return LogFileReader(name, sources, run).take();
+  if (name.table) return read_log_table(*name.table, sources, run);
+  return read_log_table(
+      read_csv(
+          name.file, [&](const std::string& header) { return wanted(header, sources); }, name.named_by),
+      sources, run);
 }
 
 }  // namespace joulepath

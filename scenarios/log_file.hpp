@@ -14,11 +14,12 @@ namespace joulepath {
 struct LogFileName {
   std::string file{};
   NamedBy named_by{};
+  const CsvTable* table{};  ///< its content where that is in memory already
 };
 
 /// One file of a run: its columns in the format's names and units, on its own times.
 struct LogFile {
-  CsvTable table{};
+  CsvTable table{};  ///< as it was read, without its columns
   std::vector<double> times{};
   std::map<std::string, std::vector<double>> channels{};
   std::vector<LogArtifact> artifacts{};
@@ -28,6 +29,7 @@ struct LogFile {
 [[nodiscard]] std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources);
 
 /// Reads one file of a run. Throws ConfigError: no time, times that do not increase, malformed cells.
+[[nodiscard]] LogFile read_log_table(CsvTable table, const ColumnSources& sources, const std::string& run);
 [[nodiscard]] LogFile read_log_file(const LogFileName& name, const ColumnSources& sources,
                                     const std::string& run);
 

@@ -274,9 +274,9 @@ void check_footprint(const MissionRequest& request, const Robot& robot) {
 
 }  // namespace
 
-MissionWorld read_world(const MissionRequest& request, const ReadOptions& options) {
+MissionWorld read_world(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
   const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
-  MissionWorld world{.robot = read_robot(request.robot_file, named("robot"))};
+  MissionWorld world{.robot = robot ? *robot : read_robot(request.robot_file, named("robot"))};
   check_payloads(request, world.robot);
   check_footprint(request, world.robot);
   if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);

@@ -16,8 +16,10 @@ namespace joulepath {
 /// The mission of a parsed document; a line of JSON lines becomes a document with its own first line.
 [[nodiscard]] MissionRequest mission_from(const Document& document, const ReadOptions& options = {});
 
-/// Reads the files that a mission names. Throws ConfigError at the key that names a broken one.
-[[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {});
+/// Reads the files that a mission names; a robot that is given is taken in place of the mission's file.
+/// Throws ConfigError at the key that names a broken one.
+[[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {},
+                                      const Robot* robot = nullptr);
 
 /// Every file beside the mission's own that its plan depends on: robot, order, route graph, and maps with
 /// their images. Throws ConfigError where a map file cannot be read.

@@ -11,7 +11,7 @@ namespace joulepath {
 namespace {
 
 void need_robot(const MissionSource& source, const char* what) {
-  if (source.robot_file.empty())
+  if (source.robot_file.empty() && !source.robot_at_hand)
     throw ConfigError({{source.file, 1, 1},
                        "",
                        std::string(what) + ", which names no robot",
@@ -22,19 +22,6 @@ void need_robot(const MissionSource& source, const char* what) {
 /// The file's name without its extension; a name that is not UTF-8 is shown as such.
 std::string name_of(const std::string& file) {
   return printable(std::filesystem::path(file).stem().string());
-}
-
-/// A mission of one leg along a path.
-MissionRequest along_path(const MissionSource& source, Path path) {
-  need_robot(source, "a path");
-  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
-  mission.start.pose = path.start();
-  LegRequest leg{.path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)},
-                 .duration_s = source.duration_s,
-                 .marks = {.item = {.file = source.file}, .keys = {{"payload_kg", {.file = "--payload"}}}}};
-  leg.payload = {source.payload_kg.value_or(0.0), source.payload_kg.value_or(0.0)};
-  mission.legs.push_back(std::move(leg));
-  return mission;
 }
 
 void refuse_beside_mission(const char* option, const char* key, bool given) {
@@ -55,15 +42,27 @@ MissionRequest order_mission(const MissionSource& source) {
 
 }  // namespace
 
+MissionRequest mission_along(const MissionSource& source, Path path) {
+  need_robot(source, "a path");
+  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
+  mission.start.pose = path.start();
+  LegRequest leg{.path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)},
+                 .duration_s = source.duration_s,
+                 .marks = {.item = {.file = source.file}, .keys = {{"payload_kg", {.file = "--payload"}}}}};
+  leg.payload = {source.payload_kg.value_or(0.0), source.payload_kg.value_or(0.0)};
+  mission.legs.push_back(std::move(leg));
+  return mission;
+}
+
 MissionRequest read_mission_source(const MissionSource& source, const ReadOptions& options) {
   const auto with_files = [&](MissionRequest mission) {
     if (!source.robot_file.empty()) mission.robot_file = source.robot_file;
     if (!source.map_file.empty()) mission.map_file = source.map_file;
     return mission;
   };
-  if (is_waypoint_file(source.file)) return with_files(along_path(source, read_waypoints(source.file)));
+  if (is_waypoint_file(source.file)) return with_files(mission_along(source, read_waypoints(source.file)));
   const Document document = Document::load(source.file);
-  if (is_path(document)) return with_files(along_path(source, path_from(document, options)));
+  if (is_path(document)) return with_files(mission_along(source, path_from(document, options)));
   refuse_beside_mission("--payload", "payload_kg of a leg", source.payload_kg.has_value());
   refuse_beside_mission("--time", "duration_s of a leg", source.duration_s.has_value());
   return with_files(is_order(document) ? order_mission(source) : mission_from(document, options));

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "planner/path/geometry/path.hpp"
 #include "planner/values/mission_request.hpp"
 #include "scenarios/document.hpp"
 
@@ -13,9 +14,13 @@ struct MissionSource {
   std::string file{};
   std::string robot_file{};            ///< takes the place of a mission's; orders and paths name none
   std::string map_file{};              ///< takes the place of a mission's
+  bool robot_at_hand{};                ///< the caller has the robot itself: no file need name one
   std::optional<double> payload_kg{};  ///< paths only
   std::optional<double> duration_s{};  ///< paths only; none: the most economical
 };
+
+/// One leg along a path, from rest to rest.
+[[nodiscard]] MissionRequest mission_along(const MissionSource& source, Path path);
 
 /// The mission of a source; of a path it is one leg along it, from rest to rest.
 [[nodiscard]] MissionRequest read_mission_source(const MissionSource& source,

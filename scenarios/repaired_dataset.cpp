@@ -12,17 +12,18 @@ namespace {
 /// The mappings of each of the file's entries, on their way through the repairs.
 class Repairs {
  public:
-  explicit Repairs(const Dataset& dataset) : document_(Document::load(dataset.file)) {
-    const auto columns = document_.root().find("columns");
+  Repairs(const Dataset& dataset, const Document& document) {
+    const auto columns = document.root().find("columns");
     if (columns) common_ = read_column_sources(*columns);
-    const std::vector<Node> entries = document_.root()["runs"].items();
+    const std::vector<Node> entries = document.root()["runs"].items();
     for (const Node& entry : entries) {
       own_.push_back(entry.has("columns") ? read_column_sources(entry["columns"]) : ColumnSources{});
       logs_ += entry.has("motion") ? 0 : 1;
     }
     for (const Run& run : dataset.runs)
       for (std::size_t e = 0; e < entries.size(); ++e)
-        if (entries[e].mark().line == run.mark.line && entries[e].mark().column == run.mark.column)
+        if (entries.size() == 1 ||
+            (entries[e].mark().line == run.mark.line && entries[e].mark().column == run.mark.column))
           entry_of_run_.push_back(e);
   }
 
@@ -73,7 +74,6 @@ class Repairs {
     return changed;
   }
 
-  Document document_;
   ColumnSources common_{};
   std::vector<ColumnSources> own_{};
   std::vector<std::size_t> entry_of_run_{};
@@ -84,8 +84,11 @@ class Repairs {
 }  // namespace
 
 void describe_repairs(const Dataset& dataset, std::vector<DataCheck>& checks) {
-  if (checks.empty()) return;
-  Repairs repairs(dataset);
+  if (!checks.empty()) describe_repairs(dataset, document_of(dataset), checks);
+}
+
+void describe_repairs(const Dataset& dataset, const Document& document, std::vector<DataCheck>& checks) {
+  Repairs repairs(dataset, document);
   for (DataCheck& check : checks) check.repair = repairs.apply(check);
 }
 
@@ -96,7 +99,7 @@ std::string data_check_text(const DataCheck& check) {
 
 std::string repaired_dataset_text(const Dataset& dataset, const std::vector<DataCheck>& checks,
                                   const std::string& directory) {
-  Repairs repairs(dataset);
+  Repairs repairs(dataset, document_of(dataset));
   for (const DataCheck& check : checks) static_cast<void>(repairs.apply(check));
   DatasetEdit edit = repairs.edit();
   edit.comment = "# Channels repaired by `joulepath check --repair`:\n";

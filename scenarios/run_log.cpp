@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "model/kinematics.hpp"
+#include "scenarios/bags/bag_file.hpp"
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
 
@@ -52,7 +54,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
     }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
-                             "several files, interpolated linearly to the times of the first",
+                             "several files or topics, interpolated linearly to the times of the first",
                              files.size() - 1, log.trajectory.time_s.front()});
 }
 
@@ -154,13 +156,27 @@ void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
 
 }  // namespace
 
-RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& sources,
+RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& given,
                     const Geometry& geometry, const std::string& run) {
-  std::vector<LogFile> files;
-  files.reserve(names.size());
-  for (const auto& name : names) files.push_back(read_log_file(name, sources, run));
-  check_mapped_columns_found(files, sources);
   RunLog log;
+  ColumnSources sources = given;
+  std::vector<LogFile> files;
+  for (const auto& name : names) {
+    if (name.table || !is_bag(name.file)) {
+      files.push_back(read_log_file(name, sources, run));
+      continue;
+    }
+    BagLog bag = read_bag_log(name.file, name.named_by, given, run);
+    log.artifacts.insert(log.artifacts.end(), bag.artifacts.begin(), bag.artifacts.end());
+    sources = std::move(bag.sources);
+    ColumnSources of_tables = sources;
+    of_tables.erase("time_s");
+    for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), of_tables, run));
+  }
+  ColumnSources wanted = given;
+  for (auto& [column, source] : wanted)
+    if (!source.from.empty()) source.from = sources.at(column).from;
+  check_mapped_columns_found(files, wanted);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
   merge(files, log, run);

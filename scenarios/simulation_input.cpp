@@ -96,19 +96,36 @@ SimulationInput from_mission(const std::string& path, const std::string& robot_f
       std::all_of(mission.legs.begin(), mission.legs.end(), [](const LegRequest& leg) { return leg.motion; });
   if (prescribed) return from_motions(mission, world);
   const Plan plan = plan_mission(mission, world, planning);
-  SimulationInput input{.name = path, .robot = world.robot};
-  if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
-    input.infeasible = plan.message.empty() ? "the mission has no feasible plan" : plan.message;
-    return input;
-  }
-  input.reference = plan_trajectory(plan, make_plant(world.robot));
-  input.start = first_pose(input.reference);
-  input.planned_energy_J = plan.energy.total_J();
-  input.planned_duration_s = plan.duration_s;
+  if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible)
+    return {.name = path,
+            .robot = world.robot,
+            .infeasible = plan.message.empty() ? "the mission has no feasible plan" : plan.message};
+  SimulationInput input = simulation_input(plan, plan_trajectory(plan, make_plant(world.robot)), world.robot);
+  input.name = path;
   return input;
 }
 
 }  // namespace
+
+SimulationInput simulation_input(const Plan& plan, const Trajectory& trajectory, const Robot& robot) {
+  return {.name = plan.mission,
+          .robot = robot,
+          .reference = trajectory,
+          .start = first_pose(trajectory),
+          .planned_energy_J = plan.energy.total_J(),
+          .planned_duration_s = plan.duration_s};
+}
+
+SimulationRequest simulation_request(const SimulationInput& input, const std::vector<EffectSetting>& effects,
+                                     bool ideal_sensors, std::uint64_t seed) {
+  return {.robot = input.robot,
+          .effects = effects,
+          .reference = input.reference,
+          .coasting = input.coasting,
+          .start = input.start,
+          .sensors = ideal_sensors ? SensorSettings{} : typical_sensors(),
+          .seed = seed};
+}
 
 SimulationInput read_simulation_input(const std::string& path, const std::string& robot_file,
                                       const ReadOptions& options, const PlanOptions& planning) {

@@ -6,7 +6,9 @@
 
 #include "model/motions.hpp"
 #include "model/robot.hpp"
+#include "model/simulation/simulate.hpp"
 #include "planner/legs/stretch.hpp"
+#include "planner/values/plan.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -29,6 +31,15 @@ struct SimulationInput {
 [[nodiscard]] SimulationInput read_simulation_input(const std::string& path, const std::string& robot_file,
                                                     const ReadOptions& options = {},
                                                     const PlanOptions& planning = {});
+
+/// What a simulation drives of a plan. The robot may be another one than the plan's.
+[[nodiscard]] SimulationInput simulation_input(const Plan& plan, const Trajectory& trajectory,
+                                               const Robot& robot);
+
+/// The run of an input on a plant that has these effects besides its robot file's: typical sensors, or ideal.
+[[nodiscard]] SimulationRequest simulation_request(const SimulationInput& input,
+                                                   const std::vector<EffectSetting>& effects,
+                                                   bool ideal_sensors, std::uint64_t seed);
 
 /// `NAME:PARAMETER=VALUE,...` as an effect of the catalog; `side=left` where it has one.
 /// Throws ConfigError.

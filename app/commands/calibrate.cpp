@@ -88,7 +88,7 @@ class Calibrate : public Command {
   }
 
   int run() override {
-    const Dataset dataset = read_dataset(dataset_, {options_.untrusted}, robot_);
+    const Dataset dataset = read_dataset_or_log(dataset_, {options_.untrusted}, robot_);
     const CalibrationResult result =
         calibrate(dataset, method_ == "steady" ? CalibrationMethod::steady : CalibrationMethod::full);
     if (!out_.empty()) write_output_file(out_, robot_text(result.robot), options_.force);

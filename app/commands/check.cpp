@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
@@ -15,6 +16,14 @@
 namespace joulepath {
 namespace {
 
+/// A text of several lines as a terminal can take it.
+std::string printable_text(const std::string& text) {
+  std::string lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines += printable(line) + "\n";
+  return lines;
+}
+
 class Check : public Command {
  public:
   Check()
@@ -27,7 +36,7 @@ class Check : public Command {
 
   void declare(CommandLine& line) override {
     line.option("FILE", files_,
-                "robot, map, mission, path, dataset, fleet, run log, route graph, plan or diagnosis")
+                "robot, map, mission, path, dataset, fleet, run log, bag, route graph, plan or diagnosis")
         .required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");
@@ -46,6 +55,7 @@ class Check : public Command {
                                       {"summary", summary.text},
                                       {"notes", summary.notes}};
         if (summary.kind == "dataset") result["data_checks"] = data_checks_json(summary.data_checks);
+        if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
         results.push_back(std::move(result));
         if (!options_.json) tell(file, summary);
         if (!summary.data_checks.empty() && code == kDone) code = kInfeasibleOrFailed;
@@ -93,6 +103,7 @@ class Check : public Command {
       std::cout << "  " << printable(data_check_text(check)) << '\n';
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
+    if (!options_.quiet && !summary.proposal.empty()) std::cout << printable_text(summary.proposal);
   }
 
   std::vector<std::string> files_{};

@@ -1,20 +1,16 @@
-#include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/diagnosis_results.hpp"
 #include "app/left_out_effects.hpp"
 #include "app/output_directory.hpp"
-#include "app/report/diagnosis_report.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
-#include "scenarios/decision_cost.hpp"
 #include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
-#include "scenarios/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {
@@ -117,7 +113,8 @@ class Diagnose : public Command {
                      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("dataset", dataset_, "dataset file (YAML)").required();
+    line.option("dataset", dataset_, "dataset file (YAML), or a log alone (CSV, bag) with --robot")
+        .required();
     line.option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
         .required();
     line.option("--robot", robot_, "robot file; replaces the dataset's");
@@ -133,26 +130,21 @@ class Diagnose : public Command {
     OutputDirectory out(out_,
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
-    const Dataset dataset = read_dataset(
-        dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
-        robot_);
-    Diagnosis diagnosis = diagnose(dataset, {.without = without});
-    describe_repairs(dataset, diagnosis.data_checks);
-    if (diagnosis.corrected_robot) {
-      const DecisionCost cost = decision_cost(dataset.robot, *diagnosis.corrected_robot);
-      diagnosis.decision_missions = cost.missions;
-      diagnosis.joules_lost_percent = cost.joules_lost_percent;
-    }
-    const std::string json = diagnosis_json(diagnosis);
-    out.write("diagnosis.json", json);
-    out.write("report.html", report::diagnosis_report(diagnosis, json, dataset));
+    const DiagnosisResults results = diagnosis_results(
+        read_dataset_or_log(
+            dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+            robot_),
+        {.without = without});
+    const Diagnosis& diagnosis = results.diagnosis;
+    out.write("diagnosis.json", results.json);
+    out.write("report.html", results.report());
     if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
       out.write("dataset_corrected.yaml",
-                corrected_dataset_text(dataset, diagnosis.corrected_instruments, out_));
+                corrected_dataset_text(results.dataset, diagnosis.corrected_instruments, out_));
     out.commit();
     if (common_.json)
-      std::cout << json;
+      std::cout << results.json;
     else if (!common_.quiet)
       print_summary(std::cout, diagnosis);
     return fail_on_gap_ && diagnosis.verdict != Verdict::no_gap ? kInfeasibleOrFailed : kDone;

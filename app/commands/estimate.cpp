@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -80,7 +79,7 @@ class EstimateCommand : public Command {
                              "  joulepath estimate dataset.yaml --json | jq .fitness_percent\n"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("input", input_, "run log (CSV) or dataset (YAML)").required();
+    line.option("input", input_, "run log (CSV, bag) or dataset (YAML)").required();
     line.option("--robot", robot_, "robot file; required for a log, replaces a dataset's");
     line.option("--out", out_, "directory for estimate.json and the power over time of every run");
     line.option("--smoothing-s", reach_s_,
@@ -90,10 +89,7 @@ class EstimateCommand : public Command {
   }
 
   int run() override {
-    const bool is_log = std::filesystem::path(input_).extension() == ".csv";
-    if (is_log && robot_.empty()) throw UsageError("a log has no robot: add --robot");
-    const Dataset dataset = is_log ? dataset_of_log(input_, robot_)
-                                   : read_dataset(input_, {.untrusted = common_.untrusted}, robot_);
+    const Dataset dataset = read_dataset_or_log(input_, {.untrusted = common_.untrusted}, robot_);
     if (!common_.quiet)
       for (const LogArtifact& artifact : dataset.artifacts)
         if (artifact.kind == "cut") std::cerr << "note: " << artifact.description << '\n';

@@ -6,13 +6,10 @@
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
+#include "app/plan_results.hpp"
 #include "app/plan_summary.hpp"
-#include "app/report/plan_report.hpp"
-#include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/mission_file.hpp"
-#include "scenarios/plan_file.hpp"
-#include "scenarios/run_log.hpp"
 
 namespace joulepath {
 namespace {
@@ -59,37 +56,31 @@ class PlanCommand : public Command {
     OutputDirectory out(out_, {"plan.json", "trajectory.csv", "profile.csv", "timing.json", "report.html"},
                         common_.force);
     const ReadOptions reading{.untrusted = common_.untrusted};
-    const MissionRequest mission = read_mission_source(source_, reading);
-    const MissionWorld world = read_world(mission, reading);
+    MissionRequest mission = read_mission_source(source_, reading);
+    MissionWorld world = read_world(mission, reading);
     const double reading_s = seconds_since(start);
     for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
-    const Plan plan = plan_mission(mission, world, options_);
+    Plan plan = plan_mission(mission, world, options_);
     const double planning_s = seconds_since(start) - reading_s;
 
-    const std::string json = plan_json_text(plan);
-    out.write("plan.json", json);
+    const PlanResults results = plan_results(std::move(mission), std::move(world), std::move(plan));
+    out.write("plan.json", results.json);
     out.write("timing.json", "{\"reading_s\": " + std::to_string(reading_s) +
                                  ", \"planning_s\": " + std::to_string(planning_s) + "}\n");
-    const bool valid = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-    const Plant plant = make_plant(world.robot);
-    const Trajectory trajectory = valid ? plan_trajectory(plan, plant) : Trajectory{};
-    if (valid) {
-      const PlanNodes nodes = plan_nodes(plan, plant);
-      out.write("trajectory.csv", run_log_text(trajectory));
-      out.write("profile.csv",
-                run_log_text(nodes.rows, {{"angular_acceleration_rad_s2", &nodes.angular_acceleration_rad_s2},
-                                          {"linear_jerk_m_s3", &nodes.linear_jerk_m_s3}}));
+    if (results.valid) {
+      out.write("trajectory.csv", results.trajectory_text());
+      out.write("profile.csv", results.profile_text());
     }
-    out.write("report.html", report::plan_report(plan, json, trajectory, mission, world));
+    out.write("report.html", results.report());
     out.commit();
     if (common_.json)
-      std::cout << json;
+      std::cout << results.json;
     else if (!common_.quiet)
-      print_plan_summary(std::cout, plan, out.path());
-    else if (!valid)
-      std::cerr << solve_status_name(plan.status) << ": " << plan.message << "\n";
-    return valid ? kDone : kInfeasibleOrFailed;
+      print_plan_summary(std::cout, results.plan, out.path());
+    else if (!results.valid)
+      std::cerr << solve_status_name(results.plan.status) << ": " << results.plan.message << "\n";
+    return results.valid ? kDone : kInfeasibleOrFailed;
   }
 
  private:

@@ -178,15 +178,9 @@ class SimulateCommand : public Command {
  private:
   SimulationRequest request_for(const SimulationInput& input, const std::vector<EffectSetting>& effects,
                                 double hour_s, std::uint64_t seed) const {
-    SimulationRequest request{.robot = input.robot,
-                              .effects = effects,
-                              .reference = input.reference,
-                              .coasting = input.coasting,
-                              .start = input.start,
-                              .time_of_day_s = hour_s,
-                              .controller = controller_,
-                              .sensors = ideal_ ? SensorSettings{} : typical_sensors(),
-                              .seed = seed};
+    SimulationRequest request = simulation_request(input, effects, ideal_, seed);
+    request.time_of_day_s = hour_s;
+    request.controller = controller_;
     request.sensors.sample_rate_Hz = sensors_.sample_rate_Hz;
     request.sensors.electrical_delay_s = sensors_.electrical_delay_s;
     if (inductance_H_)

@@ -7,18 +7,23 @@
 #include <mutex>
 #include <thread>
 
+#include "model/stop.hpp"
 #include "model/workers.hpp"
 
 namespace joulepath {
 
 /// Calls function(i) for i in [0, count) on the machine's cores. Each call writes only what belongs to
-/// its own i, so that the result does not depend on who runs first. The first exception is rethrown.
+/// its own i, so that the result does not depend on who runs first. The first exception ends the loop
+/// and is rethrown.
 template <class Function>
 void parallel_for(std::size_t count, Function&& function) {
   const std::size_t workers =
       std::min<std::size_t>({count, std::max(1u, std::thread::hardware_concurrency()), 8});
   if (workers <= 1) {
-    for (std::size_t i = 0; i < count; ++i) function(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      stop_if_asked();
+      function(i);
+    }
     return;
   }
   std::atomic<std::size_t> next{0};
@@ -27,8 +32,10 @@ void parallel_for(std::size_t count, Function&& function) {
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
+        stop_if_asked();
         function(i);
       } catch (...) {
+        next = count;
         const std::lock_guard<std::mutex> lock(error_mutex);
         if (!error) error = std::current_exception();
       }

@@ -186,16 +186,10 @@ void add_leg(const LegPlan& leg, std::size_t index, const PlanRows& rows, NodeRo
 
 }  // namespace
 
-Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz) {
-  if (plan.legs.empty()) return {};
+Trajectory plan_trajectory_at(const Plan& plan, const Plant& plant, const std::vector<double>& times_s) {
   PlanRows rows(plan, plant);
   std::size_t index = 0;
-  const double last_s = end_s(plan.legs.back());
-  rate_Hz = std::min(rate_Hz, kMostSamples / last_s);
-  const auto count = static_cast<std::size_t>(std::floor(last_s * rate_Hz * (1 - 1e-12)));
-  for (std::size_t k = 0; k <= count + 1; ++k) {
-    const double time_s = std::min(last_s, static_cast<double>(k) / rate_Hz);
-    if (k > 0 && time_s <= rows.rows().time_s.back()) break;
+  for (const double time_s : times_s) {
     while (index + 1 < plan.legs.size() && time_s >= plan.legs[index + 1].start_s) ++index;
     rows.append(rows.at(index, time_s - plan.legs[index].start_s), time_s, index);
   }
@@ -214,6 +208,20 @@ PlanNodes plan_nodes(const Plan& plan, const Plant& plant) {
   }
   result.rows = std::move(rows.rows());
   return result;
+}
+
+Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz) {
+  if (plan.legs.empty()) return {};
+  const double last_s = end_s(plan.legs.back());
+  rate_Hz = std::min(rate_Hz, kMostSamples / last_s);
+  const auto count = static_cast<std::size_t>(std::floor(last_s * rate_Hz * (1 - 1e-12)));
+  std::vector<double> times_s;
+  for (std::size_t k = 0; k <= count + 1; ++k) {
+    const double time_s = std::min(last_s, static_cast<double>(k) / rate_Hz);
+    if (k > 0 && time_s <= times_s.back()) break;
+    times_s.push_back(time_s);
+  }
+  return plan_trajectory_at(plan, plant, times_s);
 }
 
 }  // namespace joulepath

@@ -9,6 +9,10 @@ namespace joulepath {
 /// the end. Reads back as a run log; energy_J is what the battery's terminals have given so far.
 [[nodiscard]] Trajectory plan_trajectory(const Plan& plan, const Plant& plant, double rate_Hz = 50.0);
 
+/// The same at these ascending times (s) within the plan, exact at each; energy_J counts from the first.
+[[nodiscard]] Trajectory plan_trajectory_at(const Plan& plan, const Plant& plant,
+                                            const std::vector<double>& times_s);
+
 /// A plan at the nodes of its profiles and nowhere else: every instant at which acceleration (or, under a
 /// jerk limit, jerk) may change has a row. Accelerations and jerk are those from a row to the next. Between
 /// rows,

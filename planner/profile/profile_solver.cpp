@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/stop.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
@@ -236,6 +237,7 @@ class ProfileSolver {
 }  // namespace
 
 ProfileResult solve_profile(const ProfileRequest& request) {
+  stop_if_asked();
   if (std::optional<Infeasibility> verdict = senseless(request)) {
     ProfileResult result;
     result.summary.status = SolveStatus::infeasible;

@@ -44,6 +44,7 @@ struct ExportFormat {
 [[nodiscard]] Export export_nav2_path(const ExportInput& input);   ///< nav_msgs/Path
 [[nodiscard]] Export export_trajectory(const ExportInput& input);  ///< nav_msgs/Trajectory
 [[nodiscard]] Export export_plotjuggler(const ExportInput& input);
+[[nodiscard]] Export export_bag(const ExportInput& input);    ///< MCAP: Path, Odometry, power
 [[nodiscard]] Export export_edges(const ExportInput& input);  ///< CSV, or JSON by the file's extension
 [[nodiscard]] Export export_controller(const ExportInput& input);
 [[nodiscard]] Export export_vda5050(const ExportInput& input);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/values/diagnosis.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// A diagnosis with the dataset that it was made from, and what is written of it.
+struct DiagnosisResults {
+  Dataset dataset{};
+  Diagnosis diagnosis{};
+  std::string json{};  ///< diagnosis.json
+
+  [[nodiscard]] std::string report() const;  ///< report.html
+};
+
+/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is what the
+/// dataset was read from; null: its file.
+[[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
+                                                 const Document* document = nullptr);
+
+}  // namespace joulepath

@@ -1,0 +1,45 @@
+#include "python/bindings/arrays.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "python/bindings/bindings.hpp"
+#include "scenarios/log_columns.hpp"
+#include "scenarios/run_log.hpp"
+
+namespace joulepath::python {
+
+std::vector<double> vector_of(const Numbers& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+nb::ndarray<nb::numpy, const double, nb::ndim<1>> view_of(const std::vector<double>& values,
+                                                          nb::handle owner) {
+  return {values.data(), {values.size()}, owner};
+}
+
+void bind_arrays(nb::module_& module) {
+  nb::class_<Log>(module, "Log", "Samples over time; absent channels are empty.")
+      .def(
+          "columns",
+          [](Log& self) {
+            std::vector<std::string> names;
+            for (const LogColumn& column : log_columns())
+              if (!column.channel(self.trajectory).empty()) names.push_back(column.name);
+            return names;
+          },
+          "Names of the channels that are present, in the order of a run log's columns.")
+      .def(
+          "column",
+          [](nb::handle_t<Log> self, const std::string& name) {
+            const LogColumn* column = find_log_column(name);
+            if (column == nullptr) throw nb::key_error(name.c_str());
+            return view_of(column->channel(nb::cast<Log&>(self).trajectory), self);
+          },
+          nb::arg("name"), "A read-only view of a channel.")
+      .def(
+          "text", [](const Log& self) { return run_log_text(self.trajectory); },
+          "The samples as a run log (CSV).");
+}
+
+}  // namespace joulepath::python

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <string>
+#include <vector>
+
+#include "model/trajectory.hpp"
+
+namespace joulepath::python {
+
+namespace nb = nanobind;
+
+/// Numbers from Python: the package has made them contiguous, finite float64.
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Points = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+
+[[nodiscard]] std::vector<double> vector_of(const Numbers& numbers);
+
+/// A read-only numpy view of values that `owner` keeps.
+[[nodiscard]] nb::ndarray<nb::numpy, const double, nb::ndim<1>> view_of(const std::vector<double>& values,
+                                                                        nb::handle owner);
+
+/// A trajectory that Python owns; its channels are seen as views, so it never changes.
+struct Log {
+  Trajectory trajectory{};
+};
+
+}  // namespace joulepath::python

@@ -1,0 +1,81 @@
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/set.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "app/diagnosis_results.hpp"
+#include "python/bindings/arrays.hpp"
+#include "python/bindings/bindings.hpp"
+#include "python/bindings/errors.hpp"
+#include "python/bindings/robot.hpp"
+#include "python/bindings/stop.hpp"
+#include "scenarios/corrected_dataset.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/robot_file.hpp"
+
+namespace joulepath::python {
+namespace {
+
+using Tables = std::map<std::string, CsvTable>;
+
+/// Columns of one length as the table that a CSV file of them would be.
+CsvTable table_of(const std::string& name, const std::map<std::string, Numbers>& columns) {
+  CsvTable table{.file = name};
+  for (const auto& [header, values] : columns) {
+    table.header.push_back(header);
+    table.columns.push_back(vector_of(values));
+    table.line_of_row.assign(values.size(), 0);
+  }
+  return table;
+}
+
+/// As the command reads: suspect channels make a verdict, not an error.
+constexpr ReadOptions kReading{.cut_long_logs = true, .accept_implausible = true};
+
+DiagnosisResults diagnose_text(const std::string& text, const std::string& name, const RobotValue& robot,
+                               const std::map<std::string, std::map<std::string, Numbers>>& frames,
+                               const std::set<std::string>& without) {
+  Tables logs;
+  for (const auto& [log, columns] : frames) logs[log] = table_of(log, columns);
+  const LongCall call;
+  const Document document = from_object(name, [&] { return Document::parse(text, name); });
+  Dataset dataset = from_object(
+      name, [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
+  dataset.file.clear();  // there is no file that a corrected one could be made of
+  return diagnosis_results(std::move(dataset), {.without = without}, &document);
+}
+
+DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
+                               const std::set<std::string>& without) {
+  const LongCall call;
+  const Document document = Document::load(file);
+  return diagnosis_results(dataset_from(document, kReading, {}, {.robot = robot ? &robot->robot : nullptr}),
+                           {.without = without}, &document);
+}
+
+std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const std::string& directory) {
+  if (self.diagnosis.corrected_instruments.empty() || self.dataset.file.empty()) return {};
+  return corrected_dataset_text(self.dataset, self.diagnosis.corrected_instruments, directory);
+}
+
+}  // namespace
+
+void bind_diagnosis(nb::module_& module) {
+  nb::class_<DiagnosisResults>(module, "DiagnosisValue", "A diagnosis with what is written of it.")
+      .def_prop_ro(
+          "json", [](const DiagnosisResults& self) { return self.json; }, "diagnosis.json")
+      .def(
+          "report", [](const DiagnosisResults& self) { return self.report(); }, "report.html")
+      .def("robot",
+           [](const DiagnosisResults& self) {
+             const auto& robot = self.diagnosis.corrected_robot;
+             return robot ? std::optional<RobotValue>(RobotValue{*robot}) : std::nullopt;
+           })
+      .def("corrected_dataset", &corrected_dataset, nb::arg("directory"));
+  module.def("diagnose_text", &diagnose_text, nb::arg("text"), nb::arg("name"), nb::arg("robot"),
+             nb::arg("frames"), nb::arg("without"));
+  module.def("diagnose_file", &diagnose_file, nb::arg("file"), nb::arg("robot").none(), nb::arg("without"));
+}
+
+}  // namespace joulepath::python

@@ -1,0 +1,18 @@
+#include "python/bindings/bindings.hpp"
+
+namespace {
+
+NB_MODULE(_core, module) {
+  module.doc() = "joulepath's functions as joulepath (the package) calls them; no interface of its own.";
+  module.attr("version") = JOULEPATH_VERSION;
+  using namespace joulepath::python;
+  bind_errors(module);
+  bind_stop(module);
+  bind_arrays(module);
+  bind_robot(module);
+  bind_plan(module);
+  bind_simulation(module);
+  bind_diagnosis(module);
+}
+
+}  // namespace

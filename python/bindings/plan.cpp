@@ -1,0 +1,167 @@
+#include "python/bindings/plan.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <ctime>
+#include <optional>
+
+#include "planner/accounts/plan_trajectory.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
+#include "python/bindings/bindings.hpp"
+#include "python/bindings/errors.hpp"
+#include "python/bindings/robot.hpp"
+#include "python/bindings/stop.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_source.hpp"
+#include "scenarios/path_file.hpp"
+
+namespace joulepath::python {
+namespace {
+
+std::vector<Point2> points_of(const Points& xy_m) {
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i < xy_m.shape(0); ++i) points.push_back({xy_m(i, 0), xy_m(i, 1)});
+  return points;
+}
+
+PathValue waypoint_path(const Points& xy_m, const std::optional<Numbers>& corner_radius_m) {
+  WaypointPath along = corner_radius_m ? lines_between(points_of(xy_m), vector_of(*corner_radius_m))
+                                       : curve_through(points_of(xy_m));
+  if (!along.defect) return {std::move(along.path)};
+  const std::string array = along.defect->radius ? "corner_radius_m" : "xy_m";
+  throw ConfigError({{},
+                     array + "[" + std::to_string(along.defect->waypoint) + "]",
+                     along.defect->found,
+                     along.defect->accepted,
+                     ""});
+}
+
+PathValue load_path(const std::string& file) {
+  return {is_waypoint_file(file) ? read_waypoints(file) : path_from(Document::load(file))};
+}
+
+/// x, y and heading at path coordinates that are `step_m` apart at most, one list each.
+Log path_poses(const PathValue& self, double step_m) {
+  Log poses;
+  for (const PathPiece& piece : self.path.pieces) {
+    const auto steps = static_cast<std::size_t>(std::ceil(piece_length(piece) / step_m));
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const Pose pose =
+          piece_point(piece, piece_length(piece) * static_cast<double>(i) / static_cast<double>(steps)).pose;
+      poses.trajectory.position_x_m.push_back(pose.x_m);
+      poses.trajectory.position_y_m.push_back(pose.y_m);
+      poses.trajectory.heading_rad.push_back(pose.heading_rad);
+    }
+  }
+  return poses;
+}
+
+PlanOptions plan_options(const std::string& solver, std::size_t nodes, unsigned seed, double accuracy,
+                         bool baselines) {
+  return {.solver = solver == "fast" ? SolverChoice::fast : SolverChoice::ipopt,
+          .nodes = nodes,
+          .accuracy = accuracy,
+          .seed = seed,
+          .baselines = baselines};
+}
+
+double thread_cpu_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Plans without the GIL.
+PlanValue planned(MissionRequest mission, const RobotValue* robot, const PlanOptions& options) {
+  PlanValue value;
+  const LongCall call;
+  const double start_s = thread_cpu_s();
+  MissionWorld world = read_world(mission, {}, robot ? &robot->robot : nullptr);
+  Plan plan = plan_mission(mission, world, options);
+  value.results = plan_results(std::move(mission), std::move(world), std::move(plan));
+  value.cpu_s = thread_cpu_s() - start_s;
+  return value;
+}
+
+void bind_path(nb::module_& module) {
+  nb::class_<PathValue>(module, "PathValue", "A path that is ready to be driven.")
+      .def_prop_ro("length_m", [](const PathValue& self) { return self.path.distance_m(); })
+      .def_prop_ro("turned_rad", [](const PathValue& self) { return self.path.turned_rad(); })
+      .def("poses", &path_poses, nb::arg("step_m"), "Position and heading along the path.");
+  module.def("waypoint_path", &waypoint_path, nb::arg("xy_m"), nb::arg("corner_radius_m").none());
+  module.def("load_path", &load_path, nb::arg("file"));
+}
+
+void bind_plan_value(nb::module_& module) {
+  nb::class_<PlanValue>(module, "PlanValue", "A plan with what is written of it.")
+      .def_prop_ro("status",
+                   [](const PlanValue& self) { return solve_status_name(self.results.plan.status); })
+      .def_prop_ro("message", [](const PlanValue& self) { return self.results.plan.message; })
+      .def_prop_ro(
+          "json", [](const PlanValue& self) { return self.results.json; }, "plan.json")
+      .def_prop_ro("cpu_s", [](const PlanValue& self) { return self.cpu_s; })
+      .def_prop_ro("robot", [](const PlanValue& self) { return RobotValue{self.results.world.robot}; })
+      .def(
+          "trajectory", [](const PlanValue& self) { return Log{self.results.trajectory}; },
+          "The samples of trajectory.csv.")
+      .def(
+          "at",
+          [](const PlanValue& self, const Numbers& times_s) {
+            return Log{plan_trajectory_at(self.results.plan, make_plant(self.results.world.robot),
+                                          vector_of(times_s))};
+          },
+          nb::arg("times_s"), "The plan at ascending times, exact at each.")
+      .def(
+          "profile_text", [](const PlanValue& self) { return self.results.profile_text(); }, "profile.csv")
+      .def(
+          "report", [](const PlanValue& self) { return self.results.report(); }, "report.html");
+}
+
+}  // namespace
+
+void bind_plan(nb::module_& module) {
+  bind_path(module);
+  bind_plan_value(module);
+  module.def(
+      "profile",
+      [](const RobotValue& robot, const PathValue& path, double payload_kg, std::optional<double> time_s,
+         const std::string& solver, std::size_t nodes, double accuracy) {
+        const MissionSource source{
+            .file = "path", .robot_at_hand = true, .payload_kg = payload_kg, .duration_s = time_s};
+        return planned(mission_along(source, path.path), &robot,
+                       plan_options(solver, nodes, 1, accuracy, false));
+      },
+      nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(), nb::arg("solver"),
+      nb::arg("nodes"), nb::arg("accuracy"));
+  module.def(
+      "plan_file",
+      [](const std::string& file, const std::string& robot_file, const RobotValue* robot,
+         const std::string& map_file, std::optional<double> payload_kg, std::optional<double> time_s,
+         const std::string& solver, std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
+        return planned(read_mission_source({.file = file,
+                                            .robot_file = robot_file,
+                                            .map_file = map_file,
+                                            .robot_at_hand = robot != nullptr,
+                                            .payload_kg = payload_kg,
+                                            .duration_s = time_s}),
+                       robot, plan_options(solver, nodes, seed, accuracy, baselines));
+      },
+      nb::arg("file"), nb::arg("robot_file"), nb::arg("robot").none(), nb::arg("map_file"),
+      nb::arg("payload_kg").none(), nb::arg("time_s").none(), nb::arg("solver"), nb::arg("nodes"),
+      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"));
+  module.def(
+      "plan_text",
+      [](const std::string& text, const std::string& name, const RobotValue* robot, const std::string& solver,
+         std::size_t nodes, unsigned seed, double accuracy, bool baselines) {
+        return from_object(name, [&] {
+          return planned(mission_from(Document::parse(text, name)), robot,
+                         plan_options(solver, nodes, seed, accuracy, baselines));
+        });
+      },
+      nb::arg("text"), nb::arg("name"), nb::arg("robot").none(), nb::arg("solver"), nb::arg("nodes"),
+      nb::arg("seed"), nb::arg("accuracy"), nb::arg("baselines"));
+}
+
+}  // namespace joulepath::python

@@ -1,0 +1,64 @@
+"""What can go wrong."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Mapping
+
+if TYPE_CHECKING:
+    from .plans import Plan
+
+
+class ConfigError(ValueError):
+    """An input that cannot be right: a file, a dict or an argument.
+
+    ``file``, ``line`` and ``column`` (from 1) say where it stands, None where there is no such place; ``key`` is
+    dotted as in the file (``motor.gear_ratio``) or the argument's name; ``found``, ``accepted`` and ``hint`` are
+    the parts of the message.
+    """
+
+    def __init__(self, message: str, file: str = "", line: int | None = None, column: int | None = None, key: str = "",
+                 found: str = "", accepted: str = "", hint: str = "") -> None:
+        super().__init__(message)
+        self.file = file or None
+        self.line = line
+        self.column = column
+        self.key = key
+        self.found = found
+        self.accepted = accepted
+        self.hint = hint
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (ConfigError, (str(self), self.file or "", self.line, self.column, self.key, self.found, self.accepted,
+                              self.hint))
+
+
+def refused(key: str, found: str, accepted: str, hint: str = "") -> ConfigError:
+    """The error of an argument, worded as those of files."""
+    message = f"{key}: found {found}, accepted: {accepted}" + (f" ({hint})" if hint else "")
+    return ConfigError(message, key=key, found=found, accepted=accepted, hint=hint)
+
+
+class PlanningError(RuntimeError):
+    """The solver failed; ``plan`` is what there is of the answer."""
+
+    def __init__(self, message: str, plan: Plan) -> None:
+        super().__init__(message)
+        self.plan = plan
+
+
+class Infeasible(PlanningError):
+    """No plan keeps every limit.
+
+    ``limit`` is the limit that prevents it (a key of ``limits`` without its unit, or ``deadline``, ``path`` ...),
+    ``amount`` and ``unit`` by how much, ``place`` where (``leg``, ``arc_length_m``, ``x_m``, ``y_m``), and
+    ``relaxation`` the smallest change found that makes it possible.
+    """
+
+    def __init__(self, message: str, plan: Plan) -> None:
+        super().__init__(message, plan)
+        reason = plan.json.infeasibility
+        self.limit: str = reason.constraint
+        self.amount: float = reason.amount
+        self.unit: str = reason.unit
+        self.place: Mapping[str, float] = {key: reason[key] for key in ("leg", "arc_length_m", "x_m", "y_m")}
+        self.relaxation: Mapping[str, float] = dict(reason.relaxation)

@@ -1,0 +1,31 @@
+"""Writing results: whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path as FilePath
+
+from ._errors import refused
+
+
+def save(directory: str | os.PathLike[str], contents: dict[str, str | None], force: bool) -> FilePath:
+    """Writes files into a directory. A name without content is one that an older result may have left there.
+
+    Raises ConfigError where one of them exists and ``force`` is not given.
+    """
+    target = FilePath(directory)
+    for name in contents:
+        if (target / name).exists() and not force:
+            raise refused("directory", f"{target / name}, a file that exists", "a new name", "force=True overwrites it")
+    target.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=target, prefix=".part-") as part:
+        for name, content in contents.items():
+            if content is not None:
+                (FilePath(part) / name).write_text(content, encoding="utf-8", newline="")
+        for name, content in contents.items():
+            if content is None:
+                (target / name).unlink(missing_ok=True)
+            else:
+                os.replace(FilePath(part) / name, target / name)
+    return target

@@ -1,0 +1,140 @@
+"""Why a robot takes other energy than its model says."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import Any, Iterable, Mapping, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._errors import refused
+from ._files import save
+from ._inputs import text_of
+from ._records import Record
+from .robots import Robot, robot_of
+
+#: A file, or columns by name: a pandas.DataFrame, a Log, a dict of arrays.
+LogLike = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
+
+
+@dataclass(frozen=True)
+class Run:
+    """One log with its circumstances; the keys are those of ``runs:`` in a dataset file.
+
+    ``payload_kg`` is a number, or steps ``[{"from_s": 0, "kg": 5}, ...]``; None: the log's column, or 0.
+    """
+
+    log: LogLike
+    payload_kg: float | Sequence[Mapping[str, float]] | None = None
+    start_time_s: float | None = None
+    surface: str | None = None
+    use: str | None = None
+    name: str | None = None
+
+
+class Diagnosis:
+    """The answer of ``diagnose``. ``json`` holds all of diagnosis.json."""
+
+    def __init__(self, value: _core.DiagnosisValue) -> None:
+        self._value = value
+
+    @functools.cached_property
+    def json(self) -> Record:
+        """diagnosis.json (schema joulepath/diagnosis/1)."""
+        return Record(json.loads(self._value.json))
+
+    @property
+    def verdict(self) -> str:
+        """no_gap, explained, partly_explained, unexplained, ambiguous, too_little_data or
+        data_suspect."""
+        return str(self.json.verdict)
+
+    @property
+    def causes(self) -> tuple[Record, ...]:
+        """Effects of the catalog that explain the gap, with parameters and their intervals."""
+        return tuple(self.json.causes)
+
+    @property
+    def where(self) -> tuple[Record, ...]:
+        """Shares of the gap by phase, wheel, part of the path, payload ..."""
+        return tuple(self.json.where)
+
+    @functools.cached_property
+    def robot(self) -> Robot | None:
+        """The corrected robot; None where no correction holds on held-out runs."""
+        corrected = self._value.robot()
+        return None if corrected is None else Robot._of(corrected)
+
+    def report(self) -> str:
+        """report.html: one page that needs nothing else."""
+        return self._value.report()
+
+    def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
+        """Writes what ``joulepath diagnose`` writes, byte for byte."""
+        return save(directory, {"diagnosis.json": self._value.json, "report.html": self.report(),
+                                "robot_corrected.yaml": None if self.robot is None else self.robot.text(),
+                                "dataset_corrected.yaml": self._value.corrected_dataset(os.fspath(directory))}, force)
+
+    def __repr__(self) -> str:
+        causes = ", ".join(cause.effect for cause in self.causes)
+        return f"Diagnosis({self.verdict}{': ' + causes if causes else ''})"
+
+
+def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
+             logs: str | os.PathLike[str] | Iterable[LogLike | Run], *,
+             columns: Mapping[str, Any] | None = None, without: Iterable[str] = ()) -> Diagnosis:
+    """Locates the gap between model and logs, names its cause, measures how much a correction shrinks it.
+
+    ``logs``: a dataset file, or a list of logs: file names, data frames, dicts of arrays, Logs, or a Run of one of them
+    with its circumstances. Columns are those of the run log format; ``columns`` maps other names and units as in a
+    dataset file. ``without``: effects taken out of the catalog. ``robot`` may be None with a dataset file, which names
+    its own. Raises ConfigError.
+    """
+    left_out = set(without)
+    if isinstance(logs, (str, os.PathLike)):
+        value = None if robot is None else robot_of(robot)._value
+        return Diagnosis(_core.diagnose_file(os.fspath(logs), value, left_out))
+    if robot is None:
+        raise refused("robot", "None", "a Robot", "only a dataset file names its robot")
+    frames: dict[str, dict[str, NDArray[np.float64]]] = {}
+    runs = [_entry(index, log if isinstance(log, Run) else Run(log), frames) for index, log in enumerate(logs)]
+    dataset: dict[str, Any] = {"runs": runs} if columns is None else {"runs": runs, "columns": dict(columns)}
+    return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out))
+
+
+def _entry(index: int, run: Run, frames: dict[str, dict[str, NDArray[np.float64]]]) -> dict[str, Any]:
+    if isinstance(run.log, (str, os.PathLike)):
+        name = os.fspath(run.log)
+    else:
+        name = run.name or f"logs[{index}]"
+        frames[name] = _columns_of(name, run.log)
+    entry = {"file": name, "payload_kg": run.payload_kg, "start_time_s": run.start_time_s, "surface": run.surface,
+             "use": run.use}
+    return {key: value for key, value in entry.items() if value is not None}
+
+
+def _columns_of(name: str, log: Any) -> dict[str, NDArray[np.float64]]:
+    """Columns of numbers; NaN is a missing value, as an empty cell of a file is. Columns of text are left out."""
+    keys = getattr(log, "columns", None)
+    if keys is None and not isinstance(log, Mapping):
+        raise refused(name, f"a value of type {type(log).__name__}", "a file's name, a data frame, or columns by name")
+    columns: dict[str, NDArray[np.float64]] = {}
+    for key in (log if keys is None else keys):
+        array = np.asarray(log[key])
+        if array.dtype.kind not in "fiu":
+            continue
+        if array.ndim != 1:
+            raise refused(f"{name}.{key}", f"shape {array.shape}", "an array with 1 axis")
+        if np.isinf(array).any():
+            raise refused(f"{name}.{key}", "an infinite value", "finite numbers; NaN where a value is missing")
+        columns[str(key)] = np.ascontiguousarray(array, dtype=np.float64)
+    lengths = {len(column) for column in columns.values()}
+    if len(lengths) > 1:
+        raise refused(name, "columns of different lengths", "columns of one length")
+    return columns

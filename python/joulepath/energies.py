@@ -1,0 +1,68 @@
+"""The energy of any motion, by the model."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._errors import refused
+from ._inputs import samples, times
+from .logs import Log
+from .robots import Robot, robot_of
+
+
+class Energy:
+    """What a motion takes at the battery's terminals."""
+
+    __slots__ = ("_value",)
+
+    def __init__(self, value: _core.EnergyValue) -> None:
+        self._value = value
+
+    @property
+    def total_J(self) -> float:
+        """Energy, standby included."""
+        return self._value.total_J
+
+    @property
+    def causes_J(self) -> dict[str, float]:
+        """Joules by cause; they add up to ``total_J``. An effect of the robot file stands under its name."""
+        return self._value.causes_J()
+
+    @property
+    def battery_loss_J(self) -> float:
+        """Loss in the battery's internal resistance, beside ``total_J``."""
+        return self._value.battery_loss_J
+
+    @property
+    def distance_m(self) -> float:
+        return self._value.distance_m
+
+    @property
+    def duration_s(self) -> float:
+        return self._value.duration_s
+
+    @property
+    def power(self) -> Log:
+        """Wheel speed, torque, current, voltage and power at the samples."""
+        return Log(self._value.power())
+
+    def __repr__(self) -> str:
+        return f"Energy({self.total_J:.6g} J, {self.distance_m:.6g} m, {self.duration_s:.6g} s)"
+
+
+def energy(robot: Robot, t: ArrayLike, v: ArrayLike, w: ArrayLike = 0.0, *, payload_kg: ArrayLike = 0.0) -> Energy:
+    """Energy of a motion: times ``t`` (s), speeds ``v`` (m/s), yaw rates ``w`` (rad/s), payload (kg).
+
+    ``t`` has shape (N,) and increases; the others have shape (N,) or are one number. Speeds are linear between the
+    samples. Raises ConfigError.
+
+    >>> e = energy(Robot.example(), t=[0, 1, 2, 3], v=[0, 0.5, 0.5, 0])
+    >>> abs(sum(e.causes_J.values()) - e.total_J) < 1e-9
+    True
+    """
+    at = times("t", t)
+    if len(at) < 2:
+        raise refused("t", f"{len(at)} samples", "2 samples or more")
+    return Energy(_core.energy(robot_of(robot)._value, at, samples("v", v, len(at)), samples("w", w, len(at)),
+                               samples("payload_kg", payload_kg, len(at))))

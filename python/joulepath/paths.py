@@ -1,0 +1,65 @@
+"""Paths that are given rather than searched."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._errors import refused
+from ._inputs import number, numbers, points
+
+
+class Path:
+    """A path on the floor: curves with continuous curvature, and turns in place between them.
+
+    >>> path = Path([[0, 0], [1, 0], [2, 1]])
+    >>> 2.4 < path.length_m < 2.5
+    True
+    """
+
+    __slots__ = ("_value",)
+
+    def __init__(self, xy_m: ArrayLike, *, corner_radius_m: ArrayLike | None = None) -> None:
+        """The natural cubic spline through waypoints, shape (N, 2) in meters.
+
+        With ``corner_radius_m`` (one number, or one per waypoint): straight lines whose corners are rounded with
+        that smallest radius; at a radius of 0 the robot turns in place. Raises ConfigError.
+        """
+        xy = points("xy_m", xy_m)
+        radius: NDArray[np.float64] | None = None
+        if corner_radius_m is not None:
+            radius = (np.full(len(xy), number("corner_radius_m", corner_radius_m, least=0.0))
+                      if np.ndim(corner_radius_m) == 0 else numbers("corner_radius_m", corner_radius_m))
+            if len(radius) != len(xy):
+                raise refused("corner_radius_m", f"{len(radius)} radii", f"{len(xy)}, one per waypoint")
+            if (radius < 0).any():
+                raise refused("corner_radius_m", f"{radius.min():g}", "numbers >= 0")
+        self._value = _core.waypoint_path(xy, radius)
+
+    @classmethod
+    def load(cls, file: str | os.PathLike[str]) -> Path:
+        """The path of a file: waypoints (CSV) or Bezier curves (YAML)."""
+        path = cls.__new__(cls)
+        path._value = _core.load_path(os.fspath(file))
+        return path
+
+    @property
+    def length_m(self) -> float:
+        """Arc length of all curves."""
+        return self._value.length_m
+
+    @property
+    def turned_rad(self) -> float:
+        """Sum of the sizes of all turns in place."""
+        return self._value.turned_rad
+
+    def poses(self, step_m: float = 0.05) -> NDArray[np.float64]:
+        """Poses along the path, shape (N, 3): x and y in m, heading in rad."""
+        log = self._value.poses(number("step_m", step_m, above=0.0))
+        return np.stack([log.column(name) for name in ("position_x_m", "position_y_m", "heading_rad")], axis=1)
+
+    def __repr__(self) -> str:
+        return f"Path({self.length_m:.6g} m)"

@@ -1,0 +1,225 @@
+"""Plans: missions, and profiles along a path."""
+
+from __future__ import annotations
+
+import functools
+import html
+import json
+import os
+from pathlib import Path as FilePath
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._errors import Infeasible, PlanningError, refused
+from ._files import save
+from ._inputs import number, numbers, one_of, text_of, times, whole
+from ._records import Record
+from .logs import Log
+from .paths import Path
+from .robots import Robot, robot_of
+
+SOLVERS = ("ipopt", "fast")
+
+
+class Plan:
+    """An energy-optimal plan. ``json`` holds all of plan.json; the commonest parts are attributes here."""
+
+    def __init__(self, value: _core.PlanValue) -> None:
+        self._value = value
+
+    @functools.cached_property
+    def json(self) -> Record:
+        """plan.json (schema joulepath/plan/1)."""
+        return Record(json.loads(self._value.json))
+
+    @property
+    def status(self) -> str:
+        """``optimal`` (proven), ``feasible``, ``infeasible`` or ``failed``."""
+        return self._value.status
+
+    @property
+    def energy_J(self) -> float:
+        """Energy at the battery's terminals, standby included."""
+        return float(self.json.energy_J)
+
+    @property
+    def interval_95_J(self) -> tuple[float, float]:
+        """95 % interval of the energy, from the uncertainty that the robot file states."""
+        low, high = self.json.energy_interval_95_J
+        return (low, high)
+
+    @property
+    def lower_bound_J(self) -> float | None:
+        """No profile on these paths takes less; None for a drive of least time."""
+        bound = self.json.lower_bound_J
+        return None if bound is None else float(bound)
+
+    @property
+    def duration_s(self) -> float:
+        """Driving, waiting and dwell."""
+        return float(self.json.duration_s)
+
+    @property
+    def legs(self) -> tuple[Record, ...]:
+        """The legs as plan.json has them."""
+        return tuple(self.json.legs)
+
+    @functools.cached_property
+    def robot(self) -> Robot:
+        """The robot that was planned for."""
+        return Robot._of(self._value.robot)
+
+    @functools.cached_property
+    def trajectory(self) -> Log:
+        """The samples of trajectory.csv (50 Hz)."""
+        return Log(self._value.trajectory())
+
+    def at(self, t: ArrayLike) -> Log:
+        """The plan at a time or at increasing times (s), exact at each; ``energy_J`` counts from the first."""
+        at = times("t", np.atleast_1d(numbers("t", t, ndim=np.ndim(t))))
+        if len(at) and (at[0] < 0 or at[-1] > self.duration_s):
+            raise refused("t", f"{at[0]:g} to {at[-1]:g} s", f"times from 0 to {self.duration_s:g} s")
+        return Log(self._value.at(at))
+
+    def to_frame(self) -> Any:
+        """The trajectory as a pandas.DataFrame; needs pandas."""
+        return self.trajectory.to_frame()
+
+    def plot(self, axes: Any = None) -> Any:
+        """Speed and power over time; needs matplotlib. Returns the two axes."""
+        import matplotlib.pyplot as plt
+
+        if axes is None:
+            _, axes = plt.subplots(2, 1, sharex=True)
+        t = self.trajectory["time_s"]
+        axes[0].plot(t, self.trajectory["linear_speed_m_s"], label="speed, m/s")
+        axes[0].plot(t, self.trajectory["angular_speed_rad_s"], label="yaw rate, rad/s")
+        axes[1].plot(t, self.trajectory["battery_power_W"], label="battery power, W")
+        axes[1].set_xlabel("time, s")
+        for axis in axes:
+            axis.legend()
+        return axes
+
+    def report(self) -> str:
+        """report.html: one page that needs nothing else."""
+        return self._value.report()
+
+    def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
+        """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does."""
+        driven = self.status in ("optimal", "feasible")
+        return save(directory, {"plan.json": self._value.json,
+                                "trajectory.csv": self.trajectory.text() if driven else None,
+                                "profile.csv": self._value.profile_text() if driven else None,
+                                "report.html": self.report()}, force)
+
+    def _repr_html_(self) -> str:
+        return (f'<iframe srcdoc="{html.escape(self.report())}" width="100%" height="900" '
+                'style="border: 0"></iframe>')
+
+    def __repr__(self) -> str:
+        if self.status in ("optimal", "feasible"):
+            return f"{type(self).__name__}({self.status}, {self.energy_J:.6g} J, {self.duration_s:.6g} s)"
+        return f"{type(self).__name__}({self.status})"
+
+
+class Profile(Plan):
+    """The plan along one path. ``t``, ``s``, ``v``, ``a``, ``w`` and ``power_W`` are read-only views of shape (N,).
+
+    >>> p = profile(Robot.example(), [[0, 0], [3, 0]])
+    >>> len(p.t) == len(p.v) == len(p.power_W)
+    True
+    >>> float(p.at(0.0)["linear_speed_m_s"][0])
+    0.0
+    """
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Time, s."""
+        return self.trajectory["time_s"]
+
+    @property
+    def s(self) -> NDArray[np.float64]:
+        """Arc length, m."""
+        return self.trajectory["arc_length_m"]
+
+    @property
+    def v(self) -> NDArray[np.float64]:
+        """Speed, m/s."""
+        return self.trajectory["linear_speed_m_s"]
+
+    @property
+    def a(self) -> NDArray[np.float64]:
+        """Acceleration, m/s2."""
+        return self.trajectory["linear_acceleration_m_s2"]
+
+    @property
+    def w(self) -> NDArray[np.float64]:
+        """Yaw rate, rad/s."""
+        return self.trajectory["angular_speed_rad_s"]
+
+    @property
+    def power_W(self) -> NDArray[np.float64]:
+        """Power at the battery's terminals, W."""
+        return self.trajectory["battery_power_W"]
+
+
+def _checked(result: Plan) -> None:
+    if result.status == "infeasible":
+        raise Infeasible(result._value.message, result)
+    if result.status == "failed":
+        raise PlanningError(result._value.message, result)
+
+
+def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time_s: float | None = None,
+            solver: str = "ipopt", nodes: int = 200, accuracy: float = 1e-4) -> Profile:
+    """The speed profile of least energy along a path, from rest to rest, within every limit of the robot.
+
+    ``xy``: waypoints, shape (N, 2) in m, or a Path. ``time_s``: duration; None is that of least energy.
+    ``solver``: ``ipopt`` (reference) or ``fast``. The GIL is released meanwhile. Raises Infeasible, ConfigError.
+    """
+    path = xy if isinstance(xy, Path) else Path(xy)
+    result = Profile(_core.profile(
+        robot_of(robot)._value, path._value, number("payload_kg", payload_kg, least=0.0),
+        None if time_s is None else number("time_s", time_s, above=0.0), one_of("solver", solver, SOLVERS),
+        whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0)))
+    _checked(result)
+    return result
+
+
+def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | str | os.PathLike[str] | None = None,
+         map: str | os.PathLike[str] | None = None, payload_kg: float | None = None, time_s: float | None = None,
+         solver: str = "ipopt", nodes: int = 200, seed: int = 1, accuracy: float = 1e-4,
+         baselines: bool = True) -> Plan:
+    """Plans a mission for the least energy, as ``joulepath plan`` does.
+
+    ``mission``: a file (mission, VDA 5050 order, path), or a dict with the keys of a mission file, whose file names
+    are seen from the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
+    mission's; ``payload_kg`` and ``time_s`` are for a path. Raises Infeasible, PlanningError, ConfigError.
+    """
+    options = (one_of("solver", solver, SOLVERS), whole("nodes", nodes, 10, 20000), whole("seed", seed, 0, 2**32 - 1),
+               number("accuracy", accuracy, above=0.0), bool(baselines))
+    if isinstance(mission, Mapping):
+        if payload_kg is not None or time_s is not None:
+            raise refused("payload_kg" if payload_kg is not None else "time_s", "a value together with a mission",
+                          "a value only together with a path", "legs of a mission have their own")
+        values = dict(mission)
+        if isinstance(values.get("robot"), Robot) and robot is None:
+            robot = values["robot"]
+        if robot is not None:
+            values["robot"] = "robot"  # not read: the value takes its place
+        if map is not None:
+            values["map"] = os.fspath(map)
+        at_hand = None if robot is None else robot_of(robot)._value
+        result = Plan(_core.plan_text(text_of("mission", values), "mission", at_hand, *options))
+    else:
+        name = os.fspath(robot) if isinstance(robot, (str, os.PathLike)) else ""
+        value = robot._value if isinstance(robot, Robot) else None
+        result = Plan(_core.plan_file(
+            os.fspath(mission), name, value, "" if map is None else os.fspath(map),
+            None if payload_kg is None else number("payload_kg", payload_kg, least=0.0),
+            None if time_s is None else number("time_s", time_s, above=0.0), *options))
+    _checked(result)
+    return result

@@ -1,0 +1,63 @@
+"""Plans driven on a simulated robot."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Mapping, Sequence
+
+from . import _core
+from ._errors import refused
+from ._inputs import number, text_of, whole
+from .logs import Log
+from .plans import Plan
+from .robots import Robot, robot_of
+
+Effects = Mapping[str, Mapping[str, Any]]
+
+
+class Simulation(Log):
+    """The log of a simulated run, as its sensors show it."""
+
+    __slots__ = ("__dict__", "_run")
+
+    def __init__(self, run: _core.SimulationValue) -> None:
+        super().__init__(run.log())
+        self._run = run
+
+    @functools.cached_property
+    def executed(self) -> Log:
+        """The truth at the samples, without the sensors' errors."""
+        return Log(self._run.executed())
+
+    @property
+    def energy_J(self) -> float:
+        """Energy at the battery's terminals, standby included."""
+        return self._run.energy_J
+
+    @property
+    def duration_s(self) -> float:
+        return self._run.duration_s
+
+
+def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Sequence[Effects] = (), seed: int = 1,
+             ideal_sensors: bool = False, time_of_day_s: float = 0.0, sample_rate_Hz: float = 50.0) -> Simulation:
+    """Drives a plan on a simulated robot, as ``joulepath simulate`` does.
+
+    ``robot`` is what the controller believes (None: the plan's). ``effects`` are those of the catalog that it does not
+    know: ``{"rolling_resistance": {"coefficient": 0.01}}``, or a list of such dicts where one stands twice; a ``side``
+    is ``left`` or ``right``. ``seed`` is that of the sensors' noise. Raises ConfigError.
+
+    >>> from joulepath import profile
+    >>> p = profile(Robot.example(), [[0, 0], [2, 0]])
+    >>> log = simulate(p, effects={"rolling_resistance": {"coefficient": 0.02}}, seed=3)
+    >>> log.energy_J > p.energy_J
+    True
+    """
+    if not isinstance(plan, Plan):
+        raise refused("plan", type(plan).__name__, "a Plan or a Profile")
+    groups = [effects] if isinstance(effects, Mapping) else list(effects)
+    listed = [{name: settings} for group in groups for name, settings in group.items()]
+    return Simulation(_core.simulate(
+        plan._value, None if robot is None else robot_of(robot)._value, text_of("effects", listed),
+        bool(ideal_sensors), number("time_of_day_s", time_of_day_s), number("sample_rate_Hz", sample_rate_Hz, above=0.0),
+        whole("seed", seed, 0, 2**64 - 1)))

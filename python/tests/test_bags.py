@@ -1,0 +1,149 @@
+"""Bags that other programs wrote are read as those programs read them; bags that joulepath writes are read by them."""
+import subprocess
+
+import numpy as np
+import pytest
+
+import joulepath as jp
+
+START_NS = 1_700_000_000_000_000_000
+
+
+def record(file, compression, seconds=40.0):
+    """A drive with real message definitions; gives its columns."""
+    rosbags = pytest.importorskip("rosbags.typesys")
+    writer_of = pytest.importorskip("mcap.writer")
+    store = rosbags.get_typestore(rosbags.Stores.ROS2_HUMBLE)
+    types = store.types
+    t = np.arange(0, seconds, 0.02)
+    v = 0.4 * np.sin(0.3 * t) ** 2
+    w = 0.5 * np.sin(0.2 * t)
+
+    def header(k):
+        total = START_NS + int(round(t[k] * 1e9))
+        stamp = types["builtin_interfaces/msg/Time"](sec=total // 10**9, nanosec=total % 10**9)
+        return types["std_msgs/msg/Header"](stamp=stamp, frame_id="odom")
+
+    def vector(x=0.0, y=0.0, z=0.0):
+        return types["geometry_msgs/msg/Vector3"](x=x, y=y, z=z)
+
+    covariance = np.zeros(36)
+    with open(file, "wb") as stream:
+        writer = writer_of.Writer(stream, compression=getattr(writer_of.CompressionType, compression), chunk_size=50_000)
+        writer.start(profile="ros2")
+        channels = {}
+        for topic, name in (("/odom", "nav_msgs/msg/Odometry"), ("/joint_states", "sensor_msgs/msg/JointState")):
+            definition, _ = store.generate_msgdef(name, ros_version=2)
+            schema = writer.register_schema(name, "ros2msg", definition.encode())
+            channels[topic] = writer.register_channel(topic, "cdr", schema)
+        for k in range(len(t)):
+            pose = types["geometry_msgs/msg/PoseWithCovariance"](
+                pose=types["geometry_msgs/msg/Pose"](
+                    position=types["geometry_msgs/msg/Point"](x=float(t[k]), y=0.0, z=0.0),
+                    orientation=types["geometry_msgs/msg/Quaternion"](x=0.0, y=0.0, z=0.0, w=1.0)), covariance=covariance)
+            twist = types["geometry_msgs/msg/TwistWithCovariance"](
+                twist=types["geometry_msgs/msg/Twist"](linear=vector(x=v[k]), angular=vector(z=w[k])), covariance=covariance)
+            odometry = types["nav_msgs/msg/Odometry"](header=header(k), child_frame_id="base_link", pose=pose, twist=twist)
+            joints = types["sensor_msgs/msg/JointState"](
+                header=header(k), name=["arm", "wheel_right_joint", "wheel_left_joint"], position=np.zeros(3),
+                velocity=np.array([9.0, (v[k] + 0.165 * w[k]) / 0.1, (v[k] - 0.165 * w[k]) / 0.1]),
+                effort=np.array([0.0, 1.0 + v[k], 1.1 + v[k]]))
+            time_ns = START_NS + int(round(t[k] * 1e9)) + 2_000_000
+            for topic, message, name in (("/odom", odometry, "nav_msgs/msg/Odometry"),
+                                         ("/joint_states", joints, "sensor_msgs/msg/JointState")):
+                writer.add_message(channels[topic], time_ns, bytes(store.serialize_cdr(message, name)), time_ns)
+        writer.finish()
+    return {"time_s": np.array([(START_NS + int(round(x * 1e9))) // 10**9 + 1e-9 * ((START_NS + int(round(x * 1e9))) % 10**9)
+                                for x in t]),
+            "wheel_speed_left_rad_s": (v - 0.165 * w) / 0.1, "wheel_speed_right_rad_s": (v + 0.165 * w) / 0.1,
+            "linear_speed_m_s": v, "angular_speed_rad_s": w, "position_x_m": t, "position_y_m": 0 * t, "heading_rad": 0 * t,
+            "motor_current_left_A": 1.1 + v, "motor_current_right_A": 1.0 + v}
+
+
+COLUMNS = {"wheel_speed_left_rad_s": {"from": "/joint_states.velocity[wheel_left_joint]"},
+           "wheel_speed_right_rad_s": {"from": "/joint_states.velocity[wheel_right_joint]"},
+           "motor_current_left_A": {"from": "/joint_states.effort[wheel_left_joint]"},
+           "motor_current_right_A": {"from": "/joint_states.effort[2]", "offset": -0.1},
+           "linear_speed_m_s": {"from": "/odom.twist.twist.linear.x"},
+           "angular_speed_rad_s": {"from": "/odom.twist.twist.angular.z"},
+           "position_x_m": {"from": "/odom.pose.pose.position.x"}, "position_y_m": {"from": "/odom.pose.pose.position.y"},
+           "orientation_w": {"from": "/odom.pose.pose.orientation.w"},
+           "orientation_z": {"from": "/odom.pose.pose.orientation.z"}}
+
+
+@pytest.mark.parametrize("compression", ["NONE", "LZ4", "ZSTD"])
+def test_a_diagnosis_from_bags_is_that_of_their_columns(robot, tmp_path, compression):
+    frames, bags = [], []
+    for k in range(3):
+        bags.append(str(tmp_path / f"run_{k}.mcap"))
+        frames.append(record(bags[-1], compression, seconds=30.0 + 5 * k))
+    columns = dict(COLUMNS, motor_current_right_A={"from": "/joint_states.effort[wheel_right_joint]"})
+    from_bags = jp.diagnose(robot, bags, columns=columns).json.to_dict()
+    from_frames = jp.diagnose(robot, [jp.Run(frame, name=bag) for frame, bag in zip(frames, bags)]).json.to_dict()
+    for answer in (from_bags, from_frames):
+        answer.pop("artifacts")
+    assert from_bags == from_frames
+
+
+def test_check_lists_topics_and_proposes_a_dataset(program, tmp_path):
+    record(tmp_path / "day.mcap", "ZSTD", seconds=4.0)
+    done = subprocess.run([program, "check", tmp_path / "day.mcap"], capture_output=True, text=True, check=True)
+    assert "400 messages" in done.stdout and "/joint_states: 200 messages" in done.stderr
+    assert 'wheel_speed_left_rad_s: {from: "/joint_states.velocity[wheel_left_joint]"}' in done.stdout
+    robot = jp.Robot.example()
+    robot.save(tmp_path / "robot.yaml")
+    text = done.stdout[done.stdout.index("schema:"):]
+    (tmp_path / "dataset.yaml").write_text(text)
+    subprocess.run([program, "check", tmp_path / "dataset.yaml"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "estimate", tmp_path / "day.mcap", "--robot", tmp_path / "robot.yaml"], check=True,
+                   stdout=subprocess.DEVNULL)
+
+
+def test_an_exported_bag_is_read_by_others_and_by_joulepath(program, scenarios, tmp_path):
+    reader = pytest.importorskip("mcap.reader")
+    rosbags = pytest.importorskip("rosbags.typesys")
+    (tmp_path / "path.csv").write_text("x_m,y_m\n0,0\n2,0\n4,1\n")
+    file = scenarios / "robots" / "nomad_super_scout.yaml"
+    subprocess.run([program, "export", tmp_path / "path.csv", "--robot", file, "--to", "bag", "--out", tmp_path / "plan.mcap"],
+                   check=True, stdout=subprocess.DEVNULL)
+    plan = jp.plan(tmp_path / "path.csv", robot=jp.Robot.load(file), solver="fast", baselines=False)
+    store = rosbags.get_typestore(rosbags.Stores.ROS2_HUMBLE)
+    speeds, poses = [], None
+    with open(tmp_path / "plan.mcap", "rb") as stream:
+        for schema, channel, message in reader.make_reader(stream).iter_messages():
+            if channel.message_encoding == "cdr":
+                decoded = store.deserialize_cdr(message.data, schema.name)
+                if channel.topic == "/plan/odom":
+                    speeds.append(decoded.twist.twist.linear.x)
+                else:
+                    poses = decoded.poses
+    np.testing.assert_array_equal(speeds, plan.trajectory["linear_speed_m_s"])
+    np.testing.assert_array_equal([p.pose.position.x for p in poses], plan.trajectory["position_x_m"])
+    subprocess.run([program, "estimate", tmp_path / "plan.mcap", "--robot", file], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_rosbag2_folders_of_sqlite_files_are_read(robot, tmp_path):
+    """Two writers' files of one topic, without definitions, as ROS 2 Humble writes them."""
+    rosbag2 = pytest.importorskip("rosbags.rosbag2")
+    typesys = pytest.importorskip("rosbags.typesys")
+    store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+    types = store.types
+    folder = tmp_path / "day"
+    with rosbag2.Writer(folder, version=8) as writer:
+        connection = writer.add_connection("/odom", "nav_msgs/msg/Odometry", typestore=store)
+        for k in range(300):
+            time_ns = START_NS + k * 20_000_000
+            stamp = types["builtin_interfaces/msg/Time"](sec=time_ns // 10**9, nanosec=time_ns % 10**9)
+            zero = types["geometry_msgs/msg/Vector3"](x=0.0, y=0.0, z=0.0)
+            message = types["nav_msgs/msg/Odometry"](
+                header=types["std_msgs/msg/Header"](stamp=stamp, frame_id="odom"), child_frame_id="base",
+                pose=types["geometry_msgs/msg/PoseWithCovariance"](
+                    pose=types["geometry_msgs/msg/Pose"](position=types["geometry_msgs/msg/Point"](x=0.004 * k, y=0.0, z=0.0),
+                                                         orientation=types["geometry_msgs/msg/Quaternion"](x=0.0, y=0.0, z=0.0, w=1.0)),
+                    covariance=np.zeros(36)),
+                twist=types["geometry_msgs/msg/TwistWithCovariance"](
+                    twist=types["geometry_msgs/msg/Twist"](linear=types["geometry_msgs/msg/Vector3"](x=0.2, y=0.0, z=0.0), angular=zero),
+                    covariance=np.zeros(36)))
+            writer.write(connection, time_ns, store.serialize_cdr(message, "nav_msgs/msg/Odometry"))
+    from_bag = jp.diagnose(robot, [str(folder)])
+    assert from_bag.verdict == "too_little_data"

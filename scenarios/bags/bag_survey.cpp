@@ -1,0 +1,168 @@
+#include "scenarios/bags/bag_survey.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "scenarios/bags/byte_reader.hpp"
+#include "scenarios/bags/message_numbers.hpp"
+#include "scenarios/bags/state_lines.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string short_type(const BagTopic& topic) {
+  const std::string& type = topic.channel.type;
+  return type.substr(0, type.find('/')) + type.substr(std::min(type.rfind('/'), type.size()));
+}
+
+/// Collects sources; a column keeps the first that is suggested for it.
+class Suggestion {
+ public:
+  explicit Suggestion(const BagSurvey& survey) : survey_(survey) {}
+
+  ColumnSources columns() {
+    for (const BagTopic& topic : survey_.topics)
+      if (topic.readable && topic.messages > 0) of_topic(topic);
+    return std::move(columns_);
+  }
+
+ private:
+  void add(const std::string& column, const BagTopic& topic, const std::string& path, double scale = 1.0) {
+    columns_.try_emplace(column, ColumnSource{.from = {topic.channel.topic + "." + path}, .scale = scale});
+  }
+
+  /// The keys of version 2, then those of version 3.
+  void state(const BagTopic& topic) {
+    const auto either = [&](const char* column, const char* two, const char* three) {
+      columns_.try_emplace(
+          column, ColumnSource{.from = {topic.channel.topic + "." + two, topic.channel.topic + "." + three}});
+    };
+    add("linear_speed_m_s", topic, "velocity.vx");
+    add("angular_speed_rad_s", topic, "velocity.omega");
+    either("position_x_m", "agvPosition.x", "mobileRobotPosition.x");
+    either("position_y_m", "agvPosition.y", "mobileRobotPosition.y");
+    either("heading_rad", "agvPosition.theta", "mobileRobotPosition.theta");
+    either("battery_voltage_V", "batteryState.batteryVoltage", "powerSupply.batteryVoltage");
+    add("battery_current_A", topic, "powerSupply.batteryCurrent");
+  }
+
+  void of_topic(const BagTopic& topic) {
+    const std::string type = short_type(topic);
+    if (type == kStateType) {
+      if (columns_.empty()) state(topic);  // one robot at a time
+    } else if (type == "nav_msgs/Odometry") {
+      add("linear_speed_m_s", topic, "twist.twist.linear.x");
+      add("angular_speed_rad_s", topic, "twist.twist.angular.z");
+      pose(topic);
+    } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
+      if (!has_odometry()) pose(topic);
+    } else if (type == "sensor_msgs/JointState") {
+      for (const char* side : {"left", "right"}) wheel(topic, side);
+    } else if (type == "sensor_msgs/BatteryState") {
+      add("battery_voltage_V", topic, "voltage");
+      add("battery_current_A", topic, "current", -1.0);
+    } else if (type == "sensor_msgs/Imu") {
+      add("gyro_yaw_rate_rad_s", topic, "angular_velocity.z");
+    } else if (type == "geometry_msgs/Twist" || type == "geometry_msgs/TwistStamped") {
+      const std::string twist = type == "geometry_msgs/Twist" ? "" : "twist.";
+      add("command_linear_speed_m_s", topic, twist + "linear.x");
+      add("command_angular_speed_rad_s", topic, twist + "angular.z");
+    }
+  }
+
+  [[nodiscard]] bool has_odometry() const {
+    return std::ranges::any_of(survey_.topics, [](const BagTopic& topic) {
+      return topic.readable && topic.messages > 0 && short_type(topic) == "nav_msgs/Odometry";
+    });
+  }
+
+  void pose(const BagTopic& topic) {
+    add("position_x_m", topic, "pose.pose.position.x");
+    add("position_y_m", topic, "pose.pose.position.y");
+    for (const char* part : {"w", "x", "y", "z"})
+      add(std::string("orientation_") + part, topic, std::string("pose.pose.orientation.") + part);
+  }
+
+  /// The one joint whose name holds the side.
+  void wheel(const BagTopic& topic, const std::string& side) {
+    std::vector<std::string> found;
+    for (const std::string& joint : topic.elements)
+      if (joint.find(side) != std::string::npos) found.push_back(joint);
+    if (found.size() == 1) add("wheel_speed_" + side + "_rad_s", topic, "velocity[" + found.front() + "]");
+  }
+
+  const BagSurvey& survey_;
+  ColumnSources columns_{};
+};
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) result += c;
+  }
+  return result + "\"";
+}
+
+std::string listed(const std::vector<std::string>& sources) {
+  std::string text;
+  for (const std::string& source : sources) text += (text.empty() ? "" : ", ") + quoted(source);
+  return sources.size() == 1 ? text : "[" + text + "]";
+}
+
+}  // namespace
+
+BagSurvey survey_bag(const std::string& file, const NamedBy& named_by) {
+  BagSurvey survey;
+  std::vector<std::unique_ptr<MessageNumbers>> readers;
+  std::uint64_t first_ns = ~std::uint64_t{0}, last_ns = 0;
+  survey.damage = read_bag(
+      file, named_by,
+      [&](const BagChannel& channel) {
+        readers.push_back(message_numbers(channel));
+        survey.topics.push_back({.channel = channel, .readable = readers.back() != nullptr});
+      },
+      [&](const BagMessage& message) {
+        BagTopic& topic = survey.topics[message.channel];
+        first_ns = std::min(first_ns, message.log_time_ns);
+        last_ns = std::max(last_ns, message.log_time_ns);
+        if (topic.messages++ == 0 && topic.readable) try {
+            topic.elements = readers[message.channel]->element_names(message.data);
+          } catch (const BytesEnd&) {
+          }
+      });
+  if (last_ns > first_ns) survey.duration_s = 1e-9 * static_cast<double>(last_ns - first_ns);
+  return survey;
+}
+
+ColumnSources suggested_columns(const BagSurvey& survey) { return Suggestion(survey).columns(); }
+
+std::string suggested_dataset(const BagSurvey& survey, const std::string& file) {
+  std::string text = "schema: joulepath/dataset/1\nrobot: robot.yaml\ncolumns:\n";
+  const ColumnSources columns = suggested_columns(survey);
+  for (const LogColumn& known : log_columns())
+    if (const auto found = columns.find(known.name); found != columns.end())
+      text += "  " + known.name + ": {from: " + listed(found->second.from) +
+              (found->second.scale == 1.0 ? "}\n" : ", scale: -1}  # positive: the battery gives\n");
+  for (const char* name : kOrientationColumns)
+    if (const auto found = columns.find(name); found != columns.end())
+      text += std::string("  ") + name + ": {from: " + quoted(found->second.from.front()) + "}\n";
+  for (const BagTopic& topic : survey.topics)
+    if (short_type(topic) == "sensor_msgs/JointState")
+      for (const char* side : {"left", "right"})
+        for (const std::string& joint : topic.elements)
+          if (joint.find(side) != std::string::npos)
+            text += std::string("  # motor_current_") + side +
+                    "_A: {from: " + quoted(topic.channel.topic + ".effort[" + joint + "]") +
+                    "}  # if effort is a current in A\n";
+  return text + "runs:\n  - {file: " + quoted(std::filesystem::path(file).filename().string()) + "}\n";
+}
+
+bool split_source(const std::string& from, const std::string& topic, std::string& path) {
+  if (from.size() <= topic.size() + 1 || from.rfind(topic, 0) != 0 || from[topic.size()] != '.') return false;
+  path = from.substr(topic.size() + 1);
+  return true;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/bags/bag_file.hpp"
+#include "scenarios/log_columns.hpp"
+
+namespace joulepath {
+
+/// A topic of a bag and what it may tell of a run.
+struct BagTopic {
+  BagChannel channel{};
+  std::size_t messages{};
+  bool readable{};                      ///< its encoding and its definition are known
+  std::vector<std::string> elements{};  ///< names beside its arrays (joints)
+};
+
+struct BagSurvey {
+  std::vector<BagTopic> topics{};
+  BagDamage damage{};
+  double duration_s{};  ///< between the first and the last log time
+};
+
+/// The topics of a bag.
+[[nodiscard]] BagSurvey survey_bag(const std::string& file, const NamedBy& named_by = {});
+
+/// The columns that the types of a bag's topics suggest: speeds and pose of the first Odometry, wheels of the
+/// first JointState whose joints are called left and right, battery, gyro and commands. Currents are not
+/// among them: an effort may be a torque.
+[[nodiscard]] ColumnSources suggested_columns(const BagSurvey& survey);
+
+/// A dataset file of a bag, with the suggested columns, to be confirmed by the user.
+[[nodiscard]] std::string suggested_dataset(const BagSurvey& survey, const std::string& file);
+
+/// The topic and the field path of a column's `from`, `/odom.twist.twist.linear.x`; false where no topic
+/// fits.
+[[nodiscard]] bool split_source(const std::string& from, const std::string& topic, std::string& path);
+
+}  // namespace joulepath

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "scenarios/bags/mcap_file.hpp"
+
+namespace joulepath {
+
+/// Reads a file of rosbag2's sqlite3 storage in the order of its times. Definitions are in the files since
+/// ROS 2 Iron. Throws ConfigError where the file cannot be read or is no such bag.
+[[nodiscard]] BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
+                                        const std::function<void(const BagChannel&)>& on_channel,
+                                        const std::function<void(const BagMessage&)>& on_message);
+
+}  // namespace joulepath
