@@ -13,7 +13,7 @@ namespace joulepath {
 namespace {
 
 const BezierPoints kStraight{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}};
-const BezierPoints kTurn{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}};  // [P1, Eq. (34)]
+const BezierPoints kQuarterTurn{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}};  // [P1, Eq. (34)]
 constexpr std::size_t kNodes = 80;
 
 Robot with_limits(Robot robot) {
@@ -52,9 +52,9 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
   const Plant plant = make_plant(with_limits(driven));
   const PlanOptions options{.solver = SolverChoice::fast, .nodes = kNodes, .baselines = false};
   const double half_load_kg = 0.5 * std::min(10.0, payload_limit_kg(with_limits(nominal)));
-  const std::vector<MissionRequest> missions{mission_along(kStraight, 0.0),
-                                             mission_along(kStraight, half_load_kg),
-                                             mission_along(kTurn, 0.0), mission_along(kTurn, half_load_kg)};
+  const std::vector<MissionRequest> missions{
+      mission_along(kStraight, 0.0), mission_along(kStraight, half_load_kg), mission_along(kQuarterTurn, 0.0),
+      mission_along(kQuarterTurn, half_load_kg)};
   // Even entries plan with the nominal robot, odd ones with the corrected; joules on the plant that is
   // driven.
   std::vector<double> energy_J(2 * missions.size());

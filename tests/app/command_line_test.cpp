@@ -68,7 +68,7 @@ TEST(CommandLine, AStopWhereTheRobotDoesNotFitIsNamedByFileAndLine) {
                                   "start: {station: a}\nlegs:\n  - {to: wall}\n");
   const auto result = run_program(scratch, "plan " + mission + " -q --out " + scratch.at("out"));
   EXPECT_EQ(result.code, 1);
-  EXPECT_NE(result.err.find("m.yaml:6:9: legs[0].to"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("m.yaml:6:10: legs[0].to"), std::string::npos) << result.err;
 }
 
 TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
