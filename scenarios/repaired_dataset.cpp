@@ -51,6 +51,8 @@ class Repairs {
     return "in the run's entry: columns: " + columns_text(changed);
   }
 
+  bool leaves_no_run() const { return left_out_.size() == own_.size(); }
+
   DatasetEdit edit() const {
     DatasetEdit edit{.columns = common_, .left_out = left_out_};
     for (std::size_t e = 0; e < own_.size(); ++e)
@@ -101,6 +103,12 @@ std::string repaired_dataset_text(const Dataset& dataset, const std::vector<Data
                                   const std::string& directory) {
   Repairs repairs(dataset, document_of(dataset));
   for (const DataCheck& check : checks) static_cast<void>(repairs.apply(check));
+  if (repairs.leaves_no_run())
+    throw ConfigError({{dataset.file, 1, 1},
+                       "runs",
+                       "no run that a repair makes usable",
+                       "a dataset with a run that can be repaired",
+                       "see what check says of each channel"});
   DatasetEdit edit = repairs.edit();
   edit.comment = "# Channels repaired by `joulepath check --repair`:\n";
   for (const DataCheck& check : checks)

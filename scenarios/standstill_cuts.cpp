@@ -25,7 +25,15 @@ bool is_cut(const Run& run) {
          run.log.wheel_speed_rad_s.right.size() == run.log.size();
 }
 
-/// Middles of the stops, at least `part_s` apart and from both ends.
+/// Where a stop is cut: where the payload changes, else in its middle.
+std::size_t cut_of_stop(const Trajectory& log, std::size_t begin, std::size_t end) {
+  if (log.payload_kg.size() == log.size())
+    for (std::size_t i = end; i > begin; --i)
+      if (log.payload_kg[i] != log.payload_kg[i - 1]) return i;
+  return begin + (end - begin) / 2;
+}
+
+/// Cuts inside the stops, at least `part_s` apart and from both ends.
 std::vector<std::size_t> cuts_of(const Trajectory& log, double part_s) {
   const auto still = [&](std::size_t i) {
     return std::max(std::abs(log.wheel_speed_rad_s.left[i]), std::abs(log.wheel_speed_rad_s.right[i])) <
@@ -36,11 +44,11 @@ std::vector<std::size_t> cuts_of(const Trajectory& log, double part_s) {
     if (!still(begin)) continue;
     std::size_t end = begin;
     while (end + 1 < log.size() && still(end + 1)) ++end;
-    const std::size_t middle = begin + (end - begin) / 2;
+    const std::size_t cut = cut_of_stop(log, begin, end);
     if (log.time_s[end] - log.time_s[begin] >= kShortestStop_s &&
-        log.time_s[middle] - log.time_s[bounds.back()] >= part_s &&
-        log.time_s.back() - log.time_s[middle] >= part_s)
-      bounds.push_back(middle);
+        log.time_s[cut] - log.time_s[bounds.back()] >= part_s &&
+        log.time_s.back() - log.time_s[cut] >= part_s)
+      bounds.push_back(cut);
     begin = end;
   }
   bounds.push_back(log.size());

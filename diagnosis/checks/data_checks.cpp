@@ -83,10 +83,12 @@ class DataCheckSearch {
                  [&](std::size_t r) { runs_[r].relations = relations_of(runs_[r].signals, dataset_.robot); });
   }
 
+  /// Sides, signs and units first: a swapped or tiny channel follows its own quantity as little as a dead
+  /// one. A factor that is no unit comes last, as it might stand in for a dead channel.
   std::vector<DataCheck> find() {
+    find_faults(false);
     find_dead();
-    for (int k = 0; k < kMostFaults; ++k)
-      if (!find_fault()) break;
+    find_faults(true);
     return std::move(checks_);
   }
 
@@ -115,6 +117,11 @@ class DataCheckSearch {
         check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index].name;
     }
     checks_.push_back(std::move(check));
+  }
+
+  void find_faults(bool with_factors) {
+    for (int k = 0; k < kMostFaults; ++k)
+      if (!find_fault(with_factors)) break;
   }
 
   void find_dead() {
@@ -153,9 +160,10 @@ class DataCheckSearch {
   };
 
   /// The fault that explains most, over the runs that it mends.
-  std::optional<Found> best_fault(const std::vector<std::size_t>& broken) const {
+  std::optional<Found> best_fault(const std::vector<std::size_t>& broken, bool with_factors) const {
     std::optional<Found> best;
     for (const Fault& fault : possible_faults(run_of(runs_[broken.front()]))) {
+      if (fault.kind == "scaled" && !with_factors) continue;
       std::vector<Effectiveness> effect(broken.size());
       parallel_for(broken.size(), [&](std::size_t k) {
         const Examined& examined = runs_[broken[k]];
@@ -205,12 +213,12 @@ class DataCheckSearch {
     found.fault = with_factor(found.fault, best);
   }
 
-  bool find_fault() {
+  bool find_fault(bool with_factors) {
     std::vector<std::size_t> broken;
     for (std::size_t r = 0; r < runs_.size(); ++r)
       if (!runs_[r].lost && !is_sound(runs_[r].relations)) broken.push_back(r);
     if (broken.empty()) return false;
-    std::optional<Found> found = best_fault(broken);
+    std::optional<Found> found = best_fault(broken, with_factors);
     if (!found) return false;
     const std::size_t shown = found->which.front();
     if (found->fault.kind == "scaled") {

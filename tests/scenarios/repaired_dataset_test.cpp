@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 
+#include "scenarios/any_file.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -76,6 +78,35 @@ TEST_F(RepairedDataset, ADeadColumnIsNotReadAndALostRunIsLeftOut) {
   EXPECT_NE(after.runs[0].name.find("b.csv"), std::string::npos);
   EXPECT_TRUE(after.runs[0].log.motor_current_A.right.empty());
   EXPECT_FALSE(after.runs[0].log.motor_current_A.left.empty());
+}
+
+TEST_F(RepairedDataset, WhereNoRunCanBeRepairedNoDatasetIsWritten) {
+  const Dataset before = read();
+  const std::vector<DataCheck> checks{{.runs = {0, 1}}};
+  EXPECT_THROW(static_cast<void>(repaired_dataset_text(before, checks, scratch_.at("out"))), ConfigError);
+}
+
+/// Numbers that no robot has: `check` and `diagnose` name them, other readers refuse the file.
+TEST(SuspectDatasets, AreNamedByCheckAndRefusedElsewhere) {
+  for (const auto& [name, channel, found] :
+       {std::tuple{"currents_in_milliamperes", "motor_current_left_A", "up to 2.41e+04"},
+        std::tuple{"log_of_another_robot", "linear_speed_m_s", "a mean speed of 2.403 m/s"},
+        std::tuple{"speeds_in_rpm", "wheel_speed_left_rad_s", "up to 1.146e+04 rad/s"},
+        std::tuple{"times_in_microseconds", "time_s", "a sample every 1e+05 s"}}) {
+    const std::string file = std::string(JOULEPATH_SOURCE_DIR "/tests/data/suspect/") + name + ".yaml";
+    const FileSummary summary = read_any_file(file);
+    ASSERT_FALSE(summary.data_checks.empty()) << name;
+    EXPECT_EQ(summary.data_checks[0].channel, channel);
+    EXPECT_NE(summary.data_checks[0].evidence.find(found), std::string::npos)
+        << summary.data_checks[0].evidence;
+    try {
+      static_cast<void>(read_dataset(file));
+      ADD_FAILURE() << name << " was read";
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().mark.line, 4) << name;
+      EXPECT_NE(error.detail().found.find(found), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace
