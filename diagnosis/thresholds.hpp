@@ -51,7 +51,9 @@ inline constexpr double kDeadShare = 0.1;
 inline constexpr double kDeadSize = 0.3;
 /// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0220).
 inline constexpr double kSoundWinding = 0.004;
-/// The same of currents against the motion's torques. Chosen (0220).
+/// Above it a side or a sign may be wrong: the drop R i is a small part of the voltage. Chosen (0220).
+inline constexpr double kDoubtfulWinding = 0.0004;
+/// As kSoundWinding, of currents against the motion's torques. Chosen (0220).
 inline constexpr double kSoundTorque = 0.3;
 /// The same of turning rates against each other. Chosen (0220).
 inline constexpr double kSoundTurn = 0.1;
@@ -61,6 +63,8 @@ inline constexpr double kSoundPosition = 0.1;
 inline constexpr double kSoundBattery = 0.05;
 /// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
 inline constexpr double kRepairGain = 4.0;
+/// The same of a relation that is doubtful only. Chosen (0220).
+inline constexpr double kRepairGainOfDoubtful = 10.0;
 /// And may raise it for no other one by more than this, unless that stays sound. Chosen (0220).
 inline constexpr double kRepairHarm = 1.5;
 /// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0220).

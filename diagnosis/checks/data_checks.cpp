@@ -31,9 +31,10 @@ struct Examined {
   bool lost{};  ///< a channel without which nothing can be told is dead
 };
 
-bool is_sound(const Relations& relations) {
-  return std::ranges::all_of(
-      relations, [](const auto& relation) { return !relation || relation->unexplained <= relation->sound; });
+bool is_beyond_doubt(const Relations& relations) {
+  return std::ranges::all_of(relations, [](const auto& relation) {
+    return !relation || relation->unexplained <= relation->doubtful;
+  });
 }
 
 /// What a repair does to a run's relations.
@@ -56,12 +57,16 @@ Effectiveness compare(const Relations& before, const Relations& after, bool by_f
     const double nats = std::log(old_share / new_share);
     result.nats += nats;
     const bool broken = before[k]->unexplained > before[k]->sound;
-    if (nats < -std::log(kRepairHarm) && after[k]->unexplained > after[k]->sound) {
+    if (nats < -std::log(kRepairHarm) &&
+        after[k]->unexplained > (by_factor ? after[k]->sound : after[k]->doubtful)) {
       harmed = true;
       if (!broken) result.contradicts = true;
     }
-    if (broken && nats > std::max(greatest, std::log(kRepairGain)) &&
-        after[k]->unexplained <= after[k]->sound)
+    const bool doubtful = !by_factor && before[k]->unexplained > before[k]->doubtful;
+    const double least = broken     ? std::log(kRepairGain)
+                         : doubtful ? std::log(kRepairGainOfDoubtful)
+                                    : std::numeric_limits<double>::infinity();
+    if (nats > std::max(greatest, least) && after[k]->unexplained <= after[k]->sound)
       greatest = nats, result.most = k;
   }
   result.repairs = greatest > 0 && !harmed;
@@ -216,7 +221,7 @@ class DataCheckSearch {
   bool find_fault(bool with_factors) {
     std::vector<std::size_t> broken;
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      if (!runs_[r].lost && !is_sound(runs_[r].relations)) broken.push_back(r);
+      if (!runs_[r].lost && !is_beyond_doubt(runs_[r].relations)) broken.push_back(r);
     if (broken.empty()) return false;
     std::optional<Found> found = best_fault(broken, with_factors);
     if (!found) return false;

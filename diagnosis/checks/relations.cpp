@@ -66,7 +66,8 @@ BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
 
 std::optional<Relation> relation(std::string law, double sound, const VectorXd& explained,
                                  const std::vector<BoxedTerm>& terms) {
-  return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound};
+  const double doubtful = sound == kSoundWinding ? kDoubtfulWinding : sound;
+  return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
 }
 
 /// V = R i + Kv n q'. A constant stands for an offset of the sensor, the sign for a driver's drop, the

@@ -14,6 +14,8 @@ struct Relation {
   std::string law{};
   double unexplained{};  ///< share of the sum of squares that no coefficient inside the box explains
   double sound{};        ///< what a sound log leaves at most
+  /// Where it leaves more, a side or a sign may be wrong; `sound` where noise may leave as much.
+  double doubtful{};
 };
 
 /// What the nominal robot's motors would have to do for the measured motion.
