@@ -52,7 +52,7 @@ inline constexpr double kDeadSize = 0.3;
 /// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0220).
 inline constexpr double kSoundWinding = 0.004;
 /// Above it a side or a sign may be wrong: the drop R i is a small part of the voltage. Chosen (0220).
-inline constexpr double kDoubtfulWinding = 0.0004;
+inline constexpr double kDoubtfulWinding = 0.0001;
 /// As kSoundWinding, of currents against the motion's torques. Chosen (0220).
 inline constexpr double kSoundTorque = 0.3;
 /// The same of turning rates against each other. Chosen (0220).

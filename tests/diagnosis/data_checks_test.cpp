@@ -19,7 +19,8 @@ Dataset twelve_runs(const std::string& options) {
   return testing::blind_day(options + " --protocol 12 --label none");
 }
 
-/// The run that turns most while it drives: there every channel has something to say.
+/// The run that turns most to one side while it drives: there the sides differ, and every channel has
+/// something to say.
 std::size_t liveliest(const Dataset& dataset) {
   std::size_t best = 0;
   double most = -1;
@@ -27,10 +28,11 @@ std::size_t liveliest(const Dataset& dataset) {
     const Sided<std::vector<double>>& wheels = dataset.runs[r].log.wheel_speed_rad_s;
     double forward = 0, across = 0;
     for (std::size_t i = 0; i < wheels.left.size(); ++i) {
-      forward += std::abs(wheels.left[i] + wheels.right[i]);
-      across += std::abs(wheels.left[i] - wheels.right[i]);
+      forward += wheels.left[i] + wheels.right[i];
+      across += wheels.left[i] - wheels.right[i];
     }
-    if (std::min(forward, across) > most) most = std::min(forward, across), best = r;
+    const double both = std::min(std::abs(forward), std::abs(across));
+    if (both > most) most = both, best = r;
   }
   return best;
 }
