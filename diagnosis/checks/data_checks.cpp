@@ -62,7 +62,7 @@ Effectiveness compare(const Relations& before, const Relations& after, bool by_f
       harmed = true;
       if (!broken) result.contradicts = true;
     }
-    const bool doubtful = !by_factor && before[k]->unexplained > before[k]->doubtful;
+    const bool doubtful = before[k]->unexplained > before[k]->doubtful;
     const double least = broken     ? std::log(kRepairGain)
                          : doubtful ? std::log(kRepairGainOfDoubtful)
                                     : std::numeric_limits<double>::infinity();

@@ -19,20 +19,19 @@ Dataset twelve_runs(const std::string& options) {
   return testing::blind_day(options + " --protocol 12 --label none");
 }
 
-/// The run that turns most to one side while it drives: there the sides differ, and every channel has
-/// something to say.
+/// The run that turns most to both sides: there the motors of both sides have different work, and every
+/// channel has something to say.
 std::size_t liveliest(const Dataset& dataset) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t r = 0; r < dataset.runs.size(); ++r) {
     const Sided<std::vector<double>>& wheels = dataset.runs[r].log.wheel_speed_rad_s;
-    double forward = 0, across = 0;
+    double turned = 0, to_one_side = 0;
     for (std::size_t i = 0; i < wheels.left.size(); ++i) {
-      forward += wheels.left[i] + wheels.right[i];
-      across += wheels.left[i] - wheels.right[i];
+      turned += std::abs(wheels.right[i] - wheels.left[i]);
+      to_one_side += wheels.right[i] - wheels.left[i];
     }
-    const double both = std::min(std::abs(forward), std::abs(across));
-    if (both > most) most = both, best = r;
+    if (turned - std::abs(to_one_side) > most) most = turned - std::abs(to_one_side), best = r;
   }
   return best;
 }
