@@ -2,13 +2,19 @@
 
 #include "app/report/diagnosis_report.hpp"
 #include "scenarios/decision_cost.hpp"
+#include "scenarios/repaired_dataset.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
 namespace joulepath {
 
-DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options) {
+DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
+                                   const Document* document) {
   DiagnosisResults results{.dataset = std::move(dataset)};
   Diagnosis& diagnosis = results.diagnosis = diagnose(results.dataset, options);
+  if (document)
+    describe_repairs(results.dataset, *document, diagnosis.data_checks);
+  else
+    describe_repairs(results.dataset, diagnosis.data_checks);
   if (diagnosis.corrected_robot) {
     const DecisionCost cost = decision_cost(results.dataset.robot, *diagnosis.corrected_robot);
     diagnosis.decision_missions = cost.missions;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "diagnosis/values/diagnosis.hpp"
+#include "scenarios/document.hpp"
 
 namespace joulepath {
 
@@ -15,7 +16,9 @@ struct DiagnosisResults {
   [[nodiscard]] std::string report() const;  ///< report.html
 };
 
-/// Diagnoses a dataset, and plans the standard missions with the corrected robot.
-[[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options);
+/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is what the
+/// dataset was read from; null: its file.
+[[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
+                                                 const Document* document = nullptr);
 
 }  // namespace joulepath

@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/survey.hpp"
+#include "diagnosis/correction/all_clear.hpp"
 #include "diagnosis/correction/ceiling.hpp"
 #include "diagnosis/correction/control.hpp"
 #include "diagnosis/correction/correction.hpp"
@@ -15,6 +17,15 @@ namespace {
 Diagnosis diagnose_without_logs(const Dataset& dataset, const DiagnoseOptions& options) {
   if (std::ranges::any_of(dataset.runs, is_energy_run)) return diagnose_energies(dataset, options);
   return {.notes = {"no run has a log with wheel speeds, nor an energy with its motion"}};
+}
+
+/// Broken channels say nothing about the robot: no cause is sought.
+Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<DataCheck> checks) {
+  const Survey survey = survey_dataset(dataset, runs.signals);
+  return {.verdict = Verdict::data_suspect,
+          .data_checks = std::move(checks),
+          .missing_channels = survey.missing_channels,
+          .notes = survey.notes};
 }
 
 std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {
@@ -49,8 +60,10 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   const Names names = choose_names(x);
   const std::vector<RankedEffect> ranking = rank_effects(names.probabilities);
   const Validation validation = validate(x, judge(x, names));
-  const auto& [verdict, named, leftover, judgment_notes] = validation.judgment;
-  const GapReport gap = held_out_gap(x, validation, options.bootstrap);
+  const auto& [judged, named, leftover, judgment_notes] = validation.judgment;
+  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);
+  GapReport gap = held_out_gap(x, validation, options.bootstrap);
+  gap.energy.detectable_percent = detectable_percent;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const double ceiling = ceiling_shrink_fraction(x, !named.empty(), gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
@@ -74,6 +87,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
                            {told_by_others(runs.signals, others)},
                            names.notes,
                            judgment_notes,
+                           {all_clear_note},
                            correction.notes,
                            {told_by_energies(dataset, correction)}}),
           .validation_runs = names_of(dataset, runs.validation.runs),
@@ -87,8 +101,10 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   const RunsByUse runs = sort_runs(dataset);
-  Diagnosis diagnosis =
-      runs.signals.empty() ? diagnose_without_logs(dataset, options) : diagnose_logs(dataset, runs, options);
+  std::vector<DataCheck> checks = check_data(dataset, runs);
+  Diagnosis diagnosis = !checks.empty()        ? stopped_by(dataset, runs, std::move(checks))
+                        : runs.signals.empty() ? diagnose_without_logs(dataset, options)
+                                               : diagnose_logs(dataset, runs, options);
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;
 }

@@ -43,6 +43,39 @@ inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Motor currents below it may lie in a driver's dead band. Physical scale.
 inline constexpr double kDeadBand_A = 0.1;
 
+// Data that contradict physics.
+
+/// A channel that shows less of the change that the others ask for is dead. Chosen (0220).
+inline constexpr double kDeadShare = 0.1;
+/// And whose own change is smaller than this part of it. Chosen (0220).
+inline constexpr double kDeadSize = 0.3;
+/// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0220).
+inline constexpr double kSoundWinding = 0.004;
+/// Above it a side or a sign may be wrong: the drop R i is a small part of the voltage. Chosen (0220).
+inline constexpr double kDoubtfulWinding = 0.0001;
+/// As kSoundWinding, of currents against the motion's torques. Chosen (0220).
+inline constexpr double kSoundTorque = 0.3;
+/// The same of turning rates against each other. Chosen (0220).
+inline constexpr double kSoundTurn = 0.1;
+/// The same of positions against the wheels. Chosen (0220).
+inline constexpr double kSoundPosition = 0.1;
+/// The same of the battery's power against the motors'. Chosen (0220).
+inline constexpr double kSoundBattery = 0.05;
+/// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
+inline constexpr double kRepairGain = 4.0;
+/// The same of a relation that is doubtful only. Chosen (0220).
+inline constexpr double kRepairGainOfDoubtful = 10.0;
+/// And may raise it for no other one by more than this, unless that stays sound. Chosen (0220).
+inline constexpr double kRepairHarm = 1.5;
+/// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0220).
+inline constexpr double kUnusualFault = 1.0;
+/// A factor above it, and below kMostEffectFactor, may be an effect. Declared.
+inline constexpr double kLeastEffectFactor = 0.67;
+/// See kLeastEffectFactor. Declared.
+inline constexpr double kMostEffectFactor = 1.5;
+/// Faults of one dataset that are sought. Declared: bounds time.
+inline constexpr int kMostFaults = 6;
+
 // What runs cannot show.
 
 /// A sample turns where the wheels differ by this share of their speeds. Physical scale.
@@ -187,6 +220,15 @@ inline constexpr double kAnotherLaw = 16.0;
 inline constexpr double kWrongLawEvidence = 25.0;
 /// The same from fewer than kRunsForSmallEffects. Chosen.
 inline constexpr double kWrongLawEvidenceOfFewRuns = 100.0;
+
+// An all-clear.
+
+/// Of simulated gaps, that the runs must show. Declared.
+inline constexpr double kShareSeen = 0.9;
+/// Runs that would not show a greater gap are too few. Declared.
+inline constexpr double kGreatestUnseen_percent = 10.0;
+/// Effects whose usual size changes less of the energy are no gap of energy. Chosen (0221).
+inline constexpr double kLeastEnergyOfStep = 0.002;
 
 // Held-out runs and the correction.
 

@@ -85,4 +85,10 @@ std::string printable_start(std::string_view text, std::size_t max_bytes) {
   return shown.substr(0, end) + "...";
 }
 
+std::string four_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 }  // namespace joulepath

@@ -20,4 +20,7 @@ namespace joulepath {
 /// `printable`, cut between two characters to at most `max_bytes` bytes, with `...` at the cut.
 [[nodiscard]] std::string printable_start(std::string_view text, std::size_t max_bytes);
 
+/// At most four significant digits, for messages.
+[[nodiscard]] std::string four_digits(double value);
+
 }  // namespace joulepath

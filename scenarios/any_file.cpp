@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "diagnosis/checks/data_checks.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/dataset_file.hpp"
@@ -11,6 +12,7 @@
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/path_file.hpp"
+#include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_check.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
@@ -71,11 +73,14 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
 }
 
 FileSummary summary_of_dataset(const std::string& file, const ReadOptions& options) {
-  const Dataset dataset = read_dataset(file, options);
+  const Dataset dataset =
+      read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
   for (const auto& run : dataset.runs) samples += run.log.size();
-  return {"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
-          notes_of(dataset.artifacts)};
+  FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
+                      notes_of(dataset.artifacts), check_data(dataset, sort_runs(dataset))};
+  describe_repairs(dataset, summary.data_checks);
+  return summary;
 }
 
 FileSummary summary_of_log(const std::string& file) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/values/data_check.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -12,7 +13,8 @@ struct FileSummary {
   std::string kind{};
   std::string text{};
   std::vector<std::string> notes{};
-  std::string proposal{};  ///< a file to begin with: the dataset of a bag
+  std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
+  std::string proposal{};                ///< a file to begin with: the dataset of a bag
 };
 
 /// Reads a file of any kind, with the files that it names, to see whether it is right. The kind is told by

@@ -47,9 +47,22 @@ LogArtifact jump_before(const Run& run, std::size_t sample) {
   return {"cut", run.name, "time_s", text, 1, run.log.time_s[sample - 1]};
 }
 
+/// All but the samples, without a copy of them.
+Run without_log(const Run& run) {
+  return {.name = run.name,
+          .payload = run.payload,
+          .payload_known = run.payload_known,
+          .surface = run.surface,
+          .start_time_s = run.start_time_s,
+          .use = run.use,
+          .wheels_from_body_speeds = run.wheels_from_body_speeds,
+          .current_sign_from_motion = run.current_sign_from_motion,
+          .mark = run.mark};
+}
+
 /// A later stretch as a run: its clock begins at 0, its payload is what the log says.
 Run later_stretch(const Run& run, Trajectory log, std::size_t number) {
-  Run later = run;
+  Run later = without_log(run);
   later.name = run.name + " (part " + std::to_string(number) + ")";
   later.log = std::move(log);
   const double begin_s = later.log.time_s.front();
@@ -65,27 +78,31 @@ Run later_stretch(const Run& run, Trajectory log, std::size_t number) {
 
 }  // namespace
 
-std::vector<Run> split_at_clock_jumps(Run run, std::vector<LogArtifact>& artifacts) {
+std::vector<Run> stretches_between(Run run, const std::vector<std::size_t>& bounds) {
   std::vector<Run> stretches;
-  const bool has_steps = run.log.size() > 2;
-  const auto bounds =
-      has_steps ? stretch_bounds(run.log.time_s) : std::vector<std::size_t>{0, run.log.size()};
   if (bounds.size() == 2) {
     stretches.push_back(std::move(run));
     return stretches;
   }
   for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
-    if (k > 0) artifacts.push_back(jump_before(run, bounds[k]));
     if (bounds[k + 1] - bounds[k] < 2) continue;
     Trajectory part = samples_between(run.log, bounds[k], bounds[k + 1]);
     if (k > 0) {
       stretches.push_back(later_stretch(run, std::move(part), stretches.size() + 1));
       continue;
     }
-    stretches.push_back(run);
+    stretches.push_back(without_log(run));
     stretches.back().log = std::move(part);
   }
   return stretches;
+}
+
+std::vector<Run> split_at_clock_jumps(Run run, std::vector<LogArtifact>& artifacts) {
+  const bool has_steps = run.log.size() > 2;
+  const auto bounds =
+      has_steps ? stretch_bounds(run.log.time_s) : std::vector<std::size_t>{0, run.log.size()};
+  for (std::size_t k = 1; k + 1 < bounds.size(); ++k) artifacts.push_back(jump_before(run, bounds[k]));
+  return stretches_between(std::move(run), bounds);
 }
 
 }  // namespace joulepath

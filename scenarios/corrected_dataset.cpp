@@ -1,57 +1,13 @@
 #include "scenarios/corrected_dataset.hpp"
 
-#include <charconv>
-#include <filesystem>
-
 #include "model/effects/catalog.hpp"
+#include "scenarios/dataset_text.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/log_columns.hpp"
-#include "scenarios/quoted.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A value in YAML's flow style.
-std::string flow_text(const Value& value) {
-  std::string text;
-  switch (value.kind) {
-    case Value::Kind::null:
-      return "null";
-    case Value::Kind::scalar: {
-      const bool word = value.text == "true" || value.text == "false";
-      return !value.quoted && (word || parse_number(value.text)) ? value.text : quoted(value.text);
-    }
-    case Value::Kind::list:
-      for (const Value& item : value.items) text += (text.empty() ? "" : ", ") + flow_text(item);
-      return "[" + text + "]";
-    case Value::Kind::map:
-      for (const Value::Entry& entry : value.entries)
-        text += (text.empty() ? "" : ", ") + entry.key + ": " + flow_text(entry.value);
-      return "{" + text + "}";
-  }
-  return text;
-}
-
-/// Names of files, relative to the dataset's folder, become relative to another one.
-class Relocation {
- public:
-  Relocation(const std::string& dataset_file, const std::string& directory)
-      : from_(fs::absolute(dataset_file).parent_path()), to_(fs::absolute(directory)) {}
-
-  void move(Value& name) const {
-    for (Value& item : name.items) move(item);
-    if (name.kind != Value::Kind::scalar || name.text.starts_with("$") || fs::path(name.text).is_absolute())
-      return;
-    name.text = (from_ / name.text).lexically_normal().lexically_proximate(to_.lexically_normal()).string();
-    name.quoted = true;
-  }
-
- private:
-  fs::path from_, to_;
-};
 
 /// What the instruments did to a current and its time stamps.
 struct Distortion {
@@ -82,27 +38,6 @@ ColumnSource undone(ColumnSource source, const Distortion& distortion, bool is_c
   }
   source.delay_s += distortion.delay_s;
   return source;
-}
-
-/// Shortest text that reads back as the same number: a scale is not to be rounded.
-std::string exact_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-std::string source_text(const std::string& column, const ColumnSource& source) {
-  std::string names;
-  for (const std::string& name : source.from) names += (names.empty() ? "" : ", ") + quoted(name);
-  std::string text = "{from: " + (source.from.empty()       ? quoted(column)
-                                  : source.from.size() == 1 ? names
-                                                            : "[" + names + "]");
-  if (source.scale != 1) text += ", scale: " + exact_text(source.scale);
-  if (source.offset != 0) text += ", offset: " + exact_text(source.offset);
-  if (source.is_unsigned) text += ", unsigned: true";
-  if (source.wraps_at) text += ", wraps_at: " + exact_text(*source.wraps_at);
-  if (source.derivative) text += ", derivative: true";
-  if (source.delay_s != 0) text += ", delay_s: " + exact_text(source.delay_s);
-  return text + "}";
 }
 
 bool is_logged(const Dataset& dataset, const std::string& column) {
@@ -136,36 +71,25 @@ std::string comment_on(const EffectSetting& effect) {
   return text + "\n";
 }
 
-void relocate_run(Value& run, const Relocation& relocation) {
-  for (Value::Entry& entry : run.entries)
-    if (entry.key == "file" || entry.key == "files" || entry.key == "predicted") relocation.move(entry.value);
-}
-
 }  // namespace
 
 std::string corrected_dataset_text(const Dataset& dataset, const std::vector<EffectSetting>& instruments,
                                    const std::string& directory) {
-  const Document document = Document::load(dataset.file);
+  const Document document = document_of(dataset);
   const auto columns = document.root().find("columns");
-  const ColumnSources sources =
-      corrected_sources(dataset, columns ? read_column_sources(*columns) : ColumnSources{}, instruments);
-  std::string text =
-      "schema: joulepath/dataset/1\n# Readings as they would be without the instruments' errors:\n";
-  for (const EffectSetting& effect : instruments) text += comment_on(effect);
-  const Relocation relocation(dataset.file, directory);
-  const fs::path robot = fs::absolute(dataset.robot_file)
-                             .lexically_normal()
-                             .lexically_proximate(fs::absolute(directory).lexically_normal());
-  text += "robot: " + quoted(robot.string()) + "\ncolumns:\n";
-  for (const auto& [column, source] : sources)
-    text += "  " + column + ": " + source_text(column, source) + "\n";
-  text += "runs:\n";
-  for (const Node& run : document.root()["runs"].items()) {
-    Value value = run.value();
-    relocate_run(value, relocation);
-    text += "  - " + flow_text(value) + "\n";
-  }
-  return text;
+  const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
+  DatasetEdit edit{.comment = "# Readings as they would be without the instruments' errors:\n",
+                   .columns = corrected_sources(dataset, sources, instruments)};
+  for (const EffectSetting& effect : instruments) edit.comment += comment_on(effect);
+  const std::vector<Node> runs = document.root()["runs"].items();
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    if (const auto own = runs[r].find("columns")) {
+      const ColumnSources corrected =
+          corrected_sources(dataset, sources_of_run(runs[r], sources), instruments);
+      for (const auto& [name, source] : read_column_sources(*own))
+        edit.run_columns[r][name] = corrected.at(name);
+    }
+  return dataset_text(dataset, edit, directory);
 }
 
 }  // namespace joulepath

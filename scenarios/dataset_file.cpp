@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <iterator>
 
+#include "diagnosis/checks/plausible.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
 #include "scenarios/physical_bounds.hpp"
-#include "scenarios/plausible.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
+#include "scenarios/standstill_cuts.hpp"
 
 namespace joulepath {
 namespace {
@@ -112,13 +113,18 @@ class RunReader {
     run.name = node.has("file") ? node["file"].text() : node["files"].items().front().text();
     const Node named_by = node.has("file") ? node["file"] : node["files"];
     refuse_repeated(run.name, named_by);
-    RunLog log = read_run_log(files, sources_, dataset_.robot.geometry, run.name);
+    const ColumnSources sources = sources_of_run(node, sources_);
+    RunLog log = read_run_log(files, sources, dataset_.robot.geometry, run.name);
     run.log = std::move(log.trajectory);
     refuse_same_samples(run, named_by);
     run.current_sign_from_motion = log.current_sign_from_motion;
-    check_plausible(run, dataset_.robot, named_by);
+    run.wheels_from_body_speeds = log.wheels_from_body_speeds;
+    if (!options_.accept_implausible)
+      for (const Implausible& channel : implausible_channels(run, dataset_.robot))
+        named_by.fail_found(channel.found, channel.accepted,
+                            channel.hint + " `columns:` with scale converts");
     dataset_.artifacts.insert(dataset_.artifacts.end(), log.artifacts.begin(), log.artifacts.end());
-    if (const auto predicted = node.find("predicted")) read_predicted(*predicted, run);
+    if (const auto predicted = node.find("predicted")) read_predicted(*predicted, sources, run);
   }
 
   [[nodiscard]] const CsvTable* in_memory(const std::string& name) const {
@@ -149,13 +155,13 @@ class RunReader {
   }
 
   /// Another simulator writes the format's own names (then `columns:` is not for it), or the log's.
-  void read_predicted(const Node& node, Run& run) {
+  void read_predicted(const Node& node, const ColumnSources& sources, Run& run) {
     const std::string file = resolve_file(node, options_);
     const auto header = read_csv(
                             file, [](const std::string&) { return false; }, NamedBy(node))
                             .header;
     const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
-    run.predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources_,
+    run.predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources,
                                  dataset_.robot.geometry, node.text())
                         .trajectory;
   }
@@ -173,6 +179,7 @@ Schema run_schema() {
   return map({optional("file", text(), "run log (CSV)"),
               optional("files", list(text(), 1), "several logs of one run, aligned by time"),
               optional("motion", motion_schema(), "an energy-only run: what was driven"),
+              optional("columns", column_sources_schema(), "of this run, instead of the dataset's"),
               optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
               optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),
               optional("surface", text()), optional("use", choice({"any", "diagnosis", "validation"})),
@@ -214,6 +221,7 @@ Dataset dataset_from(const Document& document, const ReadOptions& options, const
   const ColumnSources sources = columns ? read_column_sources(*columns) : ColumnSources{};
   RunReader reader(dataset, sources, options, memory);
   for (const auto& run : root["runs"].items()) reader.read(run);
+  if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }
 
@@ -223,16 +231,23 @@ Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
   if (robot_file.empty())
     throw ConfigError(
         {{file, 1, 1}, "", "a log, which names no robot", "--robot with the name of a robot file", ""});
-  return dataset_of_log(file, robot_file);
+  return dataset_of_log(file, robot_file, options);
 }
 
-Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file) {
+Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file,
+                       const ReadOptions& options) {
   Dataset dataset{.file = log_file, .robot_file = robot_file, .robot = read_robot(robot_file)};
   RunLog log = read_run_log(log_file, dataset.robot.geometry);
   Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
+  run.wheels_from_body_speeds = log.wheels_from_body_speeds;
+  if (!options.accept_implausible)
+    for (const Implausible& channel : implausible_channels(run, dataset.robot))
+      throw ConfigError({run.mark, "", channel.found, channel.accepted,
+                         channel.hint + " `columns:` with scale, in a dataset that names the log, converts"});
   fill_payload(run);
   dataset.artifacts = std::move(log.artifacts);
   dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
+  if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }
 

@@ -30,7 +30,8 @@ struct DatasetInMemory {
 [[nodiscard]] Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
                                           const std::string& robot_file);
 
-/// A dataset of one log.
-[[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file);
+/// A dataset of one log. Throws ConfigError.
+[[nodiscard]] Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file,
+                                     const ReadOptions& options = {});
 
 }  // namespace joulepath

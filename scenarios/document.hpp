@@ -96,7 +96,9 @@ struct NamedBy {
 
 /// How files that name other files are read.
 struct ReadOptions {
-  bool untrusted{};  ///< names in the input may not be absolute or leave the input's folder
+  bool untrusted{};           ///< names in the input may not be absolute or leave the input's folder
+  bool cut_long_logs{};       ///< long logs become several runs, cut at standstill
+  bool accept_implausible{};  ///< logs with numbers that no robot has are read: the caller reports them
 };
 
 /// A text that takes the place of a document's value. Path: keys and items as in `legs[2].payload_kg`; `[*]`

@@ -5,25 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "model/trajectory.hpp"
+#include "model/log_columns.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
-
-/// A column of the run log format and the channel of a Trajectory that it fills.
-struct LogColumn {
-  std::string name{};
-  std::vector<double>& (*channel)(Trajectory&){};
-  bool measured{};  ///< a run log may have it; the others only `plan` writes
-
-  [[nodiscard]] const std::vector<double>& of(const Trajectory& trajectory) const {
-    return channel(const_cast<Trajectory&>(trajectory));  // it only finds the channel
-  }
-};
-
-/// All columns, in the order in which they are written.
-[[nodiscard]] const std::vector<LogColumn>& log_columns();
-[[nodiscard]] const LogColumn* find_log_column(const std::string& name);
 
 /// Columns that are no channel themselves: the quaternion that a heading can come from.
 inline constexpr const char* kOrientationColumns[] = {"orientation_w", "orientation_x", "orientation_y",
@@ -38,11 +23,14 @@ struct ColumnSource {
   std::optional<double> wraps_at{};  ///< a counter that starts again at 0 there (in the log's unit)
   bool derivative{};  ///< the change per second of what is logged, over the sample period before
   double delay_s{};   ///< the channel shows what was so long ago
+  bool is_absent{};   ///< the column is not read
   SourceMark mark{};
 };
 using ColumnSources = std::map<std::string, ColumnSource>;
 
 [[nodiscard]] Schema column_sources_schema();
 [[nodiscard]] ColumnSources read_column_sources(const Node& node);
+/// The dataset's, where the run's own `columns:` does not say otherwise.
+[[nodiscard]] ColumnSources sources_of_run(const Node& run, ColumnSources of_dataset);
 
 }  // namespace joulepath

@@ -113,8 +113,9 @@ class LogFileReader {
   void read_channel(const std::string& name) {
     auto* values = raw(name);
     if (!values) return;
-    std::vector<double> channel = take(*values);
     const ColumnSource mapping = source(name);
+    if (mapping.is_absent) return;
+    std::vector<double> channel = take(*values);
     if (const auto missing = fill_missing(file_.times, channel))
       file_.artifacts.push_back(
           {"missing_values", run_, name,

@@ -141,7 +141,8 @@ void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<
 /// may not.
 bool may_stay(const LogColumn& column) {
   for (const char* name :
-       {"time_s", "payload_kg", "temperature_C", "heading_rad", "position_x_m", "position_y_m"})
+       {"time_s", "payload_kg", "temperature_C", "heading_rad", "position_x_m", "position_y_m",
+        "motor_voltage_left_V", "motor_voltage_right_V"})  // a voltage step is a test, no held value
     if (column.name == name) return true;
   return !column.measured || column.name.rfind("command_", 0) == 0;
 }

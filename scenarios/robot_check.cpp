@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "scenarios/significant.hpp"
+#include "model/printable.hpp"
 
 namespace joulepath {
 namespace {

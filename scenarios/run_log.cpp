@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "model/kinematics.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
@@ -92,8 +93,8 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
 }
 
 /// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from pose where nothing else is
-/// there.
-void derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
+/// there. True where the wheels' speeds come from the body's.
+bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
                    std::vector<LogArtifact>& artifacts) {
   const auto have_wheels = [&] {
     return !log.wheel_speed_rad_s.left.empty() && !log.wheel_speed_rad_s.right.empty();
@@ -115,18 +116,15 @@ void derive_speeds(Trajectory& log, const Geometry& geometry, const std::string&
     artifacts.push_back(
         {"derived", run, "linear_speed_m_s", "speeds derived from the pose's differences", n, 0.0});
   }
-  if (!have_wheels() && have_body()) {
-    for (const Side side : kSides) {
-      auto& wheel = log.wheel_speed_rad_s[side];
-      wheel.resize(n);
-      for (std::size_t i = 0; i < n; ++i)
-        wheel[i] =
-            (log.linear_speed_m_s[i] + side_sign(side) * geometry.half_track_m * log.angular_speed_rad_s[i]) /
-            geometry.wheel_radius_m[side];
-    }
-    artifacts.push_back({"derived", run, "wheel_speed_left_rad_s",
-                         "wheel speeds derived from linear and angular speed", n, 0.0});
+  if (have_wheels() || !have_body()) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Sided<double> wheels =
+        wheel_speeds_rad_s(geometry, log.linear_speed_m_s[i], log.angular_speed_rad_s[i]);
+    for (const Side side : kSides) log.wheel_speed_rad_s[side].push_back(wheels[side]);
   }
+  artifacts.push_back({"derived", run, "wheel_speed_left_rad_s",
+                       "wheel speeds derived from linear and angular speed", n, 0.0});
+  return true;
 }
 
 void sign_unsigned_channels(Trajectory& log, const ColumnSources& sources, const std::string& run,
@@ -176,11 +174,14 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
     of_tables.erase("time_s");
     for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), of_tables, run));
   }
-  check_mapped_columns_found(files, given);
+  ColumnSources wanted = given;
+  for (auto& [column, source] : wanted)
+    if (!source.from.empty()) source.from = sources.at(column).from;
+  check_mapped_columns_found(files, wanted);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
   merge(files, log, run);
-  derive_speeds(log.trajectory, geometry, run, log.artifacts);
+  log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
   if (log.trajectory.wheel_speed_rad_s.left.empty() || log.trajectory.wheel_speed_rad_s.right.empty())
     throw ConfigError({{names.front().file, 1, 1},
                        "",

@@ -16,6 +16,7 @@ struct RunLog {
   Trajectory trajectory{};
   std::vector<LogArtifact> artifacts{};
   bool current_sign_from_motion{};
+  bool wheels_from_body_speeds{};
 };
 
 /// Reads one run from one or several files; with several, all channels are taken to the times of the first

@@ -10,7 +10,4 @@ namespace joulepath {
 /// The shortest text of that number.
 [[nodiscard]] std::string significant_text(double value);
 
-/// At most four significant digits, for messages.
-[[nodiscard]] std::string four_digits(double value);
-
 }  // namespace joulepath

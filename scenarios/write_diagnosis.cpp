@@ -22,7 +22,8 @@ Json energy_json(const EnergyGap& e) {
           {"before_J", six_digits(e.before_J)},
           {"after_J", six_digits(e.after_J)},
           {"shrink_fraction", six_digits(e.shrink_fraction)},
-          {"shrink_interval_95", interval(e.shrink_interval_95)}};
+          {"shrink_interval_95", interval(e.shrink_interval_95)},
+          {"detectable_percent", six_digits(e.detectable_percent)}};
 }
 
 void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, const std::string& unit) {
@@ -105,6 +106,17 @@ Json next_json(const NextExperiment& next) {
 
 }  // namespace
 
+Json data_checks_json(const std::vector<DataCheck>& checks) {
+  Json json = Json::array();
+  for (const DataCheck& check : checks)
+    json.push_back({{"run", check.run.empty() ? "all" : check.run},
+                    {"channel", check.channel},
+                    {"kind", check.kind},
+                    {"evidence", check.evidence},
+                    {"repair", check.repair}});
+  return json;
+}
+
 std::string diagnosis_json(const Diagnosis& d) {
   Json where = Json::array(), causes = Json::array(), ranking = Json::array();
   for (const WhereCell& cell : d.where) where.push_back(where_json(cell));
@@ -126,6 +138,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
+      {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
       {"missing_channels", d.missing_channels},
       {"notes", d.notes},

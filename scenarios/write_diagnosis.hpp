@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "diagnosis/values/diagnosis.hpp"
@@ -8,6 +9,9 @@ namespace joulepath {
 
 /// `diagnosis.json` with exactly the keys of docs (formats). Numbers to six significant digits.
 [[nodiscard]] std::string diagnosis_json(const Diagnosis& diagnosis);
+
+/// The `data_checks` of a diagnosis and of `check --json`.
+[[nodiscard]] nlohmann::ordered_json data_checks_json(const std::vector<DataCheck>& checks);
 
 /// A mission of prescribed motions: the run that the diagnosis proposes.
 [[nodiscard]] std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file);

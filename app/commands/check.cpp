@@ -1,12 +1,17 @@
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
 #include "scenarios/any_file.hpp"
+#include "scenarios/dataset_file.hpp"
+#include "scenarios/repaired_dataset.hpp"
+#include "scenarios/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {
@@ -26,14 +31,16 @@ class Check : public Command {
                  .says = "validate input files and report errors",
                  .examples = "  joulepath check scenarios/missions/warehouse_pick.yaml\n"
                              "  joulepath check robot.yaml dataset.yaml runs/run_01.csv\n"
-                             "  joulepath check --kind robot my_robot.yaml"}) {}
+                             "  joulepath check --kind robot my_robot.yaml\n"
+                             "  joulepath check dataset.yaml --repair dataset_repaired.yaml"}) {}
 
   void declare(CommandLine& line) override {
     line.option("FILE", files_,
                 "robot, map, mission, path, dataset, fleet, run log, bag, route graph, plan or diagnosis")
         .required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
-    add_common_flags(line, options_, "qju");
+    line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");
+    add_common_flags(line, options_, "qjfu");
   }
 
   int run() override {
@@ -42,13 +49,17 @@ class Check : public Command {
     for (const auto& file : files_) {
       try {
         const FileSummary summary = read_any_file(file, kind_, {options_.untrusted});
-        results.push_back({{"file", file},
-                           {"ok", true},
-                           {"kind", summary.kind},
-                           {"summary", summary.text},
-                           {"notes", summary.notes}});
-        if (!summary.proposal.empty()) results.back()["proposal"] = summary.proposal;
+        nlohmann::ordered_json result{{"file", file},
+                                      {"ok", summary.data_checks.empty()},
+                                      {"kind", summary.kind},
+                                      {"summary", summary.text},
+                                      {"notes", summary.notes}};
+        if (summary.kind == "dataset") result["data_checks"] = data_checks_json(summary.data_checks);
+        if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
+        results.push_back(std::move(result));
         if (!options_.json) tell(file, summary);
+        if (!summary.data_checks.empty() && code == kDone) code = kInfeasibleOrFailed;
+        if (!repair_.empty()) write_repaired(file, summary);
       } catch (const ConfigError& error) {
         code = kBadInput;
         const auto& d = error.detail();
@@ -73,9 +84,23 @@ class Check : public Command {
   }
 
  private:
+  void write_repaired(const std::string& file, const FileSummary& summary) const {
+    if (summary.kind != "dataset" || files_.size() != 1)
+      throw ConfigError({{file, 0, 0}, "--repair", "no single dataset", "one dataset file", ""});
+    const Dataset dataset = read_dataset(
+        file, {.untrusted = options_.untrusted, .cut_long_logs = true, .accept_implausible = true});
+    const std::string directory = std::filesystem::absolute(repair_).parent_path().string();
+    write_output_file(repair_, repaired_dataset_text(dataset, summary.data_checks, directory),
+                      options_.force);
+  }
+
   void tell(const std::string& file, const FileSummary& summary) const {
-    std::cout << printable(file) << ": " << paint(std::cout, Paint::good, "ok") << " (" << summary.kind
-              << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
+    const bool sound = summary.data_checks.empty();
+    std::cout << printable(file) << ": "
+              << paint(std::cout, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect") << " ("
+              << summary.kind << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
+    for (const DataCheck& check : summary.data_checks)
+      std::cout << "  " << printable(data_check_text(check)) << '\n';
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
     if (!options_.quiet && !summary.proposal.empty()) std::cout << printable_text(summary.proposal);
@@ -83,6 +108,7 @@ class Check : public Command {
 
   std::vector<std::string> files_{};
   std::string kind_{};
+  std::string repair_{};
   CommonOptions options_{};
 };
 

@@ -9,6 +9,7 @@
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
@@ -40,6 +41,9 @@ std::string advice(const Diagnosis& d) {
       return "These runs cannot separate the effects below. Drive the proposed run.";
     case Verdict::too_little_data:
       return "There is too little data to name a cause. The list shows candidates only.";
+    case Verdict::data_suspect:
+      return "Channels of the log contradict physics. Repair the dataset (joulepath check --repair), then "
+             "diagnose it.";
   }
   return {};
 }
@@ -61,6 +65,8 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& note : d.notes) out << "note: " << note << '\n';
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << advice(d) << '\n';
+  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
+  if (d.verdict == Verdict::data_suspect) return;
   const EnergyGap& e = d.gap.energy;
   out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
@@ -125,7 +131,10 @@ class Diagnose : public Command {
                         {"diagnosis.json", "report.html", "robot_corrected.yaml", "dataset_corrected.yaml"},
                         common_.force);
     const DiagnosisResults results = diagnosis_results(
-        read_dataset_or_log(dataset_, {.untrusted = common_.untrusted}, robot_), {.without = without});
+        read_dataset_or_log(
+            dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+            robot_),
+        {.without = without});
     const Diagnosis& diagnosis = results.diagnosis;
     out.write("diagnosis.json", results.json);
     out.write("report.html", results.report());

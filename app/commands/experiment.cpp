@@ -27,7 +27,9 @@ class Experiment : public Command {
   }
 
   int run() override {
-    const Dataset dataset = read_dataset(dataset_, {.untrusted = common_.untrusted}, robot_);
+    const Dataset dataset = read_dataset(
+        dataset_, {.untrusted = common_.untrusted, .cut_long_logs = true, .accept_implausible = true},
+        robot_);
     const Diagnosis diagnosis = diagnose(dataset);
     if (diagnosis.next.motions.empty()) {
       if (!common_.quiet)

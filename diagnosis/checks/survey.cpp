@@ -70,7 +70,7 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
   std::set<double> payloads;
   double turning = 0, reverse = 0, still = 0, total = 0;
   for (const RunSignals& run : signals) {
-    if (run.size() > 0) payloads.insert(run.payload_kg[0]);
+    payloads.insert(run.payload_kg.begin(), run.payload_kg.end());
     for (Eigen::Index j = 0; j < run.size(); ++j) {
       const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
       total += 1;

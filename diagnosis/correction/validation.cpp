@@ -49,8 +49,8 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
 /// Without any effect, whether the calibrated model leaves much of the held-out energy; yes if that is
 /// unknown.
 bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated) {
-  const double left =
-      energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0), x.point_of(calibrated.state)));
+  const double left = energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0),
+                                                      x.point_of(within_calibration(x, calibrated.state))));
   return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
                             kGapUnnamed_percent));
 }
@@ -71,7 +71,8 @@ bool claims_energy(const Examination& x, const Validation& v) {
 /// Without voltages, energies rest on the robot file's winding, which is itself under examination.
 bool energies_are_measured(const std::vector<RunSignals>& signals) {
   return std::any_of(signals.begin(), signals.end(), [](const RunSignals& run) {
-    return run.motor_voltage_V.left.size() > 0 || run.motor_voltage_V.right.size() > 0;
+    return run.motor_voltage_V.left.size() > 0 || run.motor_voltage_V.right.size() > 0 ||
+           (!measures_motors(run) && measures_energy(run));
   });
 }
 

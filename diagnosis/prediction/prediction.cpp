@@ -204,7 +204,10 @@ ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, c
   }
   const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
                       signals.motor_current_A.left.size() == n;
-  if (signals.battery_power_W.size() == n && n > 0 && motors) {
+  const bool battery = signals.battery_power_W.size() == n && n > 0;
+  if (battery && !measures_motors(signals))
+    fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W);
+  if (battery && motors) {
     Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
     for (Eigen::Index j = 0; j < n; ++j) {
       Sided<double> measured_W;
@@ -233,8 +236,9 @@ Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& poin
   const Eigen::Index n = base.heading_rad.size();
   Eigen::MatrixXd rows(n, kChannelCount);
   Eigen::VectorXd driver_W = changed.battery_power_W - base.battery_power_W;
-  for (Eigen::Index j = 0; j < n; ++j)
-    driver_W[j] -= logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
+  if (measures_motors(signals))
+    for (Eigen::Index j = 0; j < n; ++j)
+      driver_W[j] -= logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
   for (Side side : kSides) {
     const int s = side == Side::left ? 0 : 1;
     const Eigen::VectorXd current = changed.current_A[side] - base.current_A[side];

@@ -67,6 +67,18 @@ class Thinner {
     return interpolate(log_.time_s, channel, at_s);
   }
 
+  /// The channel as it was last stated: a payload changes in steps, and has no values between them.
+  Eigen::VectorXd held(const Samples& channel) const {
+    if (channel.empty()) return {};
+    Eigen::VectorXd result(static_cast<Eigen::Index>(centers_.size()));
+    for (std::size_t j = 0; j < centers_.size(); ++j) {
+      const auto next = std::upper_bound(log_.time_s.begin(), log_.time_s.end(), grid_.time_s[centers_[j]]);
+      const auto index = std::max<std::ptrdiff_t>(0, next - log_.time_s.begin() - 1);
+      result[static_cast<Eigen::Index>(j)] = channel[static_cast<std::size_t>(index)];
+    }
+    return result;
+  }
+
   Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
   Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
 
@@ -176,6 +188,15 @@ std::vector<bool> beyond(const Eigen::VectorXd& values, double least) {
 
 }  // namespace
 
+bool measures_motors(const RunSignals& run) {
+  return run.size() > 0 &&
+         (run.motor_power_W.left.size() == run.size() || run.motor_power_W.right.size() == run.size());
+}
+
+bool measures_energy(const RunSignals& run) {
+  return measures_motors(run) || (run.size() > 0 && run.battery_power_W.size() == run.size());
+}
+
 bool has_usable_log(const Run& run) {
   const bool wheels = !run.log.wheel_speed_rad_s.left.empty() && !run.log.wheel_speed_rad_s.right.empty();
   const bool body = !run.log.linear_speed_m_s.empty() && !run.log.angular_speed_rad_s.empty();
@@ -204,7 +225,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   signals.time_s = thinner.smooth(thinner.grid_time_s());
   signals.time_of_day_known = run.start_time_s.has_value();
   signals.time_of_day_s = signals.time_s.array() + run.start_time_s.value_or(0.0);
-  signals.payload_kg = thinner.smooth(thinner.on_grid(log.payload_kg));
+  signals.payload_kg = thinner.held(log.payload_kg);
   if (signals.payload_kg.size() == 0) signals.payload_kg = Eigen::VectorXd::Zero(signals.size());
   for (Side side : kSides) {
     signals.motor_voltage_V[side] =

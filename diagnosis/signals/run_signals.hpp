@@ -53,6 +53,11 @@ struct RunSignals {
   Eigen::Index size() const { return time_s.size(); }
 };
 
+/// What the motors take is measured, or known from their currents.
+[[nodiscard]] bool measures_motors(const RunSignals& run);
+/// Some energy is measured: the motors', or that at the battery's terminals.
+[[nodiscard]] bool measures_energy(const RunSignals& run);
+
 struct SignalOptions {
   double kernel_sigma_s{kKernelSigma_s};
   double period_s{kPeriod_s};

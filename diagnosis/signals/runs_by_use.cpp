@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-/// Payload, kind of manoeuvre, and the sum of what was measured as a tie break.
+/// Greatest payload, kind of manoeuvre, and the sum of what was measured as a tie break.
 using Stratum = std::tuple<double, int, double>;
 
 Stratum stratum_of(const Run& run) {
@@ -25,7 +25,7 @@ Stratum stratum_of(const Run& run) {
     sum += std::abs(a) + std::abs(b);
   }
   const int kind = turn > forward ? 2 : turn > 0.1 * forward ? 1 : 0;
-  return {log.payload_kg.empty() ? 0.0 : log.payload_kg.front(), kind, sum};
+  return {log.payload_kg.empty() ? 0.0 : *std::ranges::max_element(log.payload_kg), kind, sum};
 }
 
 struct RunSplit {

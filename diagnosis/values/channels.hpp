@@ -7,8 +7,8 @@ namespace joulepath {
 
 /// What the diagnosis compares, one column each. The structured rows of diagnosis.md: currents are
 /// mechanics (i - tau/(Kt n)); a winding row is V - R i - Kv n q' with the measured current; the
-/// driver row is battery power less what the motors take; the supply row is the battery's voltage
-/// under its current; the rest is motion against wheel travel.
+/// driver row is battery power less what the motors take (all of it where nothing measures the motors); the
+/// supply row is the battery's voltage under its current; the rest is motion against wheel travel.
 enum Channel {
   kCurrentLeft,
   kCurrentRight,

@@ -43,6 +43,7 @@ struct Run {
   std::string surface{};
   std::optional<double> start_time_s{};  ///< time of day
   RunUse use{RunUse::any};
+  bool wheels_from_body_speeds{};   ///< the log has the body's speeds alone
   bool current_sign_from_motion{};  ///< the log's currents are unsigned: sign taken from the wheel's motion
   SourceMark mark{};
 };

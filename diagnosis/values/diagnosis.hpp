@@ -7,15 +7,24 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/values/data_check.hpp"
 #include "diagnosis/values/dataset.hpp"
 #include "model/prescribed_motion.hpp"
 
 namespace joulepath {
 
-enum class Verdict { no_gap, explained, partly_explained, unexplained, ambiguous, too_little_data };
+enum class Verdict {
+  no_gap,
+  explained,
+  partly_explained,
+  unexplained,
+  ambiguous,
+  too_little_data,
+  data_suspect
+};
 constexpr const char* verdict_name(Verdict verdict) {
-  constexpr const char* names[] = {"no_gap",      "explained", "partly_explained",
-                                   "unexplained", "ambiguous", "too_little_data"};
+  constexpr const char* names[] = {"no_gap",    "explained",       "partly_explained", "unexplained",
+                                   "ambiguous", "too_little_data", "data_suspect"};
   return names[static_cast<int>(verdict)];
 }
 
@@ -29,6 +38,7 @@ struct EnergyGap {
   double before_J{}, after_J{};
   double shrink_fraction{};
   Range95 shrink_interval_95{};
+  double detectable_percent{};  ///< with no_gap: a gap of this size would have been seen in 90 % of cases
 };
 
 /// Root mean squares over the validation runs.
@@ -95,6 +105,7 @@ struct Diagnosis {
   std::string control_effect{};
   double control_shrink_fraction{};
   std::string pinned_combination{};
+  std::vector<DataCheck> data_checks{};  ///< channels that contradict physics: nothing else is examined
   std::vector<std::string> artifacts{};
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};  ///< what the runs cannot show

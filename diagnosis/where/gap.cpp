@@ -96,6 +96,10 @@ void add_phases(const std::vector<RunSignals>& signals, const ModelPoint& point,
   for (const RunSignals& run : signals) {
     const Prediction p = predict(run, point);
     std::map<std::string, double> energy_J;
+    if (!measures_motors(run) && measures_energy(run))
+      for (Eigen::Index j = 0; j < run.size(); ++j)
+        energy_J[phase_of(run, point.robot.geometry, j)] +=
+            (p.battery_power_W[j] - run.battery_power_W[j]) * run.period_s;
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(run, side);
       for (Eigen::Index j = 0; j < measured.size(); ++j)
@@ -117,6 +121,11 @@ std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, cons
   std::vector<RunEnergy> energies(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
     const Prediction p = predict(signals[r], point);
+    if (!measures_motors(signals[r]) && measures_energy(signals[r])) {
+      energies[r] = {.measured_J = signals[r].battery_power_W.sum() * signals[r].period_s,
+                     .predicted_J = p.battery_power_W.sum() * signals[r].period_s};
+      return;
+    }
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(signals[r], side);
       if (measured.size() == 0) continue;
@@ -145,10 +154,17 @@ double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPo
   for (const RunSignals& run : signals) {
     const Prediction p = predict(run, point);
     double variance = 0;
+    const bool at_battery = !measures_motors(run) && measures_energy(run);
+    if (at_battery) {
+      measured_J += run.battery_power_W.sum() * run.period_s;
+      const double duration_s = run.period_s * static_cast<double>(run.size());
+      variance = duration_s * run.period_s * std::pow(noise.channel_sd[kDriverPower], 2) +
+                 run_variance[5] * duration_s * duration_s;
+    }
     for (Side side : kSides) {
-      const Eigen::VectorXd measured = measured_power_W(run, side);
+      const Eigen::VectorXd measured = at_battery ? p.power_W[side] : measured_power_W(run, side);
       if (measured.size() == 0) continue;
-      measured_J += measured.sum() * run.period_s;
+      if (!at_battery) measured_J += measured.sum() * run.period_s;
       const Motor& motor = point.robot.motor[side];
       const int s = side == Side::left ? 0 : 1;
       double per_torque_J = 0, per_ohm_J = 0, reading_J2 = 0;
@@ -157,7 +173,8 @@ double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPo
         const double watts_per_ampere = p.voltage_V[side][j] + motor.resistance_ohm * p.current_A[side][j];
         per_torque_J += run.period_s * watts_per_ampere * direction / motor.torque_per_ampere_Nm_A();
         per_ohm_J += run.period_s * p.current_A[side][j] * p.current_A[side][j];
-        reading_J2 += std::pow(run.period_s * watts_per_ampere * noise.channel_sd[kCurrentLeft + s], 2);
+        if (!at_battery)
+          reading_J2 += std::pow(run.period_s * watts_per_ampere * noise.channel_sd[kCurrentLeft + s], 2);
       }
       variance += run_variance[s] * per_torque_J * per_torque_J +
                   run_variance[2 + s] * per_ohm_J * per_ohm_J + reading_J2;

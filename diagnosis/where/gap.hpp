@@ -8,7 +8,8 @@
 
 namespace joulepath {
 
-/// A run's energy of both motors (J), measured and predicted for the motion that it measured.
+/// A run's energy (J), measured and predicted for the motion that it measured: of both motors, or at the
+/// battery's terminals where nothing measures the motors.
 struct RunEnergy {
   double measured_J{};
   double predicted_J{};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
@@ -57,6 +58,7 @@ class Localizer {
   void add_run(const RunSignals& run, const OtherPrediction& other, std::size_t r) {
     const Prediction p = in_place_of(predict(run, nominal_), other);
     const ResidualRows rows = residual_rows(run, nominal_, p);
+    if (!measures_motors(run) && measures_energy(run)) add_battery(run, p, rows, r);
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(run, side);
       for (Eigen::Index j = 0; j < measured.size(); ++j) {
@@ -73,12 +75,27 @@ class Localizer {
     }
   }
 
-  void book_sample(const RunSignals& run, std::size_t r, Side side, Eigen::Index j, const GapAmount& amount) {
+  /// The power at the battery's terminals, where nothing measures the motors: no wheel is to blame.
+  void add_battery(const RunSignals& run, const Prediction& p, const ResidualRows& rows, std::size_t r) {
+    const double noise_J = std::sqrt(2 / std::numbers::pi) * noise_.channel_sd[kDriverPower] * run.period_s;
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const double gap_J = (p.battery_power_W[j] - run.battery_power_W[j]) * run.period_s;
+      book_sample(run, r, std::nullopt, j,
+                  {.gap_J = std::abs(gap_J),
+                   .noise_J = noise_J,
+                   .signed_J = gap_J,
+                   .measured_J = std::abs(run.battery_power_W[j]) * run.period_s});
+      book_channels(rows, p, r, Side::left, j, run.period_s);
+    }
+  }
+
+  void book_sample(const RunSignals& run, std::size_t r, std::optional<Side> side, Eigen::Index j,
+                   const GapAmount& amount) {
     const Twist<double> twist =
         body_twist(nominal_.robot.geometry,
                    Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
     ledger_.book("phase", phase_of(run, nominal_.robot.geometry, j), r, amount);
-    ledger_.book("wheel", side_name(side), r, amount);
+    if (side) ledger_.book("wheel", side_name(*side), r, amount);
     ledger_.book("speed", speed_cell(twist.speed_m_s), r, amount);
     ledger_.book("payload", number_text(run.payload_kg[j], "kg"), r, amount);
     ledger_.book("run", run.name, r, amount);

@@ -30,6 +30,9 @@ CsvTable table_of(const std::string& name, const std::map<std::string, Numbers>&
   return table;
 }
 
+/// As the command reads: suspect channels make a verdict, not an error.
+constexpr ReadOptions kReading{.cut_long_logs = true, .accept_implausible = true};
+
 DiagnosisResults diagnose_text(const std::string& text, const std::string& name, const RobotValue& robot,
                                const std::map<std::string, std::map<std::string, Numbers>>& frames,
                                const std::vector<std::string>& without) {
@@ -37,12 +40,11 @@ DiagnosisResults diagnose_text(const std::string& text, const std::string& name,
   Tables logs;
   for (const auto& [log, columns] : frames) logs[log] = table_of(log, columns);
   const LongCall call;
-  Dataset dataset = from_object(name, [&] {
-    const Document document = Document::parse(text, name);
-    return dataset_from(document, {}, {}, {.robot = &robot.robot, .logs = &logs});
-  });
+  const Document document = from_object(name, [&] { return Document::parse(text, name); });
+  Dataset dataset = from_object(
+      name, [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
   dataset.file.clear();  // there is no file that a corrected one could be made of
-  return diagnosis_results(std::move(dataset), options);
+  return diagnosis_results(std::move(dataset), options, &document);
 }
 
 DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
@@ -50,8 +52,8 @@ DiagnosisResults diagnose_file(const std::string& file, const RobotValue* robot,
   const DiagnoseOptions options{.without = left_out_effects(without)};
   const LongCall call;
   const Document document = Document::load(file);
-  return diagnosis_results(dataset_from(document, {}, {}, {.robot = robot ? &robot->robot : nullptr}),
-                           options);
+  return diagnosis_results(dataset_from(document, kReading, {}, {.robot = robot ? &robot->robot : nullptr}),
+                           options, &document);
 }
 
 std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const std::string& directory) {

@@ -51,7 +51,8 @@ class Diagnosis:
 
     @property
     def verdict(self) -> str:
-        """no_gap, explained, partly_explained, unexplained, ambiguous or too_little_data."""
+        """no_gap, explained, partly_explained, unexplained, ambiguous, too_little_data or
+        data_suspect."""
         return str(self.json.verdict)
 
     @property

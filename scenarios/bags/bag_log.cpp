@@ -48,8 +48,8 @@ class BagLogReader {
       : file_(file), run_(std::move(run)) {
     log_.sources = sources;
     for (const auto& [column, source] : sources)
-      if (column != "time_s") any_given_ = any_given_ || !source.from.empty();
-    if (!any_given_) log_.sources = suggested_columns(survey_bag(file, named_by));
+      if (column != "time_s") any_given_ = any_given_ || (!source.from.empty() && !names_column(source));
+    if (!any_given_) log_.sources = with_given(suggested_columns(survey_bag(file, named_by)), sources);
     damage_ = read_bag(
         file, named_by, [&](const BagChannel& channel) { open(channel); },
         [&](const BagMessage& message) { take(message); });
@@ -72,6 +72,24 @@ class BagLogReader {
   }
 
  private:
+  /// Whether a source is another of the format's columns (sides that are exchanged), not a topic.
+  static bool names_column(const ColumnSource& source) {
+    return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
+  }
+
+  /// The suggested columns, with what is given without a topic (a scale, a delay, that one is absent) on top.
+  static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
+    ColumnSources sources = suggested;
+    for (const auto& [column, source] : given) {
+      ColumnSource& changed = sources[column] = source;
+      const auto known = suggested.find(names_column(source) ? source.from.front() : column);
+      if (known == suggested.end() || (!source.from.empty() && !names_column(source))) continue;
+      changed.from = known->second.from;
+      changed.scale *= known->second.scale;
+    }
+    return sources;
+  }
+
   void open(const BagChannel& channel) {
     topics_.push_back({.name = channel.topic});
     Topic& topic = topics_.back();

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "diagnosis/checks/survey.hpp"
@@ -9,26 +7,20 @@
 #include "diagnosis/evidence/refit.hpp"
 #include "diagnosis/prediction/nuisance.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
 #include "scenarios/robot_file.hpp"
-#include "tests/support/locations.hpp"
+#include "tests/support/blind_day.hpp"
 
 namespace joulepath {
 namespace {
 
 /// A test day of six runs of the benchmark's plant, with an effect and its size, or `none`.
-Dataset test_day(const std::string& effect) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "odd_runs";
-  std::filesystem::remove_all(folder);
-  const std::string command = std::string(JOULEPATH_BINARY_DIR) + "/bin/blind_plant --effect " + effect +
-                              " --protocol 6 --seed 31 --out " + folder.string();
-  if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
-  return read_dataset((folder / "dataset.yaml").string());
+Dataset six_runs(const std::string& effect) {
+  return testing::blind_day("--effect " + effect + " --protocol 6 --seed 31");
 }
 
 /// Wheel speeds and currents alone, as on many real robots.
 Dataset speeds_and_currents(const std::string& effect) {
-  Dataset dataset = test_day(effect);
+  Dataset dataset = six_runs(effect);
   for (auto& run : dataset.runs) {
     Trajectory& log = run.log;
     log.motor_voltage_V = {};
@@ -40,10 +32,8 @@ Dataset speeds_and_currents(const std::string& effect) {
   return dataset;
 }
 
-bool have_plant() { return std::filesystem::exists(std::string(JOULEPATH_BINARY_DIR) + "/bin/blind_plant"); }
-
 TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
-  if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = speeds_and_currents("none");
   auto& still = dataset.runs[1];
   for (Side side : kSides) {
@@ -56,7 +46,7 @@ TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
 
 /// Derivatives by a shape parameter at the end of what the catalog accepts are taken from within.
 TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
-  if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset dataset = speeds_and_currents("none");
   const std::vector<Nuisance> nuisances = calibration_nuisances(dataset.robot);
   const std::vector<RunSignals> signals = read_signals({.dataset = &dataset, .runs = {0, 1, 2}}, 0.0);
@@ -75,9 +65,9 @@ TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
 
 /// The same day with and without its voltages: V = R i + Kv n q' gives nearly the same joules.
 TEST(OddRuns, WithoutVoltagesEnergiesAreThoseOfTheCurrents) {
-  if (!have_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const std::string effect = "rolling_resistance --size 0.01";
-  const EnergyGap with = diagnose(test_day(effect), {.bootstrap = 20}).gap.energy;
+  const EnergyGap with = diagnose(six_runs(effect), {.bootstrap = 20}).gap.energy;
   const EnergyGap without = diagnose(speeds_and_currents(effect), {.bootstrap = 20}).gap.energy;
   EXPECT_GT(with.before_percent, 10);
   EXPECT_NEAR(without.before_percent, with.before_percent, 0.05 * with.before_percent);

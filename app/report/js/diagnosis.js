@@ -6,6 +6,7 @@ const kVerdicts = {
   partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is not in the catalog.", false],
   unexplained: ["Unexplained", "No effect of the catalog fits the gap.", false],
   ambiguous: ["Ambiguous", "These runs cannot separate the effects of the group below.", false],
+  data_suspect: ["Suspect data", "Channels of the log contradict physics. Repair the dataset first.", false],
   too_little_data: ["Too little data", "The report shows the location of the gap and candidates, but names no cause.", false],
 };
 
@@ -157,9 +158,20 @@ jp.caveats_section = function (d) {
   return items.length ? jp.section("Notes", jp.h("ul", {}, items.map((item) => jp.h("li", {}, item)))) : null;
 };
 
+/** Channels that contradict physics, each with the number that shows it and the line that repairs it. */
+jp.suspect_section = function (d) {
+  const checks = d.data_checks || [];
+  if (!checks.length) return null;
+  const rows = checks.map((check) => [check.run === "all" ? "all runs" : check.run, check.channel, jp.words(check.kind), check.evidence, jp.h("code", {}, check.repair || "–")]);
+  return jp.section("Suspect channels", jp.h("p", {class: "soft"}, "joulepath check DATASET --repair FILE writes the dataset with these repairs."),
+    jp.table(["runs", "channel", "what is wrong", "evidence", "repair in the dataset file"], rows));
+};
+
 jp.draw_diagnosis = function (data) {
   const d = data.diagnosis, [words, meaning, good] = kVerdicts[d.verdict] || [jp.words(d.verdict), "", false];
   const where = jp.where_section(data), runs = jp.runs_section(data);
+  if (d.verdict === "data_suspect")
+    return jp.page(jp.header(data.title || "Diagnosis", meaning, words, good), jp.suspect_section(d), jp.caveats_section(d));
   jp.page(jp.header(data.title || "Diagnosis", `The gap between the model and the measured robot. ${meaning}`, words, good), jp.diagnosis_tiles(d), where ? where.section : null, jp.which_section(d),
     jp.how_far_section(d), runs ? runs.section : null, jp.next_section(d), jp.caveats_section(d));
   if (where) where.ready();

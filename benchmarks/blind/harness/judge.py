@@ -2,7 +2,7 @@
 
 import re
 
-SILENT = ("no_gap", "too_little_data")
+SILENT = ("no_gap", "too_little_data")  # data_suspect is none: on a sound day it is a false alarm
 SIDED = ("dragging_wheel", "current_sensor_offset", "wheel_radius_mismatch")
 
 

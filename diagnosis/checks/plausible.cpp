@@ -1,11 +1,11 @@
-#include "scenarios/plausible.hpp"
+#include "diagnosis/checks/plausible.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "model/kinematics.hpp"
-#include "scenarios/log_columns.hpp"
-#include "scenarios/significant.hpp"
+#include "model/log_columns.hpp"
+#include "model/printable.hpp"
 
 namespace joulepath {
 namespace {
@@ -33,35 +33,35 @@ double greatest(const std::vector<double>& values) {
   return most;
 }
 
-[[noreturn]] void refuse(const Node& named_by, const std::string& found, const std::string& accepted,
-                         const std::string& hint) {
-  named_by.fail_found(found, accepted, hint + " `columns:` with scale converts");
-}
+using Findings = std::vector<Implausible>;
 
-void check_time(const Trajectory& log, const Node& named_by) {
+void check_time(const Trajectory& log, Findings& findings) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
   if (steps.empty()) return;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   if (*middle > kLongestStep_s)
-    refuse(named_by, "time_s with a sample every " + four_digits(*middle) + " s",
-           "at most " + four_digits(kLongestStep_s) + " s between samples", "milliseconds, microseconds?");
+    findings.push_back({"time_s", "time_s with a sample every " + four_digits(*middle) + " s",
+                        "at most " + four_digits(kLongestStep_s) + " s between samples",
+                        "milliseconds, microseconds?"});
 }
 
-void check_wheels(const Trajectory& log, const Geometry& geometry, const Node& named_by) {
+void check_wheels(const Trajectory& log, const Geometry& geometry, Findings& findings) {
   for (Side side : kSides) {
     const double most = greatest(log.wheel_speed_rad_s[side]);
     if (most * geometry.wheel_radius_m[side] <= kFastest_m_s) continue;
-    refuse(named_by,
-           std::string("wheel_speed_") + side_name(side) + "_rad_s up to " + four_digits(most) + " rad/s, " +
-               four_digits(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
-           "at most " + four_digits(kFastest_m_s) + " m/s", "degrees per second, rpm or encoder ticks?");
+    const std::string column = std::string("wheel_speed_") + side_name(side) + "_rad_s";
+    findings.push_back({column,
+                        column + " up to " + four_digits(most) + " rad/s, " +
+                            four_digits(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
+                        "at most " + four_digits(kFastest_m_s) + " m/s",
+                        "degrees per second, rpm or encoder ticks?"});
   }
 }
 
 /// Mean size of the body's speed as logged (or from the pose), and as this robot's wheels would have it.
-void check_robot(const Trajectory& log, const Geometry& geometry, const Node& named_by) {
+void check_robot(const Trajectory& log, const Geometry& geometry, Findings& findings) {
   const std::size_t n = log.size();
   if (log.linear_speed_m_s.size() != n || log.wheel_speed_rad_s.left.size() != n || n == 0) return;
   double body = 0, wheels = 0;
@@ -74,23 +74,26 @@ void check_robot(const Trajectory& log, const Geometry& geometry, const Node& na
   }
   if (std::max(body, wheels) < kMoving_m_s) return;
   if (body <= kOddRatio * wheels && wheels <= kOddRatio * body) return;
-  named_by.fail_found("a mean speed of " + four_digits(body) + " m/s where this robot's wheels turn for " +
+  findings.push_back({"linear_speed_m_s",
+                      "a mean speed of " + four_digits(body) + " m/s where this robot's wheels turn for " +
                           four_digits(wheels) + " m/s",
                       "a log of the robot that the dataset names",
-                      "is it another robot's log, or wheel speeds before the gear?");
+                      "is it another robot's log, or wheel speeds before the gear?"});
 }
 
 }  // namespace
 
-void check_plausible(const Run& run, const Robot& robot, const Node& named_by) {
+std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot) {
   const Trajectory& log = run.log;
-  check_time(log, named_by);
-  check_wheels(log, robot.geometry, named_by);
+  Findings findings;
+  check_time(log, findings);
+  check_wheels(log, robot.geometry, findings);
   for (const Bound& bound : kColumnBounds)
     if (const double most = greatest(find_log_column(bound.column)->of(log)); most > bound.most)
-      refuse(named_by, std::string(bound.column) + " up to " + four_digits(most),
-             "at most " + four_digits(bound.most), bound.hint);
-  check_robot(log, robot.geometry, named_by);
+      findings.push_back({bound.column, std::string(bound.column) + " up to " + four_digits(most),
+                          "at most " + four_digits(bound.most), bound.hint});
+  check_robot(log, robot.geometry, findings);
+  return findings;
 }
 
 }  // namespace joulepath

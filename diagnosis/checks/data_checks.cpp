@@ -1,0 +1,282 @@
+#include "diagnosis/checks/data_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "diagnosis/checks/dead_channels.hpp"
+#include "diagnosis/checks/faults.hpp"
+#include "diagnosis/checks/plausible.hpp"
+#include "diagnosis/checks/relations.hpp"
+#include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/thresholds.hpp"
+// Design: docs/decisions/0220-the-data-are-checked-first.md
+namespace joulepath {
+namespace {
+
+using Relations = std::vector<std::optional<Relation>>;
+
+/// Below it a relation is exact.
+constexpr double kExact = 1e-5;
+
+/// A run on its way: as logged, or with the repairs that were found so far.
+struct Examined {
+  std::size_t index{};          ///< of the dataset
+  std::optional<Run> mended{};  ///< absent: as logged
+  RunSignals signals{};
+  Relations relations{};
+  bool lost{};  ///< a channel without which nothing can be told is dead
+};
+
+bool is_beyond_doubt(const Relations& relations) {
+  return std::ranges::all_of(relations, [](const auto& relation) {
+    return !relation || relation->unexplained <= relation->doubtful;
+  });
+}
+
+/// What a repair does to a run's relations.
+struct Effectiveness {
+  double nats{};       ///< sum of the logarithms of what is less unexplained
+  bool repairs{};      ///< a relation becomes whole, and none is harmed
+  bool contradicts{};  ///< a relation that was whole breaks
+  std::size_t most{};  ///< the relation that gains most
+};
+
+/// `by_factor`: a factor that is no unit is sure only where a measured channel shows it: resistances of the
+/// floor may ask for several times the torque.
+Effectiveness compare(const Relations& before, const Relations& after, bool by_factor = false) {
+  Effectiveness result;
+  double greatest = 0;
+  bool harmed = false;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (!before[k] || !after[k] || (by_factor && before[k]->sound >= kSoundTorque)) continue;
+    const double old_share = before[k]->unexplained + kExact, new_share = after[k]->unexplained + kExact;
+    const double nats = std::log(old_share / new_share);
+    result.nats += nats;
+    const bool broken = before[k]->unexplained > before[k]->sound;
+    if (nats < -std::log(kRepairHarm) &&
+        after[k]->unexplained > (by_factor ? after[k]->sound : after[k]->doubtful)) {
+      harmed = true;
+      if (!broken) result.contradicts = true;
+    }
+    const bool doubtful = before[k]->unexplained > before[k]->doubtful;
+    const double least = broken     ? std::log(kRepairGain)
+                         : doubtful ? std::log(kRepairGainOfDoubtful)
+                                    : std::numeric_limits<double>::infinity();
+    if (nats > std::max(greatest, least) && after[k]->unexplained <= after[k]->sound)
+      greatest = nats, result.most = k;
+  }
+  result.repairs = greatest > 0 && !harmed;
+  return result;
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
+
+class DataCheckSearch {
+ public:
+  DataCheckSearch(const Dataset& dataset, const RunsByUse& runs) : dataset_(dataset), options_(runs.options) {
+    for (const RunSignals& signals : runs.signals)
+      runs_.push_back({.index = signals.run_index, .signals = signals});
+    parallel_for(runs_.size(),
+                 [&](std::size_t r) { runs_[r].relations = relations_of(runs_[r].signals, dataset_.robot); });
+  }
+
+  /// Sides, signs and units first: a swapped or tiny channel follows its own quantity as little as a dead
+  /// one. A factor that is no unit comes last, as it might stand in for a dead channel.
+  std::vector<DataCheck> find() {
+    find_faults(false);
+    find_dead();
+    find_faults(true);
+    return std::move(checks_);
+  }
+
+ private:
+  const Run& run_of(const Examined& examined) const {
+    return examined.mended ? *examined.mended : dataset_.runs[examined.index];
+  }
+
+  Relations relations_with(const Examined& examined, const std::vector<ColumnRepair>& columns,
+                           double freedom = 1.0) const {
+    const Run run = repaired(run_of(examined), columns, dataset_.robot.geometry);
+    return relations_of(make_run_signals(run, examined.index, dataset_.robot, options_), dataset_.robot,
+                        freedom);
+  }
+
+  void mend(Examined& examined, const std::vector<ColumnRepair>& columns) {
+    examined.mended = repaired(run_of(examined), columns, dataset_.robot.geometry);
+    examined.signals = make_run_signals(*examined.mended, examined.index, dataset_.robot, options_);
+    examined.relations = relations_of(examined.signals, dataset_.robot);
+  }
+
+  void report(DataCheck check, const std::vector<std::size_t>& which) {
+    for (std::size_t r : which) {
+      check.runs.push_back(runs_[r].index);
+      if (which.size() < runs_.size())
+        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index].name;
+    }
+    checks_.push_back(std::move(check));
+  }
+
+  void find_faults(bool with_factors) {
+    for (int k = 0; k < kMostFaults; ++k)
+      if (!find_fault(with_factors)) break;
+  }
+
+  void find_dead() {
+    std::map<std::vector<std::string>, std::vector<std::pair<std::size_t, DeadChannel>>> found;
+    std::vector<std::vector<DeadChannel>> dead(runs_.size());
+    parallel_for(runs_.size(),
+                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals, dataset_.robot); });
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      for (const DeadChannel& channel : dead[r]) found[channel.columns].emplace_back(r, channel);
+    for (const auto& [columns, where] : found) {
+      DataCheck check{.kind = "dead"};
+      std::vector<std::size_t> which;
+      const bool needed = where.front().second.needed;
+      for (const std::string& column : columns) {
+        check.channel += (check.channel.empty() ? "" : ", ") + column;
+        if (!needed) check.columns.push_back({.column = column, .absent = true});
+      }
+      for (const auto& [r, channel] : where) which.push_back(r);
+      check.evidence = "shows " + percent(std::abs(where.front().second.followed)) +
+                       " of the change that the other channels ask for (" +
+                       dataset_.runs[runs_[which.front()].index].name + ")";
+      for (std::size_t r : which) {
+        if (needed)
+          runs_[r].lost = true;
+        else
+          mend(runs_[r], check.columns);
+      }
+      report(std::move(check), which);
+    }
+  }
+
+  struct Found {
+    Fault fault{};
+    std::vector<std::size_t> which{};
+    double nats{};
+  };
+
+  /// The fault that explains most, over the runs that it mends.
+  std::optional<Found> best_fault(const std::vector<std::size_t>& broken, bool with_factors) const {
+    std::optional<Found> best;
+    for (const Fault& fault : possible_faults(run_of(runs_[broken.front()]))) {
+      if (fault.kind == "scaled" && !with_factors) continue;
+      std::vector<Effectiveness> effect(broken.size());
+      parallel_for(broken.size(), [&](std::size_t k) {
+        const Examined& examined = runs_[broken[k]];
+        effect[k] =
+            compare(examined.relations, relations_with(examined, fault.columns), fault.kind == "scaled");
+      });
+      Found found{.fault = fault, .nats = fault.kind == "scaled" ? -kUnusualFault : 0.0};
+      for (std::size_t k = 0; k < broken.size(); ++k)
+        if (effect[k].repairs) found.which.push_back(broken[k]), found.nats += effect[k].nats;
+      if (!found.which.empty() && (!best || found.nats > best->nats)) best = found;
+    }
+    return best;
+  }
+
+  /// A fault of all runs that can tell is a fault of all runs.
+  void widen(Found& found) const {
+    std::vector<char> against(runs_.size(), 0);
+    parallel_for(runs_.size(), [&](std::size_t r) {
+      if (runs_[r].lost || std::ranges::find(found.which, r) != found.which.end()) return;
+      if (!has_columns(run_of(runs_[r]), found.fault)) return;
+      against[r] =
+          compare(runs_[r].relations, relations_with(runs_[r], found.fault.columns)).contradicts ? 1 : 0;
+    });
+    if (std::ranges::find(against, 1) != against.end()) return;
+    found.which.clear();
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      if (has_columns(run_of(runs_[r]), found.fault)) found.which.push_back(r);
+  }
+
+  static bool has_columns(const Run& run, const Fault& fault) {
+    const std::vector<Fault> possible = possible_faults(run);
+    return std::ranges::any_of(possible, [&](const Fault& other) { return other.channel == fault.channel; });
+  }
+
+  /// A factor that is no unit, to within the calibration: where relations with fixed factors fit best.
+  void refine(Found& found) const {
+    const Examined& examined = runs_[found.which.front()];
+    const double first = found.fault.columns.front().scale;
+    double best = first, least = std::numeric_limits<double>::infinity();
+    for (int step = -40; step <= 40; ++step) {
+      const double factor = first * std::exp(0.02 * step);
+      double misfit = 0;
+      for (const auto& relation : relations_with(examined, with_factor(found.fault, factor).columns, 0.05))
+        if (relation) misfit += std::log(relation->unexplained + kExact);
+      if (misfit < least) least = misfit, best = factor;
+    }
+    found.fault = with_factor(found.fault, best);
+  }
+
+  bool find_fault(bool with_factors) {
+    std::vector<std::size_t> broken;
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      if (!runs_[r].lost && !is_beyond_doubt(runs_[r].relations)) broken.push_back(r);
+    if (broken.empty()) return false;
+    std::optional<Found> found = best_fault(broken, with_factors);
+    if (!found) return false;
+    const std::size_t shown = found->which.front();
+    if (found->fault.kind == "scaled") {
+      refine(*found);
+      const double factor = found->fault.columns.front().scale;
+      if (factor > kLeastEffectFactor && factor < kMostEffectFactor) return false;
+    }
+    const Relations before = runs_[shown].relations,
+                    after = relations_with(runs_[shown], found->fault.columns);
+    const std::size_t most = compare(before, after, found->fault.kind == "scaled").most;
+    widen(*found);
+    for (std::size_t r : found->which) mend(runs_[r], found->fault.columns);
+    report({.channel = found->fault.channel,
+            .kind = found->fault.kind,
+            .evidence = before[most]->law + ": " + percent(before[most]->unexplained) +
+                        " unexplained as logged, " + percent(after[most]->unexplained) +
+                        " with the repair (" + dataset_.runs[runs_[shown].index].name + ")",
+            .columns = found->fault.columns},
+           found->which);
+    return true;
+  }
+
+  const Dataset& dataset_;
+  SignalOptions options_{};
+  std::vector<Examined> runs_{};
+  std::vector<DataCheck> checks_{};
+};
+
+/// What no robot has, and no repair above explains.
+void add_implausible(const Dataset& dataset, std::vector<DataCheck>& checks) {
+  const auto covered = [&](std::size_t run, const std::string& channel) {
+    return std::ranges::any_of(checks, [&](const DataCheck& check) {
+      return check.channel.find(channel) != std::string::npos &&
+             std::ranges::find(check.runs, run) != check.runs.end();
+    });
+  };
+  for (std::size_t r = 0; r < dataset.runs.size(); ++r)
+    for (const Implausible& channel : implausible_channels(dataset.runs[r], dataset.robot))
+      if (!covered(r, channel.channel))
+        checks.push_back(
+            {.runs = {r},
+             .run = dataset.runs[r].name,
+             .channel = channel.channel,
+             .kind = "unit",
+             .evidence = channel.found + ", where a robot has " + channel.accepted + ": " + channel.hint});
+}
+
+}  // namespace
+
+std::vector<DataCheck> check_data(const Dataset& dataset, const RunsByUse& runs) {
+  std::vector<DataCheck> checks = DataCheckSearch(dataset, runs).find();
+  add_implausible(dataset, checks);
+  return checks;
+}
+
+}  // namespace joulepath

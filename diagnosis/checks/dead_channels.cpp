@@ -1,0 +1,123 @@
+#include "diagnosis/checks/dead_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/checks/relations.hpp"
+#include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/thresholds.hpp"
+
+namespace joulepath {
+namespace {
+
+using Eigen::VectorXd;
+
+VectorXd centered(const VectorXd& values) { return values.array() - values.mean(); }
+
+VectorXd differences(const VectorXd& values) {
+  const Eigen::Index n = values.size() - 1;
+  return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
+}
+
+/// Part of an expected change that a channel shows, and the size of the channel's own change over it: a
+/// channel that follows something else is not dead.
+struct Following {
+  double share{1.0};
+  double size{1.0};
+  bool is_dead() const { return std::abs(share) < kDeadShare && size < kDeadSize; }
+};
+
+Following following(const VectorXd& channel, const VectorXd& expected, double least_rms) {
+  if (channel.size() != expected.size() || channel.size() == 0 || rms(expected) < least_rms) return {};
+  return {channel.dot(expected) / expected.squaredNorm(), channel.norm() / expected.norm()};
+}
+
+class Search {
+ public:
+  Search(const RunSignals& run, const Robot& robot)
+      : run_(run), robot_(robot), expected_(expected_motors(run, robot)) {}
+
+  std::vector<DeadChannel> list() {
+    for (Side side : kSides) wheel(side);
+    const Sided<double>& r = robot_.geometry.wheel_radius_m;
+    const VectorXd yaw = (r.right * run_.wheel_speed_rad_s.right - r.left * run_.wheel_speed_rad_s.left) /
+                         (2 * robot_.geometry.half_track_m);
+    compare(run_.gyro_yaw_rate_rad_s, yaw, 0.1, {"gyro_yaw_rate_rad_s"});
+    if (run_.heading_measured)
+      compare(differences(run_.heading_rad), differences(integral(yaw)), 0.1 * run_.period_s,
+              {"heading_rad"});
+    place();
+    supply();
+    return std::move(dead_);
+  }
+
+ private:
+  VectorXd integral(const VectorXd& rate) const {
+    VectorXd sum = rate * run_.period_s;
+    for (Eigen::Index j = 1; j < sum.size(); ++j) sum[j] += sum[j - 1];
+    return sum;
+  }
+
+  void compare(const VectorXd& channel, const VectorXd& expected, double least_rms,
+               std::vector<std::string> columns, bool needed = false) {
+    const Following follows = following(channel, expected, least_rms);
+    if (follows.is_dead()) dead_.push_back({std::move(columns), follows.share, needed});
+  }
+
+  /// A motor's channels against its wheel's motion; the wheel's speed against its voltage.
+  void wheel(Side side) {
+    const std::string suffix = std::string("_") + side_name(side);
+    const Motor& motor = robot_.motor[side];
+    const VectorXd& speed = run_.wheel_speed_rad_s[side];
+    const VectorXd current = expected_.current_A(side);
+    const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
+    const double emf = motor.volts_per_speed_V_s_rad();
+    if (run_.motor_current_A[side].size() > 0)
+      compare(centered(run_.motor_current_A[side]), centered(current), 0.3 * friction_A,
+              {"motor_current" + suffix + "_A"});
+    const VectorXd& voltage = run_.motor_voltage_V[side];
+    compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), 2 * emf * kMovingWheel_rad_s,
+            {"motor_voltage" + suffix + "_V"});
+    if (voltage.size() > 0)
+      compare(speed, VectorXd((voltage - motor.resistance_ohm * current) / emf), 2 * kMovingWheel_rad_s,
+              {"wheel_speed" + suffix + "_rad_s"}, true);
+  }
+
+  void place() {
+    if (run_.x_m.size() != run_.size() || run_.y_m.size() != run_.size()) return;
+    const VectorXd dx = differences(run_.x_m), dy = differences(run_.y_m);
+    const VectorXd moved = (dx.array().square() + dy.array().square()).sqrt();
+    const Sided<double>& r = robot_.geometry.wheel_radius_m;
+    const VectorXd rolled =
+        0.5 *
+        differences(r.right * run_.wheel_angle_rad.right + r.left * run_.wheel_angle_rad.left).cwiseAbs();
+    compare(moved, rolled, 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
+  }
+
+  void supply() {
+    if (run_.battery_power_W.size() != run_.size()) return;
+    VectorXd motors_W = VectorXd::Zero(run_.size());
+    for (Side side : kSides) {
+      const Motor& motor = robot_.motor[side];
+      const VectorXd current = expected_.current_A(side);
+      const VectorXd voltage =
+          motor.resistance_ohm * current + motor.volts_per_speed_V_s_rad() * run_.wheel_speed_rad_s[side];
+      motors_W += voltage.cwiseProduct(current).cwiseMax(0.0);
+    }
+    compare(centered(run_.battery_power_W), centered(motors_W), 0.3 * rms(motors_W),
+            {run_.battery_voltage_V.cwiseAbs().maxCoeff() > 0 ? "battery_current_A" : "battery_voltage_V"});
+  }
+
+  const RunSignals& run_;
+  const Robot& robot_;
+  ExpectedMotors expected_;
+  std::vector<DeadChannel> dead_{};
+};
+
+}  // namespace
+
+std::vector<DeadChannel> dead_channels(const RunSignals& run, const Robot& robot) {
+  return Search(run, robot).list();
+}
+
+}  // namespace joulepath

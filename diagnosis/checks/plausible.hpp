@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/values/dataset.hpp"
+
+namespace joulepath {
+
+/// A channel whose numbers no robot of this kind can have: a unit that is not the column's (mA for A, rpm or
+/// degrees for rad/s, ms for s), or wheel and body speeds that do not fit the robot's wheels.
+struct Implausible {
+  std::string channel{};
+  std::string found{};
+  std::string accepted{};
+  std::string hint{};
+};
+
+[[nodiscard]] std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot);
+
+}  // namespace joulepath

@@ -1,0 +1,250 @@
+#include "diagnosis/checks/relations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/checks/box_fit.hpp"
+#include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/thresholds.hpp"
+#include "model/dynamics.hpp"
+#include "model/kinematics.hpp"
+#include "model/motor.hpp"
+#include "model/power.hpp"
+// Design: docs/decisions/0220-the-data-are-checked-first.md
+namespace joulepath {
+namespace {
+
+using Eigen::VectorXd;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Speeds below which a direction is blurred.
+constexpr double kBlurredWheel_rad_s = 0.2;
+/// Rows over which a pose must have moved: increments of single rows drown in its noise.
+constexpr Eigen::Index kIncrementRows = 6;
+/// A run that turns or travels less says nothing about a gyro or a pose.
+constexpr double kLeastYawRate_rad_s = 0.06, kLeastSpeed_m_s = 0.04;
+/// Readings that are late: the change of a speed within this time looks like an offset.
+constexpr double kLongestDelay_s = 0.15;
+/// Offset of a current sensor over the current that friction takes.
+constexpr double kGreatestOffset = 0.7;
+
+bool has(const RunSignals& run, const VectorXd& channel) {
+  return channel.size() == run.size() && run.size() > 0;
+}
+
+VectorXd soft_sign(const VectorXd& speed) {
+  return (speed.array() / kBlurredWheel_rad_s).cwiseMin(1.0).cwiseMax(-1.0);
+}
+
+VectorXd increments(const VectorXd& values) {
+  const Eigen::Index n = values.size() - kIncrementRows;
+  return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
+}
+
+VectorXd stacked(const VectorXd& a, const VectorXd& b) {
+  VectorXd both(a.size() + b.size());
+  both << a, b;
+  return both;
+}
+
+VectorXd yaw_rate_of_wheels(const RunSignals& run, const Geometry& geometry) {
+  const Sided<double>& r = geometry.wheel_radius_m;
+  return (r.right * run.wheel_speed_rad_s.right - r.left * run.wheel_speed_rad_s.left) /
+         (2 * geometry.half_track_m);
+}
+
+VectorXd speed_of_wheels(const RunSignals& run, const Geometry& geometry) {
+  const Sided<double>& r = geometry.wheel_radius_m;
+  return 0.5 * (r.right * run.wheel_speed_rad_s.right + r.left * run.wheel_speed_rad_s.left);
+}
+
+/// A factor that is 1 where the robot file is right.
+BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
+  return {std::move(value), std::pow(least, freedom), std::pow(most, freedom)};
+}
+
+std::optional<Relation> relation(std::string law, double sound, const VectorXd& explained,
+                                 const std::vector<BoxedTerm>& terms) {
+  const double doubtful = sound == kSoundWinding ? kDoubtfulWinding : sound;
+  return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
+}
+
+/// V = R i + Kv n q'. A constant stands for an offset of the sensor, the sign for a driver's drop, the
+/// acceleration for readings that are late.
+std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
+                                Side side, double freedom) {
+  const VectorXd& voltage = run.motor_voltage_V[side];
+  if (!has(run, voltage)) return {};
+  const Motor& motor = robot.motor[side];
+  const bool measured = has(run, run.motor_current_A[side]);
+  const VectorXd current = measured ? run.motor_current_A[side] : expected.current_A(side);
+  const double emf = motor.volts_per_speed_V_s_rad();
+  const double offset_V =
+      kGreatestOffset * motor.resistance_ohm * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
+  const double drop_V = 0.035 * voltage.cwiseAbs().maxCoeff();
+  const VectorXd& speed = run.wheel_speed_rad_s[side];
+  return relation(
+      std::string("V = R i + Kv n w ") + side_name(side), kSoundWinding, voltage,
+      {factor(motor.resistance_ohm * current, measured ? 0.6 : 0.2, measured ? 1.7 : 5.0, freedom),
+       factor(emf * speed, 0.7, 1.4, freedom),
+       {VectorXd::Ones(run.size()), -offset_V, offset_V},
+       {soft_sign(speed), -drop_V, drop_V},
+       {emf * run.wheel_acceleration_rad_s2[side], -kLongestDelay_s, kLongestDelay_s}});
+}
+
+/// Current against what friction and inertia ask for. Resistances and loads may be several times those of the
+/// robot file; their signs are certain.
+std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
+                                  Side side, double freedom) {
+  const VectorXd& current = run.motor_current_A[side];
+  if (!has(run, current) || rms(run.wheel_speed_rad_s[side]) < kBlurredWheel_rad_s) return {};
+  const Motor& motor = robot.motor[side];
+  const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
+  const VectorXd yaw = yaw_rate_of_wheels(run, robot.geometry);
+  const double load_A = robot.geometry.wheel_radius_m[side] * kGravity_m_s2 * robot.total_mass_kg(0) / 2 /
+                        motor.torque_per_ampere_Nm_A();
+  std::vector<BoxedTerm> terms{
+      factor(expected.friction_A[side], 0.3, 5.0, freedom),
+      {expected.viscous_A[side], 0.0, 20.0},
+      factor(expected.inertia_A[side], 0.4, 2.5, freedom),
+      {VectorXd::Ones(run.size()), -kGreatestOffset * friction_A, kGreatestOffset * friction_A},
+      {soft_sign(yaw * 2), -0.05 * load_A, 0.05 * load_A}};
+  if (run.heading_measured && has(run, run.heading_rad)) {
+    terms.push_back({run.heading_rad.array().cos(), -0.03 * load_A, 0.03 * load_A});
+    terms.push_back({run.heading_rad.array().sin(), -0.03 * load_A, 0.03 * load_A});
+  }
+  return relation(std::string("i = torque of the motion / (Kt n) ") + side_name(side), kSoundTorque, current,
+                  terms);
+}
+
+std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
+  if (!has(run, run.gyro_yaw_rate_rad_s)) return {};
+  const VectorXd yaw = yaw_rate_of_wheels(run, geometry);
+  if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
+  const double mismatch = 0.08 / (2 * geometry.half_track_m);
+  return relation("gyro = yaw rate of the wheels", kSoundTurn, run.gyro_yaw_rate_rad_s,
+                  {factor(yaw, 0.55, 1.6, freedom),
+                   {speed_of_wheels(run, geometry), -mismatch, mismatch},
+                   {VectorXd::Ones(run.size()), -0.1, 0.1}});
+}
+
+std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
+  if (!run.heading_measured || !has(run, run.heading_rad)) return {};
+  const Sided<double>& r = geometry.wheel_radius_m;
+  const VectorXd right = increments(run.wheel_angle_rad.right), left = increments(run.wheel_angle_rad.left);
+  const VectorXd turned = (r.right * right - r.left * left) / (2 * geometry.half_track_m);
+  const VectorXd heading = increments(run.heading_rad);
+  const double least = kLeastYawRate_rad_s * run.period_s * kIncrementRows;
+  if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
+  const double mismatch = 0.08 / (2 * geometry.half_track_m);
+  return relation(
+      "heading = angle turned by the wheels", kSoundTurn, heading,
+      {factor(turned, 0.55, 1.6, freedom), {0.5 * (r.right * right + r.left * left), -mismatch, mismatch}});
+}
+
+std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) {
+  if (!run.heading_measured || !has(run, run.heading_rad) || !has(run, run.gyro_yaw_rate_rad_s)) return {};
+  VectorXd angle(run.size());
+  double sum = 0;
+  for (Eigen::Index j = 0; j < run.size(); ++j) angle[j] = sum += run.gyro_yaw_rate_rad_s[j] * run.period_s;
+  const VectorXd turned = increments(angle), heading = increments(run.heading_rad);
+  const double span_s = run.period_s * kIncrementRows;
+  if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < kLeastYawRate_rad_s * span_s) return {};
+  return relation(
+      "heading = angle turned by the gyro", kSoundTurn, heading,
+      {factor(turned, 0.7, 1.4, freedom), {VectorXd::Constant(turned.size(), span_s), -0.1, 0.1}});
+}
+
+/// Along the measured heading; without one the distances alone can be compared.
+std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
+  if (!has(run, run.x_m) || !has(run, run.y_m)) return {};
+  const Sided<double>& r = geometry.wheel_radius_m;
+  const VectorXd dx = increments(run.x_m), dy = increments(run.y_m);
+  const double least_m = kLeastSpeed_m_s * run.period_s * kIncrementRows;
+  if (dx.size() == 0) return {};
+  const auto rolled = [&](const Sided<VectorXd>& angle) {
+    return VectorXd(0.5 * (r.right * increments(angle.right) + r.left * increments(angle.left)));
+  };
+  if (rms(rolled(run.wheel_angle_rad)) < least_m && rms(stacked(dx, dy)) < least_m) return {};
+  if (!run.heading_measured)
+    return relation("distance = path of the wheels", kSoundPosition,
+                    (dx.array().square() + dy.array().square()).sqrt().matrix(),
+                    {factor(rolled(run.wheel_angle_rad).cwiseAbs(), 0.55, 1.6, freedom)});
+  const VectorXd x = rolled(run.wheel_along_x_rad), y = rolled(run.wheel_along_y_rad);
+  return relation("position = path of the wheels along the heading", kSoundPosition, stacked(dx, dy),
+                  {factor(stacked(x, y), 0.55, 1.6, freedom), {stacked(-y, x), -0.4, 0.4}});
+}
+
+/// Battery power = what the motors take + standby. Without measured motors: several times what the robot file
+/// asks for.
+std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
+                                double freedom) {
+  if (!has(run, run.battery_power_W)) return {};
+  const bool measured = has(run, run.motor_power_W.left) && has(run, run.motor_power_W.right);
+  VectorXd drive = VectorXd::Zero(run.size()), brake = VectorXd::Zero(run.size());
+  for (Side side : kSides) {
+    VectorXd power = run.motor_power_W[side];
+    if (!measured) {
+      const VectorXd current = expected.current_A(side);
+      power = (robot.motor[side].resistance_ohm * current +
+               robot.motor[side].volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side])
+                  .cwiseProduct(current);
+    }
+    drive += power.cwiseMax(0.0), brake += power.cwiseMin(0.0);
+  }
+  const double least = measured ? 0.6 : 0.2, most = measured ? 1.7 : 6.0;
+  const double standby_W = robot.power.standby_W > 0 ? 5 * robot.power.standby_W : kInfinity;
+  return relation("battery power = motor power + standby", kSoundBattery, run.battery_power_W,
+                  {factor(drive, least, most, freedom),
+                   {brake, -0.3, 1.3 * most},
+                   {VectorXd::Ones(run.size()), 0.0, standby_W}});
+}
+
+}  // namespace
+
+ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
+  ExpectedMotors expected;
+  for (Side side : kSides)
+    for (VectorXd* part : {&expected.friction_A[side], &expected.viscous_A[side], &expected.inertia_A[side]})
+      *part = VectorXd::Zero(run.size());
+  for (Eigen::Index j = 0; j < run.size(); ++j) {
+    const Twist<double> twist = body_twist(
+        robot.geometry, Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
+    const Twist<double> rate = body_twist(
+        robot.geometry,
+        Sided<double>{run.wheel_acceleration_rad_s2.left[j], run.wheel_acceleration_rad_s2.right[j]});
+    const Wrench<double> wrench = inertial_wrench(
+        mass_properties(robot, run.payload_kg[j]),
+        BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s});
+    const Sided<double> force_N = contact_forces_N(robot.geometry.half_track_m, wrench);
+    for (Side side : kSides) {
+      const Motor& motor = robot.motor[side];
+      const double speed = run.wheel_speed_rad_s[side][j];
+      const double torque_Nm =
+          robot.geometry.wheel_radius_m[side] * force_N[side] +
+          robot.inertia.wheel_axle_inertia_kg_m2 * run.wheel_acceleration_rad_s2[side][j];
+      expected.inertia_A[side][j] = motor_current_A(motor, torque_Nm);
+      expected.viscous_A[side][j] = motor_current_A(motor, motor.viscous_friction_Nm_s_rad * speed);
+      expected.friction_A[side][j] = motor_current_A(
+          motor, motor.friction_torque_Nm * std::clamp(speed / kBlurredWheel_rad_s, -1.0, 1.0));
+    }
+  }
+  return expected;
+}
+
+std::vector<std::optional<Relation>> relations_of(const RunSignals& run, const Robot& robot, double freedom) {
+  const ExpectedMotors expected = expected_motors(run, robot);
+  const Geometry& geometry = robot.geometry;
+  return {winding(run, robot, expected, Side::left, freedom),
+          winding(run, robot, expected, Side::right, freedom),
+          mechanics(run, robot, expected, Side::left, freedom),
+          mechanics(run, robot, expected, Side::right, freedom),
+          gyro_and_wheels(run, geometry, freedom),
+          heading_and_wheels(run, geometry, freedom),
+          heading_and_gyro(run, freedom),
+          position_and_wheels(run, geometry, freedom),
+          battery(run, robot, expected, freedom)};
+}
+
+}  // namespace joulepath

@@ -1,0 +1,104 @@
+#include "diagnosis/correction/all_clear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/thresholds.hpp"
+// Design: docs/decisions/0221-an-all-clear-needs-power.md
+namespace joulepath {
+namespace {
+
+constexpr double kAnySize_percent = 1000;  ///< of the energy
+
+bool energies_were_measured(const Examination& x) {
+  return std::ranges::any_of(x.runs.signals, [](const RunSignals& run) { return measures_energy(run); });
+}
+
+/// An effect that changes the energy: how far its evidence stands above the noise at a gap of 1 %.
+struct Visibility {
+  double sigmas_per_percent{};
+  double prior_sigmas_per_percent{};  ///< of the search's prior width
+};
+
+/// Share of the energy that an amplitude of the candidate changes, per unit.
+double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
+  ModelState with_it = x.id.state;
+  std::vector<double> amplitude(candidate.amplitude.size(), 0.0);
+  amplitude[0] = candidate.step[0];
+  with_it.effects.push_back({candidate, amplitude});
+  const Impact impact = impact_between(x.id.signals, x.point_of(with_it), x.point_of(x.id.state));
+  const bool motors = std::ranges::any_of(x.id.signals, measures_motors);
+  return (motors ? impact.motor_power : impact.battery_power) / candidate.step[0];
+}
+
+std::vector<Visibility> visibilities(const Examination& x) {
+  std::vector<Visibility> effects;
+  std::set<std::string> met;
+  for (std::size_t c = 0; c < x.id.equations.candidates.size(); ++c) {
+    const Candidate& candidate = x.id.equations.candidates[c];
+    if (candidate.effect().delays_channels || !met.insert(candidate.label()).second) continue;
+    const double share = energy_per_amplitude(x, candidate);
+    if (share * candidate.step[0] < kLeastEnergyOfStep) continue;
+    const int column = x.id.equations.columns_of_candidate(static_cast<int>(c), false).front();
+    const double amplitude = 0.01 / share;
+    effects.push_back({amplitude * std::sqrt(x.id.problem.gram(column, column) / x.id.dispersion),
+                       x.id.problem.prior_sd[column] / amplitude});
+  }
+  return effects;
+}
+
+/// Probability that the search takes the effect up at a gap of this size: its gain 1/2 z^2 in log evidence, z
+/// being normal about its expectation with unit deviation, must pay for the effect and its width.
+double probability_seen(const Visibility& effect, double gap_percent) {
+  const double expected = effect.sigmas_per_percent * gap_percent;
+  const double width = effect.prior_sigmas_per_percent * effect.sigmas_per_percent;
+  const double cost = kEffectCost + 0.5 * std::log1p(width * width);
+  const double below_material = gap_percent < 100 * kMaterialEnergy ? kSmallEffectEvidence : 0.0;
+  return 0.5 * std::erfc((std::sqrt(2 * (cost + below_material)) - expected) / std::sqrt(2.0));
+}
+
+double detectable_percent(const std::vector<Visibility>& effects) {
+  if (effects.empty()) return kAnySize_percent;
+  const auto seen = [&](double gap_percent) {
+    double sum = 0;
+    for (const Visibility& effect : effects) sum += probability_seen(effect, gap_percent);
+    return sum / static_cast<double>(effects.size());
+  };
+  if (seen(kAnySize_percent) < kShareSeen) return kAnySize_percent;
+  double low = 0, high = kAnySize_percent;
+  for (int halving = 0; halving < 60; ++halving)
+    (seen(0.5 * (low + high)) < kShareSeen ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
+std::string size_text(double percent) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2g %%", percent);
+  return percent < kAnySize_percent ? text : "any size";
+}
+
+}  // namespace
+
+AllClear examine_all_clear(const Examination& x, Verdict verdict) {
+  if (verdict != Verdict::no_gap && verdict != Verdict::explained) return {.verdict = verdict};
+  if (!energies_were_measured(x))
+    return {
+        .verdict = verdict == Verdict::no_gap ? Verdict::too_little_data : Verdict::partly_explained,
+        .note = "no run measures the energy of the motors or of the battery: an energy gap cannot be seen"};
+  if (verdict != Verdict::no_gap) return {.verdict = verdict};
+  const double percent = detectable_percent(visibilities(x));
+  if (percent > kGreatestUnseen_percent)
+    return {.verdict = Verdict::too_little_data,
+            .detectable_percent = percent,
+            .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
+                    " of the energy: log more channels or more runs"};
+  return {.verdict = verdict,
+          .detectable_percent = percent,
+          .note = "no gap above " + size_text(std::max(percent, 100 * kMaterialEnergy)) +
+                  " of the energy (90 % of such gaps would have been seen)"};
+}
+
+}  // namespace joulepath

@@ -1,0 +1,134 @@
+#include "scenarios/dataset_text.hpp"
+
+#include <charconv>
+#include <filesystem>
+
+#include "scenarios/bags/bag_log.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/quoted.hpp"
+
+namespace joulepath {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A value in YAML's flow style.
+std::string flow_text(const Value& value) {
+  std::string text;
+  switch (value.kind) {
+    case Value::Kind::null:
+      return "null";
+    case Value::Kind::scalar: {
+      const bool word = value.text == "true" || value.text == "false";
+      return !value.quoted && (word || parse_number(value.text)) ? value.text : quoted(value.text);
+    }
+    case Value::Kind::list:
+      for (const Value& item : value.items) text += (text.empty() ? "" : ", ") + flow_text(item);
+      return "[" + text + "]";
+    case Value::Kind::map:
+      for (const Value::Entry& entry : value.entries)
+        text += (text.empty() ? "" : ", ") + entry.key + ": " + flow_text(entry.value);
+      return "{" + text + "}";
+  }
+  return text;
+}
+
+/// Names of files, relative to the dataset's folder, become relative to another one.
+class Relocation {
+ public:
+  Relocation(const std::string& dataset_file, const std::string& directory)
+      : from_(fs::absolute(dataset_file).parent_path()), to_(fs::absolute(directory)) {}
+
+  void move(Value& name) const {
+    for (Value& item : name.items) move(item);
+    if (name.kind != Value::Kind::scalar || name.text.starts_with("$") || fs::path(name.text).is_absolute())
+      return;
+    name.text = (from_ / name.text).lexically_normal().lexically_proximate(to_.lexically_normal()).string();
+    name.quoted = true;
+  }
+
+ private:
+  fs::path from_, to_;
+};
+
+/// Shortest text that reads back as the same number: a scale is not to be rounded.
+std::string exact_text(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string source_text(const std::string& column, const ColumnSource& source) {
+  std::string text;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    text += (text.empty() ? "" : ", ") + key + ": " + value;
+  };
+  std::string names;
+  for (const std::string& name : source.from) names += (names.empty() ? "" : ", ") + quoted(name);
+  if (source.from.size() > 1) add("from", "[" + names + "]");
+  if (source.from.size() == 1 && source.from.front() != column) add("from", names);
+  if (source.is_absent) add("absent", "true");
+  if (source.scale != 1) add("scale", exact_text(source.scale));
+  if (source.offset != 0) add("offset", exact_text(source.offset));
+  if (source.is_unsigned) add("unsigned", "true");
+  if (source.wraps_at) add("wraps_at", exact_text(*source.wraps_at));
+  if (source.derivative) add("derivative", "true");
+  if (source.delay_s != 0) add("delay_s", exact_text(source.delay_s));
+  return "{" + text + "}";
+}
+
+void relocate_run(Value& run, const Relocation& relocation) {
+  for (Value::Entry& entry : run.entries)
+    if (entry.key == "file" || entry.key == "files" || entry.key == "predicted") relocation.move(entry.value);
+}
+
+/// A run's entry: relocated, with its own columns.
+std::string run_text(const Node& run, const Relocation& relocation, const ColumnSources& columns) {
+  Value value = run.value();
+  relocate_run(value, relocation);
+  std::erase_if(value.entries, [](const Value::Entry& entry) { return entry.key == "columns"; });
+  std::string text = flow_text(value);
+  if (columns.empty()) return text;
+  text.pop_back();
+  return text + ", columns: " + columns_text(columns) + "}";
+}
+
+}  // namespace
+
+Document document_of(const Dataset& dataset) {
+  if (!is_log_file(dataset.file)) return Document::load(dataset.file);
+  const std::string log = fs::absolute(dataset.file).lexically_normal().string();
+  return Document::parse("{\"runs\": [{\"file\": " + quoted(log) + "}]}", dataset.file);
+}
+
+std::string columns_text(const ColumnSources& sources) {
+  std::string text;
+  for (const auto& [column, source] : sources)
+    text += (text.empty() ? "" : ", ") + column + ": " + source_text(column, source);
+  return "{" + text + "}";
+}
+
+std::string dataset_text(const Dataset& dataset, const DatasetEdit& edit, const std::string& directory) {
+  const Document document = document_of(dataset);
+  std::string text = "schema: joulepath/dataset/1\n" + edit.comment;
+  const Relocation relocation(dataset.file, directory);
+  const fs::path robot = fs::absolute(dataset.robot_file)
+                             .lexically_normal()
+                             .lexically_proximate(fs::absolute(directory).lexically_normal());
+  text += "robot: " + quoted(robot.string()) + "\n";
+  if (!edit.columns.empty()) text += "columns:\n";
+  for (const auto& [column, source] : edit.columns)
+    text += "  " + column + ": " + source_text(column, source) + "\n";
+  text += "runs:\n";
+  const std::vector<Node> runs = document.root()["runs"].items();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (edit.left_out.contains(r)) continue;
+    const auto columns = edit.run_columns.find(r);
+    text +=
+        "  - " +
+        run_text(runs[r], relocation, columns == edit.run_columns.end() ? ColumnSources{} : columns->second) +
+        "\n";
+  }
+  return text;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "diagnosis/values/dataset.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/log_columns.hpp"
+
+namespace joulepath {
+
+/// What differs from a dataset's file when it is written again.
+struct DatasetEdit {
+  std::string comment{};  ///< after the schema line
+  ColumnSources columns{};
+  std::map<std::size_t, ColumnSources> run_columns{};  ///< by the index of the file's entry under `runs:`
+  std::set<std::size_t> left_out{};                    ///< entries
+};
+
+/// The file of a dataset; of a log alone, a dataset that names it. Throws ConfigError.
+[[nodiscard]] Document document_of(const Dataset& dataset);
+
+/// A `columns:` map in YAML's flow style, with exact numbers.
+[[nodiscard]] std::string columns_text(const ColumnSources& sources);
+
+/// The dataset's file with an edit, names of files as seen from `directory`, the one that it will be written
+/// to. Throws ConfigError where the file can no longer be read.
+[[nodiscard]] std::string dataset_text(const Dataset& dataset, const DatasetEdit& edit,
+                                       const std::string& directory);
+
+}  // namespace joulepath

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "diagnosis/signals/runs_by_use.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+#include "tests/support/blind_day.hpp"
+
+namespace joulepath {
+namespace {
+
+Dataset quiet_day(const std::string& options) {
+  return testing::blind_day(options + " --seed 12 --label none");
+}
+
+/// Battery power and odometry alone: the commonest log there is.
+Dataset battery_only(Dataset dataset, bool battery = true) {
+  for (Run& run : dataset.runs) {
+    Trajectory& log = run.log;
+    log.motor_voltage_V = {}, log.motor_current_A = {};
+    log.gyro_yaw_rate_rad_s.clear(), log.position_x_m.clear(), log.position_y_m.clear();
+    log.heading_rad.clear();
+    if (!battery) log.battery_voltage_V.clear(), log.battery_current_A.clear();
+  }
+  return dataset;
+}
+
+TEST(AllClear, StatesTheGapThatWouldHaveBeenSeen) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d = diagnose(quiet_day("--effect none --protocol 24"), {.bootstrap = 20});
+  ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
+  EXPECT_GT(d.gap.energy.detectable_percent, 0.0);
+  EXPECT_LT(d.gap.energy.detectable_percent, 10.0);
+}
+
+TEST(AllClear, ALogWithoutAnyPowerGetsNone) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = quiet_day("--effect rolling_resistance --size 0.01 --protocol 12");
+  const Diagnosis d = diagnose(battery_only(day, false), {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::too_little_data) << verdict_name(d.verdict);
+  EXPECT_TRUE(d.causes.empty());
+}
+
+/// A resistance shows in the battery's power, and where: while the robot drives, on no wheel in particular.
+TEST(AllClear, BatteryPowerAloneShowsAGapAndWhereItLies) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = quiet_day("--effect rolling_resistance --size 0.015 --protocol 24");
+  const Diagnosis d = diagnose(battery_only(day), {.bootstrap = 20});
+  EXPECT_NE(d.verdict, Verdict::no_gap);
+  EXPECT_GT(d.gap.energy.before_percent, 5.0);
+  EXPECT_TRUE(std::ranges::any_of(d.where, [](const WhereCell& cell) { return cell.axis == "phase"; }));
+  EXPECT_TRUE(std::ranges::none_of(d.where, [](const WhereCell& cell) { return cell.axis == "wheel"; }));
+}
+
+/// A payload that is put on at a stop is what it is at each sample: no value between the two.
+TEST(Payload, AStepWithinARunIsNotInterpolated) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset day = quiet_day("--effect none --protocol 6");
+  std::vector<double>& payload = day.runs[0].log.payload_kg;
+  for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = 2 * i < payload.size() ? 0.0 : 8.0;
+  const RunsByUse runs = sort_runs(day);
+  ASSERT_EQ(runs.signals.front().run_index, 0u);
+  for (double kg : runs.signals.front().payload_kg) EXPECT_TRUE(kg == 0.0 || kg == 8.0) << kg;
+}
+
+}  // namespace
+}  // namespace joulepath

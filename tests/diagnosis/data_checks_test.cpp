@@ -1,0 +1,139 @@
+#include "diagnosis/checks/data_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "diagnosis/values/diagnosis.hpp"
+#include "tests/support/blind_day.hpp"
+
+namespace joulepath {
+namespace {
+
+/// A test day of the benchmark's plant, which shares nothing with the product.
+Dataset twelve_runs(const std::string& options) {
+  return testing::blind_day(options + " --protocol 12 --label none");
+}
+
+/// The run that turns most to both sides: there the motors of both sides have different work, and every
+/// channel has something to say.
+std::size_t liveliest(const Dataset& dataset) {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t r = 0; r < dataset.runs.size(); ++r) {
+    const Sided<std::vector<double>>& wheels = dataset.runs[r].log.wheel_speed_rad_s;
+    double turned = 0, to_one_side = 0;
+    for (std::size_t i = 0; i < wheels.left.size(); ++i) {
+      turned += std::abs(wheels.right[i] - wheels.left[i]);
+      to_one_side += wheels.right[i] - wheels.left[i];
+    }
+    if (turned - std::abs(to_one_side) > most) most = turned - std::abs(to_one_side), best = r;
+  }
+  return best;
+}
+
+using Spoil = std::function<void(Trajectory&)>;
+
+void scale(std::vector<double>& channel, double factor) {
+  for (double& value : channel) value *= factor;
+}
+
+struct Case {
+  const char* name;
+  const char* kind;
+  const char* channel;  ///< that the check must hold
+  Spoil spoil;
+};
+
+std::vector<Case> cases() {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  return {
+      {"CurrentInverted", "inverted", "motor_current_right_A",
+       [](Trajectory& t) { scale(t.motor_current_A.right, -1); }},
+      {"CurrentsInverted", "inverted", "motor_current_left_A",
+       [](Trajectory& t) { scale(t.motor_current_A.left, -1), scale(t.motor_current_A.right, -1); }},
+      {"VoltageInverted", "inverted", "motor_voltage_left_V",
+       [](Trajectory& t) { scale(t.motor_voltage_V.left, -1); }},
+      {"WheelSpeedInverted", "inverted", "wheel_speed_left_rad_s",
+       [](Trajectory& t) { scale(t.wheel_speed_rad_s.left, -1); }},
+      {"GyroInverted", "inverted", "gyro_yaw_rate_rad_s",
+       [](Trajectory& t) { scale(t.gyro_yaw_rate_rad_s, -1); }},
+      {"CurrentsSwapped", "swapped", "motor_current_left_A",
+       [](Trajectory& t) { std::swap(t.motor_current_A.left, t.motor_current_A.right); }},
+      {"WheelSpeedsSwapped", "swapped", "wheel_speed_left_rad_s",
+       [](Trajectory& t) { std::swap(t.wheel_speed_rad_s.left, t.wheel_speed_rad_s.right); }},
+      {"CurrentDead", "dead", "motor_current_right_A",
+       [](Trajectory& t) { scale(t.motor_current_A.right, 0); }},
+      {"CurrentInMilliamperes", "unit", "motor_current_left_A",
+       [](Trajectory& t) { scale(t.motor_current_A.left, 1e3); }},
+      {"WheelSpeedsInRpm", "unit", "wheel_speed_left_rad_s",
+       [](Trajectory& t) {
+         scale(t.wheel_speed_rad_s.left, 30 / std::numbers::pi),
+             scale(t.wheel_speed_rad_s.right, 30 / std::numbers::pi);
+       }},
+      {"HeadingInDegrees", "unit", "heading_rad", [](Trajectory& t) { scale(t.heading_rad, kDegrees); }},
+      {"ClockInMilliseconds", "clock", "time_s", [](Trajectory& t) { scale(t.time_s, 1e3); }},
+      {"BatteryCurrentInverted", "inverted", "battery_current_A",
+       [](Trajectory& t) { scale(t.battery_current_A, -1); }},
+  };
+}
+
+class SpoiltChannel : public ::testing::TestWithParam<Case> {
+ protected:
+  static const Dataset& day() {
+    static const Dataset dataset = twelve_runs("--effect none --seed 71");
+    return dataset;
+  }
+};
+
+TEST_P(SpoiltChannel, OfOneRunIsNamedWithItsRun) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = day();
+  const std::size_t spoilt = liveliest(dataset);
+  GetParam().spoil(dataset.runs[spoilt].log);
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, GetParam().kind) << found[0].evidence;
+  EXPECT_NE(found[0].channel.find(GetParam().channel), std::string::npos) << found[0].channel;
+  EXPECT_EQ(found[0].run, dataset.runs[spoilt].name);
+}
+
+TEST_P(SpoiltChannel, OfAllRunsIsNamedAndStopsTheDiagnosis) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = day();
+  for (auto& run : dataset.runs) GetParam().spoil(run.log);
+  const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::data_suspect) << verdict_name(d.verdict);
+  EXPECT_TRUE(d.causes.empty());
+  ASSERT_FALSE(d.data_checks.empty());
+  EXPECT_EQ(d.data_checks[0].kind, GetParam().kind) << d.data_checks[0].evidence;
+  EXPECT_NE(d.data_checks[0].channel.find(GetParam().channel), std::string::npos) << d.data_checks[0].channel;
+}
+
+INSTANTIATE_TEST_SUITE_P(DataChecks, SpoiltChannel, ::testing::ValuesIn(cases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// What the catalog can explain at its full size is for the diagnosis, not for the data checks.
+TEST(SoundData, WithEffectsOfFullSizeAreNotSuspect) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const char* effect :
+       {"none --level 1", "torque_constant_error --size 0.12", "torque_constant_error --size -0.12",
+        "winding_resistance_error --size 0.35", "winding_heating --size 0.4", "time_misalignment --size 0.12",
+        "track_width_error --size 0.12", "wheel_radius_mismatch --size 0.05",
+        "payload_mass_error --size 0.45", "yaw_inertia_error --size 0.9", "current_sensor_gain --size 0.15",
+        "floor_slope --size 0.02", "rolling_resistance --size 0.02",
+        "regeneration_error --size 0.8 --robot warehouse", "driver_foldback --robot small",
+        "encoder_drift --size 0.05"}) {
+    const Dataset dataset = twelve_runs(std::string("--effect ") + effect + " --seed 5");
+    for (const DataCheck& check : check_data(dataset, sort_runs(dataset)))
+      ADD_FAILURE() << effect << ": " << check.run << " " << check.kind << " " << check.channel << ", "
+                    << check.evidence;
+  }
+}
+
+}  // namespace
+}  // namespace joulepath
