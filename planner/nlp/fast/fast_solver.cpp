@@ -17,6 +17,10 @@ constexpr double kColdGap = 0.3, kColdRoom = 1e-6;
 constexpr std::size_t kContinuedFrom = 800, kMerged = 8;
 constexpr double kCoarseTolerance = 1e-2, kWarmGap = 1e-2, kWarmRoom = 1e-3;
 constexpr int kCoarseIterations = 30;
+/// A gradient stops falling where slacks reach rounding: a solve is at its end when nothing else is open and
+/// its objective has stood still for this many iterations.
+constexpr int kAtRest = 6;
+constexpr double kMostRounding = 1e-6;  ///< of the weighted gradient, relative to the objective
 
 class FastSolver {
  public:
@@ -34,7 +38,7 @@ class FastSolver {
     for (; i < options.max_iterations; ++i) {
       measure();
       if (!std::isfinite(error_)) break;
-      if (error_ <= options.tolerance) {
+      if (error_ <= options.tolerance || at_rest_ >= kAtRest) {
         solution.converged = true;
         break;
       }
@@ -49,6 +53,7 @@ class FastSolver {
  private:
   /// Residuals of the optimality conditions at the current point, relative to the objective.
   void measure() {
+    const double total_before = total_;
     double gap = 0;
     pairs_ = 0;
     state_.for_each_pair([&](const Pair& pair) {
@@ -72,11 +77,17 @@ class FastSolver {
       dual_z += std::abs(p_.recovery_weight - r.z.y - r.sum.y) * r.z.s;
     }
     const double size = std::max(1e-9, std::abs(total_));
-    // A gradient's error counts in second order; it stops falling where slacks reach rounding.
-    error_ = std::max({gap / size, kDualWeight * dual_error() / size, dual_z / size, primal / size});
-    if (!state_.has_duration()) return;
-    state_.time_residual = p_.duration_s - model_.duration_s() - (state_.has_budget() ? state_.time.s : 0.0);
-    error_ = std::max(error_, std::abs(state_.time_residual) / p_.duration_s);
+    double open = std::max({gap / size, dual_z / size, primal / size});
+    if (state_.has_duration()) {
+      state_.time_residual =
+          p_.duration_s - model_.duration_s() - (state_.has_budget() ? state_.time.s : 0.0);
+      open = std::max(open, std::abs(state_.time_residual) / p_.duration_s);
+    }
+    const double gradient = kDualWeight * dual_error() / size;  // it counts in second order
+    error_ = std::max(open, gradient);
+    const bool rests = open <= tolerance_ && gradient <= kMostRounding &&
+                       std::abs(total_ - total_before) <= tolerance_ * size;
+    at_rest_ = rests ? at_rest_ + 1 : 0;
   }
 
   /// Gradient of the Lagrangian, times b.
@@ -133,6 +144,7 @@ class FastSolver {
   std::size_t pairs_{};
   double total_{};  ///< objective, recovery included
   double mu_{}, error_{}, tolerance_{};
+  int at_rest_{};  ///< iterations that changed nothing but the rounding of the gradient
 };
 
 /// A rough optimum on fewer nodes, as a start for all of them: nothing where even that is not found, or where

@@ -1,0 +1,61 @@
+// A short version of the campaigns in benchmarks/bounds: problems of four robots, with every goal of time.
+#include "benchmarks/problems/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "benchmarks/support/robots.hpp"
+#include "planner/motion/replay.hpp"
+#include "planner/profile/profile_solver.hpp"
+
+namespace joulepath::problems {
+namespace {
+
+TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
+  const std::vector<Robot> robots = four_robots();
+  for (unsigned index = 0; index < 48; ++index) {
+    const std::optional<CampaignProblem> one = campaign_problem(robots, 7, index);
+    if (!one) continue;
+    const ProfileRequest& request = one->problem.request;
+    const ProfileResult result = solve_profile(request);
+    ASSERT_TRUE(result.profile) << index << " " << result.summary.message;
+    // A voltage drop bends the power where the current changes its sign: Newton's steps may swing about the
+    // bend.
+    if (one->effect != "driver_voltage_drop") EXPECT_EQ(result.summary.handed_over, "") << index;
+    const ReplayResult again = replay(request, *result.profile);
+    EXPECT_TRUE(again.valid()) << index << " " << again.limit << " " << again.worst_violation;
+    if (request.time.mode == TimeMode::minimum_time)
+      EXPECT_LE(result.summary.lower_bound_s, again.duration_s * (1 + 1e-9)) << index;
+    else
+      EXPECT_LE(result.summary.lower_bound_J, again.energy_J * (1 + 1e-9)) << index;
+  }
+}
+
+/// Optima at which the gradient's rounding is above the solver's tolerance, found by the campaign: tight
+/// corners, a straight line and a bend of heavy robots. They are solved, not handed over.
+TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
+  const std::vector<Robot> robots = four_robots();
+  for (unsigned index : {43U, 3817U, 3864U}) {
+    const std::optional<CampaignProblem> one = campaign_problem(robots, 20261123, index);
+    ASSERT_TRUE(one);
+    const ProfileResult result = solve_profile(one->problem.request);
+    EXPECT_TRUE(result.profile) << result.summary.message;
+    EXPECT_EQ(result.summary.handed_over, "") << index;
+  }
+}
+
+TEST(Campaign, AProblemIsAFunctionOfItsIndex) {
+  const std::vector<Robot> robots = four_robots();
+  for (unsigned index : {3U, 8U}) {
+    const auto one = campaign_problem(robots, 7, index), again = campaign_problem(robots, 7, index);
+    ASSERT_TRUE(one && again);
+    EXPECT_EQ(problem_json(one->problem).dump(), problem_json(again->problem).dump());
+    const auto other = campaign_problem(robots, 7, index + 16);
+    ASSERT_TRUE(other);
+    EXPECT_NE(problem_json(one->problem)["path"].dump(), problem_json(other->problem)["path"].dump());
+  }
+}
+
+}  // namespace
+}  // namespace joulepath::problems
