@@ -42,7 +42,7 @@ bool set_time(ProfileRequest& request, Generator& random) {
 std::optional<CampaignProblem> campaign_problem(const std::vector<Robot>& robots, unsigned seed,
                                                 unsigned index) {
   Generator random(seed * kPrime + index, robots);
-  CampaignProblem one{.problem = random.next(index)};
+  CampaignProblem one{.problem = random.next(index, Part::paths)};
   ProfileRequest& request = one.problem.request;
   const bool jerk = random.choice(8) == 0, effect = random.choice(10) == 0, ends = random.choice(8) == 0;
   const double jerk_m_s3 = random.uniform(0.3, 2), from = random.uniform(0, 0.4), to = random.uniform(0, 0.4);
