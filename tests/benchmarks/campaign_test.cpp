@@ -36,7 +36,7 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
 /// corners, a straight line and a bend of heavy robots. They are solved, not handed over.
 TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
   const std::vector<Robot> robots = four_robots();
-  for (unsigned index : {43U, 3817U, 3864U}) {
+  for (unsigned index : {43U, 830U, 3817U, 3864U}) {
     const std::optional<CampaignProblem> one = campaign_problem(robots, 20261123, index);
     ASSERT_TRUE(one);
     const ProfileResult result = solve_profile(one->problem.request);
