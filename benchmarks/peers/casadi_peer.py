@@ -82,10 +82,14 @@ def segment_function(ca, problem, cost="full"):
 class Program:
     """The nonlinear program of one problem; build once, solve for any duration."""
 
-    def __init__(self, problem, segments, jit=False, cost="full"):
+    def __init__(self, problem, segments, jit=False, cost="full", extra_nodes=()):
         ca = package("casadi")
         self.ca, self.problem, path = ca, problem, Path(problem)
         self.s = np.linspace(0, path.length, segments + 1)
+        if len(extra_nodes):
+            self.s = np.unique(np.concatenate([self.s, extra_nodes]))
+            self.s = self.s[np.concatenate([[True], np.diff(self.s) > 1e-7 * path.length])]
+            self.s[-1], segments = path.length, len(self.s) - 1
         middle = (self.s[1:] + self.s[:-1]) / 2
         geometry = [
             np.diff(self.s),

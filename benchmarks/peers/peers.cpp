@@ -26,6 +26,7 @@ Json plan(ProfileRequest request, std::size_t nodes) {
   json["solve_ms"] = cpu_ms() - start_ms;
   json["status"] = solve_status_name(result.summary.status);
   json["lower_bound_J"] = result.summary.lower_bound_J;
+  json["lower_bound_s"] = result.summary.lower_bound_s;
   json["message"] = result.summary.message;
   if (result.profile) json["solution"] = solution_json(*result.profile);
   return json;

@@ -1,306 +1,208 @@
 // How far the planner's paths are from the best that a brute-force search finds.
 //
-//   bench_ways search COUNT SEED STARTS     poses with their brute-force energies as CSV (reference.csv)
-//   bench_ways poses COUNT SEED STARTS      poses of the public set with their least known energies as CSV
-//   bench_ways compare REFERENCE.csv NOTE   the planner on the same poses, as Markdown
+//   bench_ways search FLOOR FIRST LAST SEED   brute-force splines of poses FIRST to LAST as CSV
+//   (reference.csv) bench_ways poses COUNT SEED               poses of the public set with their least known
+//   energies as CSV bench_ways compare REFERENCE.csv NOTE     the planner on the same poses, as Markdown
 //
 // Both energies come from one evaluator: the path is driven by the planner's own profile solver, time free
-// and standby counted. The search is the benchmark's own: random starts, then Nelder-Mead.
+// and standby counted.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <nlopt.hpp>
-#include <numbers>
-#include <random>
+#include <map>
 #include <sstream>
 
-#include "planner/mission/mission.hpp"
-#include "planner/path/shape/free_spline.hpp"
-#include "planner/ways/way_score.hpp"
-#include "scenarios/map_file.hpp"
-#include "scenarios/robot_file.hpp"
-#include "tests/planner/path/grids.hpp"
+#include "benchmarks/ways/brute_force.hpp"
 
+namespace joulepath::ways {
 namespace {
 
-using namespace joulepath;
+constexpr double kSame = 1e-4;  ///< relative, of two energies
+constexpr double kFar = 0.01;   ///< excess from which a pose is listed
 
-struct Problem {
-  std::string floor{};
-  Pose start{};
-  Point2 goal_m{};
-  std::optional<double> goal_heading_rad{};
-};
-
-struct World {
-  std::string name{};
-  MissionWorld world{};
-  RouteSpace space;
-};
-
-World make_world(const std::string& name) {
-  MissionWorld world{.robot = read_robot("scenarios/robots/nomad_super_scout.yaml")};
-  world.map = name == "empty" ? free_grid(600, 600, 0.05) : read_map("scenarios/maps/" + name + ".yaml");
-  RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
-  return {name, std::move(world), std::move(space)};
+std::mt19937 random_of(unsigned seed, unsigned index) {
+  std::seed_seq seeds{seed, index, 1U};
+  return std::mt19937(seeds);
 }
 
-MissionRequest mission_of(const Problem& problem) {
-  MissionRequest mission{.name = "pose", .clearance_m = 0.05};
-  mission.stations["goal"] = {
-      .x_m = problem.goal_m[0], .y_m = problem.goal_m[1], .heading_rad = problem.goal_heading_rad};
-  mission.start.pose = problem.start;
-  mission.legs = {{.to = "goal"}};
-  return mission;
+std::string pose_text(const Problem& p, int digits) {
+  char text[300];
+  std::snprintf(text, sizeof text, "%s,%.*g,%.*g,%.*g,%.*g,%.*g,%.*g", p.floor.c_str(), digits, p.start.x_m,
+                digits, p.start.y_m, digits, p.start.heading_rad, digits, p.goal_m[0], digits, p.goal_m[1],
+                digits, p.goal_heading_rad.value_or(NAN));
+  return text;
 }
 
-double energy_J(const Plan& plan) {
-  const bool drives = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-  return drives ? plan.energy.total_J() : kNoLimit;
-}
-
-double planned_J(const World& world, const MissionRequest& mission) {
-  const PlanOptions options{.solver = SolverChoice::fast, .nodes = 200, .baselines = false};
-  return energy_J(plan_mission(mission, world.world, options, &world.space));
-}
-
-double driven_J(const World& world, const Problem& problem, const Path& path) {
-  MissionRequest mission = mission_of(problem);
-  mission.legs = {{.to = "goal", .path = PathRequest{.ready = path}}};
-  return planned_J(world, mission);
-}
-
-/// Turn, line, turn: what a plain controller does; infinite where the line is not free.
-double plain_J(const World& world, const Problem& problem) {
-  const double dx = problem.goal_m[0] - problem.start.x_m, dy = problem.goal_m[1] - problem.start.y_m;
-  const double bearing_rad = std::atan2(dy, dx);
-  Path path;
-  append_turn_to(path, problem.start, bearing_rad);
-  path.pieces.push_back(
-      straight_piece({problem.start.x_m, problem.start.y_m, bearing_rad}, std::hypot(dx, dy)));
-  if (problem.goal_heading_rad) append_turn_to(path, path.end(), *problem.goal_heading_rad);
-  if (world.space.checker().first_collision(path)) return kNoLimit;
-  return driven_J(world, problem, path);
-}
-
-/// 1 to 10 m apart, log-uniform; every second goal with a heading.
-Problem random_problem(const World& world, std::mt19937& random, std::size_t index) {
-  const auto uniform = [&](double from, double to) {
-    return std::uniform_real_distribution<>(from, to)(random);
-  };
-  const auto extent = world.space.field().extent_m();
-  while (true) {
-    Problem problem{.floor = world.name};
-    problem.start = {uniform(extent.x_min_m, extent.x_max_m), uniform(extent.y_min_m, extent.y_max_m),
-                     uniform(-std::numbers::pi, std::numbers::pi)};
-    const double reach_m = std::exp(uniform(0.0, std::log(10.0)));
-    const double bearing_rad = uniform(-std::numbers::pi, std::numbers::pi);
-    const double heading_rad = uniform(-std::numbers::pi, std::numbers::pi);
-    problem.goal_m = {problem.start.x_m + reach_m * std::cos(bearing_rad),
-                      problem.start.y_m + reach_m * std::sin(bearing_rad)};
-    if (index % 2 == 1) problem.goal_heading_rad = heading_rad;
-    const FreeSpace& floor = world.space.any_heading();
-    const auto free = [&](double x_m, double y_m) {
-      return x_m > extent.x_min_m + 1 && x_m < extent.x_max_m - 1 && y_m > extent.y_min_m + 1 &&
-             y_m < extent.y_max_m - 1 && world.space.field().disc_free(x_m, y_m, floor.radius_m() + 0.01);
-    };
-    if (free(problem.start.x_m, problem.start.y_m) && free(problem.goal_m[0], problem.goal_m[1]) &&
-        floor.connected({problem.start.x_m, problem.start.y_m}, problem.goal_m))
-      return problem;
+void search(const std::string& floor, unsigned first, unsigned last, unsigned seed) {
+  const World world = make_world(floor);
+  for (unsigned index = first; index < last; ++index) {
+    const Problem problem = random_problem(world, seed, index);
+    std::mt19937 random = random_of(seed, index);
+    const BestSpline best = brute_force(world, problem, random, {});
+    std::printf("%u,%s,%.9g,%d,%s\n", index, pose_text(problem, 17).c_str(), best.energy_J, best.evaluations,
+                std::isfinite(best.energy_J) ? spline_text(best.spline).c_str() : "");
+    std::fflush(stdout);
   }
 }
 
-/// Random splines of one to three spans, each taken down by Nelder-Mead twice.
-class BruteForce {
- public:
-  BruteForce(const World& world, const Problem& problem, std::mt19937& random)
-      : world_(world), problem_(problem), random_(random), plant_(make_plant(world.world.robot)) {}
+struct Reference {
+  unsigned index{};
+  Problem problem{};
+  double best_J{};       ///< infinite: none was free
+  std::string spline{};  ///< empty: not kept
+};
 
-  double search(int starts) {
-    for (int k = 0; k < starts; ++k) {
-      spans_ = 1 + static_cast<std::size_t>(k % 3);
-      std::vector<double> x = random_start();
-      descend(x, 0.15, 400);
-      descend(x, 0.03, 300);
+std::vector<std::vector<std::string>> read_rows(const char* file) {
+  std::ifstream in(file);
+  std::vector<std::vector<std::string>> rows;
+  std::string line;
+  while (std::getline(in, line)) {
+    std::vector<std::string>& field = rows.emplace_back(1, "");
+    for (const char c : line) {
+      if (c == ',')
+        field.emplace_back();
+      else
+        field.back() += c;
     }
-    std::sort(best_.begin(), best_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    double best_J = kNoLimit;
-    for (std::size_t k = 0; k < std::min<std::size_t>(5, best_.size()); ++k)
-      best_J = std::min(best_J, driven_J(world_, problem_, *free_spline_path(best_[k].second)));
-    return best_J;
+  }
+  return rows;
+}
+
+/// From the floor on.
+Problem problem_from(const std::vector<std::string>& row, std::size_t floor) {
+  const auto number = [&](std::size_t k) { return std::stod(row.at(floor + k)); };
+  Problem problem{
+      .floor = row.at(floor), .start = {number(1), number(2), number(3)}, .goal_m = {number(4), number(5)}};
+  if (row.at(floor + 6) != "nan") problem.goal_heading_rad = number(6);
+  return problem;
+}
+
+std::vector<Reference> read_references(const char* file) {
+  std::vector<Reference> all;
+  std::vector<std::vector<std::string>> rows = read_rows(file);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    rows[k].resize(11);
+    all.push_back({static_cast<unsigned>(std::stoul(rows[k][0])), problem_from(rows[k], 1),
+                   std::stod(rows[k][8]), rows[k][10]});
+  }
+  return all;
+}
+
+class Worlds {
+ public:
+  const World& of(const std::string& floor) {
+    if (!worlds_.contains(floor)) worlds_.emplace(floor, make_world(floor));
+    return worlds_.at(floor);
   }
 
  private:
-  double reach_m() const {
-    return std::hypot(problem_.goal_m[0] - problem_.start.x_m, problem_.goal_m[1] - problem_.start.y_m);
-  }
-  std::vector<double> random_start() {
-    const auto uniform = [&](double from, double to) {
-      return std::uniform_real_distribution<>(from, to)(random_);
-    };
-    const double dx = problem_.goal_m[0] - problem_.start.x_m, dy = problem_.goal_m[1] - problem_.start.y_m;
-    std::vector<double> x{std::log(reach_m()) + uniform(-4.5, 0.0), std::log(reach_m()) + uniform(-4.5, 0.0)};
-    if (!problem_.goal_heading_rad) x.push_back(std::atan2(dy, dx) + uniform(-2.5, 2.5));
-    for (std::size_t k = 1; k < spans_; ++k) {
-      const double share = uniform(0.0, 1.0), spread_m = 0.4 * reach_m();
-      x.push_back(problem_.start.x_m + share * dx + uniform(-spread_m, spread_m));
-      x.push_back(problem_.start.y_m + share * dy + uniform(-spread_m, spread_m));
-    }
-    return x;
-  }
-  FreeSpline spline(const std::vector<double>& x) const {
-    FreeSpline spline{.points_m = {{problem_.start.x_m, problem_.start.y_m}},
-                      .start_heading_rad = problem_.start.heading_rad,
-                      .start_handle_m = std::exp(x[0]),
-                      .goal_handle_m = std::exp(x[1])};
-    std::size_t i = 2;
-    spline.goal_heading_rad = problem_.goal_heading_rad ? *problem_.goal_heading_rad : x[i++];
-    for (; i + 1 < x.size(); i += 2) spline.points_m.push_back({x[i], x[i + 1]});
-    spline.points_m.push_back(problem_.goal_m);
-    return spline;
-  }
-  double cost(const std::vector<double>& x) const {
-    const std::optional<Path> path = free_spline_path(spline(x));
-    if (!path) return 1e6;
-    const double slack_m = world_.space.checker().least_slack_m(*path);
-    if (slack_m < 0) return 1e5 - slack_m;
-    const MissionRequest mission = mission_of(problem_);
-    const PlanOptions options{};
-    const PathScore score =
-        score_path(*path, mission.legs[0], 0, {mission, world_.world, nullptr, plant_, options, 0.0});
-    return score.drivable ? score.energy_J : 1e6;
-  }
-  void descend(std::vector<double>& x, double step, int evaluations) {
-    nlopt::opt optimizer(nlopt::LN_NELDERMEAD, static_cast<unsigned>(x.size()));
-    optimizer.set_initial_step(step * std::max(1.0, reach_m()));
-    optimizer.set_ftol_rel(1e-7);
-    optimizer.set_maxeval(evaluations);
-    optimizer.set_min_objective([](const std::vector<double>& at, std::vector<double>&,
-                                   void* self) { return static_cast<BruteForce*>(self)->cost(at); },
-                                this);
-    double value = 0;
-    optimizer.optimize(x, value);
-    const auto path = free_spline_path(spline(x));
-    if (value < 1e4 && path && !world_.space.checker().first_collision(*path))
-      best_.emplace_back(value, spline(x));
-  }
-
-  const World& world_;
-  const Problem& problem_;
-  std::mt19937& random_;
-  Plant plant_;
-  std::size_t spans_{1};
-  std::vector<std::pair<double, FreeSpline>> best_{};
+  std::map<std::string, World> worlds_{};
 };
 
-void search(int count, unsigned seed, int starts) {
-  std::puts("floor,start_x_m,start_y_m,start_heading_rad,goal_x_m,goal_y_m,goal_heading_rad,plain_J,best_J");
-  for (const std::string name : {"empty", "warehouse", "depot"}) {
-    const World world = make_world(name);
-    std::mt19937 random(seed);
-    for (int k = 0; k < (name == "empty" ? count : count / 2); ++k) {
-      const Problem p = random_problem(world, random, static_cast<std::size_t>(k));
-      std::mt19937 own(seed + 1000 + static_cast<unsigned>(k));
-      const double best_J = BruteForce(world, p, own).search(starts);
-      std::printf("%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.9g,%.9g\n", name.c_str(), p.start.x_m,
-                  p.start.y_m, p.start.heading_rad, p.goal_m[0], p.goal_m[1],
-                  p.goal_heading_rad.value_or(NAN), plain_J(world, p), best_J);
-      std::fflush(stdout);
-    }
-  }
-}
-
-/// Poses on the two committed floors with the least energy that the planner or a short search finds.
-void poses(std::size_t count, unsigned seed, int starts) {
+/// Poses of the public set with the least energy that is known: the file's, the planner's or that of a
+/// search.
+void poses(const char* file) {
+  Worlds worlds;
   std::puts("floor,start_x_m,start_y_m,start_heading_rad,goal_x_m,goal_y_m,goal_heading_rad,best_J");
-  for (const std::string name : {"warehouse", "depot"}) {
-    const World world = make_world(name);
-    std::mt19937 random(seed);
-    for (std::size_t k = 0; k < count / 2; ++k) {
-      const Problem p = random_problem(world, random, k);
-      std::mt19937 own(seed + 1000 + static_cast<unsigned>(k));
-      const double best_J =
-          std::min(planned_J(world, mission_of(p)), BruteForce(world, p, own).search(starts));
-      std::printf("%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.8g\n", name.c_str(), p.start.x_m, p.start.y_m,
-                  p.start.heading_rad, p.goal_m[0], p.goal_m[1], p.goal_heading_rad.value_or(NAN), best_J);
-      std::fflush(stdout);
-    }
+  const auto rows = read_rows(file);
+  for (unsigned k = 1; k < rows.size(); ++k) {
+    const Problem problem = problem_from(rows[k], 0);
+    const World& world = worlds.of(problem.floor);
+    std::mt19937 random = random_of(1, k);
+    const BestSpline best = brute_force(world, problem, random, {.descents = 1});
+    std::printf("%s,%.8g\n", pose_text(problem, 9).c_str(),
+                std::min({best.energy_J, planned(world, problem).energy_J, std::stod(rows[k].at(7))}));
+    std::fflush(stdout);
   }
 }
 
 double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return NAN;
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(std::lround(q * static_cast<double>(values.size() - 1)))];
 }
 
 struct Row {
   std::vector<double> excess_percent{}, plain_percent{};
-  int worse_than_plain{}, failed{};
+  int worse_than_plain{}, failed{}, not_searched{}, better{}, turning{};
+  std::vector<std::string> far{};
 };
 
-void compare(const std::string& file, const std::string& note) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  std::map<std::string, Row> rows;
-  std::map<std::string, World> worlds;
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    Problem p;
-    std::string heading, plain, best;
-    fields >> p.floor >> p.start.x_m >> p.start.y_m >> p.start.heading_rad >> p.goal_m[0] >> p.goal_m[1] >>
-        heading >> plain >> best;
-    if (heading != "nan") p.goal_heading_rad = std::stod(heading);
-    const double plain_J = std::stod(plain), best_J = std::stod(best);
-    const World& world = worlds.try_emplace(p.floor, make_world(p.floor)).first->second;
-    const double ours_J = planned_J(world, mission_of(p));
-    Row& row = rows[p.floor];
-    if (!std::isfinite(ours_J)) {
-      ++row.failed;
-      continue;
-    }
-    // Where the search itself found nothing better, the planner's path is the best known.
-    row.excess_percent.push_back(100 * (ours_J / std::min(best_J, ours_J) - 1));
-    row.worse_than_plain += ours_J > plain_J * (1 + 1e-4);
-    if (std::isfinite(plain_J)) row.plain_percent.push_back(100 * (1 - ours_J / plain_J));
-  }
-  std::printf("# Paths against a brute-force search\n\n%s\n\n", note.c_str());
-  std::printf(
+void judge(const World& world, const Reference& reference, Row& row) {
+  const Problem& problem = reference.problem;
+  const Answer ours = planned(world, problem);
+  const double least_J = plain_J(world, problem);
+  double best_J = reference.best_J;
+  if (!reference.spline.empty())
+    best_J = driven_J(world, problem, *free_spline_path(spline_from(reference.spline, problem)));
+  row.not_searched += std::isinf(best_J);
+  row.failed += std::isinf(ours.energy_J);
+  if (std::isinf(ours.energy_J)) return;
+  // Where the search itself found nothing better, the planner's path is the best known.
+  const double excess = ours.energy_J / std::min(best_J, ours.energy_J) - 1;
+  row.excess_percent.push_back(100 * excess);
+  row.better += ours.energy_J < best_J * (1 - kSame);
+  row.turning += ours.turns;
+  row.worse_than_plain += ours.energy_J > least_J * (1 + kSame);
+  if (std::isfinite(least_J)) row.plain_percent.push_back(100 * (1 - ours.energy_J / least_J));
+  if (excess < kFar) return;
+  char text[200];
+  std::snprintf(text, sizeof text, "| %s %u | %.1f m | %.2f J | %.2f J | %.1f %% | %s |\n",
+                problem.floor.c_str(), reference.index, problem.reach_m(), ours.energy_J, best_J,
+                100 * excess, ours.turns ? "turns in place" : "a curve");
+  row.far.emplace_back(text);
+}
+
+void print(const std::map<std::string, Row>& rows, const char* note) {
+  std::printf("# Paths against a brute-force search\n\n%s\n\n", note);
+  std::puts(
       "Start and goal are 1 to 10 m apart; every second goal names a heading. Energy counts 10 W of standby; "
-      "time is\n"
-      "free. The excess is over the best path known: that of the search, or the planner's own where that is "
-      "better.\n\n"
-      "| floor | poses | excess, median | p95 | max | saved against turn, line, turn: median | max | worse "
-      "than "
-      "that | not planned |\n|---|---|---|---|---|---|---|---|---|\n");
+      "time is\nfree. The excess is over the best path known: that of the search, or the planner's own where "
+      "that is better.\n\n| floor | poses | excess, median | p95 | max | planner better than the search | "
+      "plans with a turn in place | saved against turn, line, turn: median | max | worse than that | not "
+      "planned | search found nothing |\n|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const auto& [floor, row] : rows)
-    std::printf("| %s | %zu | %.2f %% | %.2f %% | %.2f %% | %.1f %% | %.1f %% | %d | %d |\n", floor.c_str(),
-                row.excess_percent.size(), quantile(row.excess_percent, 0.5),
-                quantile(row.excess_percent, 0.95), quantile(row.excess_percent, 1.0),
-                quantile(row.plain_percent, 0.5), quantile(row.plain_percent, 1.0), row.worse_than_plain,
-                row.failed);
+    std::printf("| %s | %zu | %.2f %% | %.2f %% | %.2f %% | %d | %d | %.1f %% | %.1f %% | %d | %d | %d |\n",
+                floor.c_str(), row.excess_percent.size(), quantile(row.excess_percent, 0.5),
+                quantile(row.excess_percent, 0.95), quantile(row.excess_percent, 1.0), row.better,
+                row.turning, quantile(row.plain_percent, 0.5), quantile(row.plain_percent, 1.0),
+                row.worse_than_plain, row.failed, row.not_searched);
+  std::printf("\n## Poses that are more than %.0f %% above the best known\n\n", 100 * kFar);
+  std::string far;
+  for (const auto& [floor, row] : rows)
+    for (const std::string& line : row.far) far += line;
+  if (far.empty()) return void(std::puts("None."));
+  std::puts("| pose | reach | planned | search | excess | the plan |\n|---|---|---|---|---|---|");
+  std::fputs(far.c_str(), stdout);
+}
+
+void compare(const char* file, const char* note) {
+  std::map<std::string, Row> rows;
+  Worlds worlds;
+  for (const Reference& reference : read_references(file)) {
+    const std::string& floor = reference.problem.floor;
+    judge(worlds.of(floor), reference, rows[floor]);
+  }
+  print(rows, note);
 }
 
 }  // namespace
+}  // namespace joulepath::ways
 
 int main(int argc, char** argv) {
-  if (argc == 5 && !std::strcmp(argv[1], "search")) {
-    search(std::atoi(argv[2]), static_cast<unsigned>(std::atoi(argv[3])), std::atoi(argv[4]));
-    return 0;
-  }
-  if (argc == 5 && !std::strcmp(argv[1], "poses")) {
-    poses(std::stoul(argv[2]), static_cast<unsigned>(std::atoi(argv[3])), std::atoi(argv[4]));
-    return 0;
-  }
-  if (argc == 4 && !std::strcmp(argv[1], "compare")) {
-    compare(argv[2], argv[3]);
-    return 0;
-  }
-  std::fputs(
-      "usage: bench_ways search COUNT SEED STARTS | poses COUNT SEED STARTS | compare REFERENCE.csv NOTE\n",
-      stderr);
-  return 2;
+  const auto number = [&](int k) { return static_cast<unsigned>(std::stoul(argv[k])); };
+  if (argc == 6 && !std::strcmp(argv[1], "search"))
+    joulepath::ways::search(argv[2], number(3), number(4), number(5));
+  else if (argc == 3 && !std::strcmp(argv[1], "poses"))
+    joulepath::ways::poses(argv[2]);
+  else if (argc == 4 && !std::strcmp(argv[1], "compare"))
+    joulepath::ways::compare(argv[2], argv[3]);
+  else
+    return std::fputs(
+               "usage: bench_ways search FLOOR FIRST LAST SEED | poses POSES | compare REFERENCE NOTE\n",
+               stderr),
+           2;
+  return 0;
 }

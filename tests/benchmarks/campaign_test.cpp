@@ -22,13 +22,16 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
     ASSERT_TRUE(result.profile) << index << " " << result.summary.message;
     // A voltage drop bends the power where the current changes its sign: Newton's steps may swing about the
     // bend.
-    if (one->effect != "driver_voltage_drop") EXPECT_EQ(result.summary.handed_over, "") << index;
+    if (one->effect != "driver_voltage_drop") {
+      EXPECT_EQ(result.summary.handed_over, "") << index;
+    }
     const ReplayResult again = replay(request, *result.profile);
     EXPECT_TRUE(again.valid()) << index << " " << again.limit << " " << again.worst_violation;
-    if (request.time.mode == TimeMode::minimum_time)
+    if (request.time.mode == TimeMode::minimum_time) {
       EXPECT_LE(result.summary.lower_bound_s, again.duration_s * (1 + 1e-9)) << index;
-    else
+    } else {
       EXPECT_LE(result.summary.lower_bound_J, again.energy_J * (1 + 1e-9)) << index;
+    }
   }
 }
 
@@ -36,7 +39,7 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
 /// corners, a straight line and a bend of heavy robots. They are solved, not handed over.
 TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
   const std::vector<Robot> robots = four_robots();
-  for (unsigned index : {43U, 3817U, 3864U}) {
+  for (unsigned index : {43U, 830U, 3817U, 3864U}) {
     const std::optional<CampaignProblem> one = campaign_problem(robots, 20261123, index);
     ASSERT_TRUE(one);
     const ProfileResult result = solve_profile(one->problem.request);

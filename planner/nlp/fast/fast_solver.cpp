@@ -20,7 +20,7 @@ constexpr int kCoarseIterations = 30;
 /// A gradient stops falling where slacks reach rounding: a solve is at its end when nothing else is open and
 /// its objective has stood still for this many iterations.
 constexpr int kAtRest = 6;
-constexpr double kMostRounding = 1e-6;  ///< of the weighted gradient, relative to the objective
+constexpr double kMostRounding = 1e-5;  ///< of the weighted gradient, relative to the objective
 
 class FastSolver {
  public:

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/mission/mission.hpp"
+
+namespace joulepath::ways {
+
+/// A drive from a pose to a place on a floor; the goal may name a heading.
+struct Problem {
+  std::string floor{};
+  Pose start{};
+  Point2 goal_m{};
+  std::optional<double> goal_heading_rad{};
+
+  double reach_m() const;
+};
+
+/// A floor with the robot of this benchmark.
+struct World {
+  std::string name{};
+  MissionWorld world{};
+  RouteSpace space;
+};
+
+/// `empty` (30 x 30 m) or a map of scenarios/maps.
+[[nodiscard]] World make_world(const std::string& name);
+
+/// Problem `index` of a floor: 1 to 10 m apart, log-uniform; every second goal names a heading. Depends on
+/// nothing but its arguments.
+[[nodiscard]] Problem random_problem(const World& world, unsigned seed, unsigned index);
+
+[[nodiscard]] MissionRequest mission_of(const Problem& problem);
+
+/// Energy (standby included) of the planner's answer, and whether it turns in place; infinite: none.
+struct Answer {
+  double energy_J{};
+  bool turns{};
+};
+[[nodiscard]] Answer planned(const World& world, const Problem& problem);
+
+/// Energy of a path, driven by the planner's profile solver, time free.
+[[nodiscard]] double driven_J(const World& world, const Problem& problem, const Path& path);
+
+/// Turn, line, turn: what a plain controller does; infinite where the line is not free.
+[[nodiscard]] double plain_J(const World& world, const Problem& problem);
+
+}  // namespace joulepath::ways
