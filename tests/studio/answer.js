@@ -11,7 +11,7 @@ const folder = process.argv[2], core_of = require(path.join(folder, "studio_core
     const size = core.lengthBytesUTF8(line) + 1, at = core._malloc(size);
     core.stringToUTF8(line, at, size);
     const began = process.cpuUsage();
-    process.stdout.write(core.UTF8ToString(core._joulepath_answer(at)) + "\n");
+    process.stdout.write(core.UTF8ToString(core._joulepath_answer(at)).replaceAll("\n", "") + "\n");
     core._free(at);
     const took = process.cpuUsage(began);
     times.push((took.user + took.system) / 1000);

@@ -167,6 +167,11 @@ def check_alone(page, program, mission, folder):
     (folder / "changed.json").write_text(changed)
     planned = json.loads(subprocess.run([program, "plan", folder / "changed.json", "--solver", "fast", "--without", "baselines", "--out", folder / "out", "--force", "--json"], capture_output=True, text=True).stdout)["energy_J"]
     assert abs(planned - energy_J(page)) <= 1e-6 * planned, f"page alone {energy_J(page)} J, command {planned} J"
+    before = energy_J(page)
+    file.write_text(page.run("return studio.page_text()"))  # a page that was changed, shared again
+    page.show(file.as_uri())
+    assert not page.messages(), page.messages()
+    assert energy_J(page) == before and page.run("return JSON.stringify(studio.store.mission)") == changed, "the shared page shows something else"
     return "planned without the program"
 
 

@@ -43,7 +43,7 @@ def problem(numbers, robot):
 
 
 def main():
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     count = int(sys.argv[3]) if len(sys.argv) > 3 else COUNT
     node = shutil.which("node")
     if not node or not (folder / "studio_core.wasm").exists():

@@ -105,7 +105,6 @@ function take(answer, state, edits) {
       store.state = state;
       if (has_legs() && answer.legs.length === store.mission.legs.length && edits === store.edits)
         store.ways = answer.legs.map((leg) => leg.path);
-      if (state === "planned") store.searched = edits;
     }
   }
   emit("answer");

@@ -8,7 +8,7 @@ import {causes_of} from "studio/summary.js";
 /** Keeps the plan as A; the next plans are shown against it. */
 export function ab_panel() {
   const body = h("div");
-  const keep = button("Keep this plan as A", () => { store.kept = {answer: store.answer, mission: JSON.stringify(store.mission), robot: JSON.stringify(store.robot)}; emit("view"); }, {id: "keep"});
+  const keep = button("Keep this plan as A", () => { store.kept = {answer: store.answer}; emit("view"); }, {id: "keep"});
   const drop = button("Forget A", () => { store.kept = null; emit("view"); });
   const show = () => {
     keep.disabled = !store.answer;

@@ -12,7 +12,7 @@ import {fields_of} from "studio/fields.js";
 import {selection_panel} from "studio/selection.js";
 import {front_panel} from "studio/front.js";
 import {ab_panel, classics_panel} from "studio/compare.js";
-import {file_tools} from "studio/share.js";
+import {file_tools, page_text} from "studio/share.js";
 import {listen} from "studio/keys.js";
 import {toggle_theme} from "studio/theme.js";
 
@@ -79,7 +79,7 @@ function start() {
 }
 window.studio.store = store;
 // What tests and benchmarks look at.
-Object.assign(window.studio, {answers, view, handles, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))});
+Object.assign(window.studio, {answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))});
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;
 start();

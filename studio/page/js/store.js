@@ -15,11 +15,10 @@ export const store = {
   working: "",       // what is being computed
   selection: {kind: "none"},
   cursor_s: 0,
-  kept: null,        // plan A of a comparison: {name, answer}
+  kept: null,        // plan A of a comparison: {answer}
   classics: null,    // classic profiles beside the plan
   front: null,
   edits: 0,          // counts changes: an answer to an older one is no longer wanted
-  searched: 0,       // `edits` at the last answer that searched routes
 };
 
 const listeners = {};
