@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// `diagnosis.json` with exactly the keys of docs (formats). Numbers to six significant digits.
+/// The text of `diagnosis.json`. Numbers have six significant digits.
 [[nodiscard]] std::string diagnosis_json(const Diagnosis& diagnosis);
 
 /// A mission of prescribed motions: the run that the diagnosis proposes.

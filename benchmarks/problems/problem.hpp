@@ -14,7 +14,7 @@ namespace joulepath::problems {
 struct Problem {
   std::string id{};
   std::string kind{};        ///< of path
-  std::string robot_name{};  ///< its robot in the set, without what the problem itself says
+  std::string robot_name{};  ///< its robot in the set, without the problem's own values
   ProfileRequest request;
 };
 

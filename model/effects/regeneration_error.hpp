@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The driver returns another part of the braking energy than the robot file says.
+/// The share of the braking energy that the driver returns differs from the robot file.
 struct RegenerationError {
   double efficiency{};
 

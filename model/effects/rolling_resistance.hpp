@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// Hysteresis of tire and floor: a torque in proportion to the load that the wheel carries.
+/// Hysteresis of tire and floor: a torque proportional to the wheel's load.
 struct RollingResistance {
   double coefficient{};
 

@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// Friction that falls with speed: what a lubricated gear has on top of Coulomb friction when slow.
+/// Friction that decreases with speed: a lubricated gear has it in addition to Coulomb friction at low speed.
 struct StribeckFriction {
   double torque_Nm{};
   double speed_rad_s{};
