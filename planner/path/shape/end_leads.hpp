@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 namespace joulepath {
 
@@ -21,18 +21,18 @@ struct Lead {
 
 /// The polyline with leads, its corners rounded; absent if a lead's corner has no room for a blend or the
 /// curve is not free.
-[[nodiscard]] std::optional<SmoothPath> smooth_with_leads(const std::vector<Point2>& polyline_m,
-                                                          const std::optional<Lead>& start,
-                                                          const std::optional<Lead>& goal,
-                                                          const FootprintChecker& checker,
-                                                          const CornerPolicy& policy);
+[[nodiscard]] std::optional<SmoothPath> blend_with_leads(const std::vector<Point2>& polyline_m,
+                                                         const std::optional<Lead>& start,
+                                                         const std::optional<Lead>& goal,
+                                                         const FootprintChecker& checker,
+                                                         const CornerPolicy& policy);
 
-/// As smooth_with_leads, with several lead lengths: of the free paths the one with the least turning in
+/// As blend_with_leads, with several lead lengths: of the free paths the one with the least turning in
 /// place, then the shortest.
-[[nodiscard]] std::optional<SmoothPath> smooth_along_headings(const std::vector<Point2>& polyline_m,
-                                                              const std::optional<double>& start_heading_rad,
-                                                              const std::optional<double>& goal_heading_rad,
-                                                              const FootprintChecker& checker,
-                                                              const CornerPolicy& policy);
+[[nodiscard]] std::optional<SmoothPath> blend_along_headings(const std::vector<Point2>& polyline_m,
+                                                             const std::optional<double>& start_heading_rad,
+                                                             const std::optional<double>& goal_heading_rad,
+                                                             const FootprintChecker& checker,
+                                                             const CornerPolicy& policy);
 
 }  // namespace joulepath

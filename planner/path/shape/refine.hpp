@@ -6,7 +6,7 @@
 
 #include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/geometry/path.hpp"
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 namespace joulepath {
 

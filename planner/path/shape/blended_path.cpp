@@ -1,4 +1,4 @@
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -126,8 +126,8 @@ void grow_blends(BlendedPolyline& line, double largest_m) {
 
 }  // namespace
 
-SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
-                           const CornerPolicy& policy) {
+SmoothPath blend_corners(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
+                         const CornerPolicy& policy) {
   SmoothPath result;
   if (polyline_m.size() < 2) return result;
   BlendedPolyline line(polyline_m, checker);

@@ -41,7 +41,7 @@ struct SmoothPath {
 /// around it are free. If its inside is blocked, the vertex is moved outwards by up to the blend's deviation.
 /// A corner without a free blend becomes a turn in place. The straight parts stay exactly straight. The path
 /// starts and ends with the polyline's own headings. The sweep of turns in place is not checked here.
-[[nodiscard]] SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m,
-                                         const FootprintChecker& checker, const CornerPolicy& policy);
+[[nodiscard]] SmoothPath blend_corners(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
+                                       const CornerPolicy& policy);
 
 }  // namespace joulepath
