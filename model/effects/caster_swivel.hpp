@@ -37,7 +37,7 @@ struct CasterSwivel {
                                                     0.005,
                                                     10,
                                                     0.1,
-                                                    "distance over which the casters come round",
+                                                    "distance over which the casters align",
                                                     &CasterSwivel::trail_m,
                                                     ParameterRole::shape,
                                                     {},

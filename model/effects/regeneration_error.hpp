@@ -22,7 +22,7 @@ struct RegenerationError {
                                    .needs = {.battery = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<RegenerationError>{"efficiency", "1", 0.0, 1.0, 0.5,
-                                                         "of negative motor power that comes back",
+                                                         "recovered share of negative motor power",
                                                          &RegenerationError::efficiency}};
   }
 

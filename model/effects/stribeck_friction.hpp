@@ -25,7 +25,7 @@ struct StribeckFriction {
   static constexpr std::array kSpeeds_rad_s{0.6, 1.0, 1.6, 2.5, 4.0};
   static constexpr auto parameters() {
     return std::array{EffectParameter<StribeckFriction>{
-                          "torque_Nm", "N m", -5, 50, 0.1, "at standstill, on top of Coulomb friction",
+                          "torque_Nm", "N m", -5, 50, 0.1, "at standstill, in addition to Coulomb friction",
                           &StribeckFriction::torque_Nm, ParameterRole::strength, kResistingTorque},
                       EffectParameter<StribeckFriction>{"speed_rad_s",
                                                         "rad/s",
