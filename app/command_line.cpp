@@ -49,7 +49,7 @@ std::string unknown_command(int argc, const char* const* argv, const Commands& c
   return "no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names);
 }
 
-/// The nearest option of the command in use, for an argument that it does not know.
+/// The option of the current command that is nearest to an unknown argument.
 std::string unknown_argument(const CLI::App& app) {
   const std::string argument = app.remaining(true).front();
   std::vector<std::string> names;

@@ -15,7 +15,7 @@ class Option;
 
 namespace joulepath {
 
-/// What is asked of the value of one option; calls can be chained. Each is shown in the help.
+/// Rules for the value of one option; calls can be chained. The help shows each rule.
 class OptionRules {
  public:
   explicit OptionRules(CLI::Option& option) : option_(&option) {}
@@ -35,7 +35,7 @@ class OptionRules {
 };
 
 /// The options and arguments of one command. A name with dashes (`--out`, `-j,--jobs`) is an option, one
-/// without a positional argument. The value keeps its content where the option is not given.
+/// without dashes a positional argument. The value is unchanged if the option is not given.
 class CommandLine {
  public:
   explicit CommandLine(CLI::App& app) : app_(&app) {}
@@ -45,7 +45,7 @@ class CommandLine {
   template <class Value>
   OptionRules option(const std::string& name, Value& value, const std::string& says = {});
 
-  /// Sets `value` where the flag is given; a name that begins with `!` clears it.
+  /// Sets `value` if the flag is given; a name that begins with `!` clears it.
   void flag(const std::string& name, bool& value, const std::string& says);
 
  private:
@@ -54,11 +54,11 @@ class CommandLine {
 
 using Commands = std::vector<std::unique_ptr<Command>>;
 
-/// The meaning of the arguments: a command to run, or a text to print and the exit code.
+/// The parsed arguments: a command to run, or a text to print and the exit code.
 struct ParsedCommandLine {
   Command* command{};    ///< its members hold the options' values; null: nothing to run
-  std::string output{};  ///< help or version: for stdout, or for stderr where exit_code is not kDone
-  std::string error{};   ///< for stderr: what is wrong
+  std::string output{};  ///< help or version: for stdout, or for stderr if exit_code is not kDone
+  std::string error{};   ///< for stderr: the mistake
   std::string hint{};    ///< for stderr, below the error
   int exit_code{kDone};
 };
@@ -66,7 +66,7 @@ struct ParsedCommandLine {
 [[nodiscard]] ParsedCommandLine parse_command_line(int argc, const char* const* argv,
                                                    const Commands& commands, const std::string& version);
 
-/// A command as a completion script sees it.
+/// A command for a completion script.
 struct CommandSummary {
   std::string name{};
   std::string says{};

@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// A diagnosis with the dataset that it was made from, and what is written of it.
+/// A diagnosis with its dataset, and its output files.
 struct DiagnosisResults {
   Dataset dataset{};
   Diagnosis diagnosis{};

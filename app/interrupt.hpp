@@ -11,11 +11,11 @@ class Interrupted : public std::exception {
 };
 
 /// Ctrl-C ends the program at once with code 130 (results are renamed into place whole, so no half file
-/// stays), unless a PoliteInterrupt lives: then the first Ctrl-C only raises a flag, the second ends the
+/// remains). While a PoliteInterrupt exists, the first Ctrl-C only sets a flag and the second ends the
 /// program.
 void install_interrupt_handler();
 
-/// During its lifetime the command itself checks whether Ctrl-C was pressed.
+/// During its lifetime the command itself checks for Ctrl-C.
 class PoliteInterrupt {
  public:
   PoliteInterrupt();

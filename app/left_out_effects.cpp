@@ -10,9 +10,9 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kTellingLength = 4;  ///< of a word that two names may share
+constexpr std::size_t kTellingLength = 4;  ///< of a word that two names share
 
-/// The name that this one is a slip of, then those that share a word with it.
+/// The name of which this one is probably a misspelling, then the names that share a word with it.
 std::vector<std::string> names_near(const std::string& name) {
   std::vector<std::string> all, near;
   for (const EffectDescription& effect : effect_catalog()) all.emplace_back(effect.info.name);

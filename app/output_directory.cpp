@@ -49,7 +49,7 @@ void rename_over(const fs::path& from, const fs::path& to) {
   if (error) fail(to, "write", error.message());
 }
 
-/// A directory that is gone at the end of the scope.
+/// A directory that is removed at the end of the scope.
 class TemporaryDirectory {
  public:
   explicit TemporaryDirectory(const fs::path& beside)
@@ -73,7 +73,7 @@ class TemporaryDirectory {
   fs::path path_;
 };
 
-/// Throws EnvironmentError when a file cannot be made in the directory, or the directory itself.
+/// Throws EnvironmentError if a file cannot be created in the directory, or the directory itself.
 void check_writable(const fs::path& directory) {
   std::error_code error;
   fs::path nearest = fs::absolute(directory, error);

@@ -6,19 +6,18 @@
 
 namespace joulepath {
 
-/// The results of one command in one directory. Nothing is touched before commit(): files are then written
-/// under a temporary name beside the directory and renamed, so a killed run leaves no half file.
+/// The results of one command in one directory. commit() writes the files under temporary names beside the
+/// directory and renames them, so a killed run leaves no half file. Before commit() nothing changes.
 class OutputDirectory {
  public:
-  /// `names`: every file that the command may write. Throws ConfigError when one of them exists and `force`
-  /// is not given; with it, commit() removes those that the new results no longer have (a stale
-  /// trajectory.csv).
+  /// `names`: every file that the command may write. Throws ConfigError if one of them exists and `force` is
+  /// not given; with it, commit() removes those that the new results do not have (a stale trajectory.csv).
   OutputDirectory(std::string directory, std::vector<std::string> names, bool force);
 
-  /// Adds one file; the name must be among those announced.
+  /// Adds one file; its name must be one of `names`.
   void write(const std::string& name, std::string content);
 
-  /// Writes all. Throws EnvironmentError (disk full, no permission); the directory is then as before.
+  /// Writes all. Throws EnvironmentError (disk full, no permission); the directory is then unchanged.
   void commit();
 
   [[nodiscard]] const std::string& path() const { return directory_; }
@@ -29,8 +28,8 @@ class OutputDirectory {
   std::map<std::string, std::string> content_{};
 };
 
-/// Writes one file under a temporary name and renames it. Throws ConfigError when it exists and `force` is
-/// not given, EnvironmentError when it cannot be written.
+/// Writes one file under a temporary name and renames it. Throws ConfigError if it exists and `force` is not
+/// given, EnvironmentError if it cannot be written.
 void write_output_file(const std::string& file, const std::string& content, bool force);
 
 }  // namespace joulepath

@@ -13,7 +13,8 @@ class CommandLine;
 void add_plan_options(CommandLine& line, PlanOptions& options,
                       const std::string& nodes_say = "nodes of the first grid on each stretch");
 
-/// Adds what is planned: the file, --robot, --map, and beside a path --payload and (`with_time`) --time.
+/// Adds the options for the input: the file, --robot, --map, and for a path --payload and (`with_time`)
+/// --time.
 void add_mission_source(CommandLine& line, MissionSource& source, bool with_time = true);
 
 }  // namespace joulepath

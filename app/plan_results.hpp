@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// A plan with what it was made from, and what is written of it.
+/// A plan with its inputs, and its output files.
 struct PlanResults {
   MissionRequest mission{};
   MissionWorld world{};

@@ -14,7 +14,7 @@ std::string kg(const PayloadAlongLeg& payload) {
                                           : figure(payload.from_kg) + " to " + figure(payload.to_kg);
 }
 
-/// Rounding noise of a sum that is zero by physics (kinetic energy from rest to rest) is shown as zero.
+/// A sum that is zero by physics (kinetic energy from rest to rest) is shown as zero, without rounding noise.
 double without_noise(double energy_J) { return std::abs(energy_J) < 1e-6 ? 0.0 : energy_J; }
 
 double effects_J(const EnergyByCause& energy) {

@@ -7,11 +7,10 @@
 
 namespace joulepath {
 
-/// What `plan` says on the terminal: legs, energy by cause, against the baselines, battery, where the files
-/// are.
+/// The summary of `plan` on the terminal: legs, energy by cause, baselines, battery, output files.
 void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory);
 
-/// A baseline's name for a table; with the seconds by which it is later than the plan.
+/// A baseline's name for a table, with its delay in seconds if it is later than the plan.
 [[nodiscard]] std::string baseline_name(const BaselineTotal& baseline);
 
 }  // namespace joulepath

@@ -11,13 +11,13 @@ enum class Paint { error, warning, good, dim, bold };
 /// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
 [[nodiscard]] bool is_colored(const std::ostream& stream);
 
-/// The text in a color where the stream takes one.
+/// The text in a color if the stream supports it.
 [[nodiscard]] std::string paint(const std::ostream& stream, Paint paint, const std::string& text);
 
 /// Columns of the terminal: COLUMNS, the tty's width, or 100.
 [[nodiscard]] int terminal_width();
 
-/// A number with so many significant digits, no exponent for ordinary sizes.
+/// A number with this many significant digits, without an exponent for ordinary sizes.
 [[nodiscard]] std::string figure(double value, int digits = 4);
 
 /// A plain table: first column left, the others right; widths from the content (UTF-8 counts by character).

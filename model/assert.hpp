@@ -5,7 +5,7 @@
 
 namespace joulepath {
 
-/// A promise inside the program is broken: a bug of ours, never the user's mistake.
+/// An internal invariant does not hold: a defect of the program, never an error in the input.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -13,7 +13,7 @@ class InternalError : public std::logic_error {
 
 }  // namespace joulepath
 
-/// Checks a promise between parts of the program; kept in Release.
+/// Checks an internal invariant, in release builds too.
 #define JOULEPATH_ASSERT(condition, message)                                                           \
   do {                                                                                                 \
     if (!(condition))                                                                                  \

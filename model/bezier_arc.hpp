@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// Curvature against arc length of a chain of cubic Bezier curves, tabulated: what a prescribed motion
-/// needs of its path. (Planning has its own, exact, path geometry.)
+/// Curvature against arc length of a chain of cubic Bezier curves, tabulated for prescribed motions. Planning
+/// uses the exact path geometry of planner/path/geometry.
 class BezierArc {
  public:
   explicit BezierArc(const std::vector<BezierPoints>& chain, int samples_per_curve = 2000);

@@ -4,8 +4,8 @@
 
 namespace joulepath {
 
-/// Makes the motors' voltages and currents show the value of delay_s ago: linear interpolation between
-/// samples, held at the ends.
+/// Delays the motors' voltage and current channels by delay_s: linear interpolation between samples, held at
+/// the ends.
 void delay_motor_channels(Trajectory& log, double delay_s);
 
 }  // namespace joulepath

@@ -19,8 +19,8 @@ class ConfigError : public std::runtime_error {
   struct Detail {
     SourceMark mark{};
     std::string key{};       ///< dotted, as in the file: `limits.speed_m_s`, `legs[2].to`
-    std::string found{};     ///< what stands there
-    std::string accepted{};  ///< what would be accepted
+    std::string found{};     ///< the value in the file
+    std::string accepted{};  ///< the accepted values
     std::string hint{};      ///< one sentence, may be empty
   };
 

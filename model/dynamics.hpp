@@ -11,7 +11,7 @@ struct MassProperties {
   double yaw_inertia_kg_m2{};  ///< I about P0, wheels included, without their spin about the axle
 };
 
-/// Masses add up at their places; both yaw inertias are about the respective mass center.
+/// Chassis, wheels and payload together; both yaw inertias are about the respective mass center.
 ///
 ///   I = I_c + k m_p + m_c d^2 + m_p d_p^2 + 2 m_w l^2 + 2 I_m    [P1, Eq. (12)], with Steiner's terms
 inline MassProperties mass_properties(const Robot& robot, double payload_kg) {
@@ -28,15 +28,15 @@ inline MassProperties mass_properties(const Robot& robot, double payload_kg) {
                                2 * inertia.wheel_diameter_inertia_kg_m2};
 }
 
-/// Force along the heading and moment about P0 that the wheels have to bring up together.
+/// Force along the heading and moment about P0 that both wheels together must apply.
 template <class Real>
 struct Wrench {
   Real force_N{};
   Real moment_Nm{};
 };
 
-/// Wheel torques of the inertia: with mu forward of P0, the equations of motion of [P1, Eqs. (13)-(23)],
-/// projected on the motions that the wheels allow (SᵀMS, SᵀM S_dot), read at the body:
+/// Wrench that accelerates the robot, with mu forward of P0: the equations of motion of [P1, Eqs. (13)-(23)],
+/// projected on the motions that the wheels allow (SᵀMS, SᵀM S_dot), in body coordinates:
 ///
 ///   F = m v' - mu omega^2,     M = I omega' + mu v omega
 template <class Real>

@@ -15,7 +15,7 @@ namespace {
   throw ConfigError({.mark = {}, .key = key, .found = found, .accepted = accepted, .hint = {}});
 }
 
-/// The log's motion with body speeds in every sample; from the wheels, where it has them.
+/// The log's motion with body speeds in every sample, computed from wheel speeds if the log has them.
 Trajectory body_motion_of(const Geometry& geometry, const Trajectory& log) {
   const std::size_t size = log.size();
   if (size < 2) refuse("time_s", std::to_string(size) + " samples", "at least 2");
@@ -80,7 +80,7 @@ EnergySum sum_between(const Plant& plant, const Trajectory& motion, const Sample
   return sum;
 }
 
-/// Noisy speeds, smoothed at the samples together with their slopes: trapezoidal weights.
+/// The energy with noisy speeds, smoothed at the samples together with their slopes: trapezoidal weights.
 EnergySum sum_at_samples(const Plant& plant, const Trajectory& log, const SampledStart& start, double reach_s,
                          Trajectory& power) {
   const Geometry& geometry = plant.robot.geometry;

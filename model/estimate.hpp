@@ -16,7 +16,7 @@ struct EstimateOptions {
 };
 inline constexpr double kDefaultReach_s = 0.15;
 
-/// What a motion takes, by the model. Nothing but the motion is looked at.
+/// Energy of a motion by the model. The electrical channels of the log are not used.
 struct EnergyEstimate {
   Trajectory power{};         ///< estimated wheel speed, torque, current, voltage, power over time
   Sided<double> motor_J{};    ///< V i, signed: braking energy is subtracted
@@ -33,16 +33,16 @@ struct EnergyEstimate {
 ///   wheel speeds -> v, omega -> slopes -> operating_point() -> P, E = \int P dt   [P1, Eqs. (28), (29),
 ///   (35)]
 ///
-/// A wheel slower than the noise of its speed stands: no friction is asked to turn it.
+/// A wheel slower than the noise of its speed counts as standing and has no friction loss.
 /// Throws ConfigError for a log with fewer than two samples or no speeds.
 [[nodiscard]] EnergyEstimate estimate_energy(const Plant& plant, const Trajectory& log,
                                              const EstimateOptions& options = {});
 
-/// Energy that the channels of a log show for each motor: power, or voltage and current; empty where they
-/// are missing. `efficiency` is what of negative power counts.
+/// Measured energy of each motor, from power or from voltage and current; empty if these channels are
+/// missing. `efficiency`: the share of negative power that counts.
 [[nodiscard]] std::optional<Sided<double>> measured_motor_energy_J(const Trajectory& log, double efficiency);
 
-/// Energy at the battery's terminals that a log shows, empty where it has no battery channels.
+/// Measured energy at the battery's terminals; empty if the log has no battery channels.
 [[nodiscard]] std::optional<double> measured_battery_energy_J(const Trajectory& log);
 
 /// 1-sigma (J) of the energy at the terminals, battery loss included, from the robot file's uncertainty:

@@ -34,13 +34,13 @@ Twist<Real> body_twist(const Geometry& geometry, const Sided<Real>& wheel_speed_
 
 constexpr double sign_of(double value) { return (value > 0) - (value < 0); }
 
-/// Speed at which casters travel, in a spin that of the wheels: sqrt(v^2 + (l omega)^2). Its integral is the
-/// distance over which they come round.
+/// Speed of the casters, in a spin that of the wheels: sqrt(v^2 + (l omega)^2). Its integral is the distance
+/// over which they align.
 inline double caster_speed_m_s(const Geometry& geometry, double speed_m_s, double yaw_rate_rad_s) {
   return std::hypot(speed_m_s, geometry.half_track_m * yaw_rate_rad_s);
 }
 
-/// How far casters are asked to swivel by a motion: 0 on a straight line, +/-1 in a spin,
+/// Caster course that a motion demands: 0 on a straight line, +/-1 in a spin,
 ///   course = l omega / sqrt(v^2 + (l omega)^2).
 inline double course_of(const Geometry& geometry, double speed_m_s, double yaw_rate_rad_s) {
   const double size = caster_speed_m_s(geometry, speed_m_s, yaw_rate_rad_s);

@@ -27,7 +27,7 @@ double interpolate(const Points& points, double payload_kg) {
   return points.back().second;
 }
 
-/// A limit at the payloads of the rows; empty where no row names it.
+/// A limit at the payloads of the rows; empty if no row names it.
 Points points_of(const Robot& robot, const std::string& key, double base) {
   Points points;
   bool named = false;

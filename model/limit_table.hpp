@@ -21,8 +21,8 @@ struct LimitState {
   double battery_power_W{};  ///< at the terminals, standby included
 };
 
-/// The state of a plant in motion. `speed_gain_m_s2` is passed because the motion does not tell gain from
-/// loss at standstill.
+/// The state of a plant in motion. `speed_gain_m_s2` is an argument because at standstill the motion does not
+/// say whether the speed rises or falls.
 [[nodiscard]] LimitState limit_state(const Plant& plant, const BodyMotion<double>& motion, const Site& site,
                                      double speed_gain_m_s2, double jerk_m_s3);
 
@@ -39,7 +39,7 @@ inline constexpr const auto& kLimits = kLimitRows<LimitState>;
 /// A limit's value in force for a wheel.
 [[nodiscard]] double limit_of(const Limit& row, const Limits& limits, const Sided<Motor>& motor, Side side);
 
-/// |value| / limit; a limit of zero is not used at all or infinitely.
+/// |value| / limit. For a limit of zero: 0 if the value is zero, else infinity.
 [[nodiscard]] double limit_fraction(double value, double limit);
 
 /// Calls use(row, value, limit) for each finite limit of a motion; once for each wheel where the row says so.
@@ -53,12 +53,12 @@ void for_each_limit(const LimitState& state, const Limits& limits, Use&& use) {
     }
 }
 
-/// Limits with `limits: by_payload` applied, for each key linear in the payload between the rows, and held
-/// beyond the first and the last row. A row that leaves a key out has the value outside of `by_payload`
-/// there. Between a row with a limit and a row without, the limit holds.
+/// Limits with `limits: by_payload` applied. Each key is linear in the payload between the rows, and constant
+/// beyond the first and the last row. A row without a key has that key's value outside of `by_payload`.
+/// Between a row with a limit and a row without, the limit of the first one holds.
 [[nodiscard]] Limits limits_for_payload(const Robot& robot, double payload_kg);
 
-/// Limits that hold for all payloads between two: for each key the least.
+/// For each key the least limit over all payloads between two.
 [[nodiscard]] Limits limits_between_payloads(const Robot& robot, double from_kg, double to_kg);
 
 }  // namespace joulepath

@@ -12,7 +12,7 @@ namespace joulepath {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// What the motion may not exceed; an absent limit is infinite. SI units; all values are magnitudes.
+/// Limits of a motion; an absent limit is infinite. SI units; all values are magnitudes.
 struct Limits {
   double speed_m_s{kNoLimit};
   double acceleration_m_s2{kNoLimit};
@@ -28,17 +28,17 @@ struct Limits {
   double max_payload_kg{kNoLimit};
 };
 
-/// All that is known of one limit. State is LimitState (model/limit_table.hpp).
+/// One row of the table of limits. State is LimitState (model/limit_table.hpp).
 template <class State>
 struct LimitRow {
   std::string_view key{};          ///< in robot files and relaxations: the name with its unit
   std::string_view name{};         ///< in verdicts, and of the term of the nonlinear program
   std::string_view unit{};         ///< as verdicts print it
   std::string_view meaning{};      ///< one line for the schema
-  double Limits::*field{};         ///< where the robot keeps it; null for a rating of the motors
-  double State::Motor::*rating{};  ///< where each motor keeps it; null otherwise
+  double Limits::*field{};         ///< the robot's value; null for a rating of the motors
+  double State::Motor::*rating{};  ///< each motor's value; null otherwise
   bool by_payload{true};           ///< rows of `limits: by_payload` may change it
-  bool may_be_zero{};              ///< a robot that may not do this at all can still be of use
+  bool may_be_zero{};              ///< a robot with a limit of zero can still be of use
   bool per_wheel{};                ///< `value` depends on the side
   /// What the limit bounds, at a state; the use of the limit is |value| / limit. Null where the limit does
   /// not concern the motion.

@@ -11,7 +11,7 @@ struct LocalFit {
 };
 
 /// Least-squares parabola through the samples within +/- `reach_s` of each sample (at least the two
-/// neighbors); works on any increasing times. Parabolas pass unchanged.
+/// neighbors); works on any increasing times. Exact for parabolas.
 [[nodiscard]] LocalFit fit_locally(const std::vector<double>& time_s, const std::vector<double>& values,
                                    double reach_s);
 

@@ -19,12 +19,12 @@ struct BodyMotion {
 
 inline constexpr std::size_t kMaxMemories = 2;
 
-/// One number for each effect that remembers the way it came (a swivelling caster).
+/// One number for each effect with a memory (a swivelling caster).
 using EffectMemory = std::array<double, kMaxMemories>;
 
-/// Everything that effects may know about an instant beside the speeds: where, when, how loaded, and
-/// which way things turn. Directions are -1, 0 or +1 in planning (they depend on the path alone, so
-/// that friction is exact even at rest); a simulator may pass a continuous value between.
+/// What effects may use of an instant besides the speeds: place, time, payload and directions of motion.
+/// Directions are -1, 0 or +1 in planning (they depend on the path alone, so that friction is exact even at
+/// rest); a simulator may pass a value between.
 struct Site {
   Pose pose{};
   double time_of_day_s{};           ///< since the robot was cold
@@ -32,7 +32,7 @@ struct Site {
   double travel_direction{};        ///< sign of the speed
   double turn_direction{};          ///< sign of the yaw rate
   Sided<double> wheel_direction{};  ///< sign of each wheel's speed
-  double course{};                  ///< how far the casters are asked to swivel, see course_of()
+  double course{};                  ///< caster course that the motion demands, see course_of()
   EffectMemory memory{};
 };
 

@@ -22,7 +22,7 @@ struct Ramp {
   throw ConfigError({.mark = {}, .key = "motion." + key, .found = found, .accepted = accepted, .hint = {}});
 }
 
-/// Lays ramps out as samples.
+/// Converts ramps to samples.
 class Timeline {
  public:
   Timeline(const Robot& robot, const TimingOptions& options)
@@ -41,7 +41,7 @@ class Timeline {
         ramp.acceleration * linear_share);
   }
 
-  /// Along a curve, from where the last ramp on it ended.
+  /// Adds a ramp along a curve, from the place where the last ramp on it ended.
   void add_on_curve(const Ramp& ramp, const BezierArc& curve, double direction, double& place_m) {
     if (ramp.duration_s <= 0) return;
     const double from_m = place_m;
@@ -74,7 +74,7 @@ class Timeline {
     }
   }
 
-  /// The sample at the joint has the values of the ramp that begins there.
+  /// Gives the sample at the joint the values of the ramp that begins there.
   void restart(const Twist<double>& twist, double acceleration_m_s2) {
     Trajectory& t = motion_.trajectory;
     if (t.size() > 1 &&
@@ -90,7 +90,7 @@ class Timeline {
     for (Side side : kSides) t.wheel_speed_rad_s[side].back() = wheels[side];
   }
 
-  /// Along the arc of constant curvature between two samples.
+  /// Moves the pose along the arc of constant curvature between two samples.
   void step(double time_s, const Twist<double>& next, double acceleration_m_s2) {
     const double dt = time_s - time_s_;
     const double travelled_m = 0.5 * (twist_.speed_m_s + next.speed_m_s) * dt;

@@ -27,11 +27,11 @@ struct TimingOptions {
   double sample_period_s{0.02};
 };
 
-/// The motion over time that prescriptions mean, one after the other. What a prescription leaves out
-/// comes from the robot's limits; a coasting robot slows down according to its model with its effects.
+/// Prescribed motions over time, one after the other. Values that a prescription leaves out come from the
+/// robot's limits; a coasting robot slows down according to its model with its effects.
 ///
-/// Throws ConfigError (without a mark) where a value is needed that neither gives, or where the
-/// prescription contradicts itself (no room to brake).
+/// Throws ConfigError (without a mark) if a needed value is in neither, or if the prescription contradicts
+/// itself (no room to brake).
 [[nodiscard]] TimedMotion timed_motion(const Robot& robot, const std::vector<PrescribedMotion>& motions,
                                        const TimingOptions& options = {});
 

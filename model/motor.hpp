@@ -20,7 +20,7 @@ Real motor_voltage_V(const Motor& motor, const Real& current_A, const Real& whee
 ///
 ///   P = R i^2 + Kv n q' i,  i = tau/(Kt n)                                    [P1, Eq. (28)]
 ///
-/// P < 0 means that the drive returns power; what the supply keeps of it is decided in power.hpp.
+/// P < 0 means that the drive returns power; power.hpp computes how much of it the supply recovers.
 template <class Real>
 Real motor_power_W(const Motor& motor, const Real& wheel_torque_Nm, const Real& wheel_speed_rad_s) {
   const Real current_A = motor_current_A(motor, wheel_torque_Nm);

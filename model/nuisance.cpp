@@ -13,7 +13,7 @@ Change motor_constant(Member member) {
   return [member](Robot& robot, Side side, double factor) { robot.motor[side].*member *= factor; };
 }
 
-/// Constants that both sides share are changed on the call for the left side alone.
+/// Constants that both sides share change on the call for the left side only.
 template <class Part, class Member>
 Change shared(Part part, Member member) {
   return [part, member](Robot& robot, Side side, double factor) {
@@ -38,7 +38,7 @@ const std::map<std::string, Change>& changes() {
       {"torque_constant_Nm_A",
        [](Robot& robot, Side side, double factor) {
          robot.motor[side].torque_constant_Nm_A *= factor;
-         robot.motor[side].voltage_constant_V_s_rad *= factor;  // one magnet, two names
+         robot.motor[side].voltage_constant_V_s_rad *= factor;  // Kt and Kv belong to one magnet
        }},
       {"voltage_constant_V_s_rad", motor_constant(&Motor::voltage_constant_V_s_rad)},
       {"viscous_friction_Nm_s_rad", motor_constant(&Motor::viscous_friction_Nm_s_rad)},

@@ -8,18 +8,18 @@
 
 namespace joulepath {
 
-/// One constant of the robot file that a calibration may have missed, with its relative 1-sigma.
+/// One constant of the robot file that may have a calibration error, with its relative 1-sigma.
 struct Nuisance {
   std::string key{};           ///< as in `uncertainty:`
-  std::optional<Side> side{};  ///< where each side errs by itself
+  std::optional<Side> side{};  ///< the side, for errors that are independent per side
   double sigma{};              ///< relative
 };
 
 /// The entries of `uncertainty:`, one per constant; friction has an error on each side.
 std::vector<Nuisance> nuisances_of(const Robot& robot);
 
-/// The robot with that constant (1 + fraction) times its value. Payload is not a constant of the
-/// robot: see payload_factor().
+/// Multiplies that constant by (1 + fraction). Payload is not a constant of the robot: its error is
+/// Plant::payload_factor.
 void apply_nuisance(const Nuisance& nuisance, double fraction, Robot& robot);
 
 /// True for the payload's weighing error, which acts on the runs and not on the robot.

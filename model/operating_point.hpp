@@ -14,14 +14,14 @@ template <class Real>
 struct WheelState {
   Real speed_rad_s{};
   Real contact_force_N{};  ///< along the heading, on the robot
-  Real torque_Nm{};        ///< Kt n i: all that the motor has to bring up, friction and gear loss included
+  Real torque_Nm{};  ///< Kt n i: the total torque of the motor at the wheel, friction and gear loss included
   Real current_A{};
   Real voltage_V{};
   Real power_W{};  ///< V i at the driver's output, negative where the drive returns power
 };
 
-/// |x|, exact for numbers; for automatic differentiation rounded over `width` about 0, so that an optimizer
-/// meets no kink: sqrt(x^2 + width^2).
+/// |x|, exact for numbers; for automatic differentiation rounded over `width` about 0, which keeps the
+/// derivative continuous: sqrt(x^2 + width^2).
 template <class Real>
 Real magnitude(const Real& x, double width) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -92,8 +92,8 @@ Real shaft_friction_Nm(const Plant& plant, const MassProperties& mass, Side side
   return torque_Nm;
 }
 
-/// What both wheels and motors do for a motion of the body: the power model that planning, estimation
-/// and diagnosis share.
+/// State of both wheels and motors for a motion of the body: the power model of planning, estimation and
+/// diagnosis.
 ///
 ///   f = F/2 +/- M/(2 l);   tau = r f + (I_w + I_s) q'' + nu q' + T_m sign(q') + effects;
 ///   i = tau/(Kt n);   V = R i + Kv n q';   P = V i          [P1, Eqs. (19)-(28)], docs/equations.md

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Takes what acts as a constant out of an effect; returns whether it still acts by itself.
+/// Applies the part of an effect that only changes constants; returns whether another part remains.
 template <class Type>
 bool absorb(const Type& effect, Plant& plant) {
   if constexpr (Type::info.stage == Stage::instrument)

@@ -14,7 +14,7 @@ namespace joulepath {
 struct Plant {
   Robot robot{};
   std::vector<Effect> effects{};
-  double payload_factor{1.0};     ///< what is on board / what is stated
+  double payload_factor{1.0};     ///< actual payload / stated payload
   double torque_loss_fraction{};  ///< of the gears
   double creep_m_s_N{};           ///< speed lost at the contact per force
   double driver_voltage_drop_V{};
@@ -23,24 +23,24 @@ struct Plant {
   double resistance_factor(double time_of_day_s) const;
 };
 
-/// The plant of a robot file: its own `effects:`, and more if given. Throws ConfigError for an effect
-/// that the catalog does not hold.
+/// The plant of a robot file, with its `effects:` and `more_effects`. Throws ConfigError for an effect that
+/// the catalog does not contain.
 [[nodiscard]] Plant make_plant(const Robot& robot, const std::vector<EffectSetting>& more_effects = {});
 
-/// The plant of the robot as its file describes it without any effect.
+/// The plant of a robot without any effect.
 [[nodiscard]] Plant make_nominal_plant(Robot robot);
 
 /// Applies the instrument effects among `effects` to a log, in their order.
 void distort_log(const std::vector<Effect>& effects, Trajectory& log);
 
-/// True where an effect of the plant has a memory.
+/// Whether an effect of the plant has a memory.
 [[nodiscard]] bool remembers(const Plant& plant);
 
-/// Moves the memories of a plant's effects on by a distance (m, see caster_speed_m_s()) on a constant course;
+/// Advances the memories of a plant's effects by a distance (m, see caster_speed_m_s()) on a constant course;
 /// exact for first-order lags.
 void advance_memory(const Plant& plant, double distance_m, double course, EffectMemory& memory);
 
-/// Moves memories on along a motion: `twist_at(x)` is its twist per unit of x (time, or a path coordinate).
+/// Advances memories along a motion: `twist_at(x)` is its twist per unit of x (time, or a path coordinate).
 /// Speed and course of the casters are taken at the middle of each of `steps` equal steps.
 template <class TwistAt>
 void advance_memory_along(const Plant& plant, TwistAt&& twist_at, double from, double to, int steps,
@@ -54,7 +54,7 @@ void advance_memory_along(const Plant& plant, TwistAt&& twist_at, double from, d
   }
 }
 
-/// Watts or newtons that an effect adds come through this: calls function(effect, memory).
+/// Calls function(effect, memory) for each effect of the plant.
 template <class Function>
 void for_each_effect(const Plant& plant, const EffectMemory& memory, Function&& function) {
   std::size_t slot = 0;

@@ -37,7 +37,8 @@ PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion
     watts.coulomb_friction_W += motor.friction_torque_Nm * site.wheel_direction[side] * wheel.speed_rad_s;
     watts.viscous_friction_W += motor.viscous_friction_Nm_s_rad * wheel.speed_rad_s * wheel.speed_rad_s;
     watts.kinetic_W += robot.inertia.wheel_axle_inertia_kg_m2 * acceleration[side] * wheel.speed_rad_s;
-    // Kt i q' against Kv i q': equal constants in SI; where a file gives others, the rest is copper's.
+    // Kt i q' equals Kv i q' in SI units; if a file gives different constants, the difference counts as
+    // copper loss.
     watts.copper_W += (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * wheel.current_A *
                       wheel.speed_rad_s;
   }

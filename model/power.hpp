@@ -6,13 +6,13 @@
 
 namespace joulepath {
 
-/// What counts of a power that comes back with an efficiency where it is negative: max(P, eta P).
+/// Power of which the negative part is recovered with an efficiency: max(P, eta P).
 inline double counted_power_W(double power_W, double efficiency) {
   return power_W >= 0 ? power_W : efficiency * power_W;
 }
 
-/// Power that the drives take from the supply: negative power comes back with an efficiency, of each
-/// wheel alone (PowerSharing::wheel) or of the sum (PowerSharing::bus).
+/// Power that the drives take from the supply. Negative power is recovered with an efficiency, for each wheel
+/// alone (PowerSharing::wheel) or for the sum (PowerSharing::bus).
 inline double supply_power_W(const PowerSupply& supply, const Sided<double>& motor_power_W) {
   const auto kept = [&](double power_W) { return counted_power_W(power_W, supply.regeneration_efficiency); };
   return supply.sharing == PowerSharing::bus ? kept(motor_power_W.left + motor_power_W.right)
@@ -26,7 +26,7 @@ struct PowerByCause {
   double coulomb_friction_W{};
   double viscous_friction_W{};
   double kinetic_W{};        ///< into kinetic energy; negative while braking
-  double not_recovered_W{};  ///< negative motor power that does not come back
+  double not_recovered_W{};  ///< negative motor power that is not recovered
   double standby_W{};
   std::vector<double> effect_W{};  ///< in the order of Plant::effects
 
@@ -42,9 +42,9 @@ struct PowerByCause {
 [[nodiscard]] PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion,
                                           const Site& site, const Sided<WheelState<double>>& wheels);
 
-/// What happens inside of the battery at a power taken from its terminals.
+/// State of the battery at a power taken from its terminals.
 struct BatteryLoad {
-  bool possible{true};  ///< false: the battery cannot give this power
+  bool possible{true};  ///< false: the battery cannot supply this power
   double current_A{};
   double terminal_voltage_V{};
   double loss_W{};  ///< in the internal resistance

@@ -9,12 +9,15 @@ namespace joulepath {
 
 /// The shapes of motion that are prescribed rather than optimized.
 ///
-/// constant_ramp   accelerate for `ramp_s` (until `distance_m` is covered), brake to rest at its end;
-/// `repeat` times constant_speed  already moving at `speed_m_s` for `distance_m` or `duration_s` trapezoid
-/// accelerate, cruise at `speed_m_s`, decelerate within `distance_m` stand           at rest for `duration_s`
-/// spin            turn in place by `angle_rad`, or at `yaw_rate_rad_s` for `duration_s`
-/// arc             circle of `radius_m` by `angle_rad` (positive = to the left), trapezoid in speed
-/// coast           from `speed_m_s` with no motor torque until rest or `duration_s`
+/// | profile        | motion                                                                           |
+/// |----------------|----------------------------------------------------------------------------------|
+/// | constant_ramp  | accelerate for `ramp_s` (until `distance_m`), brake to rest; `repeat` times      |
+/// | constant_speed | move at `speed_m_s` from the start, for `distance_m` or `duration_s`             |
+/// | trapezoid      | accelerate, cruise at `speed_m_s`, decelerate within `distance_m`                |
+/// | stand          | at rest for `duration_s`                                                         |
+/// | spin           | turn in place by `angle_rad`, or at `yaw_rate_rad_s` for `duration_s`            |
+/// | arc            | circle of `radius_m` by `angle_rad` (positive = to the left), trapezoid in speed |
+/// | coast          | from `speed_m_s` without motor torque, until rest or for `duration_s`            |
 enum class MotionProfile { constant_ramp, constant_speed, trapezoid, stand, spin, arc, coast };
 
 inline constexpr std::array<std::string_view, 7> kMotionProfileNames{
@@ -23,7 +26,7 @@ inline constexpr std::array<std::string_view, 7> kMotionProfileNames{
 /// A cubic Bezier curve: four control points (x, y) in metres [P1, Eq. (34)].
 using BezierPoints = std::array<std::array<double, 2>, 4>;
 
-/// `motion:` of a mission leg or of an energy-only run; what is absent takes the executor's default.
+/// `motion:` of a mission leg or of an energy-only run; an absent value takes the executor's default.
 struct PrescribedMotion {
   MotionProfile profile{MotionProfile::trapezoid};
   std::optional<double> acceleration_m_s2{};

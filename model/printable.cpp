@@ -78,7 +78,7 @@ std::string first_control_character(std::string_view text) {
 }
 
 std::string printable_start(std::string_view text, std::size_t max_bytes) {
-  const std::string shown = printable(text.substr(0, 4 * max_bytes));
+  std::string shown = printable(text.substr(0, 4 * max_bytes));
   if (shown.size() <= max_bytes && text.size() <= 4 * max_bytes) return shown;
   std::size_t end = max_bytes - 3;
   while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xC0) == 0x80) --end;

@@ -10,8 +10,8 @@ namespace joulepath {
 /// Offset of the first byte that does not belong to well-formed UTF-8 (RFC 3629); empty when there is none.
 [[nodiscard]] std::optional<std::size_t> first_byte_not_utf8(std::string_view text);
 
-/// The text as a terminal and a JSON writer can take it: control characters (C0, DEL, C1) and bytes that are
-/// not UTF-8 appear as `\x1b`.
+/// The text, safe for terminals and JSON writers: control characters (C0, DEL, C1) and bytes that are not
+/// UTF-8 appear as `\x1b`.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// The first control character other than tab, line feed and carriage return, as `U+001B`; empty: none.

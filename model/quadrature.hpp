@@ -11,7 +11,7 @@ namespace joulepath {
 struct MotionInstant {
   BodyMotion<double> motion{};
   Site site{};
-  bool stands{};  ///< both wheels stand: brakes and friction hold the robot, no motor works
+  bool stands{};  ///< both wheels stand: brakes and friction hold the robot, the motors carry no current
 };
 
 /// A node of the energy integral.
@@ -25,12 +25,12 @@ struct EnergyNode {
 [[nodiscard]] EnergyNode energy_node(const Plant& plant, const MotionInstant& instant, double time_s,
                                      double weight_s = 0.0);
 
-/// Power (W) that the drives take from the supply at a node, standby left out.
+/// Power (W) that the drives take from the supply at a node, without standby.
 [[nodiscard]] double drive_power_W(const Plant& plant, const EnergyNode& node);
 
-/// The branch of every piecewise law that a node is on: the signs of the motors' power (what comes back),
-/// the directions of dry friction, and with effects the signs of current and of the body's speeds, and
-/// branch() of an effect whose law has regions. Within a branch power is a smooth function of time.
+/// The branch of every piecewise law at a node: the signs of the motors' power (recovered or not), the
+/// directions of dry friction, and with effects the signs of current and of the body's speeds, and branch()
+/// of effects with a region. Within a branch power is a smooth function of time.
 [[nodiscard]] unsigned long branch_of(const Plant& plant, const EnergyNode& node);
 
 inline constexpr std::array<double, 3> kGaussPlaces{0.1127016653792583, 0.5, 0.8872983346207417};

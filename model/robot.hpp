@@ -40,7 +40,7 @@ struct Motor {
   double friction_torque_Nm{};         ///< T_m: Coulomb friction, opposes the wheel's own motion
   double max_voltage_V{kNoLimit};
   double max_current_A{kNoLimit};
-  double inductance_H{};  ///< L: only the simulator looks at it; 0 = neglected
+  double inductance_H{};  ///< L: used by the simulator only; 0 = neglected
 
   double torque_per_ampere_Nm_A() const { return torque_constant_Nm_A * gear_ratio; }       ///< Kt n
   double volts_per_speed_V_s_rad() const { return voltage_constant_V_s_rad * gear_ratio; }  ///< Kv n
@@ -53,7 +53,7 @@ struct PayloadLimits {
   std::map<std::string, double> limit_by_key{};
 };
 
-/// What of a negative motor power comes back: `wheel` clips each wheel alone, `bus` clips the sum.
+/// How negative motor power is recovered: `wheel` clips each wheel alone, `bus` clips the sum.
 enum class PowerSharing { wheel, bus };
 
 struct PowerSupply {

@@ -16,7 +16,7 @@ struct SampledState {
 };
 [[nodiscard]] SampledState sampled_state(const Trajectory& trajectory, double time_s);
 
-/// Where a sampled motion begins, and what its channels do not say.
+/// Start of a sampled motion, and values that its channels do not contain.
 struct SampledStart {
   double time_of_day_s{};       ///< at the first sample
   double payload_kg{};          ///< where the trajectory has no payload
@@ -24,13 +24,13 @@ struct SampledStart {
   EffectMemory memory{};        ///< of the effects
 };
 
-/// Clears the directions of dry friction that speeds below `standing_rad_s` do not tell; returns whether
-/// both wheels stand.
+/// Clears the directions of dry friction of wheels slower than `standing_rad_s`; returns whether both wheels
+/// stand.
 [[nodiscard]] bool clear_standing(const Geometry& geometry, const BodyMotion<double>& motion,
                                   double standing_rad_s, Site& site);
 
 /// A trajectory driven by a plant: body speeds linear between the samples, payload that of the sample before.
-/// The plant and the trajectory are referred to and must outlive it.
+/// It keeps references to the plant and the trajectory, which must outlive it.
 class SampledMotion {
  public:
   /// `trajectory` has linear and angular speed in every sample.

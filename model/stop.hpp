@@ -5,8 +5,8 @@
 
 namespace joulepath {
 
-/// Asked at the steps of a long computation on this thread; it throws where the computation is to end early.
-/// Null: nobody asks for an end.
+/// Called at the steps of a long computation on this thread; throws to end the computation early. Null: no
+/// check.
 inline thread_local const std::function<void()>* stop_check = nullptr;
 
 /// A step of a long computation: lets the caller end it by an exception.

@@ -14,9 +14,9 @@ struct Pose {
   double heading_rad{};
 };
 
-/// A motion over time, planned or measured: one value per sample in every channel that is present,
-/// an empty vector where a channel is absent. A log is a trajectory that a robot measured; the
-/// names are the columns of `formats.md`.
+/// A motion over time, planned or measured: one value per sample in every channel that is present, an empty
+/// vector for an absent channel. A log is a trajectory that a robot measured; its columns have the same
+/// names.
 struct Trajectory {
   std::vector<double> time_s{};
   Sided<std::vector<double>> wheel_speed_rad_s{};

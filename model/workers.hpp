@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// Threads that all run one function, joined at the end of the block. Where the system gives fewer threads
-/// than asked for, fewer run: the caller runs the function too, so that the work is done in any case.
+/// Threads that all run one function, joined at the end of the block. If the system gives fewer threads,
+/// fewer run; the caller runs the function too, so that the work is always done.
 class Workers {
  public:
   template <class Function>

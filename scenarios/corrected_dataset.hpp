@@ -6,10 +6,9 @@
 
 namespace joulepath {
 
-/// `dataset_corrected.yaml`: the dataset's file again, each reading mapped back through the instrument
-/// effects that the diagnosis found (`columns:` composed with what the file already maps), names of files as
-/// seen from `directory`, the one that it will be written to. Throws ConfigError where the file can no longer
-/// be read.
+/// `dataset_corrected.yaml`: the dataset's file again, with each reading corrected for the instrument effects
+/// that the diagnosis found (`columns:` composed with the file's own mapping). Names of files are relative to
+/// `directory`, where it will be written. Throws ConfigError if the file can no longer be read.
 [[nodiscard]] std::string corrected_dataset_text(const Dataset& dataset,
                                                  const std::vector<EffectSetting>& instruments,
                                                  const std::string& directory);

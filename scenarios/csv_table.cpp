@@ -50,7 +50,7 @@ class CsvParser {
                        std::move(hint)});
   }
 
-  /// Takes the next line that holds something; false at the end.
+  /// Reads the next line that is not empty; false at the end.
   bool next_line() {
     while (!rest_.empty()) {
       const auto end = rest_.find('\n');
@@ -63,8 +63,8 @@ class CsvParser {
     return false;
   }
 
-  /// One cell of the line from `position` on; moves `position` behind its separator, past the end after the
-  /// last.
+  /// One cell of the line from `position` on; moves `position` past its separator, or past the end after the
+  /// last cell.
   std::string_view next_cell(std::size_t& position) const {
     if (line_[position] == '"') {
       const auto close = line_.find('"', position + 1);

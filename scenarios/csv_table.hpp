@@ -9,11 +9,11 @@
 
 namespace joulepath {
 
-/// The columns of a CSV file that someone wanted, as numbers; an empty cell is NaN.
+/// The requested columns of a CSV file, as numbers; an empty cell is NaN.
 struct CsvTable {
   std::string file{};
   std::vector<std::string> header{};           ///< all names, in the file's order
-  std::vector<std::vector<double>> columns{};  ///< one per name; empty where it was not wanted
+  std::vector<std::vector<double>> columns{};  ///< one per name; empty if it was not requested
   std::vector<int> line_of_row{};
 
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
@@ -21,9 +21,9 @@ struct CsvTable {
 };
 
 /// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (as in the header),
-/// quotes, CRLF and a byte order mark are fine, lines that begin with # are comments. Throws ConfigError with
-/// line and column: no header, a name twice, a row of another length, text or a non-finite number in a wanted
-/// column.
+/// quotes, CRLF and a byte order mark are accepted, lines that begin with # are comments. Throws ConfigError
+/// with line and column: no header, a name twice, a row of another length, text or a non-finite number in a
+/// requested column.
 [[nodiscard]] CsvTable read_csv(const std::string& file,
                                 const std::function<bool(const std::string&)>& wanted,
                                 const NamedBy& named_by = {});

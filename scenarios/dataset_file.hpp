@@ -11,15 +11,14 @@ namespace joulepath {
 
 [[nodiscard]] Schema dataset_schema();
 
-/// Reads a dataset: the robot that it names (or `robot_file`, which wins where it is not empty) and every
-/// run. Throws ConfigError.
+/// Reads a dataset: its robot (or `robot_file`, if it is not empty) and every run. Throws ConfigError.
 [[nodiscard]] Dataset read_dataset(const std::string& file, const ReadOptions& options = {},
                                    const std::string& robot_file = {});
 
-/// What stands in memory in place of files that a dataset names.
+/// Values in memory that replace files that a dataset names.
 struct DatasetInMemory {
   const Robot* robot{};                           ///< null: its file is read
-  const std::map<std::string, CsvTable>* logs{};  ///< by the names under which runs have them
+  const std::map<std::string, CsvTable>* logs{};  ///< by the file names in the runs
 };
 
 /// The dataset of a parsed document; `robot_file` as above. Throws ConfigError.

@@ -20,8 +20,8 @@ Robot with_limits(Robot robot) {
   if (!robot.limits)
     robot.limits = Limits{
         .speed_m_s = 1.0, .acceleration_m_s2 = 0.5, .deceleration_m_s2 = 0.5, .yaw_acceleration_rad_s2 = 1.0};
-  robot.battery.capacity_Wh = kNoLimit;  // the question is energy, not range
-  robot.uncertainty.clear();             // nor how sure it is
+  robot.battery.capacity_Wh = kNoLimit;  // the comparison is about energy, not range
+  robot.uncertainty.clear();             // and not about its uncertainty
   return robot;
 }
 
@@ -30,7 +30,7 @@ MissionRequest mission_along(const BezierPoints& curve, double payload_kg) {
   return {.name = "decision", .legs = {leg}};
 }
 
-/// Energy that a planned motion takes on a plant, following the same path at the same times.
+/// Energy of a planned motion on a plant, for the same path and the same times.
 double energy_on(const Plant& plant, const Plan& plan) {
   double energy_J = 0.0;
   for (const LegPlan& leg : plan.legs)
@@ -55,8 +55,7 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
   const std::vector<MissionRequest> missions{
       mission_along(kStraight, 0.0), mission_along(kStraight, half_load_kg), mission_along(kQuarterTurn, 0.0),
       mission_along(kQuarterTurn, half_load_kg)};
-  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the plant that is
-  // driven.
+  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the driven plant.
   std::vector<double> energy_J(2 * missions.size());
   parallel_for(energy_J.size(), [&](std::size_t k) {
     const Robot& robot = k % 2 == 0 ? nominal : corrected;
@@ -65,7 +64,7 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
   DecisionCost cost;
   double nominal_J = 0.0, corrected_J = 0.0;
   for (std::size_t m = 0; m < missions.size(); ++m) {
-    if (energy_J[2 * m] == 0 || energy_J[2 * m + 1] == 0) continue;  // could not be planned
+    if (energy_J[2 * m] == 0 || energy_J[2 * m + 1] == 0) continue;  // no plan
     ++cost.missions;
     nominal_J += energy_J[2 * m];
     corrected_J += energy_J[2 * m + 1];

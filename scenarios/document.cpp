@@ -30,7 +30,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   int best_distance = std::max(2, static_cast<int>(word.size()) / 3) + 1;
   for (const auto& candidate : candidates) {
     int distance = edit_distance(word, candidate);
-    // The unit left out (or another one) is the commonest slip: `speed` for `speed_m_s`.
+    // The most frequent slip is a missing or different unit: `speed` for `speed_m_s`.
     if (word.size() >= 3 && candidate.size() > word.size() && candidate.compare(0, word.size(), word) == 0 &&
         candidate[word.size()] == '_')
       distance = std::min(distance, 1);

@@ -11,7 +11,7 @@
 
 namespace joulepath {
 
-/// A YAML or JSON value with the place where it stands: the parsed file, free of the parser's types.
+/// A YAML or JSON value with its place in the file, independent of the parser's types.
 struct Value {
   enum class Kind { null, scalar, list, map };
   struct Entry;
@@ -32,7 +32,7 @@ struct Value::Entry {
   Value value{};
 };
 
-/// How errors name a place inside of a file: `legs[2].to`, or `/legs/2/to` (RFC 6901) in JSON.
+/// Form of a place inside of a file in errors: `legs[2].to`, or `/legs/2/to` (RFC 6901) in JSON.
 enum class PathStyle { dotted, pointer };
 [[nodiscard]] std::string path_of_key(const std::string& path, std::string_view key, PathStyle style);
 [[nodiscard]] std::string path_of_item(const std::string& path, std::size_t index, PathStyle style);
@@ -67,7 +67,7 @@ class Node {
   [[nodiscard]] std::string text_or(std::string_view key, std::string_view fallback) const;
   [[nodiscard]] std::optional<double> optional_number(std::string_view key) const;
 
-  /// What stands here, shortened, for a message: `"abc"`, `a list of 3`, `a map with keys x_m, y_m`.
+  /// The value here, shortened, for a message: `"abc"`, `a list of 3`, `a map with keys x_m, y_m`.
   [[nodiscard]] std::string described() const;
   [[noreturn]] void fail(std::string accepted, std::string hint = {}) const;
   [[noreturn]] void fail_found(std::string found, std::string accepted, std::string hint = {}) const;
@@ -79,8 +79,7 @@ class Node {
   PathStyle style_;
 };
 
-/// Where a file is named in another one, for the errors that its absence or its content make; empty: on the
-/// command line.
+/// The place where a file is named, for errors about its absence or its content; empty: on the command line.
 struct NamedBy {
   SourceMark mark{};
   std::string key{};  ///< dotted
@@ -89,24 +88,24 @@ struct NamedBy {
   NamedBy(SourceMark mark_, std::string key_) : mark(std::move(mark_)), key(std::move(key_)) {}
   explicit NamedBy(const Node& node) : mark(node.mark()), key(node.path()) {}
 
-  /// The error that `file` causes: at the place that names it, or at the file itself.
+  /// An error about `file`: at the place that names it, or at the file itself.
   [[nodiscard]] ConfigError error(const std::string& file, std::string found, std::string accepted,
                                   std::string hint = {}) const;
 };
 
-/// How files that name other files are read.
+/// Options for files that name other files.
 struct ReadOptions {
   bool untrusted{};           ///< names in the input may not be absolute or leave the input's folder
   bool cut_long_logs{};       ///< long logs become several runs, cut at standstill
   bool accept_implausible{};  ///< logs with numbers that no robot has are read: the caller reports them
 };
 
-/// A text that takes the place of a document's value. Path: keys and items as in `legs[2].payload_kg`; `[*]`
-/// means every item of a list or of a map. A key that is absent is added to its map.
+/// A text that replaces a value of a document. Path: keys and items as in `legs[2].payload_kg`; `[*]` means
+/// every item of a list or of a map. An absent key is added to its map.
 struct ValueChange {
   std::string path{};
   std::string text{};
-  NamedBy named_by{};  ///< where errors point to
+  NamedBy named_by{};  ///< the place for errors
 };
 
 /// One parsed file.
@@ -115,10 +114,10 @@ class Document {
   /// Parses JSON where the file's name ends with .json, .geojson, .jsonl or .ndjson, YAML otherwise. Throws
   /// ConfigError: syntax, not UTF-8, control character, duplicate key, several documents, too large.
   static Document parse(std::string_view text, std::string file, int first_line = 1);
-  /// Reads and parses a file. Throws ConfigError when it cannot be read; `named_by` is where its name stands.
+  /// Reads and parses a file. Throws ConfigError if it cannot be read; `named_by` is the place of its name.
   static Document load(const std::string& file, const NamedBy& named_by = {});
 
-  /// A copy with values changed. Throws ConfigError where a path leads nowhere.
+  /// A copy with changed values. Throws ConfigError if a path does not exist.
   [[nodiscard]] Document with(const std::vector<ValueChange>& changes) const;
 
   [[nodiscard]] Node root() const { return {*root_, *file_, "", style_}; }
@@ -136,7 +135,7 @@ class Document {
 /// The file that a node names, relative to the file that holds the node.
 [[nodiscard]] std::string resolve_file(const Node& node, const ReadOptions& options);
 
-/// A finite number in decimal notation as YAML 1.2 writes it; empty when the text is none.
+/// A finite number in decimal notation as YAML 1.2 defines it; empty for any other text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 /// The candidate nearest to a mistyped word, empty when none is near.

@@ -44,7 +44,7 @@ std::vector<Step> steps_of(const std::string& path, const NamedBy& named_by) {
   return steps;
 }
 
-/// The values that one step leads to.
+/// The values of one step.
 std::vector<Value*> below(Value& value, const Step& step, const std::string& path, const NamedBy& named_by) {
   std::vector<Value*> found;
   if (step.every || step.item) {

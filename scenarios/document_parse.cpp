@@ -25,7 +25,7 @@ void refuse_larger(std::size_t bytes, std::size_t most, const std::string& file,
                          "at most " + std::to_string(most) + " bytes in a file of this format");
 }
 
-/// Throws at the first byte that belongs to no UTF-8 text.
+/// Throws at the first byte that is not valid UTF-8.
 void check_characters(const std::string& text, const std::string& file, int first_line) {
   if (text.find('\0') != std::string::npos)
     throw ConfigError({{file, 0, 0}, "", "binary data", "a text file in YAML or JSON", ""});

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kDataDirectory = "${JOULEPATH_DATA_DIR}";
 
-/// The text of a node with ${JOULEPATH_DATA_DIR} at its beginning filled in from the environment.
+/// The text of a node, with ${JOULEPATH_DATA_DIR} at its beginning replaced by the environment variable.
 std::string with_data_directory(const Node& node, const ReadOptions& options) {
   const std::string& name = node.text();
   if (options.untrusted || name.compare(0, kDataDirectory.size(), kDataDirectory) != 0) return name;
@@ -37,7 +37,7 @@ std::string read_text_file(const std::string& file, const NamedBy& named_by) {
   std::error_code error;
   const auto kind = std::filesystem::status(file, error).type();
   if (kind == std::filesystem::file_type::directory) throw named_by.error(file, "a directory", "a file");
-  // A FIFO or a device may have no end, or none to write to it.
+  // A FIFO or a device may have no end, or no writer.
   if (std::filesystem::exists(std::filesystem::file_status(kind)) &&
       kind != std::filesystem::file_type::regular)
     throw named_by.error(file, "a pipe, a socket or a device", "a regular file");

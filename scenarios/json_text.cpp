@@ -7,7 +7,7 @@
 namespace joulepath {
 namespace {
 
-/// Reads a text and counts what was read, so that the parser's events can be placed in the text.
+/// Reads a text and counts the characters, which gives the places of the parser's events.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -35,7 +35,7 @@ class CountingIterator {
   std::size_t* read_;
 };
 
-/// What the library says about a mistake, without its own code and place.
+/// The library's message about a mistake, without its code and place.
 std::string reason_of(const std::string& what) {
   const auto code = what.find("] ");
   std::string reason = code == std::string::npos ? what : what.substr(code + 2);
@@ -87,7 +87,7 @@ class JsonEvents {
   }
 
  private:
-  /// The place of the token that begins behind the last one.
+  /// The place of the token after the last one.
   ValueBuilder::Place token() {
     begin_ = std::min(text_.find_first_not_of(" \t\r\n:,", end_), text_.size());
     return place_of(begin_);
@@ -97,13 +97,13 @@ class JsonEvents {
     end_ = begin_ + length;
     return place;
   }
-  /// A number keeps its digits as they stand in the text; the parser has read one character more.
+  /// A number keeps its digits; the parser has read one more character.
   bool number() {
     const auto place = token();
     end_ = std::min(text_.find_first_not_of("+-0123456789.eE", begin_), text_.size());
     return builder_.scalar(text_.substr(begin_, end_ - begin_), false, place), true;
   }
-  /// Lines are counted on from the place asked for last.
+  /// Lines are counted from the last requested place.
   ValueBuilder::Place place_of(std::size_t offset) {
     for (; counted_ < offset; ++counted_)
       if (text_[counted_] == '\n') {

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Whether a column of a file is one that its run wants.
+/// Whether a column of a file is a channel of its run.
 bool wanted(const std::string& header, const ColumnSources& sources) {
   const auto names = [&](const std::string& column) {
     const auto in_file = names_in_file(column, sources);

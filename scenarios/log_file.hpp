@@ -10,22 +10,22 @@
 
 namespace joulepath {
 
-/// A log file and where it is named (for messages).
+/// A log file and the place of its name (for messages).
 struct LogFileName {
   std::string file{};
   NamedBy named_by{};
-  const CsvTable* table{};  ///< its content where that is in memory already
+  const CsvTable* table{};  ///< its content, if it is already in memory
 };
 
 /// One file of a run: its columns in the format's names and units, on its own times.
 struct LogFile {
-  CsvTable table{};  ///< as it was read, without its columns
+  CsvTable table{};  ///< as read, without its columns
   std::vector<double> times{};
   std::map<std::string, std::vector<double>> channels{};
   std::vector<LogArtifact> artifacts{};
 };
 
-/// The names by which a file may know one of the format's columns.
+/// The names that a file may use for one of the format's columns.
 [[nodiscard]] std::vector<std::string> names_in_file(const std::string& column, const ColumnSources& sources);
 
 /// Reads one file of a run. Throws ConfigError: no time, times that do not increase, malformed cells.

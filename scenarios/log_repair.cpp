@@ -10,7 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kGapFactor = 4.0;        // a step longer than this many usual ones is a gap
-constexpr std::size_t kHeldSamples = 10;  // equal values in a row before it is worth a word
+constexpr std::size_t kHeldSamples = 10;  // equal values in a row that are reported
 
 double median_step(const std::vector<double>& times) {
   std::vector<double> steps(times.size() - 1);
@@ -41,13 +41,13 @@ void find_gaps(const Trajectory& log, const std::string& run, std::vector<LogArt
   artifacts.push_back(gap);
 }
 
-/// How many different values a channel has.
+/// Number of different values of a channel.
 std::size_t distinct(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
 }
 
-/// A sensor with coarse steps repeats its values regularly; one with fine steps hardly ever does.
+/// A sensor with coarse steps repeats values regularly; one with fine steps rarely does.
 bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
   return 10 * distinct(values) > 9 * changes;
 }
@@ -69,7 +69,7 @@ std::vector<Hold> holds_of(const std::vector<double>& values) {
   return holds;
 }
 
-/// Whether another channel changed all the while: then the world did not stand still, the sensor did.
+/// Whether another channel changed all the time: then the sensor stopped, not the robot.
 bool changes_during(const std::vector<double>& witness, const Hold& hold) {
   std::size_t changes = 0;
   for (std::size_t i = hold.start + 1; i < hold.start + hold.length; ++i)
@@ -96,7 +96,7 @@ void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<H
   artifacts.push_back(held);
 }
 
-/// A channel that repeats every value in several rows: sampled slower than it is logged.
+/// A channel that repeats every value in several rows: its sensor is slower than the log.
 void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogArtifact>& artifacts) {
   if (holds.size() < 30) return;
   const auto middle = holds.begin() + static_cast<long>(holds.size() / 2);
@@ -111,7 +111,7 @@ void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogAr
   artifacts.push_back(slow);
 }
 
-/// The position as one channel: 0 where the robot stands, else a number that is new with every new place.
+/// The position as one channel: 0 while the robot stands, else a new number for every new place.
 std::vector<double> places(const Trajectory& log) {
   std::vector<double> place(log.position_x_m.size());
   double fastest_rad_s = 0.0, number = 1.0;
@@ -137,8 +137,7 @@ void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<
   find_slow(of, holds, artifacts);
 }
 
-/// Heading, temperature, payload and commands may stay the same for long; everything else that is measured
-/// may not.
+/// Heading, temperature, payload and commands may stay constant for long; other measured channels may not.
 bool may_stay(const LogColumn& column) {
   for (const char* name :
        {"time_s", "payload_kg", "temperature_C", "heading_rad", "position_x_m", "position_y_m",

@@ -8,10 +8,10 @@
 
 namespace joulepath {
 
-/// A counter that starts again at 0 at `wraps_at` made monotonous again; says how often it wrapped.
+/// Makes a counter that restarts at 0 at `wraps_at` monotonous; returns the number of restarts.
 std::size_t unwrap_counter(std::vector<double>& values, double wraps_at);
 
-/// Angles made continuous (steps below pi).
+/// Makes angles continuous (steps below pi).
 void unwrap_angle(std::vector<double>& values);
 
 /// Linear interpolation of (times, values) at `at`, held constant outside.
@@ -23,10 +23,10 @@ void unwrap_angle(std::vector<double>& values);
 [[nodiscard]] std::vector<double> change_per_second(const std::vector<double>& times,
                                                     const std::vector<double>& values);
 
-/// Fills NaN by interpolation between neighbors; says how many there were.
+/// Replaces NaN by interpolation between neighbors; returns their number.
 std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values);
 
-/// Clock jumps, held values, channels slower than the log: what a reader of this run must know.
+/// Clock jumps, held values, channels slower than the log: artifacts that affect this run.
 [[nodiscard]] std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::string& run);
 
 }  // namespace joulepath

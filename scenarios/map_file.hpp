@@ -9,10 +9,10 @@ namespace joulepath {
 
 [[nodiscard]] Schema map_schema();
 
-/// Reads a Nav2 map: YAML and the image that it names, as Nav2's map server does. Throws ConfigError.
+/// Reads a Nav2 map: YAML and its image, with the rules of Nav2's map server. Throws ConfigError.
 ///
 ///   occupancy = 1 - shade (shade when negated); trinary: occupied above occupied_thresh, free below
-///   free_thresh, unknown between; scale: linear between, see-through pixels unknown; raw: the pixel's value.
+///   free_thresh, unknown between; scale: linear between, transparent pixels unknown; raw: the pixel's value.
 [[nodiscard]] OccupancyGrid read_map(const std::string& file, const NamedBy& named_by = {},
                                      const ReadOptions& options = {});
 

@@ -30,7 +30,7 @@ MotionProfile profile_named(const std::string& name) {
   return static_cast<MotionProfile>(found - kMotionProfileNames.begin());
 }
 
-/// The keys without which a profile means nothing; `|` separates keys of which one will do.
+/// The keys that a profile requires; `|` separates keys of which one is enough.
 std::vector<std::vector<std::string>> needs(MotionProfile profile) {
   switch (profile) {
     case MotionProfile::constant_ramp:

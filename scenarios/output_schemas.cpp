@@ -3,7 +3,7 @@
 namespace joulepath {
 namespace {
 
-Schema result() { return nullable(number()); }  ///< null where it is not finite
+Schema result() { return nullable(number()); }  ///< null if it is not finite
 Schema interval() { return list(result(), 2, 2); }
 Schema plan_status() { return choice({"optimal", "feasible", "infeasible", "failed"}); }
 

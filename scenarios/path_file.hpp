@@ -19,14 +19,15 @@ namespace joulepath {
 /// Whether a CSV file holds waypoints, not a run log: by its column x_m and no time_s.
 [[nodiscard]] bool has_waypoints(const std::string& file);
 
-/// The path of a document. It begins looking along its first curve; where the heading breaks the robot turns.
-/// `notes` gets the joints at which it stops or turns. Throws ConfigError at a curve that cannot be driven.
+/// The path of a document. It begins with the heading of its first curve; at a heading step the robot turns
+/// in place. `notes` gets the joints with a stop or a turn. Throws ConfigError at a curve that cannot be
+/// driven.
 [[nodiscard]] Path path_from(const Document& document, const ReadOptions& options = {},
                              std::vector<std::string>* notes = nullptr);
 
 /// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature along them (curve_through), or, with
 /// a column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
-/// turned on the spot). Throws ConfigError at a row that cannot be driven.
+/// turn in place). Throws ConfigError at a row that cannot be driven.
 [[nodiscard]] Path read_waypoints(const std::string& file, double tolerance_m = kWaypointTolerance_m,
                                   const NamedBy& named_by = {});
 

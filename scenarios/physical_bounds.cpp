@@ -8,8 +8,7 @@
 namespace joulepath {
 namespace {
 
-/// The sizes that a number may have when its key ends like this; 0 is accepted where the key's own range
-/// accepts it.
+/// The accepted sizes of a number whose key ends like this; 0 is accepted if the key's own range accepts it.
 struct Bounds {
   std::string_view ending{};
   double least{};
@@ -20,7 +19,7 @@ struct Bounds {
 constexpr double kFullTurn_rad = 6.2832;
 constexpr const char* kShaft = "seen at the motor's shaft, in SI units";
 
-/// The first fitting row holds: names before units, longer units before shorter ones.
+/// The first matching row applies: names before units, longer units before shorter ones.
 constexpr Bounds kBounds[] = {
     {"wheel_radius_m", 1e-3, 5, "a radius in meters"},
     {"half_track_m", 1e-3, 10, "half of the track in meters"},

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kJoulesPerWh = 3600.0;
 
-/// JSON has no infinity: what is not finite is null.
+/// JSON has no infinity: values that are not finite become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Two-sided 95 % of a normal distribution.
@@ -22,7 +22,8 @@ Json interval_95_J(double energy_J, double sigma_J) {
 }
 
 Json cause_json(const EnergyByCause& energy) {
-  // What is left of a sum that is zero by physics (kinetic energy from rest to rest) is written as zero.
+  // A sum that is zero by physics (kinetic energy from rest to rest) is written as zero, without rounding
+  // noise.
   const double noise_J = 1e-9 * std::max(1.0, std::abs(energy.total_J()));
   const auto joules = [noise_J](double value_J) { return std::abs(value_J) < noise_J ? 0.0 : value_J; };
   Json effects = Json::object();
@@ -36,8 +37,8 @@ Json cause_json(const EnergyByCause& energy) {
           {"not_recovered", joules(energy.not_recovered_J)}};
 }
 
-/// A baseline beside what the plan takes. `parameters` are the settings on the longest stretch, which
-/// `stretches` repeats for every one.
+/// A baseline and its difference to the plan. `parameters` are the settings on the longest stretch;
+/// `stretches` has them for every stretch.
 Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, std::size_t longest) {
   Json json{{"name", baseline.name}, {"feasible", baseline.feasible}};
   if (!baseline.feasible) {

@@ -8,10 +8,10 @@
 namespace joulepath {
 namespace {
 
-// In SI units both constants are one number for an ideal motor. Kt < Kv: losses inside of the motor count as
-// torque lost; Kt > Kv: only tolerances of a data sheet.
+// In SI units both constants are equal for an ideal motor. Kt < Kv: losses inside the motor count as lost
+// torque; Kt > Kv: only within the tolerances of a data sheet.
 constexpr double kLeastRatio = 0.5, kMostRatio = 1.1, kUsualLeast = 0.9, kUsualMost = 1.1;
-constexpr double kNear = 1.15;  ///< a ratio within this factor of a conversion names its units
+constexpr double kNear = 1.15;  ///< a ratio this close to a conversion factor identifies the units
 
 struct Conversion {
   double ratio{};  ///< Kt / Kv as written
@@ -28,7 +28,7 @@ constexpr Conversion kConversions[] = {
 
 bool is_near(double value, double other) { return value < kNear * other && value > other / kNear; }
 
-/// The units that the two constants as written may stand in.
+/// The possible units of the two constants as written.
 std::string units_mixed_up(const Motor& motor) {
   const double kt = motor.torque_constant_Nm_A, kv = motor.voltage_constant_V_s_rad;
   if (is_near(kt * kv, 9.5493)) return "is the voltage constant a speed constant in rpm/V?";

@@ -8,14 +8,14 @@
 
 namespace joulepath {
 
-/// Checks what the schema cannot see. Throws ConfigError at the key: torque and voltage constants that no
-/// motor has together, a footprint that crosses itself.
+/// Checks beyond the schema. Throws ConfigError at the key: torque and voltage constants that no motor has
+/// together, a footprint that crosses itself.
 void check_robot(const Node& root, const Robot& robot);
 
 /// Whether the robot's outline is known.
 [[nodiscard]] bool has_footprint(const Robot& robot);
 
-/// What is possible but odd: constants that differ, wheels outside of the footprint.
+/// Possible but unusual values: constants that differ, wheels outside of the footprint.
 [[nodiscard]] std::vector<std::string> robot_notes(const Robot& robot);
 
 }  // namespace joulepath

@@ -20,7 +20,7 @@ std::string sided_text(const Sided<double>& value) {
   return "{left: " + text_of(value.left) + ", right: " + text_of(value.right) + "}";
 }
 
-/// A flow map `name: {key: value, ...}`; infinite values are limits that are absent.
+/// A flow map `name: {key: value, ...}`; infinite values are absent limits.
 class Section {
  public:
   explicit Section(std::string name) : name_(std::move(name)) {}
@@ -130,7 +130,7 @@ std::string robot_text(const Robot& robot) {
   text += footprint_line(robot.footprint);
   if (!robot.effects.empty()) text += "effects:\n";
   for (const auto& effect : robot.effects) text += effect_line(effect);
-  Section uncertainty("uncertainty");  // 1 says that a value is not known at all; files accept no more
+  Section uncertainty("uncertainty");  // 1 means that a value is unknown; files accept no more
   for (const auto& [key, value] : robot.uncertainty) uncertainty.number(key, std::min(value, 1.0));
   return text + uncertainty.line();
 }

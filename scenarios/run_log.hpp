@@ -19,11 +19,10 @@ struct RunLog {
   bool wheels_from_body_speeds{};
 };
 
-/// Reads one run from one or several files; with several, all channels are taken to the times of the first
-/// by linear interpolation, where all overlap. Speeds that are missing are derived where the other pair is
-/// there (wheels from body and back with `geometry`; body from pose). Throws ConfigError: no time, time that
-/// does not increase (with the line), no motion at all, malformed cells; odd but usable things become
-/// artifacts.
+/// Reads one run from one or several files. Several files are resampled at the times of the first by linear
+/// interpolation, within their common range. Missing speeds are derived (wheels from body and back with
+/// `geometry`; body from pose). Throws ConfigError: no time, time that does not increase (with the line), no
+/// motion at all, malformed cells. Usable but unusual data become artifacts.
 [[nodiscard]] RunLog read_run_log(const std::vector<LogFileName>& files, const ColumnSources& sources,
                                   const Geometry& geometry, const std::string& run_name);
 
@@ -36,8 +35,8 @@ struct ExtraColumn {
   const std::vector<double>* values{};
 };
 
-/// The trajectory as CSV in the run log format: all channels that are present, then the extra ones, shortest
-/// exact numbers.
+/// The trajectory as CSV in the run log format: all present channels, then the extra ones, shortest exact
+/// numbers.
 [[nodiscard]] std::string run_log_text(const Trajectory& trajectory,
                                        const std::vector<ExtraColumn>& extra = {});
 

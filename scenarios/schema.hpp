@@ -8,7 +8,7 @@
 
 namespace joulepath {
 
-/// Which numbers are accepted.
+/// Accepted numbers.
 struct Range {
   double min{-std::numeric_limits<double>::infinity()};
   double max{std::numeric_limits<double>::infinity()};
@@ -22,8 +22,7 @@ inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), t
 inline constexpr Range kNotNegative{0.0};
 inline constexpr Range kFraction{0.0, 1.0};
 
-/// What a value of a file may be: the one description that the readers check against, that JSON Schemas
-/// are written from, and that error messages quote.
+/// The accepted values of a key: the only description, used by readers, JSON Schemas and error messages.
 struct Schema {
   enum class Kind { number, integer, boolean, text, choice, list, map, dictionary, any_of };
   struct Key;
@@ -66,7 +65,7 @@ struct Schema::Key {
 [[nodiscard]] Schema::Key required(std::string name, Schema schema, std::string says = {});
 [[nodiscard]] Schema::Key optional(std::string name, Schema schema, std::string says = {});
 
-/// The kinds of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's and has no such line.
+/// The kinds of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's format without such a line.
 struct FileKind {
   std::string name{};
   Schema (*schema)(){};
@@ -74,10 +73,10 @@ struct FileKind {
 };
 [[nodiscard]] const std::vector<FileKind>& file_kinds();
 
-/// What the schema accepts, in words: `a number > 0`, `one of: wheel, bus`.
+/// The accepted values in words: `a number > 0`, `one of: wheel, bus`.
 [[nodiscard]] std::string accepted_by(const Schema& schema);
 
-/// Checks a value and all below it. Throws ConfigError at the first mistake.
+/// Checks a value and all values below it. Throws ConfigError at the first mistake.
 void check_value(const Node& node, const Schema& schema);
 
 /// Checks the `schema:` line (absent: version 1 of the kind expected) and the whole document.

@@ -4,10 +4,10 @@
 
 namespace joulepath {
 
-/// Six significant digits: what was measured, not what the arithmetic left. Not finite becomes 0.
+/// Rounds to six significant digits, the precision of the data. Not finite becomes 0.
 [[nodiscard]] double six_digits(double value);
 
-/// The shortest text of that number.
+/// The shortest text of a number rounded to six significant digits.
 [[nodiscard]] std::string significant_text(double value);
 
 }  // namespace joulepath

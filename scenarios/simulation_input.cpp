@@ -50,7 +50,7 @@ SimulationInput from_trajectory(const std::string& path, const std::string& robo
   return input;
 }
 
-/// All legs prescribed: laid out as they are, so that coasting stays coasting.
+/// If all legs are prescribed they are simulated unchanged, so that coasting stays coasting.
 SimulationInput from_motions(const MissionRequest& mission, const MissionWorld& world) {
   SimulationInput input{.name = mission.file, .robot = world.robot, .start = mission.start.pose};
   Pose pose = input.start;
@@ -159,7 +159,7 @@ EffectSetting parse_effect(const std::string& text) {
              "as in rolling_resistance:coefficient=0.015");
     setting.parameters[key] = *number;
   }
-  (void)make_effect(setting);  // the catalog judges it
+  (void)make_effect(setting);  // the catalog checks it
   return setting;
 }
 

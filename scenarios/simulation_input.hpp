@@ -13,7 +13,7 @@
 
 namespace joulepath {
 
-/// What a simulation drives: a plan's directory, a trajectory or log (CSV), or a mission.
+/// The input of a simulation: a plan's directory, a trajectory or log (CSV), or a mission.
 struct SimulationInput {
   std::string name{};
   Robot robot{};
@@ -25,23 +25,23 @@ struct SimulationInput {
   std::string infeasible{};  ///< why the mission has no plan; empty: it has one
 };
 
-/// Reads what `path` names. A mission whose legs are all prescribed motions is driven as prescribed; any
-/// other is planned first. `robot_file` wins over the mission's; a plan or trajectory needs it.
+/// Reads the input at `path`. A mission with only prescribed motions is driven as prescribed; any other is
+/// planned first. `robot_file` replaces the mission's; a plan or trajectory needs it.
 /// Throws ConfigError.
 [[nodiscard]] SimulationInput read_simulation_input(const std::string& path, const std::string& robot_file,
                                                     const ReadOptions& options = {},
                                                     const PlanOptions& planning = {});
 
-/// What a simulation drives of a plan. The robot may be another one than the plan's.
+/// The input of a simulation from a plan. The robot may differ from the plan's.
 [[nodiscard]] SimulationInput simulation_input(const Plan& plan, const Trajectory& trajectory,
                                                const Robot& robot);
 
-/// The run of an input on a plant that has these effects besides its robot file's: typical sensors, or ideal.
+/// The run of an input on a plant with additional effects: typical sensors, or ideal ones.
 [[nodiscard]] SimulationRequest simulation_request(const SimulationInput& input,
                                                    const std::vector<EffectSetting>& effects,
                                                    bool ideal_sensors, std::uint64_t seed);
 
-/// `NAME:PARAMETER=VALUE,...` as an effect of the catalog; `side=left` where it has one.
+/// `NAME:PARAMETER=VALUE,...` as an effect of the catalog; `side=left` for effects with a side.
 /// Throws ConfigError.
 [[nodiscard]] EffectSetting parse_effect(const std::string& text);
 

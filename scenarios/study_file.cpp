@@ -108,7 +108,7 @@ std::string without_items(const std::string& path) {
   return keys;
 }
 
-/// The design's values of the robot or of the mission, by the place where they are written.
+/// The design's values of the robot or of the mission, with their paths.
 std::vector<ValueChange> changes_of(const Study& study, const std::vector<std::string>& design, bool robot) {
   std::vector<ValueChange> changes;
   for (std::size_t p = 0; p < design.size(); ++p)
@@ -117,7 +117,7 @@ std::vector<ValueChange> changes_of(const Study& study, const std::vector<std::s
   return changes;
 }
 
-/// An error about a value that the study has put in is the study's: at its parameter.
+/// An error about a value from the study is reported at the study's parameter.
 [[noreturn]] void throw_at_parameter(const ConfigError& error, const std::vector<ValueChange>& changes) {
   const ConfigError::Detail& detail = error.detail();
   for (const ValueChange& change : changes)

@@ -11,7 +11,7 @@
 
 namespace joulepath {
 
-/// Where a study's parameter is written: `robot.motor.gear_ratio`, `mission.legs[*].payload_kg`.
+/// The target of a study's parameter: `robot.motor.gear_ratio`, `mission.legs[*].payload_kg`.
 struct StudyTarget {
   bool in_robot{};
   std::string path{};  ///< without the first word
@@ -30,10 +30,10 @@ struct StudyObjective {
   bool maximize{};
 };
 
-/// What stays as it is while the gear ratio changes.
+/// Quantities that stay constant while the gear ratio changes.
 enum class FrictionHeld { wheel, motor };
 
-/// A study file: which designs are planned on which missions, and what makes a design good.
+/// A study file: its designs, its missions, and its objectives.
 struct Study {
   std::string file{};
   std::string name{};
@@ -43,13 +43,13 @@ struct Study {
   DesignTable designs{};
   std::vector<StudyTarget> targets{};  ///< one per parameter
   std::vector<StudyConstraint> constraints{};
-  std::vector<StudyObjective> objectives{};  ///< the first one is what --optimize minimizes
+  std::vector<StudyObjective> objectives{};  ///< --optimize minimizes the first one
   FrictionHeld friction{FrictionHeld::wheel};
 
   [[nodiscard]] bool changes_gear() const;
 };
 
-/// The figures of a result line that a study may ask about.
+/// The figures of a result line that a study may use.
 [[nodiscard]] const std::vector<std::string>& sweep_results();
 
 [[nodiscard]] Schema study_schema();
@@ -57,12 +57,11 @@ struct Study {
 /// The study of a parsed document; missions and robots are resolved, not read. Throws ConfigError.
 [[nodiscard]] Study study_from(const Document& document, const ReadOptions& options = {});
 
-/// The robot of a design: of `robot`, with the design's values. Throws ConfigError at the study's parameter.
+/// The robot of a design: `robot` with the design's values. Throws ConfigError at the study's parameter.
 [[nodiscard]] Robot robot_of_design(const Study& study, const Document& robot,
                                     const std::vector<std::string>& design);
 
-/// The mission of a design: of `mission`, with the design's values. Throws ConfigError at the study's
-/// parameter.
+/// The mission of a design: `mission` with the design's values. Throws ConfigError at the study's parameter.
 [[nodiscard]] MissionRequest mission_of_design(const Study& study, const Document& mission,
                                                const std::vector<std::string>& design,
                                                const ReadOptions& options = {});

@@ -10,7 +10,7 @@ namespace joulepath {
 
 /// Builds a tree of values from a parser's events. Refuses duplicate keys, control characters in texts,
 /// nesting deeper than kMaxDepth and more than kMaxValues values (copies of aliases count), so that memory is
-/// bounded whatever the text says. Time is linear in the number of events.
+/// bounded for any text. Time is linear in the number of events.
 class ValueBuilder {
  public:
   static constexpr std::size_t kMaxDepth = 64;
@@ -25,12 +25,12 @@ class ValueBuilder {
 
   void open(Value::Kind kind, Place place);  ///< a list or a map
   void close();
-  void scalar(std::string text, bool quoted, Place place);  ///< where a map wants a key: its key
+  void scalar(std::string text, bool quoted, Place place);  ///< where a map expects a key: its key
   void key(std::string text, Place place);
   void null(Place place);
   void copy(const Value& value, Place place);  ///< an alias
 
-  /// Adds the copy that an anchor keeps to the count.
+  /// Adds an anchor's copy to the count.
   void count_copy(const Value& value, Place place);
   [[nodiscard]] const Value& last() const { return *last_; }  ///< the value completed last
   [[nodiscard]] Value take() { return std::move(root_); }
@@ -42,7 +42,7 @@ class ValueBuilder {
   struct Frame {
     Value* value{};
     std::unordered_map<std::string, int> line_of_key{};
-    bool has_key{};  ///< map: a key waits for its value
+    bool has_key{};  ///< map: the key of the next value is set
   };
 
   Value& place_for(Place place);

@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// `diagnosis.json` with exactly the keys of docs (formats). Numbers to six significant digits.
+/// The text of `diagnosis.json`. Numbers have six significant digits.
 [[nodiscard]] std::string diagnosis_json(const Diagnosis& diagnosis);
 
 /// The `data_checks` of a diagnosis and of `check --json`.

@@ -60,7 +60,7 @@ nlohmann::ordered_json result_json(const CalibrationResult& result) {
   return json;
 }
 
-/// `0.3671 +/- 0.0008`, or that there is no interval.
+/// `0.3671 +/- 0.0008`, or the note that there is no interval.
 std::string interval_text(const CalibratedParameter& p) {
   if (p.visibility == Visibility::unseen) return "not seen";
   if (!std::isfinite(p.standard_deviation)) return "no interval";

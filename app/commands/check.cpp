@@ -16,7 +16,7 @@
 namespace joulepath {
 namespace {
 
-/// A text of several lines as a terminal can take it.
+/// A text of several lines, safe for a terminal.
 std::string printable_text(const std::string& text) {
   std::string lines;
   std::istringstream in(text);

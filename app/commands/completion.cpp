@@ -6,7 +6,7 @@
 namespace joulepath {
 namespace {
 
-/// Completion scripts written from the commands themselves, so that they cannot go stale.
+/// Completion scripts, generated from the commands so that they are always current.
 class Completion : public Command {
  public:
   Completion()

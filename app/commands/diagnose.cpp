@@ -26,7 +26,7 @@ std::string cause_text(const Cause& cause) {
   return text;
 }
 
-/// What the verdict means for the reader, and what to do next.
+/// The meaning of the verdict, and the next step for the user.
 std::string advice(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::no_gap:

@@ -86,7 +86,7 @@ class ExportCommand : public Command {
   }
 
  private:
-  /// A table is written as CSV or JSON, as the name's ending says.
+  /// A table is written as CSV or JSON, depending on the name's extension.
   void check_extension() const {
     const std::string extension = std::filesystem::path(out_).extension().string();
     if (format_ == "edges" && extension != ".csv" && extension != ".json")

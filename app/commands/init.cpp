@@ -33,8 +33,7 @@ std::string starter_map() {
   return "P5\n# a room with two rows of shelves\n240 160\n255\n" + pixels;
 }
 
-/// A test day in small: there and back, faster and slower, turning both ways; the payload changes from run to
-/// run.
+/// A small test day: both directions, several speeds, turns to both sides; the payload changes between runs.
 std::vector<PrescribedMotion> test_run(int index) {
   const double speed_m_s = 0.3 + 0.15 * (index % 4);
   const PrescribedMotion stand{.profile = MotionProfile::stand, .duration_s = 1.0};

@@ -13,7 +13,7 @@ namespace {
   throw ConfigError({{file, line, 0}, "", found, accepted, "run this shard again"});
 }
 
-/// The lines of one shard, put in their places.
+/// Puts the lines of one shard at their indices.
 void take_lines(const std::string& directory, const ShardManifest& manifest, std::vector<std::string>& all) {
   const std::string file = directory + "/results.jsonl";
   const std::vector<std::size_t> indices = manifest.shard.indices(manifest.jobs);
@@ -67,7 +67,7 @@ class MergeCommand : public Command {
   }
 
  private:
-  /// The shards' own timings in the order of the jobs.
+  /// The shards' timings in the order of the jobs.
   void add_merged_timings(OutputDirectory& out, std::size_t jobs,
                           const std::vector<ShardManifest>& shards) const {
     std::vector<std::string> timings(jobs);

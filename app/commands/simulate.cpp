@@ -24,7 +24,7 @@ Json pose_json(const Pose& pose) {
 
 double percent(double value, double of) { return of != 0 ? 100 * (value / of - 1) : 0.0; }
 
-/// What one run says: planned against executed, and where the energy went.
+/// The summary of one run: planned against executed, and the energy by cause.
 Json run_json(const std::string& file, const SimulationInput& input, const SimulationResult& result,
               double standby_W) {
   const Pose& to = result.planned_pose;

@@ -70,7 +70,7 @@ class SweepCommand : public Command {
   }
 
  private:
-  /// The result lines of the best design that the search finds; none where no range is a parameter, or no
+  /// The result lines of the best design that the search finds; none if no parameter has a range, or if no
   /// design of the sweep has a plan within the constraints.
   std::vector<std::string> search(const Study& study, SweepJobs& jobs,
                                   const std::vector<std::string>& lines) const {

@@ -6,7 +6,8 @@
 
 namespace joulepath {
 
-/// FNV-1a over parts; the length of each part is mixed in, so that no two lists of parts run together.
+/// FNV-1a over parts; the length of each part is included, so that different lists of parts have different
+/// input.
 class ContentHash {
  public:
   ContentHash& mix(const std::string& part) {

@@ -13,7 +13,7 @@ namespace joulepath {
 
 class CommandLine;
 
-/// What batch and sweep take.
+/// Options of batch and sweep.
 struct JobOptions {
   std::string out{};
   std::string shard{};
@@ -37,10 +37,10 @@ inline const std::vector<std::string> kShardFiles{"results.jsonl", "timings.json
 [[nodiscard]] std::vector<std::string> lines_of(const std::vector<JobResult>& results);
 [[nodiscard]] std::string title_of(const Study& study);
 
-/// timings.jsonl: what may differ between runs stays out of the results.
+/// timings.jsonl: data that may differ between runs are not part of the results.
 void add_timings(OutputDirectory& out, const std::vector<JobResult>& results);
 
-/// Writes a shard's lines and what merge must know; `about` has what the list of jobs does not know.
+/// Writes a shard's lines and the data for merge; `about` has the data that the list of jobs does not have.
 void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,
                  ShardManifest about);
 

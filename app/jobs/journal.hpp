@@ -8,15 +8,15 @@
 
 namespace joulepath {
 
-/// The results of jobs in the order in which they come, one JSON line each, appended and synced to the
-/// disk: what survives a kill. Lines that are there already are never changed. One program at a time may
-/// write a journal.
+/// The results of jobs in the order of their completion, one JSON line each, appended and synced to the disk,
+/// so that they survive a kill. Existing lines are never changed. Only one program at a time may write a
+/// journal.
 class JobJournal {
  public:
   enum class Use { anew, resume };
 
   /// With `resume`, the results of an earlier run are read. With `anew`, an earlier journal is deleted; the
-  /// caller has asked whether it may be. Throws EnvironmentError.
+  /// caller has checked that this is allowed. Throws EnvironmentError.
   JobJournal(std::string file, Use use);
   ~JobJournal();
   JobJournal(const JobJournal&) = delete;

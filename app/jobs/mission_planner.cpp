@@ -45,7 +45,7 @@ std::vector<MissionItem> items_of_lines(const std::string& file) {
   return items;
 }
 
-/// A batch result of a plan: the figures that a report or a fleet manager sorts by.
+/// A batch result of a plan: the figures for reports and fleet managers.
 Json plan_line(const Plan& plan) {
   Json json{{"status", solve_status_name(plan.status)}};
   if (plan.infeasibility) {
@@ -128,7 +128,7 @@ std::string MissionPlanner::fingerprint(const MissionItem& item, const std::stri
   for (const std::string& file : files) hash.mix(file + "=" + content_digest(file));
   return hash.text();
 } catch (const std::exception&) {
-  return "";  // planning it tells why
+  return "";  // planning reports the reason
 }
 
 const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& mission) {
@@ -149,7 +149,7 @@ const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& miss
   return *place;
 }
 
-/// A variant has a robot of its own; the floor is shared where the robot's outline is the same.
+/// A variant has its own robot; the floor is shared if the robot's outline is the same.
 Plan MissionPlanner::plan_of(const MissionRequest& mission, const MissionVariant* variant) {
   const Place& place = place_of(mission);
   const RouteSpace* space = place.space ? &*place.space : nullptr;

@@ -22,7 +22,7 @@ struct JobResult {
   double seconds{};
 };
 
-/// Plans to make, one line of results for each: the missions of a batch, or the designs of a sweep.
+/// Jobs that each produce one result line: the missions of a batch, or the designs of a sweep.
 class JobList {
  public:
   JobList() = default;
@@ -32,8 +32,8 @@ class JobList {
 
   [[nodiscard]] virtual std::size_t size() const = 0;
 
-  /// A result depends on its job alone. Safe to call from several threads; every mistake in a job's input
-  /// is told in its line.
+  /// A result depends on its job alone. Calls from several threads are safe; every mistake in a job's input
+  /// is reported in its line.
   [[nodiscard]] virtual JobResult plan(std::size_t index) = 0;
 
   /// The begin of a job's line: what names it.
@@ -50,7 +50,7 @@ class JobList {
   [[nodiscard]] virtual std::map<std::string, std::string> files_read() const = 0;
 };
 
-/// How a list of jobs is run.
+/// Options for running a list of jobs.
 struct JobRun {
   std::string directory{};  ///< holds the journal
   unsigned threads{1};
@@ -62,17 +62,17 @@ struct JobRun {
   std::map<std::size_t, std::string> quarantine{};  ///< jobs that are not run, with the reason
 };
 
-/// Runs the jobs of the shard that the journal does not know yet. Results by index; none where the user
-/// interrupted the run (the journal then holds what was done). Throws ConfigError where an unfinished run
-/// would be overwritten, EnvironmentError.
+/// Runs the jobs of the shard that are not in the journal. Results by index; none if the user interrupted the
+/// run (the journal then has the finished jobs). Throws ConfigError if an unfinished run would be
+/// overwritten, EnvironmentError.
 [[nodiscard]] std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run);
 
 /// Deletes the journal of a run whose results are in their place.
 void remove_journal(const std::string& directory);
 
-/// Runs `work(k)` for the given indices on `threads` threads and hands each result to `done` on the calling
-/// thread's behalf (never two at once). Stops early when `stop` says so. The first exception of `work` or
-/// `done` stops it too, and is thrown when all threads are joined.
+/// Runs `work(k)` for the given indices on `threads` threads and passes each result to `done` (one call at a
+/// time). Stops early if `stop` returns true. The first exception of `work` or `done` stops it too, and is
+/// thrown when all threads are joined.
 void run_jobs(const std::vector<std::size_t>& indices, unsigned threads,
               const std::function<JobResult(std::size_t)>& work,
               const std::function<void(const JobResult&)>& done, const std::function<bool()>& stop);

@@ -25,7 +25,7 @@ std::string name_of(const Shard& shard) {
       {{file_of(directory), 0, 0}, key, std::move(found), std::move(accepted), std::move(hint)});
 }
 
-/// What must be the same in all shards, by the key of shard.json that holds it.
+/// Values that must be the same in all shards, by their key of shard.json.
 std::map<std::string, std::string> common_values(const ShardManifest& manifest) {
   return {{"command", manifest.command},
           {"version", manifest.version},

@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// The part of a list of jobs that one process runs: every `of`-th job, from `number` - 1 on, so that hard
-/// jobs that stand together are spread over the shards.
+/// The part of a list of jobs that one process runs: every `of`-th job, from `number` - 1 on, which
+/// distributes neighboring hard jobs over the shards.
 struct Shard {
   std::size_t number{1};  ///< 1 to `of`
   std::size_t of{1};
@@ -17,10 +17,10 @@ struct Shard {
   [[nodiscard]] std::vector<std::size_t> indices(std::size_t jobs) const;
 };
 
-/// The shard that `K/N` names; empty: the whole. Throws UsageError.
+/// The shard of a text `K/N`; empty: the whole. Throws UsageError.
 [[nodiscard]] Shard shard_from(const std::string& text);
 
-/// What joulepath merge must know of a shard: shard.json.
+/// The data of a shard for joulepath merge: shard.json.
 struct ShardManifest {
   std::string command{};  ///< batch or sweep
   std::string version{};  ///< of the program

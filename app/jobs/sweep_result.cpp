@@ -96,7 +96,7 @@ Json effects_json(const SweepEffects& effects) {
   return {{"main", main}, {"interactions", interactions}, {"unexplained", effects.unexplained}};
 }
 
-/// Of the designs with a plan: constraints choose designs, they do not change what a parameter does.
+/// Over all designs with a plan: constraints select designs, but do not change the effect of a parameter.
 Json all_effects(const Study& study, const std::vector<DesignTotal>& totals) {
   std::vector<const DesignTotal*> planned;
   for (const DesignTotal& total : totals)
@@ -136,7 +136,7 @@ const DesignTotal* best_of(const std::vector<DesignTotal>& totals) {
   return best;
 }
 
-/// Reasons by how many lines have them; numbers in a reason are left out, so that like reasons are one.
+/// Reasons by the number of their lines; numbers in a reason are left out, so that similar reasons are one.
 Json reason_counts(const Study& study, const std::vector<std::string>& lines) {
   std::map<std::string, std::size_t> count;
   for (const std::string& text : lines) {

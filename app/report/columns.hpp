@@ -16,12 +16,12 @@ using Columns = std::map<std::string, std::vector<double>>;
 /// The channels that a trajectory has, under the names of trajectory.csv.
 [[nodiscard]] Columns columns_of(const Trajectory& trajectory);
 
-/// Reads a CSV file with a header row of names and numbers below, as trajectory.csv is.
-/// Throws std::runtime_error naming the line where a cell is no number or a row has another length.
+/// Reads a CSV file with a header row of names and numbers below, such as trajectory.csv. Throws
+/// std::runtime_error with the line if a cell is not a number or a row has another length.
 [[nodiscard]] Columns columns_of_csv(const std::string& file);
 
-/// At most about `most_rows` rows, so that a report stays small: of each bucket of rows the first one and
-/// those with the extremes of speed, acceleration and power are kept, so peaks stay where and what they are.
+/// At most about `most_rows` rows, which limits the report's size. Each bucket of rows keeps its first row
+/// and those with the extremes of speed, acceleration and power, so peaks keep their place and value.
 [[nodiscard]] Columns thinned(const Columns& columns, std::size_t most_rows);
 
 /// Columns limit_speed_m_s, limit_acceleration_m_s2 and limit_deceleration_m_s2 (negative) for the

@@ -9,7 +9,7 @@
 
 namespace joulepath::report {
 
-/// What a report draws of a map: cells as run lengths, row-major from the bottom row up.
+/// A map for a report: cells as run lengths, row-major from the bottom row up.
 struct MapPicture {
   enum Cell { free = 0, unknown = 1, occupied = 2, keep_out = 3 };
   int width{};
@@ -19,7 +19,7 @@ struct MapPicture {
   std::vector<std::pair<Cell, int>> runs{};
 };
 
-/// A grid, with the cells that a keep-out mask forbids, coarsened (occupied wins) until it has at most
+/// A grid, with the cells that a keep-out mask forbids, coarsened (occupied cells decide) to at most
 /// `most_cells` cells.
 [[nodiscard]] MapPicture map_picture(const OccupancyGrid& grid, const OccupancyGrid* keep_out = nullptr,
                                      std::size_t most_cells = 600'000);

@@ -15,12 +15,12 @@ struct NamedColumns {
   Columns columns{};
 };
 
-/// What a plan report shows beside plan.json and the trajectory; everything may be absent.
+/// Further content of a plan report besides plan.json and the trajectory; each part may be absent.
 struct PlanExtras {
   std::string title{};     ///< the mission's name
   std::string subtitle{};  ///< robot, map
   std::optional<MapPicture> map{};
-  std::optional<Limits> limits{};        ///< drawn where the trajectory has no limit_... columns
+  std::optional<Limits> limits{};        ///< drawn if the trajectory has no limit_... columns
   std::vector<NamedColumns> overlays{};  ///< baselines' motions, by their names in plan.json
 };
 
@@ -40,8 +40,8 @@ struct DiagnosisExtras {
   std::vector<RunComparison> runs{};
 };
 
-/// Each of these is one HTML file that needs nothing else: data as JSON, style, scripts and the plotting
-/// library inside. The same input gives the same bytes. An infeasible plan has no trajectory: pass {}.
+/// Each function returns one self-contained HTML file: data as JSON, style, scripts and the plotting library
+/// inside. The same input gives the same bytes. An infeasible plan has no trajectory: pass {}.
 [[nodiscard]] std::string plan_report_html(const nlohmann::json& plan, const Columns& trajectory,
                                            const PlanExtras& extras = {});
 [[nodiscard]] std::string diagnosis_report_html(const nlohmann::json& diagnosis,

@@ -17,7 +17,7 @@
 namespace joulepath {
 namespace {
 
-/// What happened to one parameter over all sets.
+/// The results for one parameter over all sets.
 struct Tally {
   int intervals{}, held{}, unseen{};
   double squares{}, bias{}, widths{}, worst{};

@@ -1,5 +1,5 @@
 // Profiles under a jerk limit on seeded random problems of four robots: CPU time of this process, agreement
-// of the two solvers, limits between the nodes, what the limit costs, and classic profiles that keep it.
+// of the two solvers, limits between the nodes, the cost of the limit, and classic profiles that keep it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,7 +27,7 @@ constexpr unsigned kSeed = 20261122;
 constexpr TimeMode kModes[] = {TimeMode::free_time, TimeMode::time_budget, TimeMode::fixed_time,
                                TimeMode::time_price};
 
-/// A robot file, and the jerk limit of its problems where the file has none.
+/// A robot file, and the jerk limit of its problems if the file has none.
 struct Source {
   const char* file;
   double jerk_m_s3;

@@ -119,8 +119,8 @@ class CasePlanner {
     return planned.has_value();
   }
 
-  /// The plain mission with its time split over the legs by length: as much as it takes by itself, more where
-  /// a leg needs it.
+  /// The plain mission with its time split over the legs by length: its own optimal time, more if a leg needs
+  /// it.
   std::optional<Plan> split_by_length(std::vector<LegRequest> legs) const {
     const std::optional<Plan> free = plan(with(legs), kPlain, floor_.world);
     if (!free) return std::nullopt;

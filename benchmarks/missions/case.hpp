@@ -33,10 +33,10 @@ struct Case {
 
 [[nodiscard]] double cpu_s();
 
-/// A place on the floor where the robot fits and from which `other` can be reached.
+/// A free place on the floor from which `other` can be reached.
 [[nodiscard]] Station random_place(const Floor& floor, std::mt19937& random, const Station* other);
 
-/// Three picks and a drop at random places; nothing where one of its plans cannot be driven.
+/// Three picks and a drop at random places; nothing if one of its plans cannot be driven.
 [[nodiscard]] std::optional<Case> random_case(const Floor& floor, std::mt19937& random);
 
 }  // namespace joulepath::bench

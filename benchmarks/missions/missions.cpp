@@ -1,4 +1,4 @@
-// What each step of planning saves on random missions, and what planning costs.
+// The saving of each planning step on random missions, and the cost of planning.
 // usage: bench_missions COUNT SEED HEADER
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 
 namespace joulepath::bench {
 
-/// CPU seconds of ten legs between random places, on a floor that is ready and has no routes of them.
+/// CPU seconds of ten legs between random places, on a prepared floor without known routes.
 [[nodiscard]] double ten_legs_s(const Floor& floor, std::mt19937& random);
 
 /// CPU seconds of one mission of two given curves, mean of many.

@@ -12,7 +12,7 @@ namespace {
 
 using ProfileOf = std::function<SpeedProfile(double entry_m_s, double acceleration_m_s2, double length_m)>;
 
-/// How Table 6 may have come about; the entry speed is fitted.
+/// A hypothesis about the protocol of Table 6; the entry speed is fitted.
 struct Hypothesis {
   std::string name{};
   ProfileOf profile{};
@@ -34,7 +34,7 @@ double deviation_percent(const Plant& plant, const Hypothesis& hypothesis, bool 
   return 100 * std::sqrt(sum / count);
 }
 
-/// The hypothesis with the entry speed on a grid of 0.05 m/s that meets the rows best.
+/// The hypothesis with the entry speed, on a grid of 0.05 m/s, that fits the rows best.
 Hypothesis fitted(const Plant& plant, Hypothesis hypothesis, bool with_doubtful) {
   double best_rms = 1e300, best = 0;
   for (int i = 1; i <= 14; ++i) {
@@ -100,7 +100,7 @@ void table_6(PaperReport& report, const Plant& plant, const Hypothesis& best) {
       good, sure_good, sure, printed_good);
 }
 
-/// Why no protocol can give the printed effect of the payload.
+/// The reason why no protocol can give the printed effect of the payload.
 void payload_bound(PaperReport& report, const Plant& plant) {
   const Track track = paper_curve(-1);
   double floor_J = 1e300;

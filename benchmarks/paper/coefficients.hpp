@@ -13,7 +13,7 @@ using PowerCoefficients = std::array<double, 9>;
 inline constexpr std::array<const char*, 9> kCoefficientNames{
     "q''^2", "q'' q'", "q''^2 m_p", "q''", "q'^2", "q'' q' m_p", "q'", "q'' m_p", "1"};
 
-/// The nine coefficients that the model gives on a straight line. With J0 = (m_c + 2 m_w) r^2/2 + I_w + I_s,
+/// The nine coefficients of the model on a straight line. With J0 = (m_c + 2 m_w) r^2/2 + I_w + I_s,
 /// j = r^2/2 and rho = R/(Kt n)^2:
 ///   P = rho tau^2 + (Kv/Kt) q' tau,  tau = (J0 + j m_p) q'' + nu q' + T_m.
 [[nodiscard]] PowerCoefficients straight_line_coefficients(const Robot& robot, Side side);

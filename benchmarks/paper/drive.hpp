@@ -8,10 +8,10 @@
 
 namespace joulepath::bench {
 
-/// What is done with negative power while braking: kept as V i says, or lost at each wheel.
+/// Use of negative power while braking: kept as V i, or lost at each wheel.
 enum class NegativePower { lost, counted };
 
-/// Where the robot goes: a cubic Bezier, or straight on.
+/// The path of the robot: a cubic Bezier, or straight on.
 struct Track {
   std::optional<BezierSegment> curve{};
   double straight_m{};

@@ -1,4 +1,4 @@
-// The benchmark of the source paper [P1]: every table and figure, ours beside the printed one.
+// The benchmark of the source paper [P1]: every table and figure, computed and printed.
 //   bench_paper SCENARIO_FOLDER RESULTS_FOLDER "HEADER LINE"
 #include <cstdio>
 #include <filesystem>

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPayload_kg = 5.7;
 
-/// A model that a plan is made with; the energy is always that of the full model.
+/// A model for planning; the energy is always that of the full model.
 struct PlanningModel {
   const char* name;
   Robot robot;
@@ -28,7 +28,7 @@ Robot polynomial_robot(Robot robot) {
   return robot;
 }
 
-/// No load: the motor moves its own and the wheel's inertia against friction, not the robot's mass.
+/// No load: the motor accelerates its own and the wheel's inertia against friction, not the robot's mass.
 Robot unloaded_robot(Robot robot) {
   robot.inertia.chassis_mass_kg = robot.inertia.wheel_mass_kg = 1e-9;
   robot.inertia.chassis_yaw_inertia_kg_m2 = robot.inertia.payload_yaw_inertia_m2 = 1e-9;
@@ -55,7 +55,7 @@ ProfileRequest request_for(const Task& task, const Robot& robot, double payload_
   return request;
 }
 
-/// Energy that the full model takes for the plan that a model makes; NaN where there is none.
+/// Energy of a model's plan by the full model; NaN if there is no plan.
 struct Planned {
   double energy_J{};
   double duration_s{};

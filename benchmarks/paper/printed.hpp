@@ -14,7 +14,7 @@ inline constexpr Sided<PowerCoefficients> kCoefficients{
     .left = {0.0203, 0.148, 0.0014, 0.102, 0.0017, 0.005, 0.373, 0.0034, 0.129},
     .right = {0.0203, 0.148, 0.0014, 0.0949, 0.0017, 0.005, 0.346, 0.0032, 0.111}};
 
-/// Half a unit of the last digit printed: what rounding alone explains.
+/// Half a unit of the last printed digit: the effect of rounding alone.
 inline constexpr Sided<PowerCoefficients> kCoefficientRounding{
     .left = {0.00005, 0.0005, 0.00005, 0.0005, 0.00005, 0.0005, 0.0005, 0.00005, 0.0005},
     .right = {0.00005, 0.0005, 0.00005, 0.00005, 0.00005, 0.0005, 0.0005, 0.00005, 0.0005}};

@@ -12,7 +12,7 @@ double time_to_cover_s(double speed_m_s, double acceleration_m_s2, double distan
   return 2 * distance_m / (speed_m_s + end_m_s);
 }
 
-/// Appends a phase, shortened where it would go beyond `left_m`; returns what is left.
+/// Appends a phase, shortened to `left_m`; returns the remaining distance.
 double append(SpeedProfile& profile, Phase phase, double left_m) {
   if (left_m <= 0) return 0;
   if (phase.distance_m() > left_m)

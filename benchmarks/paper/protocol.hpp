@@ -18,8 +18,8 @@ struct Phase {
 /// Speed over time along a path.
 using SpeedProfile = std::vector<Phase>;
 
-// How the robot may have been driven: the paper does not say all of it. Each profile ends where
-// `distance_m` is covered, wherever in a phase that is.
+// Possible protocols of the drives; the paper does not state all of them. Each profile ends when `distance_m`
+// is covered, also within a phase.
 
 /// Accelerate for `ramp_s` from `entry_speed_m_s`, then hold the speed.
 [[nodiscard]] SpeedProfile ramp_then_cruise(double entry_speed_m_s, double acceleration_m_s2, double ramp_s,

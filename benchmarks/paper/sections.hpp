@@ -7,7 +7,7 @@
 
 namespace joulepath::bench {
 
-/// One line of the summary: a table or figure of the paper and what became of it.
+/// One line of the summary: a table or figure of the paper and its status.
 struct SummaryRow {
   std::string item{};
   std::string status{};  ///< reproduced | consistent | not reproduced | not possible
@@ -16,7 +16,7 @@ struct SummaryRow {
   std::string note{};
 };
 
-/// What the sections write into and read from.
+/// Input and output of the sections.
 struct PaperReport {
   std::string plots_folder{};  ///< where SVG files go
   Robot robot{};

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kRamp_s = 4, kDistance_m = 10;
 
-/// How Table 4 may have come about.
+/// A hypothesis about the protocol of Table 4.
 struct Hypothesis {
   std::string name{};
-  double loaded_payload_kg{};  ///< what the rows headed 8.25 kg carry
+  double loaded_payload_kg{};  ///< actual payload of the rows headed 8.25 kg
   NegativePower negative{};
   std::function<SpeedProfile(double acceleration_m_s2)> profile{};
   bool polynomial{};  ///< the printed Eqs. (31), (32) instead of the physical model
@@ -62,7 +62,7 @@ double rms_percent(const Plant& plant, const Hypothesis& hypothesis) {
   return 100 * std::sqrt(sum / (2 * printed::kStraight.size()));
 }
 
-/// The deceleration on a grid of 0.01 m/s^2 with which the 24 printed estimates are met best.
+/// The deceleration, on a grid of 0.01 m/s^2, that fits the 24 printed estimates best.
 double fitted_deceleration_m_s2(const Plant& plant, double loaded_payload_kg) {
   double best = 0, best_rms = 1e300;
   for (int i = 40; i <= 150; ++i) {

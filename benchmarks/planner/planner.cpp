@@ -1,5 +1,5 @@
-// Speed and accuracy of the profile optimizer on seeded random problems: CPU time of this process, so
-// that other load on the machine counts little.
+// Speed and accuracy of the profile optimizer on seeded random problems. CPU time of this process: other load
+// on the machine has little influence.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

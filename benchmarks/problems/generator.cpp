@@ -7,7 +7,7 @@
 namespace joulepath::problems {
 namespace {
 
-/// Rounded so that a file holds few digits and reads back as the same problem.
+/// Rounded, so that a file needs few digits and reads back as the same problem.
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace

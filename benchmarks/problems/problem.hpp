@@ -17,7 +17,7 @@ inline constexpr const char* kTurn = "turn";  ///< the kind of a turn in place
 struct Problem {
   std::string id{};
   std::string kind{};        ///< of path
-  std::string robot_name{};  ///< its robot in the set, without what the problem itself says
+  std::string robot_name{};  ///< its robot in the set, without the problem's own values
   ProfileRequest request;
 };
 

@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// CPU time of this process (ms): other load on the machine counts little.
+/// CPU time of this process (ms): other load on the machine has little influence.
 inline double cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// What a solver starts from: the grid's problem and a strictly feasible guess.
+/// The input of a solver: the grid's problem and a strictly feasible guess.
 struct PreparedProblem {
   ProfileRequest request;
   PathMotion motion;

@@ -25,7 +25,7 @@ constexpr Bound kColumnBounds[] = {
 constexpr double kFastest_m_s = 20.0;    ///< of a wheel's rim
 constexpr double kLongestStep_s = 60.0;  ///< between samples, median
 constexpr double kOddRatio = 2.0;        ///< between a body's speed and its wheels'
-constexpr double kMoving_m_s = 0.05;     ///< mean speed below which nothing is compared
+constexpr double kMoving_m_s = 0.05;     ///< mean speed below which speeds are not compared
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -60,7 +60,7 @@ void check_wheels(const Trajectory& log, const Geometry& geometry, Findings& fin
   }
 }
 
-/// Mean size of the body's speed as logged (or from the pose), and as this robot's wheels would have it.
+/// Mean size of the body's speed as logged (or from the pose), and as computed from this robot's wheels.
 void check_robot(const Trajectory& log, const Geometry& geometry, Findings& findings) {
   const std::size_t n = log.size();
   if (log.linear_speed_m_s.size() != n || log.wheel_speed_rad_s.left.size() != n || n == 0) return;

@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// Casters have to swivel when the course changes; until they have, they push against the turn.
-/// The memory is the course that they have settled on, a lag in distance travelled:
+/// Casters swivel when the course changes; until they are aligned, they push against the turn. The memory is
+/// the course that they are aligned with; it follows the course with a lag in distance travelled:
 ///   d memory/ds = (course - memory)/trail,   moment = moment_Nm (course - memory).
 struct CasterSwivel {
   double moment_Nm{};
@@ -37,7 +37,7 @@ struct CasterSwivel {
                                                     0.005,
                                                     10,
                                                     0.1,
-                                                    "distance over which the casters come round",
+                                                    "distance over which the casters align",
                                                     &CasterSwivel::trail_m,
                                                     ParameterRole::shape,
                                                     {},

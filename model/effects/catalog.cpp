@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// The first parameter is a strength, no other is.
+/// Whether the first parameter, and no other, is a strength.
 template <class Type>
 constexpr bool strength_comes_first() {
   bool first = true;

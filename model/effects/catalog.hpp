@@ -59,7 +59,7 @@ template <class... Own, class... More>
 std::variant<Own..., More...> joined(std::variant<Own...>, std::tuple<More...>);
 using Effect = decltype(joined(std::declval<OwnEffects>(), std::declval<MoreEffects>()));
 
-/// What is known of one parameter of one effect; `member` aside, as EffectParameter.
+/// One parameter of one effect: an EffectParameter without `member`.
 struct ParameterDescription {
   std::string name{};
   std::string unit{};
@@ -72,8 +72,8 @@ struct ParameterDescription {
   std::vector<double> grid{};
 };
 
-/// The typical size on another robot than the catalog's: in proportion to the parameter's yardstick, where
-/// it has one and the robot has it.
+/// The typical size on a robot: proportional to the parameter's yardstick, if the parameter has one and its
+/// value for the robot is positive; else the catalog's.
 [[nodiscard]] double typical_size(const ParameterDescription& parameter, const Robot& robot);
 
 /// Values of a shape parameter to search on a robot.
@@ -83,8 +83,8 @@ struct EffectDescription {
   EffectInfo info{};
   bool has_side{};
   bool has_cells{};
-  bool has_region{};       ///< acts inside a region of the floor only
-  bool delays_channels{};  ///< of the motors: voltages and currents show what was a while ago
+  bool has_region{};                        ///< acts inside a region of the floor only
+  bool delays_channels{};                   ///< the motors' voltage and current channels are late
   double (*in_robot_file)(const Robot&){};  ///< what the strength replaces; absent: the strength is a change
   std::vector<ParameterDescription> parameters{};
 
@@ -100,11 +100,11 @@ const std::vector<EffectDescription>& effect_catalog();
 /// The catalog's entry of that name, or nullptr.
 const EffectDescription* find_effect(const std::string& name);
 
-/// The effect that a robot file's entry means. Throws ConfigError (without a mark) for an unknown
+/// The effect of a robot file's entry. Throws ConfigError (without a mark) for an unknown
 /// name or parameter, a missing parameter or side, or a value out of range.
 Effect make_effect(const EffectSetting& setting);
 
-/// The robot file's entry that means this effect; inverse of make_effect().
+/// The robot file's entry of an effect; inverse of make_effect().
 EffectSetting setting_of(const Effect& effect);
 
 }  // namespace joulepath

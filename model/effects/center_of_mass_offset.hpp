@@ -21,7 +21,7 @@ struct CenterOfMassOffset {
                                    .needs = {.turns = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<CenterOfMassOffset>{"offset_m", "m", -1, 1, 0.02,
-                                                          "forward of where the robot file puts it",
+                                                          "forward of its place in the robot file",
                                                           &CenterOfMassOffset::offset_m}};
   }
 

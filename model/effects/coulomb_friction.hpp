@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// Both drives rub more (or less) than the robot file says.
+/// Both drives have more (or less) Coulomb friction than the robot file states.
 struct CoulombFriction {
   double torque_Nm{};
 

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The current sensors read too much or too little, in proportion.
+/// The current sensors have a wrong gain.
 struct CurrentSensorGain {
   double fraction{};
 

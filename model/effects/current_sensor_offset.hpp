@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// One current sensor is off by a constant.
+/// One current sensor has a constant offset.
 struct CurrentSensorOffset {
   Side side{};
   double offset_A{};

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// A drive that runs less freely backward: a worm gear, a directional brush.
+/// A drive has more friction backward than forward: a worm gear, a directional brush.
 struct DirectionDependentFriction {
   double reverse_torque_Nm{};
 

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// One drive rubs: a dragging brake, a worn bearing, hair around an axle.
+/// One drive has additional friction: a dragging brake, a worn bearing, hair around an axle.
 struct DraggingWheel {
   Side side{};
   double torque_Nm{};

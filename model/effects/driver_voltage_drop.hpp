@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The driver keeps some of the voltage that it is commanded to put out.
+/// The driver's output voltage is lower than commanded by a constant drop.
 struct DriverVoltageDrop {
   double voltage_V{};
 

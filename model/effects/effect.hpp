@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// Where in the chain from body to battery an effect acts. Each stage has one hook, a member function
-/// that the effect's struct offers; whoever evaluates the chain calls the hooks that it finds.
+/// The stage, from body to battery, at which an effect acts. Each stage has one hook, a member function of
+/// the effect's struct; the code that evaluates a stage calls the hooks that exist.
 ///
 /// | stage      | hook                                                                     |
 /// |------------|--------------------------------------------------------------------------|
@@ -24,10 +24,10 @@ namespace joulepath {
 /// |            | shows; planning ignores it                                               |
 ///
 /// Further hooks say more about an effect at any stage:
-///   double memory_rate_per_m(double memory, double course): it remembers the way it came;
-///   bool branch(const Site&): which side of the border of its region a site is on, where the energy integral
-///     splits its intervals;
-///   bool contains(double x_m, double y_m): it acts inside a region of the floor only;
+///   double memory_rate_per_m(double memory, double course): the effect has a memory of the course;
+///   bool branch(const Site&): which side of the border of its region a site is on; the energy integral
+///     splits its intervals there;
+///   bool contains(double x_m, double y_m): it acts only inside a region of the floor;
 ///   static double in_robot_file(const Robot&): its strength replaces this value of the robot file.
 enum class Stage { parameters, body, wheel, gear, contact, winding, driver, supply, instrument };
 
@@ -37,24 +37,24 @@ constexpr std::string_view stage_name(Stage stage) {
   return names[static_cast<int>(stage)];
 }
 
-/// Signs of the strength that physics allows. A passive resistance takes energy and never gives it.
+/// Signs of the strength that physics allows. A passive resistance only dissipates energy.
 enum class Sign { either, nonnegative };
 
-/// How far an effect can take the place of what the laws of other effects lack.
+/// How far an effect can absorb errors in the laws of other effects.
 enum class Pliability {
   firm,        ///< the law alone decides what the effect looks like
-  slow_turns,  ///< what it does at small yaw rates depends on how the law passes through zero, unknown
-  anywhere,    ///< it fits wherever other laws are inexact
+  slow_turns,  ///< its signature at small yaw rates depends on the unknown behavior of its law near zero
+  anywhere,    ///< it can fit wherever other laws are inexact
 };
 
-/// Laws that together can draw any curve against one variable. Empty name: none.
+/// A family of laws that together can reproduce any curve against one variable. Empty name: none.
 struct LawFamily {
   std::string_view name{};
   std::string_view variable{};
 };
 inline constexpr LawFamily kFrictionAgainstSpeed{"friction against speed", "wheel speed"};
 
-/// What logs must hold for the effect to be seen at all.
+/// What logs must contain for the effect to be observable.
 struct Needs {
   bool samples{};  ///< readings along a run; energies of whole runs do not show the effect
   bool pose{};
@@ -96,8 +96,8 @@ struct Yardstick {
   double reference{};
 };
 
-/// One parameter of an effect. `min`, `max`: what is accepted; `typical`: a size worth noticing, the
-/// step that differencing starts from. `yardstick` scales `typical` and `grid` to another robot.
+/// One parameter of an effect. `min`, `max`: accepted values; `typical`: a noticeable size, the first step of
+/// finite differences. `yardstick` scales `typical` and `grid` to another robot.
 /// `grid`: values of a shape parameter to search; empty: multiples of its typical size.
 template <class Effect>
 struct EffectParameter {
@@ -113,7 +113,7 @@ struct EffectParameter {
   std::span<const double> grid{};
 };
 
-/// Force against the heading and moment against counter-clockwise yaw, to be overcome by the wheels.
+/// Force against the heading and moment against counter-clockwise yaw that the wheels must overcome.
 template <class Real>
 struct BodyLoad {
   Real force_N{};
@@ -134,7 +134,7 @@ struct BodyContext {
   double first_moment_kg_m{};
   Real speed_m_s{};
   Real yaw_rate_rad_s{};
-  double memory{};  ///< of the effect that is asked
+  double memory{};  ///< of this effect
 };
 
 template <class Real>

@@ -7,7 +7,7 @@
 namespace joulepath {
 namespace {
 
-std::string cell(std::string_view text) {  // a pipe would end a table's cell
+std::string cell(std::string_view text) {  // a pipe ends a table's cell
   std::string out;
   for (char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
   return out;

@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// Rolling resistance that only a part of the floor has: a carpet, a rough patch. The region is a
-/// rectangle, or a list of cells.
+/// Additional rolling resistance in a part of the floor: a carpet, a rough patch. The region is a rectangle,
+/// or a list of cells.
 struct FloorPatch {
   double coefficient{};
   double x_min_m{};

@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// The floor is not level: rolling uphill costs what downhill gives back.
+/// The floor is not level: driving uphill costs energy that driving downhill returns.
 struct FloorSlope {
   double grade{};
   double uphill_direction_rad{};

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The driver returns another part of the braking energy than the robot file says.
+/// The share of the braking energy that the driver returns differs from the robot file.
 struct RegenerationError {
   double efficiency{};
 
@@ -22,7 +22,7 @@ struct RegenerationError {
                                    .needs = {.battery = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<RegenerationError>{"efficiency", "1", 0.0, 1.0, 0.5,
-                                                         "of negative motor power that comes back",
+                                                         "recovered share of negative motor power",
                                                          &RegenerationError::efficiency}};
   }
 

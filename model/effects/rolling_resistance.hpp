@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// Hysteresis of tire and floor: a torque in proportion to the load that the wheel carries.
+/// Hysteresis of tire and floor: a torque proportional to the wheel's load.
 struct RollingResistance {
   double coefficient{};
 
@@ -17,7 +17,7 @@ struct RollingResistance {
       .law = "torque = coefficient N r against the wheel, N = m g / 2",
       .validity = "hard floor, speeds where the coefficient is constant",
       .source = "Coulomb law of rolling friction",
-      .gazebo = "none by default; a wheel joint <friction> scaled by load comes near",
+      .gazebo = "none by default; similar: a wheel joint <friction> scaled by load",
       .mujoco = "frictionloss on the wheel joint, scaled by load",
       .sign = Sign::nonnegative};
   static constexpr auto parameters() {

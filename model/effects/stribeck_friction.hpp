@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// Friction that falls with speed: what a lubricated gear has on top of Coulomb friction when slow.
+/// Friction that decreases with speed: a lubricated gear has it in addition to Coulomb friction at low speed.
 struct StribeckFriction {
   double torque_Nm{};
   double speed_rad_s{};
@@ -25,7 +25,7 @@ struct StribeckFriction {
   static constexpr std::array kSpeeds_rad_s{0.6, 1.0, 1.6, 2.5, 4.0};
   static constexpr auto parameters() {
     return std::array{EffectParameter<StribeckFriction>{
-                          "torque_Nm", "N m", -5, 50, 0.1, "at standstill, on top of Coulomb friction",
+                          "torque_Nm", "N m", -5, 50, 0.1, "at standstill, in addition to Coulomb friction",
                           &StribeckFriction::torque_Nm, ParameterRole::strength, kResistingTorque},
                       EffectParameter<StribeckFriction>{"speed_rad_s",
                                                         "rad/s",

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The supply gives way under load: an old battery, thin cables.
+/// The supply voltage drops under load: an old battery, thin cables.
 struct SupplySag {
   double resistance_ohm{};
 

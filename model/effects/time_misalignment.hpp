@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The electrical channels come late: they are stamped on arrival, or buffered.
+/// The electrical channels are late: they are stamped on arrival, or buffered.
 struct TimeMisalignment {
   double delay_s{};
 

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The effective track differs: wide tires turn about another point than their middle.
+/// The effective track differs from the robot file: the contact point of a wide tire is not at its middle.
 struct TrackWidthError {
   double fraction{};
 

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// Driven wheels turn a little faster than the floor passes by.
+/// Driven wheels turn slightly faster than the ground speed requires: the contact creeps under force.
 struct WheelSlip {
   double creep_stiffness_N_s_m{};
 

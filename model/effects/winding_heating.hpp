@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// Windings warm up over the day, and copper resists more when warm.
+/// Windings become warmer over the day, and the resistance of copper rises with temperature.
 struct WindingHeating {
   double final_fraction{};
   double time_constant_s{};

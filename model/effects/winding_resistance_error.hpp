@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The armature circuit has another resistance: cables, connectors, brushes, a warm motor.
+/// The resistance of the armature circuit differs: cables, connectors, brushes, a warm motor.
 struct WindingResistanceError {
   double fraction{};
 

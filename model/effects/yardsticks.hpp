@@ -5,7 +5,7 @@
 namespace joulepath {
 
 namespace robot_measures {
-/// Mean torque at a wheel that a level floor and the drive's own friction ask for: T_m + c N r, with the
+/// Mean torque at a wheel on a level floor, from rolling and the drive's own friction: T_m + c N r, with the
 /// rolling coefficient c = 0.01 of a hard tire.
 double resisting_torque_Nm(const Robot& robot);
 double resisting_force_N(const Robot& robot);    ///< sum of these torques over r

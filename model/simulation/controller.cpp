@@ -40,7 +40,8 @@ Sided<double> WheelController::command_V(const BodyMotion<double>& reference, co
   Sided<double> command_V{};
   for (Side side : kSides) {
     const double error = wanted[side] - wheel_speed_rad_s[side];
-    if (to_stand) {  // smoothly in speed, so that a run does not hang on the instant of a stop
+    if (to_stand) {  // a smooth function of speed, so that a run does not depend on the exact instant of a
+                     // stop
       const double ratio = wheel_speed_rad_s[side] / kStandingSpeed_rad_s;
       integral_V_[side] *= std::exp(-settings_.period_s / (kDrain_s * (1 + ratio * ratio)));
     }

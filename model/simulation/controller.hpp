@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// Gains of the wheels' speed loops; what is absent is designed from the robot: a closed loop that
-/// settles with `bandwidth_per_s` on the wheel's straight-line inertia.
+/// Gains of the wheels' speed loops. Absent gains are designed for a closed loop with `bandwidth_per_s` on
+/// the wheel's straight-line inertia.
 struct ControllerSettings {
   double period_s{0.01};
   double bandwidth_per_s{12.0};
@@ -20,7 +20,7 @@ struct ControllerSettings {
 ///
 ///   V = V_model(v, omega, v', omega') + k_p e + k_i \int e dt,   e = q'_ref - q'
 ///
-/// The integral stops where the driver saturates, and drains while the robot is to stand and stands.
+/// The integral stops while the driver saturates, and decays while the robot stands as commanded.
 class WheelController {
  public:
   WheelController(const ControllerSettings& settings, const Robot& robot);
@@ -29,7 +29,7 @@ class WheelController {
   [[nodiscard]] Sided<double> command_V(const BodyMotion<double>& reference, const Site& site,
                                         const Sided<double>& wheel_speed_rad_s, const Sided<double>& limit_V);
 
-  /// Forgets its integral, as when the bridges were open.
+  /// Resets the integral, as after the bridges were open.
   void release() { integral_V_ = {}; }
 
   const ControllerSettings& settings() const { return settings_; }

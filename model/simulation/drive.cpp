@@ -11,7 +11,7 @@ namespace {
 /// Speed (m/s) below which the robot counts as standing: casters neither swivel nor push.
 constexpr double kCourseSpeed_m_s = 1e-3;
 
-/// Memories as the effects may use them: near standstill what they remember fades into the course.
+/// Memories as passed to the effects: near standstill they approach the course.
 EffectMemory usable_memory(const DriveState& state, double course, double course_speed) {
   const double share =
       course_speed * course_speed / (course_speed * course_speed + kCourseSpeed_m_s * kCourseSpeed_m_s);
@@ -43,7 +43,7 @@ void Drive::set_input(const DriveInput& input) {
   if (heavier) refresh_response();
 }
 
-/// Rigid: J (SᵀMS)^-1 Jᵀ, with J from wheel speeds to all four; creeping: every speed for itself.
+/// Rigid: J (SᵀMS)^-1 Jᵀ, with J from wheel speeds to all four; creeping: each speed is independent.
 void Drive::refresh_response() {
   const Robot& robot = plant_.robot;
   mass_ = mass_properties(robot, plant_.payload_kg(input_.payload_kg));
@@ -94,7 +94,7 @@ Site Drive::site_at(const DriveState& state, double time_s, const FrictionMode& 
           .memory = usable_memory(state, course, caster_speed_m_s(geometry, v, omega))};
 }
 
-/// L i' + R i + Kv n q' = V within the current limit; without inductance i follows at once.
+/// L i' + R i + Kv n q' = V within the current limit; without inductance an algebraic equation.
 ///                                                                        [P1, Eqs. (14), (15)]
 void Drive::motors(const DriveState& state, double hot, Instant& instant, Forces& forces) const {
   for (Side side : kSides) {
@@ -128,7 +128,7 @@ void Drive::motors(const DriveState& state, double hot, Instant& instant, Forces
   }
 }
 
-/// Inertia's own forces where mu != 0, and what the effects load the body with.
+/// Inertial forces where mu != 0, and the effects' loads on the body.
 void Drive::body_forces(const DriveState& state, const Site& site, Forces& forces) const {
   const double v = state[kVelocity + kTravel];
   const double omega = state[kVelocity + kTurn];
@@ -172,7 +172,7 @@ void Drive::motion(const DriveState& state, const Site& site, const Velocity& ac
                    Instant& instant) const {
   double v = state[kVelocity + kTravel];
   double omega = state[kVelocity + kTurn];
-  if (!creeps_ && plant_.creep_m_s_N > 0) {  // stiff contacts: the body falls behind at once
+  if (!creeps_ && plant_.creep_m_s_N > 0) {  // stiff contacts: creep without delay
     const Sided<double>& f = instant.contact_force_N;
     v -= plant_.creep_m_s_N * (f.right + f.left) / 2;
     omega -= plant_.creep_m_s_N * (f.right - f.left) / (2 * plant_.robot.geometry.half_track_m);

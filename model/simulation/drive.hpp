@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// What is integrated over time: pose, speeds, currents, memories of the effects, then the integrals
-/// that energies and mean readings are taken from.
+/// The integrated state: pose, speeds, currents, memories of the effects, then the integrals that give
+/// energies and mean readings.
 enum DriveIndex : std::size_t {
   kX,
   kY,
@@ -74,12 +74,12 @@ class Drive {
     Sided<double> voltage_V{};  ///< at the drivers' outputs
     Sided<double> contact_force_N{};
     double battery_voltage_V{};
-    bool battery_gives_way{};  ///< asked for more power than it has
-    FrictionMode release{};    ///< which way a holding surface breaks away; 0: it holds
+    bool battery_gives_way{};  ///< the demand exceeds the battery's power
+    FrictionMode release{};    ///< the direction in which a holding surface breaks away; 0: it holds
   };
   [[nodiscard]] Instant evaluate(const DriveState& state, double time_s, const FrictionMode& mode) const;
 
-  /// Takes the last trace of motion off a surface that has come to rest, as an impulse on it would.
+  /// Sets the remaining speed of a surface that has come to rest to zero, as an impulse on it would.
   void stop(DriveState& state, Surface surface) const;
 
   bool is_active(Surface surface) const { return active_[surface]; }

@@ -4,9 +4,9 @@
 
 namespace joulepath {
 
-/// Generalized forces on (v, omega, left wheel, right wheel), and what they are made of.
+/// Generalized forces on (v, omega, left wheel, right wheel) and their parts.
 struct Drive::Forces {
-  Velocity total{};              ///< that accelerates, but for reactions
+  Velocity total{};              ///< accelerating force, without reactions
   Sided<double> motor_Nm{};      ///< Kt n i
   Sided<double> gear_loss_Nm{};  ///< signed, resists
   Sided<double> friction_Nm{};   ///< signed, resists; with reactions

@@ -5,7 +5,7 @@
 // Design: docs/decisions/0060-dry-friction-by-events.md
 namespace joulepath {
 
-/// What friction can give on the surfaces that hold: its values for sliding either way, at no speed.
+/// Bounds of friction on the surfaces that hold: its values for sliding either way, at zero speed.
 void Drive::bounds(const DriveState& state, Site site, const FrictionMode& mode, Forces& forces) const {
   const Site held = site;
   const auto set = [&](Surface surface, double backward, double forward) {
@@ -41,8 +41,8 @@ void Drive::bounds(const DriveState& state, Site site, const FrictionMode& mode,
   }
 }
 
-/// Finds reactions within their bounds that keep the holding surfaces at rest; one that would need more
-/// is at its bound and breaks away.
+/// Finds reactions within their bounds that keep the holding surfaces at rest. A surface that needs a larger
+/// reaction gets the bound and breaks away.
 void Drive::hold(const FrictionMode& mode, Forces& forces, Velocity& acceleration, Instant& instant) const {
   Velocity reaction{};
   acceleration = respond(forces.total);
@@ -65,7 +65,7 @@ void Drive::hold(const FrictionMode& mode, Forces& forces, Velocity& acceleratio
     if (at_bound && std::abs(acceleration[s]) > 1e-9) instant.release[s] = acceleration[s] > 0 ? 1 : -1;
     if (!at_bound) acceleration[s] = 0.0;
   }
-  if (!creeps_) {  // the body follows the wheels to the last digit
+  if (!creeps_) {  // the body's speeds follow from the wheels exactly
     const Sided<double> wheels{acceleration[kLeftWheel], acceleration[kRightWheel]};
     const Twist<double> body = body_twist(plant_.robot.geometry, wheels);
     acceleration[kTravel] = body.speed_m_s;

@@ -27,7 +27,7 @@ DriveIntegrator::DriveIntegrator(Drive drive, const DriveState& start, const Int
   for (Surface s : kAllSurfaces) mode_[s] = static_cast<int>(sign_of(state_[kVelocity + s]));
 }
 
-/// Has a sliding surface passed through rest?
+/// Whether a sliding surface has passed through rest.
 bool DriveIntegrator::turned(const DriveState& state, Surface surface) const {
   return drive_.is_active(surface) && mode_[surface] != 0 && mode_[surface] * state[kVelocity + surface] < 0;
 }
@@ -45,7 +45,7 @@ bool DriveIntegrator::corner(const DriveState& state, double time_s) const {
   return false;
 }
 
-/// Lets go of the holding surfaces whose load is more than friction can carry.
+/// Releases the holding surfaces whose load exceeds friction.
 void DriveIntegrator::break_away() {
   bool holding = false;
   for (Surface s : kAllSurfaces) holding |= drive_.is_active(s) && mode_[s] == 0;
@@ -58,7 +58,8 @@ void DriveIntegrator::break_away() {
     }
 }
 
-/// Brings to rest what has just turned, and what holds but was moved by the last bisection's width.
+/// Stops surfaces that have just reversed, and holding surfaces that moved by the width of the last
+/// bisection.
 void DriveIntegrator::settle() {
   for (Surface s : kAllSurfaces) {
     if (!drive_.is_active(s)) continue;

@@ -9,9 +9,9 @@ struct IntegratorOptions {
   double max_step_s{0.01};
 };
 
-/// Carries a Drive forward in time: Cash-Karp steps with error control (Boost.Odeint), and events where
-/// a sliding surface comes to rest or a holding one breaks away, located by bisection, so that no step
-/// reaches across a corner of the friction law.
+/// Integrates a Drive over time: Cash-Karp steps with error control (Boost.Odeint). Bisection locates the
+/// events at which a sliding surface comes to rest or a holding one breaks away, so that no step crosses a
+/// corner of the friction law.
 class DriveIntegrator {
  public:
   DriveIntegrator(Drive drive, const DriveState& start, const IntegratorOptions& options);
@@ -21,7 +21,7 @@ class DriveIntegrator {
   const DriveState& state() const { return state_; }
   double time_s() const { return time_s_; }
   const FrictionMode& mode() const { return mode_; }
-  /// True where both wheels hold.
+  /// Whether both wheels hold.
   bool at_rest() const { return mode_[kLeftWheel] == 0 && mode_[kRightWheel] == 0; }
   [[nodiscard]] Drive::Instant instant() const { return drive_.evaluate(state_, time_s_, mode_); }
 

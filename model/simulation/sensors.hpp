@@ -8,8 +8,8 @@
 
 namespace joulepath {
 
-/// What the instruments make of the truth. The default is ideal: exact means over the sample period
-/// (pose: the value at its end), without noise. Noise is white and Gaussian, one sigma per sample.
+/// Properties of the instruments. The default is ideal: exact means over the sample period (pose: the value
+/// at its end), without noise. Noise is white and Gaussian, one sigma per sample.
 struct SensorSettings {
   double sample_rate_Hz{50.0};
   double encoder_counts_per_revolution{};  ///< at the wheel; 0 = continuous
@@ -24,7 +24,7 @@ struct SensorSettings {
   double heading_noise_rad{};
 };
 
-/// Sensors as small robots carry them.
+/// Typical sensors of small robots.
 [[nodiscard]] SensorSettings typical_sensors();
 
 /// The truth at the end of a sample period.
@@ -37,8 +37,8 @@ struct Snapshot {
   double payload_kg{};  ///< as stated
 };
 
-/// The log that the instruments write: a row for every snapshot but the first. Readings are means since
-/// the snapshot before; instrument effects (distort_log) come on top.
+/// The log of the instruments: a row for every snapshot except the first. Readings are means since the
+/// previous snapshot. Instrument effects are not included, see distort_log().
 [[nodiscard]] Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings& settings,
                                       bool has_battery, std::uint64_t seed);
 

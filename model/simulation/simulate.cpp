@@ -108,7 +108,7 @@ class Run {
     });
   }
 
-  /// The reference in the middle of the coming period, so that what is held fits its mean.
+  /// The reference in the middle of the coming period, so that the held values match the period's mean.
   void control(double t) {
     const double now_s = reference_.start_s() + t;
     const double middle_s = now_s + request_.controller.period_s / 2;

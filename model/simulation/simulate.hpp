@@ -12,10 +12,10 @@
 
 namespace joulepath {
 
-/// A trajectory to be driven by a robot that may differ from what its file says.
+/// A trajectory for a robot that may differ from its file.
 struct SimulationRequest {
-  Robot robot{};                         ///< as the controller believes it to be, its own effects included
-  std::vector<EffectSetting> effects{};  ///< that the plant has besides, unknown to the controller
+  Robot robot{};                         ///< as the controller knows it, its own effects included
+  std::vector<EffectSetting> effects{};  ///< further effects of the plant, unknown to the controller
   Trajectory reference{};                ///< speeds (body or wheels) over time; payload_kg where it varies
   std::vector<Interval> coasting{};      ///< when the bridges are open, in the reference's time
   Pose start{};
@@ -24,7 +24,7 @@ struct SimulationRequest {
   ControllerSettings controller{};
   SensorSettings sensors{};
   IntegratorOptions integrator{};
-  double settle_s{1.0};   ///< at most, for a robot that is to end at rest
+  double settle_s{1.0};   ///< upper bound, for a robot that ends at rest
   std::uint64_t seed{1};  ///< of the sensors' noise
 };
 
@@ -52,7 +52,7 @@ struct SimulationResult {
   Pose planned_pose{};               ///< where exact following ends
   double worst_speed_error_rad_s{};  ///< of a wheel, at the controller's ticks
   double saturated_fraction{};       ///< of the control periods in which a driver was at its limit
-  bool battery_gave_way{};           ///< it was asked for more power than it has
+  bool battery_gave_way{};           ///< the demand exceeded the battery's power
   bool came_to_rest{};
   std::size_t steps{};
   std::size_t events{};

@@ -9,7 +9,7 @@ namespace joulepath {
 struct EdgeEnergy {
   enum class Kind { drive, turn, wait, dwell, prescribed };
   std::size_t leg{};
-  std::string name{};  ///< of an order's edge; empty elsewhere
+  std::string name{};  ///< of an order's edge; else empty
   Kind kind{Kind::drive};
   double start_s{};  ///< from the mission's start
   double duration_s{};
@@ -23,7 +23,7 @@ struct EdgeEnergy {
 
 [[nodiscard]] const char* edge_kind_name(EdgeEnergy::Kind kind);
 
-/// The rows of a valid plan in the order of driving: one per edge where the mission names edges, else one per
+/// The rows of a valid plan in the order of driving: one per edge if the mission names edges, else one per
 /// stretch without a stop.
 [[nodiscard]] std::vector<EdgeEnergy> edge_energies(const Plan& plan, const Plant& plant);
 

@@ -10,12 +10,12 @@ void add_baselines(LegPlan& leg);
 /// Totals over the legs: energy by cause, time, gap, replay, baselines, status.
 void sum_up(Plan& plan, const Plant& plant, double accuracy);
 
-/// Verdicts on times that cannot be met.
+/// The verdicts on times that are too short.
 [[nodiscard]] Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, double amount_s,
                                          double s_m, const Pose& pose);
 [[nodiscard]] Infeasibility too_short(double duration_s, double minimum_s, double s_m, const Pose& pose);
 
-/// Saving (%) of `energy_J` against a baseline's; 0 where the baseline takes nothing.
+/// Saving (%) of `energy_J` against a baseline's; 0 if the baseline takes no energy.
 [[nodiscard]] double saving_percent(double energy_J, double baseline_J);
 
 }  // namespace joulepath

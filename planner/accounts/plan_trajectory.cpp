@@ -11,7 +11,7 @@ namespace {
 /// A plan of more than 2.8 hours at 50 Hz is sampled more slowly, so that its memory is bounded.
 constexpr double kMostSamples = 5e5;
 
-/// What one sample of the trajectory holds, whatever it comes from.
+/// The content of one sample of the trajectory.
 struct Sample {
   BodyMotion<double> motion{};
   Site site{};
@@ -88,7 +88,7 @@ void append(Trajectory& out, const Plant& plant, const Sample& sample, double ti
   out.leg.push_back(static_cast<double>(leg));
 }
 
-/// Joules between two instants of a plan, over as many legs as lie between.
+/// Joules between two instants of a plan, over all legs between them.
 double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, double from_s, double to_s) {
   double sum_J = 0;
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
@@ -134,7 +134,7 @@ class PlanRows {
   Trajectory rows_{};
 };
 
-/// A row at a node: what holds from there to the next row.
+/// A row at a node: the values that hold until the next row.
 struct NodeRow {
   double time_s{};
   std::size_t leg{};
@@ -142,7 +142,7 @@ struct NodeRow {
   double jerk_m_s3{};
 };
 
-/// Nodes of one leg; of two at the same time the later one counts.
+/// Nodes of one leg; of two nodes at the same time the later one counts.
 class NodeRows {
  public:
   void add(NodeRow row) {

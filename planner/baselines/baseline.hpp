@@ -8,19 +8,19 @@
 
 namespace joulepath {
 
-/// The two trapezoids that every plan is compared with, for `duration_s` in all (waiting counts).
+/// The two trapezoids that every plan is compared with, in `duration_s` (waiting included).
 [[nodiscard]] BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double duration_s);
 [[nodiscard]] BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double duration_s);
 
-/// A family of classic profiles: its member for a request that takes a time.
+/// A family of classic profiles: returns its member that takes a time.
 using Baseline = std::function<BaselineResult(const ProfileRequest& request, double duration_s)>;
 
-/// All of them, in the order of reports.
+/// All families, in the order of reports.
 [[nodiscard]] const std::vector<Baseline>& baselines();
 [[nodiscard]] std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double duration_s);
 
-/// A baseline at a time, or, where none makes that (no shape keeps a very tight time on a curved piece), one
-/// at a later time, up to 1.4 times it: to a thousandth of it the soonest next to a time that fails.
+/// A baseline at a time. If the family has none (no shape keeps a very tight time on a curved piece), the
+/// soonest later one that it finds, up to 1.4 times the time, to a thousandth of the time.
 [[nodiscard]] BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request,
                                      double duration_s);
 

@@ -29,7 +29,7 @@ Profile triangle(double length, double duration_s) {
           .jerk = {0, 0}};
 }
 
-constexpr double kRamp_s = 4.0;  ///< of [P1]'s protocol; shorter where the time is
+constexpr double kRamp_s = 4.0;  ///< of [P1]'s protocol; shorter if the time is short
 
 /// Accelerate for 4 s, cruise, brake for 4 s.
 Profile ramps(double length, double duration_s) {
@@ -90,14 +90,14 @@ std::vector<JerkPiece> s_curve_pieces(double rate, RampLimits ramp, double cruis
   return {{jerk_s, j}, {flat_s, 0}, {jerk_s, -j}, {cruise_s, 0}, {jerk_s, -j}, {flat_s, 0}, {jerk_s, j}};
 }
 
-/// The S-curve that takes the time; nothing where even the fastest cruise takes longer.
+/// The S-curve that takes the time; nothing if even the fastest cruise takes longer.
 std::optional<Profile> s_curve(RampLimits ramp, double length, double duration_s) {
   const auto ramp_s = [&](double rate) {
     double sum_s = 0;
     for (const JerkPiece& piece : s_curve_pieces(rate, ramp, 0)) sum_s += piece.duration_s;
     return 0.5 * sum_s;
   };
-  // Ramps are symmetric: they cover half of rate times their time. The slower root makes the time.
+  // Ramps are symmetric: they cover half of rate times their duration. The search finds the slower root.
   const auto taken_s = [&](double rate) { return length / rate + ramp_s(rate); };
   double low = length / duration_s, high = low;
   while (high * ramp_s(high) < length && taken_s(high) > duration_s) high *= 1.02;
@@ -123,7 +123,7 @@ BaselineResult minimum_time_then_wait(const ProfileRequest& request, double dura
   return finish_baseline(request, kFastest, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
 }
 
-/// Never a motion from rest: it needs a piece that is entered and left at that very speed, and cannot be
+/// For pieces that are entered and left at this very speed: never a motion from rest, and it cannot be
 /// clipped.
 BaselineResult constant_speed(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "constant_speed";
@@ -137,7 +137,7 @@ BaselineResult constant_speed(const ProfileRequest& request, double duration_s) 
                          {{unit_key(request, "speed_m_s", "yaw_rate_rad_s"), rate}});
 }
 
-/// A shape from rest to rest over a length in a time; nothing where there is none so fast.
+/// A shape from rest to rest over a length in a time; nothing if no shape is so fast.
 using Shape = std::optional<Profile> (*)(const ProfileRequest& request, double length, double duration_s);
 using SettingsOf = Settings (*)(const ProfileRequest& request, double length, double duration_s);
 
@@ -193,7 +193,7 @@ BaselineResult s_curve_baseline(const ProfileRequest& request, double duration_s
   return rounded;
 }
 
-/// Bisects between a factor of the time that fails and one that `works`, to a thousandth of the time.
+/// Bisects between a factor of the time that fails and one that works, to a thousandth of the time.
 BaselineResult between(const Baseline& baseline, const ProfileRequest& request, double duration_s,
                        std::pair<double, double> factors, BaselineResult works) {
   constexpr double kClose = 1e-3;
@@ -232,7 +232,8 @@ std::vector<BaselineResult> all_baselines(const ProfileRequest& request, double 
 BaselineResult soonest(const Baseline& baseline, const ProfileRequest& request, double duration_s) {
   BaselineResult in_time = baseline(request, duration_s);
   if (in_time.feasible) return in_time;
-  if (in_time.name == kFastest) {  // one drive for any time, expensive to find: late by its own time or never
+  if (in_time.name ==
+      kFastest) {  // the same drive for any time, expensive to find: it is late by its own time or never
     const auto moving_s = in_time.parameters.find("moving_s");
     const bool late = moving_s != in_time.parameters.end() && moving_s->second > duration_s;
     return late ? baseline(request, moving_s->second) : in_time;

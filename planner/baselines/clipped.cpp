@@ -9,14 +9,14 @@
 namespace joulepath {
 namespace {
 
-/// One share of the yaw acceleration, one shape.
+/// A shape, clipped with one share of the yaw acceleration.
 class ClippedShape {
  public:
   ClippedShape(const ProfileRequest& request, const LocalLimits& local, double share,
                const ShapeOfDuration& shape)
       : request_(request), local_(local), grid_(local.grid(share)), shape_(shape) {}
 
-  /// The clipped profile that takes `duration_s`; nothing where even the fastest shape is too slow.
+  /// The clipped profile that takes `duration_s`; nothing if even the fastest shape is too slow.
   std::optional<Profile> profile(double duration_s) const {
     constexpr double kNearlyInstant = 1e-3;  // share of the time: clipped nearly everywhere
     double fast = kNearlyInstant, slow = 1.0;

@@ -13,13 +13,13 @@ struct ComparedProfile {
   std::vector<Profile> profiles{};  ///< per stretch, empty where one does not exist
 };
 
-/// A stretch and the time that it is driven in.
+/// A stretch and its driving time.
 struct TimedStretch {
   const ProfileRequest* request{};
   double duration_s{};
 };
 
-/// Every baseline over some stretches, each stretch in its own time; later where none makes that.
+/// Every baseline over some stretches, each stretch in its own time; later if none keeps that time.
 [[nodiscard]] std::vector<ComparedProfile> compare_baselines(const std::vector<TimedStretch>& stretches);
 
 /// Every baseline against a valid plan.

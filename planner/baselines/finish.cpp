@@ -20,7 +20,7 @@ struct Worst {
   double s{};
 };
 
-/// The limit that a profile was shaped by, to be lowered; null where LocalLimits does not shape by it.
+/// The limit that a profile was shaped by; null if LocalLimits does not use it.
 double* shaping_limit(Limits& limits, std::string_view name) {
   constexpr std::string_view kShapedBy[] = {"speed",    "acceleration",     "deceleration",
                                             "yaw_rate", "yaw_acceleration", "lateral_acceleration"};

@@ -66,7 +66,7 @@ double LocalLimits::steepest(std::size_t segment, double ds, double b, bool acce
   for (const nlp::SegmentPoint& point : problem_.segments[segment].limit_points) {
     const double turn = std::abs(point.rates.turn), slope = std::abs(point.rates.turn_slope);
     if (!(turn > 0)) continue;
-    // b is the smaller square of the two ends: the larger one counts where both add up.
+    // b is the smaller square of the two ends; where both terms have the same sign, the larger square counts.
     const bool winds = point.rates.turn * point.rates.turn_slope >= 0;
     const double most = winds == accelerates ? std::max(0.0, limit - slope * b) / (turn + 2 * ds * slope)
                                              : (limit + slope * b) / turn;

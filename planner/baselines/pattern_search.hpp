@@ -6,7 +6,8 @@
 namespace joulepath {
 
 /// Least value of f on the square [-4, 0]^2 (natural logarithms of shares of the largest accelerations): a
-/// coarse scan, then a pattern search about its best until the steps are 1e-3. Infinite values are passed by.
+/// coarse scan, then a pattern search about its best point until the steps are 1e-3. Infinite values are
+/// skipped.
 struct PatternMinimum {
   double x{};
   double y{};

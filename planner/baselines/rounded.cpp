@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRoom = 1e-7;  ///< relative, of the jerk limit
 
-/// A profile's acceleration at a time, 0 outside of it; asked for in the order of time.
+/// A profile's acceleration at a time, 0 outside of it; calls must be in the order of time.
 class AccelerationInOrder {
  public:
   explicit AccelerationInOrder(const Profile& profile) : profile_(profile) {}
@@ -48,7 +48,7 @@ class RoundedTrapezoids {
         local_(request),
         grid_(local_.grid(share)) {}
 
-  /// The one that takes `duration_s`; nothing where none is so fast.
+  /// The member that takes `duration_s`; nothing if none is so fast.
   std::optional<Profile> profile(double up, double down, double duration_s) const {
     constexpr int kTries = 4;
     double window_s = std::max(up, down) / jerk_;
@@ -63,7 +63,7 @@ class RoundedTrapezoids {
     return std::nullopt;
   }
 
-  /// Energy (J) without standby by one node per segment: to compare members with.
+  /// Energy (J) without standby by one node per segment, for comparisons of members.
   double energy_J(const Profile& profile) const {
     double sum_J = 0;
     for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) {
@@ -96,7 +96,8 @@ class RoundedTrapezoids {
     return made(high).second;
   }
 
-  /// The grid with the least cap of the places that the fastest drive passes within half a window of each.
+  /// The grid with the least cap of the places that the fastest drive passes within half a window of each
+  /// node.
   LocalLimits::Grid lowered(double up, double down, double window_s) const {
     const std::vector<double> b = local_.below(grid_, grid_.cap, up, down);
     const Profile fastest = profile_from_squares(grid_.s, b);
@@ -166,7 +167,8 @@ BaselineResult rounded_max_acceleration(const ProfileRequest& request, const cha
 BaselineResult rounded_best_tuned(const ProfileRequest& request, const char* name, double duration_s) {
   BaselineResult largest = rounded_max_acceleration(request, name, duration_s);
   if (!largest.profile) return largest;
-  // Tuned where curves leave the most room; every share is then tried with these accelerations.
+  // The accelerations are tuned with the share that leaves the most room in curves; then every share is
+  // tried.
   const RoundedTrapezoids widest(request, 1.0);
   const auto member = [&](const ProfileRequest& inner, const RoundedTrapezoids& family, double up,
                           double down) {

@@ -7,8 +7,8 @@ namespace joulepath {
 /// Whether a jerk limit rounds the corners of a request's trapezoids.
 [[nodiscard]] bool is_rounded(const ProfileRequest& request);
 
-/// A motion from rest to rest whose rate is averaged over a window of time: what jumps in its acceleration
-/// becomes a ramp over the window, and it takes the window longer. A trapezoid becomes an S-curve.
+/// A motion from rest to rest whose rate is averaged over a window of time: a jump of its acceleration
+/// becomes a ramp over the window, and its duration grows by the window. A trapezoid becomes an S-curve.
 [[nodiscard]] Profile averaged(const Profile& profile, double window_s);
 
 /// The two trapezoids (baseline.hpp) under a jerk limit: held below the local limits of the path, then

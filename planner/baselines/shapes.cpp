@@ -29,7 +29,7 @@ Profile shaped_profile(const std::function<double(double)>& acceleration, double
     pieces.push_back({kShare, change / kShare});
   }
   Profile profile = jerk_profile(pieces, acceleration(0));
-  // Sampling misses the unit of distance by some 1e-5; the rest is units.
+  // Sampling changes the unit distance by about 1e-5; the profile is scaled to the exact length.
   const double scale = length / profile.s.back();
   for (double& t : profile.time_s) t *= duration_s;
   for (double& s : profile.s) s *= scale;

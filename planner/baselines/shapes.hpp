@@ -13,8 +13,8 @@ struct JerkPiece {
 };
 [[nodiscard]] Profile jerk_profile(const std::vector<JerkPiece>& pieces, double start_acceleration = 0.0);
 
-/// A profile from rest to rest by its acceleration over a unit of time, for a unit of distance. Sampled at
-/// equal times; acceleration is linear between them, so that it does not jump.
+/// A profile from rest to rest, given by its acceleration over a unit of time for a unit of distance. Sampled
+/// at equal times; acceleration is linear between the samples and has no jumps.
 [[nodiscard]] Profile shaped_profile(const std::function<double(double)>& acceleration, double length,
                                      double duration_s);
 

@@ -12,11 +12,11 @@ struct TrapezoidSettings {
   double rate{};
   double acceleration{};
   double deceleration{};
-  /// What a change of curvature may use of the yaw acceleration limit; the rest is kept to accelerate with.
+  /// The share of the yaw acceleration limit for changes of curvature; the rest is for the acceleration.
   double curve_share{1.0};
 };
 
-/// Largest accelerations of the path coordinate that the limits name; kUnlimited where there is none.
+/// Largest accelerations of the path coordinate by the limits; kUnlimited if there is none.
 inline constexpr double kUnlimited = 20.0;
 [[nodiscard]] double most_acceleration(const ProfileRequest& request);
 [[nodiscard]] double most_deceleration(const ProfileRequest& request);
@@ -31,15 +31,15 @@ class TrapezoidFamily {
   double most_deceleration() const { return joulepath::most_deceleration(*request_); }
   const LocalLimits& local() const { return local_; }
   bool curves() const { return local_.curves(); }
-  /// Squares of the rate at the grid's nodes; nothing where start or end speed cannot be kept.
+  /// Squares of the rate at the grid's nodes; nothing if start or end speed cannot be kept.
   std::optional<std::vector<double>> squares(const TrapezoidSettings& settings) const;
   double duration_s(const std::vector<double>& b) const;
-  /// Energy without standby by the transcription; infinite where a row is broken.
+  /// Energy without standby by the transcription; infinite if a row is violated.
   double energy_J(const std::vector<double>& b) const;
-  /// The cruise rate with which the whole takes `duration_s`; nothing where no rate is fast enough.
+  /// The cruise rate for which the whole takes `duration_s`; nothing if no rate is fast enough.
   std::optional<double> rate_for(double acceleration, double deceleration, double curve_share,
                                  double duration_s) const;
-  /// The least time that any profile needs on this grid; infinite where none passes.
+  /// The least time of any profile on this grid; infinite if there is no profile.
   double least_duration_s() const;
   /// The executable profile, with nodes where acceleration, cruise and deceleration meet.
   Profile profile(const TrapezoidSettings& settings) const;

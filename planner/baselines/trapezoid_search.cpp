@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-/// Makes the executable profile take its time exactly: the corners' nodes changed it a little.
+/// Makes the executable profile take its time exactly; the nodes at the corners have changed it slightly.
 BaselineResult finish_trapezoid(const ProfileRequest& request, const TrapezoidFamily& family,
                                 const char* name, TrapezoidSettings settings, double duration_s) {
   const auto excess_s = [&](double rate) {
@@ -31,7 +31,7 @@ BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, dou
   return no_baseline(name, "the plan's time is the least possible: no other profile makes it");
 }
 
-/// Of one share, the settings that cost least; nothing where none keeps the rows.
+/// The settings of least energy for one share; nothing if none keeps the rows.
 std::optional<TrapezoidSettings> tuned(const ProfileRequest& request, const TrapezoidFamily& family,
                                        double share, double duration_s) {
   const double most_up = most_acceleration(request), most_down = most_deceleration(request);
@@ -48,7 +48,8 @@ std::optional<TrapezoidSettings> tuned(const ProfileRequest& request, const Trap
   return std::isfinite(best.value) ? settings_at(best.x, best.y) : std::nullopt;
 }
 
-/// The trapezoid of one share whose settings `settings_of` chooses, shaped by the limits of `inner`.
+/// The trapezoid for one share, with the settings that `settings_of` chooses, shaped by the limits of
+/// `inner`.
 template <class SettingsOf>
 BaselineResult of_share(const ProfileRequest& request, const ProfileRequest& inner, const char* name,
                         double duration_s, const char* otherwise, SettingsOf&& settings_of) {
@@ -82,7 +83,7 @@ BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double durati
                     [&](const TrapezoidFamily& family) { return tuned(inner, family, share, duration_s); });
   };
   BaselineResult best = best_share(request, LocalLimits(request).shares(), make);
-  // The largest accelerations are among what is tuned, judged on the exact path as all are at the end.
+  // The largest accelerations are candidates as well, checked on the exact path like all others.
   BaselineResult largest = trapezoid_max_acceleration(request, duration_s);
   largest.name = kName;
   return largest.profile && (!best.profile || better(largest, best)) ? largest : best;

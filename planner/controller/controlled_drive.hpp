@@ -10,7 +10,7 @@
 
 namespace joulepath {
 
-/// A plan's stretch and where it stands.
+/// A plan's stretch and its place.
 struct StretchPlace {
   std::size_t leg{};
   std::size_t stretch{};  ///< within the leg
@@ -21,20 +21,20 @@ struct StretchPlace {
 void for_each_stretch(const Plan& plan,
                       const std::function<void(const StretchPlace&, const StretchPlan&)>& visit);
 
-/// How a controller that follows no speed profile drives a plan's path: as fast as its settings and the local
-/// limits allow, trapezoids from stop to stop. Prescribed motions and dwells are as in the plan.
+/// How a controller without a speed profile drives a plan's path: as fast as its settings and the local
+/// limits allow, in trapezoids from stop to stop. Prescribed motions and dwells are as in the plan.
 struct ControlledDrive {
   double energy_J{};         ///< at the battery's terminals, standby included
   double motion_energy_J{};  ///< without standby
   double duration_s{};
   std::vector<double> stretch_s{};  ///< driving time of each stretch
-  std::string broken_limit{};       ///< the first limit that it would exceed, with its place; empty: none
+  std::string broken_limit{};       ///< the first exceeded limit, with its place; empty: none
 };
 
-/// What one stretch is driven with; its curve_share is tried first, then lower ones.
+/// The settings for one stretch; its curve_share is tried first, then lower ones.
 using StretchSettings =
     std::function<TrapezoidSettings(const StretchPlace&, const StretchPlan&, const TrapezoidFamily&)>;
-/// Speed caps on one stretch, beside the mission's own.
+/// Speed caps on one stretch, besides the mission's own.
 using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, const StretchPlan&)>;
 
 /// Drives a valid plan's stretches. Energy by the same model on the exact path.
@@ -45,7 +45,7 @@ using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, con
 [[nodiscard]] TrapezoidSettings fastest_settings(const StretchPlace& place, const StretchPlan& stretch,
                                                  const TrapezoidFamily& family);
 
-/// Energy of a controller's drive beside the least that its path takes in the same time.
+/// Energy of a controller's drive, and the least energy of its path in the same time.
 struct LossAtTime {
   double duration_s{};
   double energy_J{};
@@ -53,11 +53,11 @@ struct LossAtTime {
   [[nodiscard]] double lost_J() const { return energy_J - optimum_J; }
 };
 
-/// What is lost by a controller that cannot follow the plan's speeds.
+/// The loss of a controller that cannot follow the plan's speeds.
 struct ControllerLoss {
-  /// At the controller's own time; the optimum is that of every stretch in the time that it takes there.
+  /// At the controller's own time; the optimum is that of every stretch in the controller's time.
   LossAtTime own_time{};
-  /// At the plan's time, where the controller is not later: it waits at the end, standby counted.
+  /// At the plan's time, if the controller is not later: it waits at the end, standby included.
   std::optional<LossAtTime> plan_time{};
   std::string broken_limit{};
 };

@@ -26,7 +26,7 @@ class Group {
   bool empty() const { return families_.empty(); }
   const TrapezoidSettings& fastest() const { return fastest_; }
 
-  /// The cheapest settings that take the plan's time.
+  /// The settings of least energy that take the plan's time.
   std::optional<TrapezoidSettings> tuned() const {
     const bool curves = std::any_of(families_.begin(), families_.end(),
                                     [](const TrapezoidFamily& family) { return family.curves(); });
@@ -79,7 +79,7 @@ class Group {
   TrapezoidSettings fastest_{};
 };
 
-/// Up to three decimals, but not above what the robot may do.
+/// Up to three decimals, but not above the robot's limits.
 double rounded_up(double value, double most) { return std::min(most, std::ceil(1000 * value - 1e-6) / 1000); }
 
 std::optional<TrapezoidSettings> settings_of(const LegPlan& leg, bool turns) {

@@ -10,7 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr int kTop = 100;       ///< largest value of a cell
-constexpr double kStep = 0.05;  ///< between places that are looked at, in cells
+constexpr double kStep = 0.05;  ///< between sampled places, in cells
 
 struct Sample {
   double x_m{};
@@ -57,7 +57,7 @@ std::size_t index_in(const OccupancyGrid& grid, OccupancyGrid::CellIndex cell) {
          static_cast<std::size_t>(cell.column);
 }
 
-/// Takes the crossed cells' values to the cells within reach, the nearest one's.
+/// Copies the crossed cells' values to the cells within reach; the nearest crossed cell decides.
 void spread(OccupancyGrid& grid, double reach_m) {
   const std::vector<std::int8_t> crossed = grid.occupancy_percent;
   std::vector<double> nearest(crossed.size(), std::numeric_limits<double>::infinity());

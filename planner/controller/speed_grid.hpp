@@ -5,12 +5,12 @@
 
 namespace joulepath {
 
-/// A speed mask (kind absolute, base 0) about a plan's path: a cell that the path crosses caps the speed at
+/// A speed mask (kind absolute, base 0) along a plan's path. A cell that the path crosses caps the speed at
 /// the plan's highest speed in it, over all passes, times `scale`, rounded down to the mask's hundredths but
-/// never to nothing; cells within `reach_m` take the cap of the nearest one. Elsewhere there is no cap.
+/// never to 0. Cells within `reach_m` take the cap of the nearest crossed cell. Elsewhere there is no cap.
 ///
-/// A cell that the path clips by less than a twentieth of its side counts as beside it. A mask knows neither
-/// legs nor payload, and turns in place are none of its business.
+/// A cell that the path crosses by less than a twentieth of its side counts as not crossed. A mask depends on
+/// neither leg nor payload, and does not affect turns in place.
 [[nodiscard]] SpeedMask planned_speed_mask(const Plan& plan, double resolution_m, double reach_m,
                                            double scale);
 

@@ -8,8 +8,8 @@
 
 namespace joulepath {
 
-/// The verdict on a path that the robot's footprint cannot follow on a floor with its clearance: the place
-/// where it is missed by most, how deep, and where the path stops being free. Absent: the path is free.
+/// The verdict on a path that is not free for the robot's footprint with its clearance: the place of the
+/// deepest conflict, its depth, and where the path stops being free. Absent: the path is free.
 [[nodiscard]] std::optional<Infeasibility> blocked_path(const Path& path, const RouteSpace& space);
 
 /// The same for a prescribed motion.

@@ -9,11 +9,11 @@
 
 namespace joulepath {
 
-/// The motion of a leg's prescription, from the state in which the leg before leaves the robot.
+/// The motion of a leg's prescription, from the robot's state at the end of the previous leg.
 [[nodiscard]] SampledMotion prescribed_motion(const LegPlan& leg, const Plant& plant);
 
-/// A planned leg as it moves: the motions along its stretches, or the prescribed one. The leg and the plant
-/// are referred to and must outlive it.
+/// The motion of a planned leg: along its stretches, or prescribed. It keeps references to the leg and the
+/// plant.
 class LegMotion {
  public:
   LegMotion(const LegPlan& leg, const Plant& plant);
@@ -23,7 +23,7 @@ class LegMotion {
   const std::optional<SampledMotion>& prescribed() const { return prescribed_; }
 
   /// Joules (J) at the battery's terminals between two instants, counted from the departure; waits and dwell
-  /// take standby.
+  /// use standby power.
   [[nodiscard]] double energy_J(double from_s, double to_s) const;
 
   /// The nodes of the energy integral of the whole leg; waits and dwell have none.

@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// A leg's stretches together: they share one price of time, because the seconds of one are as good as
-/// those of another. Solutions are kept, so that a search over prices solves each problem once.
+/// All stretches of a leg: they share one price of time, because the leg's duration is the sum of theirs.
+/// Solutions are kept, so that a search over prices solves each problem once.
 class LegTiming {
  public:
   explicit LegTiming(std::vector<ProfileRequest> stretches, const SharedAnswers& answers = {})
@@ -19,13 +19,13 @@ class LegTiming {
   const std::vector<ProfileRequest>& stretches() const { return stretches_; }
   std::vector<ProfileRequest>& stretches() { return stretches_; }
 
-  /// Driving time (s) at a price of a second on top of standby; an infinite price gives the minimum time.
+  /// Driving time (s) at a price of a second, beyond standby; an infinite price gives the minimum time.
   double duration_s(double price_W, SolverChoice solver);
 
-  /// Profiles of all stretches at a price; a result without a profile has the reason.
+  /// Profiles of all stretches at a price; a result without a profile contains the reason.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 
-  /// The time that the leg is given (s): at no price of a second or less no stretch takes longer.
+  /// Sets the leg's time (s): at a price of 0 or less no stretch takes longer.
   void give(double duration_s) {
     given_s_ = duration_s;
     forget();

@@ -8,9 +8,9 @@ namespace joulepath {
 /// Joules by cause of a prescribed leg's motion, without dwell.
 [[nodiscard]] EnergyByCause prescribed_energy(const LegPlan& leg, const Plant& plant);
 
-/// A leg whose motion is prescribed: nothing is optimized. Its energy is left to prescribed_energy(), which
-/// needs the departure and the memories of the effects.
-/// Throws ConfigError at the leg's marks where the prescription makes no sense.
+/// A leg with a prescribed motion: nothing is optimized. prescribed_energy() computes its energy later, from
+/// the departure and the memories of the effects.
+/// Throws ConfigError at the leg's marks if the prescription is invalid.
 [[nodiscard]] LegPlan prescribed_leg(const LegRequest& leg, const Plant& plant, const Pose& start);
 
 }  // namespace joulepath

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTolerance = 1e-6;  ///< relative, as in the replay
 
-/// Where a motion exceeds a limit most.
+/// The place where a motion exceeds a limit most.
 struct Excess {
   const Limit* row{};
   double value{};
@@ -26,7 +26,7 @@ struct Excess {
   double amount() const { return std::abs(value) - limit; }
 };
 
-/// Looks for the places where a prescribed leg exceeds limits: those of the table, speed zones, speed mask.
+/// Finds the places where a prescribed leg exceeds limits: those of the table, speed zones, speed mask.
 struct LimitSearch {
   const LegPlan& planned;
   std::size_t leg{};
@@ -34,7 +34,7 @@ struct LimitSearch {
   const MissionWorld& world;
   const Plant& plant;
 
-  /// For each limit that is exceeded, where it is exceeded most.
+  /// For each exceeded limit, the place of the largest excess.
   std::vector<Excess> worst() const {
     const Limits limits = limits_along(world.robot, mission.legs[leg].payload);
     std::vector<Excess> excesses;
@@ -105,8 +105,8 @@ struct LimitSearch {
   }
 };
 
-/// The verdict on the first of the limits that a motion exceeds. A relaxation is offered where it is enough:
-/// where no other limit is exceeded and the value is finite.
+/// The verdict on the first of the limits that a motion exceeds. It offers a relaxation only if that is
+/// enough: no other limit is exceeded and the value is finite.
 Infeasibility verdict_of(const std::vector<Excess>& excesses) {
   const Excess& worst = excesses.front();
   Infeasibility verdict{.constraint = std::string(worst.row->name),

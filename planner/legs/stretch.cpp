@@ -80,7 +80,7 @@ std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg
     memory = memory_after(requests.back());
     offset_m += length_m;
   }
-  // Speeds at the ends are those of driving; prepared_legs.cpp refuses them where the robot turns in place.
+  // Speeds at the ends are speeds of driving; prepared_legs.cpp refuses them at turns in place.
   if (!requests.empty() && !is_turn(requests.front().piece))
     requests.front().start_rate = leg.start_speed_m_s;
   if (!requests.empty() && !is_turn(requests.back().piece)) requests.back().end_rate = leg.end_speed_m_s;

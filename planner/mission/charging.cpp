@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMostStops = 12;
 constexpr std::size_t kEarlierLegs = 2;
-constexpr double kDetourShare = 1.3;  ///< of the straight line, when the energy to a charger is guessed
+constexpr double kDetourShare = 1.3;  ///< of the straight line, in the estimate of the energy to a charger
 
 bool touches_reserve(const Plan& plan) {
   return plan.infeasibility && plan.infeasibility->reason.constraint == "battery_reserve";
@@ -16,7 +16,7 @@ bool touches_reserve(const Plan& plan) {
 
 bool between_stations(const LegRequest& leg) { return !leg.to.empty() && !leg.path && !leg.motion; }
 
-/// Energy that takes the robot from where a leg begins to a charger, by the failed plan's joules per metre.
+/// Energy from the start of a leg to a charger, by the failed plan's joules per metre.
 double energy_to_J(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
                    const Station& charger) {
   Pose here = mission.start.pose;
@@ -33,7 +33,7 @@ double energy_to_J(const MissionRequest& mission, const Plan& failed, const Plan
   return distance_m > 0 ? energy_J / distance_m * way_m : 0.0;
 }
 
-/// How long the robot charges when it turns off to a charger before a leg; infinite at too weak a charger.
+/// Charging time if the robot drives to a charger before a leg; infinite if the charger is too weak.
 double charging_s(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
                   const Station& charger) {
   const Battery& battery = plant.robot.battery;
@@ -61,7 +61,7 @@ MissionRequest with_stop(const MissionRequest& mission, std::size_t leg, const s
   return longer;
 }
 
-/// Missions with one stop more, before the leg that fails or before one of the legs ahead of it.
+/// Missions with one more stop, before the leg that fails or before one of the legs ahead of it.
 std::vector<MissionRequest> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
                                                const Plant& plant) {
   std::vector<MissionRequest> missions;
@@ -84,7 +84,7 @@ struct Attempt {
   Plan plan{};
 };
 
-/// How good an attempt is: without a breach the less energy the better, else the later the breach.
+/// The quality of an attempt: without a breach, less energy is better; else a later breach is better.
 std::pair<bool, double> rank(const Plan& plan) {
   return touches_reserve(plan) ? std::pair(false, static_cast<double>(*plan.battery->fails_on_leg))
                                : std::pair(true, -plan.energy.total_J());
@@ -101,7 +101,7 @@ Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& 
     for (MissionRequest& longer : with_one_more_stop(best.mission, best.plan, plant)) {
       Plan plan = plan_legs(longer);
       const bool drives = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-      // The stop moves the legs on by one: only a breach beyond that is progress.
+      // The stop increases the legs' indices by one: only a breach beyond that is progress.
       const bool further =
           touches_reserve(plan) && *plan.battery->fails_on_leg > *best.plan.battery->fails_on_leg + 1;
       if ((drives || further) && (!next || rank(plan) > rank(next->plan)))

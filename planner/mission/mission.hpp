@@ -9,13 +9,13 @@ namespace joulepath {
 /// Plans a whole mission: a path per leg, deadlines shared over the legs at equal prices of a second, an
 /// energy-optimal profile per stretch, an independent replay of each, baselines, and the battery.
 ///
-/// What cannot be driven comes back as data (status infeasible, with the reason); mistakes in the files
-/// throw ConfigError. `space`: the floor prepared for this robot, to be shared by missions on one map; it is
-/// prepared here when none is given and the mission has a map.
+/// A mission that cannot be driven is a result (status infeasible, with the reason); mistakes in the files
+/// throw ConfigError. `space`: the floor prepared for this robot, which missions on one map can share; if it
+/// is absent and the mission has a map, it is prepared here.
 [[nodiscard]] Plan plan_mission(const MissionRequest& mission, const MissionWorld& world,
                                 const PlanOptions& options, const RouteSpace* space = nullptr);
 
-/// The floor of a mission as its robot sees it; absent without a map.
+/// The floor of a mission, prepared for its robot; absent without a map.
 [[nodiscard]] std::optional<RouteSpace> route_space(const MissionRequest& mission, const MissionWorld& world);
 
 }  // namespace joulepath

@@ -6,8 +6,8 @@
 namespace joulepath {
 namespace {
 
-/// Price at which a leg alone takes a given time; a long time has a negative price, down to where standby is
-/// paid back (nearly: seconds without any price have no end) and the robot rather waits.
+/// Price at which a leg alone takes a given time. A long time has a negative price, down to nearly minus the
+/// standby power (seconds without any price are unbounded), where the robot waits instead.
 double price_for_duration(LegTiming& leg, double duration_s, double standby_W, SolverChoice solver) {
   const TimeSplit split =
       split_time({.legs = 1,
@@ -60,7 +60,7 @@ bool depends_on_time(const Plant& plant) {
   return plant.resistance_factor(0.0) != plant.resistance_factor(1e3);
 }
 
-/// Tells every stretch when it begins (windings warm up), counted from the mission's start.
+/// Sets the time of day at which every stretch begins (windings warm up), from the mission's start.
 void set_times_of_day(PreparedLegs& prepared, const TimeSplit& split, const MissionRequest& mission,
                       SolverChoice solver) {
   double departure_s = 0.0;

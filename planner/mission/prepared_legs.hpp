@@ -8,33 +8,32 @@
 
 namespace joulepath {
 
-/// Everything about a mission that is known before its times are.
+/// The part of a mission's plan that does not depend on its times.
 struct PreparedLegs {
   std::vector<LegTiming> timing{};
   std::vector<LegPlan> legs{};
 };
 
-/// Turns a plan into a verdict.
+/// Makes the plan infeasible with a verdict.
 [[nodiscard]] Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason);
-/// Turns a plan into one that the solvers did not find.
+/// Makes the plan a failure of the solvers.
 [[nodiscard]] Plan failed(Plan plan, std::string reason);
 
-/// Profile requests of all legs along their paths; where a leg has none, or cannot be driven for another
-/// reason that needs no solver, the plan becomes the verdict and the legs are not complete.
+/// Profile requests of all legs along their paths. If a leg has no path, or cannot be driven for another
+/// reason that needs no solver, the plan becomes the verdict and the legs are incomplete.
 [[nodiscard]] PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world,
                                         const Plant& plant, const PlanOptions& options,
                                         std::vector<LegPath> paths, Plan& plan);
 
-/// Speeds at the ends of a leg are those of driving: throws ConfigError at a speed above 0 where the leg
-/// begins or ends with a turn in place.
+/// Speeds at the ends of a leg are speeds of driving: throws ConfigError for a speed above 0 if the leg
+/// begins or ends with a turn in place there.
 void check_end_speeds(const PreparedLegs& prepared, const MissionRequest& mission);
 
-/// Whether all stretches of a leg have profiles; the plan becomes the verdict, with its reason, where one has
-/// none.
+/// Whether all stretches of a leg have profiles; if not, the plan becomes the verdict with its reason.
 [[nodiscard]] bool all_driven(std::size_t leg, const std::vector<ProfileRequest>& stretches,
                               const std::vector<ProfileResult>& results, Plan& plan);
 
-/// Whether every stretch can be driven at all; the plan becomes the verdict where one cannot.
+/// Whether every stretch can be driven at all; if not, the plan becomes the verdict.
 [[nodiscard]] bool check_each_leg(PreparedLegs& prepared, double price_W, SolverChoice solver, Plan& plan);
 
 }  // namespace joulepath

@@ -16,19 +16,19 @@ class TimeFront {
   };
 
   TimeFront(std::initializer_list<Point> points) : points_(points) {}
-  /// The largest front below some points.
+  /// The greatest front below some points.
   [[nodiscard]] static TimeFront below(std::vector<Point> points);
 
   [[nodiscard]] double soonest_s() const { return points_.front().time_s; }
   [[nodiscard]] double least_J() const { return points_.back().cost_J; }
-  /// No time before the soonest: infinite.
+  /// The least cost at a time; infinite before the soonest.
   [[nodiscard]] double at(double time_s) const;
 
-  /// One drive after the other: seconds go where they save most.
+  /// The front of two drives, one after the other: each second goes to the drive in which it saves more.
   friend TimeFront operator+(const TimeFront& first, const TimeFront& second);
   /// Earlier arrivals wait until a time.
   void wait_until(double time_s, double waiting_W);
-  /// No time after this one; the soonest stays.
+  /// Removes times after this one; the soonest stays.
   void end_at(double time_s);
   void shift(double time_s, double cost_J);
 

@@ -10,7 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kHighestPrice_W = 1e7;
-constexpr double kClearlyLate = 1e-3;  ///< relative: more than solvers of profiles disagree by
+constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
 
 /// Arrival at the end of `last` when all legs from `first` pay one price.
 double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
@@ -23,11 +23,11 @@ double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t
   return time_s;
 }
 
-/// Smallest price at which the legs first..last arrive in time; empty when none does.
+/// Smallest price at which the legs first..last arrive in time; empty if there is none.
 std::optional<double> price_of(const TimeSplitRequest& request, std::size_t first, std::size_t last,
                                double departure_s) {
   const double latest_s = request.latest_arrival_s[last];
-  // Prices are searched on a logarithm of the distance above the lowest one.
+  // The search runs over the logarithm of the distance to the lowest price.
   const auto price_at = [&](double x) { return request.lowest_price_W + std::expm1(x); };
   const auto late_s = [&](double x) {
     return arrival_s(request, first, last, departure_s, price_at(x)) - latest_s;
@@ -35,7 +35,7 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   double low = 0.0;
   double late_low_s = late_s(low);
   if (late_low_s <= 0) return request.lowest_price_W;
-  // Far before the fastest drive: no price is asked for.
+  // Far above the minimum time: the lowest price is enough.
   if (arrival_s(request, first, last, departure_s, kNoLimit) > latest_s * (1 + kClearlyLate))
     return std::nullopt;
   const double highest = std::log1p(kHighestPrice_W);

@@ -10,20 +10,20 @@ namespace joulepath {
 /// Legs that share deadlines. All times count from the start of the mission.
 struct TimeSplitRequest {
   std::size_t legs{};
-  /// Driving time (s) of a leg that pays this price (W) for a second; falls as the price rises. An
-  /// infinite price gives the minimum time.
+  /// Driving time (s) of a leg at a price (W) of a second; it falls as the price rises. An infinite price
+  /// gives the minimum time.
   std::function<double(std::size_t leg, double price_W)> duration_s{};
   std::vector<double> latest_arrival_s{};    ///< per leg; infinite where there is no deadline
-  std::vector<double> earliest_arrival_s{};  ///< per leg; 0 where there is none: waiting happens at the stop
+  std::vector<double> earliest_arrival_s{};  ///< per leg; 0 if there is none: the robot waits at the stop
   std::vector<double> dwell_s{};             ///< per leg, after arrival
-  double lowest_price_W{};                   ///< paid where no deadline binds
+  double lowest_price_W{};                   ///< the price without a binding deadline
 };
 
-/// The price of a second on each leg, and what it leads to.
+/// The price of a second on each leg, and the resulting times.
 struct TimeSplit {
   struct Late {
     std::size_t leg{};
-    double amount_s{};  ///< by which the minimum time exceeds the deadline
+    double amount_s{};  ///< the excess of the minimum time over the deadline
   };
   std::vector<double> price_W{};
   std::vector<double> duration_s{};
@@ -31,13 +31,13 @@ struct TimeSplit {
   std::optional<Late> late{};  ///< set when a deadline cannot be met at any price
 };
 
-/// Shares the deadlines of a chain of legs so that the sum of the legs' energies is least: legs that may
-/// trade time pay the same price for a second, and the price falls only behind a deadline that binds.
+/// Shares the deadlines of a chain of legs so that the sum of the legs' energies is least: legs that can
+/// trade time have the same price of a second, and the price falls only after a deadline that binds.
 ///
 ///   minimize sum E_j(T_j)   subject to   arrival_k <= latest_k
 ///
 /// With convex E_j the multipliers are dE_j/dT_j = -sum over k >= j of mu_k, mu_k >= 0. The deadline that
-/// asks the highest price of all the legs before it binds; behind it the same question is asked again.
+/// The deadline with the highest price of all legs before it binds; the legs after it repeat the same step.
 [[nodiscard]] TimeSplit split_time(const TimeSplitRequest& request);
 
 }  // namespace joulepath

@@ -9,8 +9,8 @@
 namespace joulepath {
 namespace {
 
-/// How much later than its window a stop may be in the table (share of the arrival's time) for an order still
-/// to be planned: routes of the table are rough.
+/// Allowed lateness of a stop in the table (share of the arrival's time): routes of the table are rough, so
+/// an order with little lateness is planned exactly.
 constexpr double kRough = 0.1;
 
 std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector<std::size_t>& order) {
@@ -39,7 +39,7 @@ VisitOrder order_visits(const ChoiceContext& context) {
   const VisitSearch search(context);
   VisitOrder result{.exact = mission.visit.size() <= kExactStops};
   std::optional<VisitLabel> best = search.best();
-  if (!best) best = search.best({.late_share = kRough});  // the plan itself has the last word
+  if (!best) best = search.best({.late_share = kRough});  // the exact plan decides
   if (!best) {
     result.infeasibility = no_order(mission, context.world.robot, search);
     return result;

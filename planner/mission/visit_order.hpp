@@ -4,10 +4,10 @@
 
 namespace joulepath {
 
-/// The order of stops that takes least energy (and time at its price). Energies are those of the inner
-/// profile solve between every two stops, at three payloads, interpolated between; each stop's dwell costs
-/// standby. A drop comes after the picks listed before it and unloads its own payload, or all; capacity is
-/// the robot's max_payload_kg; windows bound the arrival, and an early robot waits.
+/// The order of stops of least energy (and time at its price). Energies are those of the inner profile solve
+/// between every two stops, at three payloads, interpolated between them; each stop's dwell costs standby. A
+/// drop comes after the picks listed before it and unloads its own payload, or all of it. The capacity is the
+/// robot's max_payload_kg; windows bound the arrival, and an early robot waits.
 ///
 /// Exact by label setting over subsets up to kExactStops; above, the best `kBeam` labels of each layer are
 /// kept. Legs are costed with free departure headings; the plan itself is made leg by leg, exactly.

@@ -95,7 +95,8 @@ std::optional<VisitLabel> VisitSearch::extend(const VisitLabel& label, std::size
   return after;
 }
 
-/// All extensions that no other one with the same visits, place and payload beats in cost and time.
+/// All extensions, without those that another one with the same visits, place and payload beats in cost and
+/// time.
 VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisits& relaxed) const {
   const auto beats = [](const VisitLabel& a, const VisitLabel& b) {
     return a.late_s <= b.late_s && a.front.is_below(b.front);

@@ -8,10 +8,10 @@
 
 namespace joulepath {
 
-inline constexpr std::size_t kExactStops = 10;  ///< up to here no label is dropped
-inline constexpr std::size_t kBeam = 2000;      ///< labels of a layer that are kept beyond
+inline constexpr std::size_t kExactStops = 10;  ///< all labels are kept up to this number of stops
+inline constexpr std::size_t kBeam = 2000;      ///< kept labels of a layer above that number
 
-/// A partial order: what is visited, where the robot is, what it carries.
+/// A partial order: visited stops, place and load of the robot.
 struct VisitLabel {
   std::uint64_t visited{};
   std::size_t last{};  ///< visit index; visits.size() = the start
@@ -22,14 +22,14 @@ struct VisitLabel {
   std::vector<std::size_t> order{};
 };
 
-/// What a search may ignore, to find the constraint that prevents an order.
+/// Constraints that a search ignores, to find the one that prevents an order.
 struct RelaxedVisits {
   std::optional<std::size_t> window{};  ///< the end of this stop's
   bool capacity{};
   double late_share{};  ///< of the arrival's time, at every window
 };
 
-/// What the robot carries after a stop; below zero where it drops more than it has.
+/// The robot's load after a stop; below zero if it drops more than it has.
 [[nodiscard]] double payload_after_kg(const VisitRequest& visit, double payload_kg);
 
 /// Label setting over subsets of the stops.
@@ -37,13 +37,13 @@ class VisitSearch {
  public:
   explicit VisitSearch(const ChoiceContext& context);
 
-  /// The order of least cost (least late, where a window is relaxed); nothing where there is none.
+  /// The order of least cost (least lateness, if a window is relaxed); nothing if there is none.
   [[nodiscard]] std::optional<VisitLabel> best(const RelaxedVisits& relaxed = {}) const;
 
-  /// Of the stops in the order in which they are listed; nothing where that breaks a window or the capacity.
+  /// The order in which the stops are listed; nothing if it violates a window or the capacity.
   [[nodiscard]] std::optional<double> given_order_J() const;
 
-  /// No order takes less: the cheapest way into each stop, without payload.
+  /// A lower bound on the energy of every order: the cheapest way into each stop, without payload.
   [[nodiscard]] double lower_bound_J() const;
 
   /// The first stop that cannot be reached from the start, or nothing.

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Prices (W) above the mission's at which legs are measured where windows ask for faster drives.
+/// Prices (W) above the mission's at which legs are measured if windows need faster drives.
 constexpr std::array<double, 6> kPrices_W{kNoLimit, 100, 30, 10, 3, 1};
 
 double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes 0, 1/2, 1
@@ -17,7 +17,7 @@ double interpolate(const std::array<double, 3>& at, double fraction) {  // nodes
          at[2] * fraction * (2 * fraction - 1);
 }
 
-/// No robot carries more at once than its limit, or than is picked in all.
+/// The robot never carries more than its limit, or more than all picks together.
 double heaviest_kg(const ChoiceContext& context) {
   double picked_kg = 0.0;
   for (const VisitRequest& visit : context.mission.visit)
@@ -25,7 +25,7 @@ double heaviest_kg(const ChoiceContext& context) {
   return std::min(payload_limit_kg(context.world.robot), picked_kg);
 }
 
-/// Without a window the cheapest drive is enough.
+/// Without windows the cheapest drive is enough.
 std::vector<double> prices_W(const ChoiceContext& context) {
   std::vector<double> prices_W;
   if (std::any_of(context.mission.visit.begin(), context.mission.visit.end(),
@@ -44,7 +44,7 @@ LegStart start_of(const MissionRequest& mission, std::size_t from) {
           .heading_free = !station.heading_rad};
 }
 
-/// By the lattice alone: energies of the table need percents, and there are many pairs.
+/// The lattice alone: the table needs energies within percents, and there are many pairs.
 RouteResult quick_route(const RouteSpace& space, const RouteRequest& request) {
   if (auto verdict = no_way(space, request)) return {.verdict = std::move(*verdict)};
   if (is_there_already(request)) return shape_route(space, request, {});

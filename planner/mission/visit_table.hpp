@@ -9,7 +9,7 @@
 namespace joulepath {
 
 /// Cost and time of the legs between every two stops, from inner profile solves at three payloads,
-/// interpolated between. Index `visits` stands for the start. Where stops have windows, a leg is measured at
+/// interpolated between them. Index `visits` is the start. If stops have windows, a leg is measured at
 /// several prices of time.
 class VisitTable {
  public:
@@ -25,7 +25,7 @@ class VisitTable {
 
  private:
   struct Drive {
-    std::array<double, 3> energy_J{};  ///< at no, half and the heaviest payload
+    std::array<double, 3> energy_J{};  ///< at zero, half and the largest payload
     std::array<double, 3> duration_s{};
   };
   struct LegCost {

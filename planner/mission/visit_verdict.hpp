@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// Why no order of the stops is possible: the first constraint without which there would be one.
+/// The verdict if no order of the stops is possible: the first constraint whose removal allows one.
 [[nodiscard]] Infeasibility no_order(const MissionRequest& mission, const Robot& robot,
                                      const VisitSearch& search);
 

@@ -8,7 +8,7 @@
 namespace joulepath {
 namespace {
 
-/// A cap holds inside of its interval: where it ends, the neighbour may already be faster.
+/// A cap holds inside its interval: at its end the neighbor may already be faster.
 constexpr double kBorder_m = 1e-9;
 
 }  // namespace
@@ -30,7 +30,7 @@ void for_each_limit_use(const PathMotion& motion, const Limits& limits, const st
 }
 
 bool acceleration_jumps(const Profile& profile, double& s) {
-  constexpr double kJump = 1e-5;  // m/s^2: rounding of sums is far below
+  constexpr double kJump = 1e-5;  // m/s^2: far above the rounding of sums
   double before = 0;
   for (std::size_t k = 0; k < profile.acceleration.size(); ++k) {
     s = profile.s[k];

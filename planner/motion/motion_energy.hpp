@@ -11,7 +11,7 @@ namespace joulepath {
 /// The input of the power model at a state of a profile.
 [[nodiscard]] MotionInstant motion_instant(const PathMotion& motion, const ProfileState& state);
 
-/// Power (W) that the drives take from the supply at a state, standby left out.
+/// Power (W) that the drives take from the supply at a state, without standby.
 [[nodiscard]] double drive_power_W(const PathMotion& motion, const ProfileState& state);
 
 /// Calls visit(node) for the nodes of the energy integral between two instants of a profile, segment by
@@ -30,11 +30,11 @@ void integrate_profile(const PathMotion& motion, const Profile& profile, double 
   }
 }
 
-/// Energy (J) at the battery's terminals over segment k of a profile, standby left out.
+/// Energy (J) at the battery's terminals over segment k of a profile, without standby.
 [[nodiscard]] double segment_energy_J(const PathMotion& motion, const Profile& profile, std::size_t k);
 
-/// Joules by cause between two instants of a profile, waiting at its end included. Intervals that follow on
-/// each other add up to the whole.
+/// Joules by cause between two instants of a profile, waiting at its end included. Consecutive intervals add
+/// up to the whole.
 [[nodiscard]] EnergyByCause energy_between(const PathMotion& motion, const Profile& profile, double from_s,
                                            double to_s);
 

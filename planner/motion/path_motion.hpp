@@ -16,8 +16,8 @@ struct PathRates {
   double turn_slope{};
 };
 
-/// A piece of path driven by a plant: all that depends on the place alone. Values; the piece and the
-/// plant are referred to and must outlive it.
+/// A piece of path driven by a plant: all quantities that depend on the place alone. It keeps references to
+/// the piece and the plant, which must outlive it.
 class PathMotion {
  public:
   PathMotion(const PathPiece& piece, const Plant& plant, PayloadAlongPath payload,
@@ -30,14 +30,14 @@ class PathMotion {
   double payload_kg(double s) const;
 
   PathRates rates(double s) const;
-  /// Rates and site at s; directions are those of the path's tangent, so they hold at rest too.
+  /// Rates and site at s; directions are those of the path's tangent, so they are defined at rest too.
   struct Place {
     PathRates rates{};
     Site site{};
   };
   Place place(double s, double time_s) const;
   Site site(double s, double time_s) const { return place(s, time_s).site; }
-  /// What casters remember at s.
+  /// Memories of the casters at s.
   EffectMemory memory(double s) const;
 
   /// Body motion at rate u with acceleration a of the path coordinate.

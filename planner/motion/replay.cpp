@@ -61,7 +61,7 @@ struct Replayer {
                        });
   }
 
-  /// Drives through one segment, in which the acceleration is a smooth function of time.
+  /// Integrates one segment, in which the acceleration is a smooth function of time.
   void drive(const Profile& profile, std::size_t k, State& state) {
     const double start_s = profile.time_s[k], duration_s = profile.time_s[k + 1] - start_s;
     if (!(duration_s > 0)) return;
@@ -73,7 +73,7 @@ struct Replayer {
       dx = {x[1], a, supply_at(motion, {t, x[0], std::max(0.0, x[1]), a})};
     };
     auto stepper = odeint::make_controlled(1e-10, 1e-8, odeint::runge_kutta_dopri5<State>());
-    // At a segment's ends the path may change its law: look from the inside.
+    // At a segment's ends the path's law may change: the state is evaluated inside.
     const double edge = 1e-7 * (profile.s[k + 1] - profile.s[k]);
     const auto inside = [&](double t, double shift) {
       check({t, state[0] + shift, std::max(0.0, state[1]), acceleration(t)}, profile.jerk[k]);

@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// Drives the profile's acceleration through another integrator (Dormand-Prince of order 5 in time, on
-/// position, speed and energy, with the exact curvature) and checks every limit densely between nodes.
+/// Integrates the profile's acceleration with an independent integrator (Dormand-Prince of order 5 in time,
+/// on position, speed and energy, with the exact curvature) and checks every limit densely between nodes.
 [[nodiscard]] ReplayResult replay(const ProfileRequest& request, const Profile& profile);
 
 }  // namespace joulepath

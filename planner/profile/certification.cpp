@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Relative to the value alone, not to what its time costs.
+/// Relative to the value itself, without the cost of its time.
 void set_gap(double value, double gap, const DualGap& parts, SolveSummary& summary) {
   summary.gap_percent = 100 * gap / std::max(1e-9, std::abs(value));
   summary.local = parts.is_elsewhere();
@@ -27,8 +27,8 @@ double energy_J(const PathMotion& motion, const Profile& profile) {
   return sum_J;
 }
 
-/// The bound (J) for exactly the time asked where a second is worth less than nothing: creeping would be
-/// cheaper than any bound. What is proven is the least energy without any price, and the standby of that
+/// The bound (J) for exactly the requested time if a second has a negative value: near standstill the
+/// integrand is below any bound. The proof is for the least energy without a price, plus the standby of that
 /// time.
 double bound_without_price_J(const nlp::Problem& problem, const PathMotion& motion,
                              const nlp::Solution& solution) {

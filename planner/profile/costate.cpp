@@ -14,11 +14,12 @@ using nlp::Problem;
 using nlp::Solution;
 
 constexpr double kAtCap = 1 - 1e-5;  ///< share of the cap's square from which a cap holds the rate
-constexpr double kFaster = 1e-4;  ///< relative: a rate that a limit leaves at a place where it does not hold
-constexpr double kSomething = 1e-9;  ///< of the costate: less of a step at a node is rounding
+constexpr double kFaster = 1e-4;     ///< relative: excess of a rate where a limit does not bind
+constexpr double kSomething = 1e-9;  ///< of the costate: a smaller step at a node is rounding
 
-/// Derivatives of a segment's part of the Lagrangian by the squares of the rate at its ends. What rows at the
-/// ends say of the square there, at a given acceleration, belongs to the node: it holds at one place.
+/// Derivatives of a segment's part of the Lagrangian by the squares of the rate at its ends. The part of rows
+/// at the ends that depends on the square there, at a given acceleration, belongs to the node: it holds at
+/// one place.
 struct SegmentSlopes {
   std::array<double, 2> inside{};
   std::array<double, 2> at_node{};
@@ -78,7 +79,7 @@ double mean_slope_at_rest(const CostModel& model, const Profile& profile) {
   return sum;
 }
 
-/// Spreads the steps of neighboring nodes that are held over the segment between them.
+/// Distributes the steps of neighboring nodes on a cap over the segment between them.
 void spread_jumps(const std::vector<bool>& held, const std::vector<double>& jump, std::vector<double>& start,
                   std::vector<double>& end) {
   const auto share = [&](std::size_t k) {  // of a node's step, for one of its segments
@@ -93,7 +94,7 @@ void spread_jumps(const std::vector<bool>& held, const std::vector<double>& jump
   }
 }
 
-/// Whether no profile can be faster at a node: a cap holds there, or a limit that leaves no acceleration.
+/// Whether no profile can be faster at a node: a cap holds there, or a limit that permits no acceleration.
 bool is_fastest(const CostModel& model, const Profile& profile, std::size_t k) {
   const double faster = profile.rate[k] * (1 + kFaster), inset = 1e-9 * profile.s.back();
   for (double s : {profile.s[k] - inset, profile.s[k] + inset}) {

@@ -17,14 +17,15 @@ struct Costate {
   double of_rate{};  ///< share of psi that is a price of the rate itself, the same along the whole path
 };
 
-/// The costate that a discrete solution's multipliers stand for: with l_k a segment's part of the Lagrangian,
+/// The costate of a discrete solution's multipliers: with l_k a segment's part of the Lagrangian,
 ///   p(s_k+) = -d l_k / d b_k,   p(s_{k+1}-) = d l_k / d b_{k+1}.
-/// Where a cap holds the rate on neighboring nodes, the steps between their segments are spread over them.
+/// Where a cap holds the rate on neighboring nodes, the steps between their segments are distributed over
+/// them.
 /// At rest H = psi a.
 ///
 /// A part of psi may price u in place of u^2, as d(c u)/ds = c a/u. With c the slope of H in a at rest,
-/// copper loss of friction's current counts as a price of time where there is no other; `priced_rate` asks
-/// for it.
+/// the copper loss of friction's current counts as a price of time if there is no other price; `priced_rate`
+/// enables it.
 [[nodiscard]] Costate costate_of(const nlp::Problem& problem, const nlp::Solution& solution,
                                  const Profile& profile, const CostModel& model, bool priced_rate = false);
 

@@ -12,12 +12,14 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr std::size_t kLooks = 8;         ///< per segment
-constexpr double kWorthALook = 1 - 1e-3;  ///< a limit used less does not peak above 1 between two looks
-constexpr double kTolerated = 3e-7;       ///< relative
-constexpr double kCoarse = 5e-3;          ///< a violation beyond this needs a node, not only tightening
+constexpr std::size_t kLooks = 8;  ///< samples per segment
+constexpr double kWorthALook =
+    1 - 1e-3;  ///< the peak of a limit with a smaller use is below 1 between two samples
+constexpr double kTolerated = 3e-7;  ///< relative
+constexpr double kCoarse = 5e-3;     ///< a larger violation needs a node, not only tightening
 
-/// Looks at the limits of one segment, and between the looks at where a parabola through three of them peaks.
+/// Samples the limits of one segment; between the samples it checks the peak of a parabola through three of
+/// them.
 class SegmentLook {
  public:
   SegmentLook(const ProfileRequest& request, const PathMotion& motion, const Profile& profile, std::size_t k)

@@ -8,20 +8,20 @@
 
 namespace joulepath::nlp {
 
-/// What a look between the nodes finds.
+/// Result of the check between the nodes.
 struct DenseCheck {
   double worst_ratio{};               ///< of any limit; above 1 is a violation
   std::vector<Tightening> tighten{};  ///< limits to tighten, by segment
   std::vector<bool> cut{};            ///< segments that need a node inside
-  double energy_J{};                  ///< exact, standby left out
+  double energy_J{};                  ///< exact, without standby
   double energy_error_J{};            ///< |sum of (transcribed - exact)|
 };
 
-/// What each segment costs as the problem counts it, standby left out.
+/// Cost of each segment as the problem counts it, without standby.
 [[nodiscard]] std::vector<double> counted_energy_J(const Problem& problem, const std::vector<double>& b);
 
-/// Looks at every limit on sub-points of every segment, and at the energy of every segment against what was
-/// counted for it.
+/// Checks every limit at places within every segment, and the energy of every segment against the counted
+/// one.
 [[nodiscard]] DenseCheck check_densely(const Problem& problem, const PathMotion& motion,
                                        const Profile& profile, const std::vector<double>& counted_energy_J,
                                        double accuracy);

@@ -21,7 +21,7 @@ struct Sum {
   double motion_energy_J{};
 };
 
-/// One stretch, transcribed once; solved for any price of a second.
+/// One stretch, transcribed once and solved for any price of a second.
 class FrontStretch {
  public:
   explicit FrontStretch(const ProfileRequest& request) : request_(request), motion_(path_motion(request_)) {
@@ -62,7 +62,7 @@ class FrontStretch {
  private:
   bool jerk_limited() const { return std::isfinite(request_.limits.jerk_m_s3) && !is_turn(request_.piece); }
 
-  /// A whole plan per price: under a jerk limit squares of the rate alone are not the unknowns.
+  /// A whole plan per price: under a jerk limit the squares of the rate are not the only unknowns.
   std::optional<Sum> planned_at_price(double price_W) const {
     ProfileRequest request = request_;
     request.time = std::isinf(price_W) ? TimeGoal{.mode = TimeMode::minimum_time}
@@ -86,20 +86,20 @@ class FrontStretch {
   std::vector<double> start_{};
 };
 
-/// The price between two neighbours of the front.
+/// The price between two neighbors of the front.
 double price_between_W(double high_W, double low_W, double typical_W) {
   if (std::isinf(high_W)) return 4 * std::max(low_W, 0.25 * typical_W);
   return low_W > 0 ? std::sqrt(high_W * low_W) : 0.3 * high_W;
 }
 
-/// Where the next point goes: behind the front's widest gap, durations and energies counted alike.
+/// The place of the next point: after the front's widest gap, with durations and energies weighted equally.
 std::size_t widest_gap(const std::vector<FrontPoint>& points) {
   const double duration_s = std::max(1e-12, points.back().duration_s - points.front().duration_s);
   const double energy_J = std::max(1e-12, points.front().energy_J - points.back().energy_J);
   std::size_t widest = 0;
   double most = -1;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    // Equal prices: the front is straight there, and every point between is reached at that one price.
+    // Equal prices: the front is straight there, and all points between them have the same price.
     if (points[k].price_of_time_W < points[k + 1].price_of_time_W * (1 + 1e-3)) continue;
     const double gap = std::hypot((points[k + 1].duration_s - points[k].duration_s) / duration_s,
                                   (points[k].energy_J - points[k + 1].energy_J) / energy_J);

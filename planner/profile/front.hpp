@@ -13,21 +13,21 @@ struct FrontPoint {
   double duration_s{};
   double energy_J{};
   double motion_energy_J{};
-  double price_of_time_W{};  ///< exact slope -dE/dT: the price at which this point is the best
+  double price_of_time_W{};  ///< exact slope -dE/dT: the price at which this point is optimal
   SolveStatus status{SolveStatus::failed};
   std::vector<double> stretch_s{};  ///< duration of each stretch
 };
 
 struct Front {
   std::vector<FrontPoint> points{};  ///< from the shortest to the most economical duration
-  SolveSummary summary{};            ///< infeasible or failed where there is no front
+  SolveSummary summary{};            ///< infeasible or failed if there is no front
   std::optional<Infeasibility> infeasibility{};
 };
 
 /// The front of stretches that are driven one after the other (a leg, a mission), from the minimum time to
-/// the time of least energy: all stretches pay the same price for a second, which is optimal for their sum.
-/// Each stretch is transcribed once, with limits tightened as its plan needs; prices are chosen where the
-/// front has its widest gaps. The fastest point has an infinite price.
+/// the time of least energy. All stretches have the same price of a second, which is optimal for their sum.
+/// Each stretch is transcribed once, with limits tightened as for its plan; new prices are chosen in the
+/// widest gaps of the front. The fastest point has an infinite price.
 [[nodiscard]] Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_t points);
 
 }  // namespace joulepath

@@ -8,7 +8,8 @@
 namespace joulepath {
 namespace {
 
-constexpr double kHolds = 0.99;  ///< of a limit: the fastest drive uses no more of one that it follows
+constexpr double kHolds =
+    0.99;  ///< of a limit: the fastest drive uses at least this much of a limit that holds it
 
 }  // namespace
 

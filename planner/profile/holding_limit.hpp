@@ -8,14 +8,14 @@
 
 namespace joulepath {
 
-/// Which limits hold a fastest drive, for how long, and where first: why it takes its time.
+/// The limits that hold a fastest drive, for how long, and where first: the reason for its duration.
 class HoldingLimits {
  public:
   /// Adds a stretch; `offset_m` is the arc length before it.
   void add(const ProfileRequest& request, const Profile& fastest, double offset_m = 0.0);
 
   /// "; acceleration holds the fastest drive for 62 % of its time, first at s = 0.1 m": the limit that holds
-  /// longest. Empty where none does.
+  /// longest. Empty if there is none.
   [[nodiscard]] std::string sentence() const;
 
  private:

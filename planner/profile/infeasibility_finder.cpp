@@ -14,7 +14,7 @@
 namespace joulepath {
 namespace {
 
-/// What a verdict may ask to change: a limit, or the speed at an end.
+/// A value that a verdict may relax: a limit, or the speed at an end.
 struct Knob {
   std::string_view name{}, key{}, unit{};
   const Limit* limit{};
@@ -65,8 +65,8 @@ bool passes(const ProfileRequest& request, const std::vector<double>& s) {
   return !nlp::rate_envelope(problem).blocked;
 }
 
-/// Smallest (largest for start and end speeds) value that lets the robot pass, to 1e-5 of it and not below
-/// 1e-6; none where the robot does not pass at any value.
+/// Smallest (largest for start and end speeds) value for which a profile exists, to 1e-5 of it and not below
+/// 1e-6; none if no value works.
 std::optional<double> smallest_relaxation(const ProfileRequest& request, const Knob& knob,
                                           const std::vector<double>& s) {
   constexpr double kLargest = 1e9, kLeast = 1e-6, kClose = 1e-5;
@@ -101,7 +101,7 @@ Infeasibility at_place(const ProfileRequest& request, std::string constraint, do
 Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                               const nlp::Blocked& blocked) {
   std::string_view name = blocked.limit.empty() ? std::string_view("path") : blocked.limit;
-  // What has to give first: a start or end speed that the path does not allow, else the limit itself.
+  // The value to relax first: a start or end speed that the path does not allow, else the limit itself.
   std::vector<std::string_view> candidates;
   if (blocked.node == 0 && request.start_rate > 0) candidates.push_back("start_speed");
   const auto above_cap = [&](double rate, std::size_t node) {

@@ -6,18 +6,18 @@
 namespace joulepath {
 
 /// The verdict for a request whose rate envelope is blocked: which limit, where, by how much, and the
-/// smallest value of it that would let the robot pass (found by bisection on the envelope).
+/// smallest value of it for which a profile exists (found by bisection on the envelope).
 [[nodiscard]] Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                                             const nlp::Blocked& blocked);
 
 /// The verdict for a time that is longer than the slowest profile takes.
 [[nodiscard]] Infeasibility explain_long(const ProfileRequest& request, double possible_s);
 
-/// The verdict for a time below `least_s`, the proven least: how long the fastest drive takes, and which
-/// limit holds it.
+/// The verdict for a time below `least_s`, the proven minimum: the time of the fastest drive, and the limit
+/// that holds it.
 [[nodiscard]] Infeasibility explain_late(const ProfileRequest& request, double least_s);
 
-/// A path or a number of the request that makes no sense by itself.
+/// The verdict for an invalid path or number of the request.
 [[nodiscard]] Infeasibility explain_request(const ProfileRequest& request, std::string constraint,
                                             std::string message);
 

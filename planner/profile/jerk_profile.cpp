@@ -31,7 +31,7 @@ bool has_deadline(const ProfileRequest& request) {
          std::isfinite(request.time.duration_s);
 }
 
-/// The profile of least time found under a jerk limit; nothing where none is found.
+/// The profile of least time found under a jerk limit; nothing if none is found.
 std::optional<Profile> fastest_found(ProfileRequest request, double jerk_m_s3) {
   request.limits.jerk_m_s3 = jerk_m_s3;
   request.time = {.mode = TimeMode::minimum_time};
@@ -46,13 +46,13 @@ std::string why_slow(const ProfileRequest& request, const Profile& fastest) {
   return limits.sentence();
 }
 
-/// Smallest jerk limit, to 2 %, with which a profile makes the time; nothing up to 1e4. Where any limit above
-/// 0 does, kLeast.
+/// Smallest jerk limit, to 2 %, for which a profile keeps the time; nothing up to 1e4. kLeast if every limit
+/// above 0 works.
 std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
   constexpr double kFirst = 1e-3, kLeast = 1e-6, kLargest = 1e4, kClose = 1.02, kRough = 20;
   const double available_s = has_deadline(request) ? request.time.duration_s : kNoLimit;
   ProfileRequest trial = request;
-  trial.accuracy *= kRough;  // its times are a little too long, never too short
+  trial.accuracy *= kRough;  // its times are slightly too long, never too short
   const auto possible = [&](double jerk_m_s3) {
     const std::optional<Profile> fastest = fastest_found(trial, jerk_m_s3);
     return fastest && fastest->duration_s() <= available_s;
@@ -74,7 +74,7 @@ std::optional<double> jerk_that_would_do(const ProfileRequest& request) {
   return good;
 }
 
-/// The verdict for a jerk limit with which no profile was found: the smallest one that works.
+/// The verdict for a jerk limit with which no profile was found: the smallest limit that works.
 ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result) {
   Infeasibility verdict = explain_request(request, "jerk", result.summary.message);
   verdict.amount = std::abs(request.limits.jerk_m_s3);
@@ -94,7 +94,7 @@ ProfileResult blame_jerk(const ProfileRequest& request, ProfileResult result) {
 }
 
 /// The fastest drive that the largest rate, acceleration and jerk of a stretch from rest to rest allow;
-/// nothing where one of them is not limited, or the stretch begins or ends at speed.
+/// nothing if one of them is not limited, or if the stretch begins or ends at speed.
 std::optional<Profile> fastest_by_jerk(const ProfileRequest& request) {
   const Limits& limits = request.limits;
   const double acceleration = std::max(limits.acceleration_m_s2, limits.deceleration_m_s2);
@@ -102,7 +102,7 @@ std::optional<Profile> fastest_by_jerk(const ProfileRequest& request) {
   return fastest_s_curve(piece_length(request.piece), limits.speed_m_s, acceleration, limits.jerk_m_s3);
 }
 
-/// What a profile is worth beside the bound of the problem without the jerk limit.
+/// Compares a profile with the bound of the problem without the jerk limit.
 void judge(ProfileResult& result, const ProfileRequest& request, const ProfileResult& bound) {
   const Profile& profile = *result.profile;
   SolveSummary& summary = result.summary;
@@ -126,7 +126,7 @@ void judge(ProfileResult& result, const ProfileRequest& request, const ProfileRe
   summary.message = "jerk limit: a local optimum; the bound is that of the problem without it";
 }
 
-/// The same request with the jerk limit, to 1e-6, whose fastest drive takes the time asked for.
+/// The same request with the jerk limit, to 1e-6, whose fastest drive takes the requested time.
 ProfileRequest with_enough_jerk(ProfileRequest request) {
   constexpr double kLargest = 1e6, kClose = 1 + 1e-6;
   double bad = request.limits.jerk_m_s3, good = kLargest;
@@ -139,8 +139,8 @@ ProfileRequest with_enough_jerk(ProfileRequest request) {
   return request;
 }
 
-/// The verdict for a time before the fastest drive that the jerk limit allows. That drive, and the jerk limit
-/// with which it is fast enough, are offered where it keeps all other limits too.
+/// The verdict for a time before the fastest drive that the jerk limit allows. It offers that drive, and the
+/// jerk limit with which it is fast enough, if all other limits are kept.
 ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
   const double asked_s = request.time.duration_s, least_s = fastest.duration_s();
   std::ostringstream text;
@@ -169,7 +169,7 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
   return result;
 }
 
-/// No profile was found: is there none, and why? A deadline that no bound excludes is not refused.
+/// Decides why no profile was found. A deadline that no bound excludes is not refused.
 ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
   const std::optional<Profile> fastest = fastest_found(request, request.limits.jerk_m_s3);
   std::ostringstream text;
@@ -188,7 +188,7 @@ ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
   return failed;
 }
 
-/// The closed form in place of a profile: as it is for the least time, slowed down to a time asked for.
+/// The closed form as a profile: unchanged for the least time, slowed down to a requested time.
 void take_s_curve(const ProfileRequest& request, Profile fastest, ProfileResult& result) {
   const double slower = has_deadline(request) ? request.time.duration_s / fastest.duration_s() : 1.0;
   for (std::size_t k = 0; k < fastest.time_s.size(); ++k) {
@@ -214,7 +214,7 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   const bool soon = fastest && has_deadline(request) &&
                     request.time.duration_s < fastest->duration_s() * (1 - kSameDuration);
   if (!bound.profile) {
-    // What would do without the jerk limit does not do with it.
+    // A relaxation of the problem without the jerk limit does not apply to the one with it.
     const bool by_time =
         has_deadline(request) && bound.infeasibility &&
         (bound.infeasibility->constraint == "deadline" || bound.infeasibility->constraint == "duration");

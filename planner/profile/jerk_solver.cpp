@@ -17,11 +17,11 @@ namespace {
 constexpr int kJerkRounds = 14;      ///< of tightening and refinement
 constexpr int kJerkSharpenings = 4;  ///< of the grid at the switches of least time
 constexpr double kNoOtherMotion =
-    1e-4;  ///< a deadline this close to the least time may leave no other motion
-constexpr double kLargestAcceleration_m_s2 = 20;  ///< where nothing limits it
+    1e-4;  ///< a deadline this close to the least time may permit no other motion
+constexpr double kLargestAcceleration_m_s2 = 20;  ///< if nothing limits it
 constexpr double kWorthACut = 0.1;                ///< share of the largest misfit
 
-/// What each segment costs as the program counts it.
+/// Cost of each segment as the program counts it.
 std::vector<double> counted_energy_J(const nlp::Problem& problem, const nlp::JerkMotion& motion) {
   std::vector<double> energy_J;
   for (std::size_t k = 0; k < problem.segment_count(); ++k)
@@ -30,8 +30,8 @@ std::vector<double> counted_energy_J(const nlp::Problem& problem, const nlp::Jer
   return energy_J;
 }
 
-/// The motion in `factor` times the time. From rest to rest it keeps every limit on motion that it kept
-/// before.
+/// The motion in `factor` times the time. From rest to rest it keeps every limit on motion that the original
+/// keeps.
 nlp::JerkMotion slowed(nlp::JerkMotion motion, double factor) {
   for (double& u : motion.u) u /= factor;
   for (double& a : motion.a) a /= factor * factor;
@@ -39,8 +39,8 @@ nlp::JerkMotion slowed(nlp::JerkMotion motion, double factor) {
   return motion;
 }
 
-/// Adds nodes at rest ends, where the grid knows of no jerk: times in halves (s grows with t^3) down to the
-/// time in which jerk builds up the acceleration.
+/// Adds nodes at rest ends, where the grid ignores jerk: halved times (s grows with t^3) down to the time in
+/// which jerk builds up the acceleration.
 std::vector<double> with_graded_ends(std::vector<double> s, const ProfileRequest& request) {
   const Limits& limits = request.limits;
   const double a = std::min({limits.acceleration_m_s2, limits.deceleration_m_s2, kLargestAcceleration_m_s2});
@@ -99,13 +99,12 @@ class JerkSolver {
     kept_->profile = best_;
   }
 
-  /// The fast solver finds the grid; where Ipopt is asked for it has the last word on it.
+  /// The fast solver finds the grid; if Ipopt is requested, it solves again on that grid.
   bool to_settle() const {
     return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
   }
 
-  /// Ipopt from the fast solver's solution on the same grid; what it finds is taken where it keeps the
-  /// limits.
+  /// Runs Ipopt from the fast solver's solution on the same grid; its result is used if it keeps the limits.
   void settle() {
     if (!take(nlp::solve_with_ipopt(program(found_.motion), {.warm = true}), "ipopt")) return;
     const nlp::DenseCheck check = nlp::check_densely(
@@ -113,9 +112,9 @@ class JerkSolver {
     if (check.worst_ratio <= 1 + kSettled) keep();
   }
 
-  /// Jerk switches at places that the grid does not know: cuts the segments there, as long as that lowers
-  /// the objective. False when it no longer does. Least time is nothing but switches, and decides over
-  /// deadlines: it is asked for more.
+  /// Jerk switches at places between the nodes: cuts the segments there as long as that lowers the objective.
+  /// False when it no longer does. The least time consists of switches only and decides about deadlines, so
+  /// it gets more cuts.
   bool sharpen(std::vector<bool>& cut) {
     if (sharpened_ == kJerkSharpenings) return false;
     const double worth = (minimum_time() ? 0.05 : 1.0) * request_.accuracy * std::abs(found_.objective);
@@ -124,7 +123,7 @@ class JerkSolver {
     if (!gains) return false;
     ++sharpened_;
     const nlp::JerkMotion& motion = found_.motion;
-    std::vector<double> misfit(cut.size(), 0.0);  // of the rate, if jerk switches within the segment
+    std::vector<double> misfit(cut.size(), 0.0);  // of the rate, for a switch of jerk within the segment
     for (std::size_t k = 0; k + 1 < cut.size(); ++k) {
       const double jump = std::abs(best_->jerk[k + 1] - best_->jerk[k]);
       for (std::size_t at : {k, k + 1})
@@ -184,7 +183,7 @@ class JerkSolver {
     return *fastest_;
   }
 
-  /// Whether the time asked for is before that of the fastest motion found.
+  /// Whether the requested time is before that of the fastest motion found.
   bool is_too_soon() {
     if (minimum_time() || problem_->duration_row == nlp::DurationRow::none || !fastest().profile)
       return false;
@@ -193,7 +192,7 @@ class JerkSolver {
     return true;
   }
 
-  /// The fastest motion, on its own grid, slowed down to the time that there is.
+  /// The fastest motion, on its own grid, slowed down to the available time.
   bool by_way_of_minimum_time() {
     if (minimum_time() || is_too_soon() || !fastest().profile) return false;
     const Profile& profile = *fastest().profile;
@@ -250,7 +249,7 @@ class JerkSolver {
   nlp::JerkSolution found_{};
   std::optional<Profile> best_{};
   std::optional<ProfileResult> kept_{};     ///< the last within the limits
-  std::optional<ProfileResult> fastest_{};  ///< once asked for
+  std::optional<ProfileResult> fastest_{};  ///< once computed
   double least_objective_{kNoLimit};
   int sharpened_{};
 };

@@ -79,15 +79,15 @@ class Comparison {
   std::size_t segment(std::size_t j) const { return j / count(); }
   double at(std::size_t k, double share) const { return s_[k] + share * (s_[k + 1] - s_[k]); }
   double step_length(std::size_t k) const { return (s_[k + 1] - s_[k]) / steps_; }
-  /// At the start (0), in the middle (1) or at the end (2) of step j.
+  /// At the start (0), the middle (1) or the end (2) of step j.
   const PlaceCost& place(std::size_t j, std::size_t part) const {
     return places_[segment(j) * (2 * count() + 1) + 2 * (j % count()) + part];
   }
 
-  /// Slope db/ds of the fastest drive, onward or (by distance gone back) backward.
+  /// Slope db/ds of the fastest drive, forward or (by distance from the end) backward.
   static double slope(const PlaceCost& place, double b, bool onward) {
     const nlp::Range range = place.accelerations(std::sqrt(std::max(0.0, b)));
-    if (range.low > range.high) return 0.0;  // no profile is here: it is brought below by the cap
+    if (range.low > range.high) return 0.0;  // no profile exists here: the cap lowers it
     return onward ? 2 * range.high : -2 * range.low;
   }
 

@@ -11,9 +11,9 @@ namespace joulepath {
 namespace {
 
 constexpr std::array<double, 5> kShares{1e-4, 0.25, 0.5, 0.75, 1 - 1e-4};  ///< of a segment's time
-constexpr double kSlowest = 1e-3;    ///< rate looked at, as a share of the profile's
+constexpr double kSlowest = 1e-3;    ///< smallest sampled rate, as a share of the profile's
 constexpr int kBits = 16;            ///< of the minimum's place
-constexpr double kLeftOver = 1e-10;  ///< of the minimum, relative: what these bits leave over
+constexpr double kLeftOver = 1e-10;  ///< of the minimum, relative: error of so many bits
 constexpr double kElsewhere = 0.1;   ///< share of a gap
 constexpr double kSame = 1e-6;       ///< relative to H
 
@@ -54,7 +54,7 @@ class Place {
     return best;
   }
 
-  /// Whether G falls without end towards standstill.
+  /// Whether G is unbounded below towards standstill.
   bool creeps() const { return cost_.least(0.0, of_rate_) < -kSame * size_; }
 
  private:
@@ -104,7 +104,7 @@ class SegmentGap {
   std::size_t k_{};
 };
 
-/// What a jump of p could bring: the square of the rate may be anything from 0 to the largest there.
+/// Bound of the effect of a jump of p: the square of the rate may be anything from 0 to the largest there.
 double at_node(const CostModel& model, const Profile& profile, std::size_t k, double jump) {
   if (jump == 0) return 0.0;
   const double own = profile.rate[k] * profile.rate[k];

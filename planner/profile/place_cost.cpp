@@ -29,7 +29,7 @@ void cut(Range& range, const Line& line, double size) {
   range.high = std::min(range.high, std::max(x, y));
 }
 
-/// Both real roots of q(x) = 0; no numbers where there are none.
+/// Both real roots of q(x) = 0; not numbers if there are none.
 std::array<double, 2> roots(const Quadratic& q) {
   const double d = std::sqrt(q.c1 * q.c1 - 4 * q.c2 * q.c0), t = -0.5 * (q.c1 + std::copysign(d, q.c1));
   return {t / q.c2, q.c0 / t};
@@ -53,8 +53,8 @@ Quadratic sum(double x_weight, const Quadratic& x, double y_weight, const Quadra
           x_weight * x.c2 + y_weight * y.c2};
 }
 
-/// Least value of a convex, piecewise quadratic cost over a range: at its ends, at a kink, or where one of
-/// its pieces is stationary.
+/// Least value of a convex, piecewise quadratic cost over a range: at its ends, at a kink, or at the
+/// stationary point of a piece.
 class LeastCost {
  public:
   LeastCost(const PowerSupply& supply, const Sided<WheelPower>& wheels, double q, Range range)
@@ -110,8 +110,8 @@ class LeastCost {
   double least_{kNoLimit};
 };
 
-/// What gear loss and driver drop make of a wheel: current is piecewise linear in the acceleration with a
-/// kink where the load changes its sign.
+/// A wheel with gear loss and driver drop: the current is piecewise linear in the acceleration, with a kink
+/// where the load changes its sign.
 void bend(WheelPower& wheel, const Plant& plant, Side side, const Site& site, const Line& speed_rad_s) {
   const Motor& motor = plant.robot.motor[side];
   const double resistance_ohm = plant.resistance_factor(site.time_of_day_s) * motor.resistance_ohm;

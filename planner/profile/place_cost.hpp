@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// What a path's places share: the request, and the plant without the parts that bend its law.
+/// Data for all places of a path: the request, and the plant without its nonlinear parts.
 struct CostModel {
   CostModel(const ProfileRequest& request, const PathMotion& motion, double time_W = 0.0);
 
@@ -19,10 +19,10 @@ struct CostModel {
   Plant unbent{};             ///< without gear loss and driver drop
   bool bent{};                ///< the plant has one of them
   bool warms_up{};            ///< winding resistance depends on the time
-  double least_resistance{};  ///< time of the day (s) at which the windings resist least
+  double least_resistance{};  ///< time of the day (s) of the lowest winding resistance
 };
 
-/// The cost per second and the limits as asked at one place of a path, for any rate u and acceleration a:
+/// The cost per second and the limits at one place of a path, for any rate u and acceleration a:
 ///   H(u, a) = sum max(P, eta P) + time_W,   time_W: standby, price and multiplier of the time.
 class PlaceCost {
  public:
@@ -31,19 +31,19 @@ class PlaceCost {
   /// H of a planned state, at its own time of the day.
   double at(double u, double a) const;
 
-  /// Smallest H(u, a) - q a over the accelerations that every limit allows at the rate u; infinite where none
-  /// does. At a fixed rate powers are convex and piecewise quadratic in a, so the minimum is exact. Limits
-  /// that are not convex in a, and those of current, voltage and power behind a bent law, are left out: the
-  /// minimum gets smaller.
+  /// Smallest H(u, a) - q a over the accelerations that every limit allows at the rate u; infinite if there
+  /// is none. At a fixed rate, powers are convex and piecewise quadratic in a, so the minimum is exact.
+  /// Limits that are not convex in a, and those of current, voltage and power with nonlinear parts of the
+  /// plant, are left out: this lowers the minimum.
   double least(double u, double q) const;
 
-  /// Largest rate: caps, and what the accelerations reach from both ends.
+  /// Largest rate: by caps, and by the accelerations from both ends.
   double fastest() const { return fastest_; }
 
-  /// Accelerations that the limits leave at a rate; empty (low above high) where they leave none.
+  /// Accelerations within the limits at a rate; empty (low above high) if there are none.
   nlp::Range accelerations(double u) const { return accelerations(u, wheels_at(u)); }
 
-  /// Square of the largest rate at which they leave some.
+  /// Square of the largest rate at which the limits permit an acceleration.
   double largest_square() const;
 
  private:
@@ -54,7 +54,7 @@ class PlaceCost {
   const CostModel* model_{};
   PathRates rates_{};
   Site planned_{};  ///< at the planned time
-  Site site_{};     ///< at the time of least resistance
+  Site site_{};     ///< at the time of the lowest resistance
   bool affine_{};
   Sided<nlp::AffineWheel> wheel_{};
   double fastest_{};

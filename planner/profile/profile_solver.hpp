@@ -5,8 +5,8 @@
 
 namespace joulepath {
 
-/// Least-energy (or least-time) profile within every limit, between nodes too. Never throws for what a
-/// request asks: verdicts are data.
+/// Least-energy (or least-time) profile within every limit, between nodes too. Does not throw for an
+/// impossible request: verdicts are data.
 [[nodiscard]] ProfileResult solve_profile(const ProfileRequest& request);
 
 }  // namespace joulepath

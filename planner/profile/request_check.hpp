@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// A path or a number of the request that makes no sense by itself: NaN, negative, nothing to drive.
+/// The verdict on an invalid path or number of the request: NaN, negative, nothing to drive.
 [[nodiscard]] std::optional<Infeasibility> senseless(const ProfileRequest& request);
 
 }  // namespace joulepath

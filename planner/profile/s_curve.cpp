@@ -7,14 +7,14 @@
 namespace joulepath {
 namespace {
 
-/// Times (s) of growing and of constant acceleration on the way from rest to a rate.
+/// Durations (s) of increasing and of constant acceleration between rest and a rate.
 std::pair<double, double> ramp_times_s(double rate, double acceleration, double jerk) {
   if (rate * jerk >= acceleration * acceleration)
     return {acceleration / jerk, rate / acceleration - acceleration / jerk};
   return {std::sqrt(rate / jerk), 0.0};
 }
 
-/// Length of both ramps, which are mirror images: mean rate times their time.
+/// Length of both ramps, which are mirror images: mean rate times their duration.
 double ramps_length(double rate, double acceleration, double jerk) {
   const auto [bend_s, steady_s] = ramp_times_s(rate, acceleration, jerk);
   return rate * (2 * bend_s + steady_s);

@@ -4,9 +4,9 @@
 
 namespace joulepath {
 
-/// The fastest motion from rest to rest over a length whose rate, acceleration and jerk are limited, and by
-/// nothing else: seven segments of constant jerk, fewer where a limit is not reached. No profile along a path
-/// that never allows more takes less time.
+/// The fastest motion from rest to rest over a length with limits on rate, acceleration and jerk only: seven
+/// segments of constant jerk, fewer if a limit is not reached. A profile along a path with limits at most as
+/// large takes at least this time.
 [[nodiscard]] Profile fastest_s_curve(double length, double rate, double acceleration, double jerk);
 
 }  // namespace joulepath

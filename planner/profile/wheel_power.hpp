@@ -25,11 +25,11 @@ struct Line {
   friend Line operator*(double c, const Line& x) { return {c * x.at_0, c * x.slope}; }
 };
 
-/// What the acceleration makes of one wheel at a given place and rate. The electrical power is quadratic on
-/// both sides of a kink, where the torque behind the gear changes its sign.
+/// One wheel as a function of the acceleration at a given place and rate. The electrical power is quadratic
+/// on both sides of a kink, where the torque behind the gear changes its sign.
 struct WheelPower {
   Quadratic below{}, above{};
-  double kink{std::numeric_limits<double>::infinity()};  ///< infinite: there is none
+  double kink{std::numeric_limits<double>::infinity()};  ///< infinite: no kink
   Line current_A{}, voltage_V{}, force_N{};              ///< current and voltage only where there is none
 
   bool bent() const { return std::isfinite(kink); }

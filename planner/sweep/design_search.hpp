@@ -5,9 +5,9 @@
 
 namespace joulepath {
 
-/// What a design is worth.
+/// The evaluation of a design.
 struct DesignValue {
-  bool planned{};      ///< there is a plan
+  bool planned{};      ///< a plan exists
   double objective{};  ///< to be minimized
   double excess{};     ///< the largest relative violation of a constraint; 0: none
 };
@@ -18,9 +18,10 @@ struct DesignSearch {
   std::size_t evaluations{};
 };
 
-/// Looks for the best design near `start` by Sbplx (NLopt), which needs no gradients; fractions stay in [0,
-/// 1]. A design without a plan, or outside of a constraint, is worse than every design within. Local: the
-/// start should be the best design of a sweep. Ends when all fractions move by less than `tolerance`.
+/// Searches for the best design near `start` by Sbplx (NLopt), which needs no gradients; fractions stay in
+/// [0, 1]. A design without a plan, or outside of a constraint, is worse than every design within. The search
+/// is local: `start` should be the best design of a sweep. It ends when all fractions move by less than
+/// `tolerance`.
 [[nodiscard]] DesignSearch search_design(
     std::vector<double> start, std::size_t most_evaluations, double tolerance,
     const std::function<DesignValue(const std::vector<double>&)>& evaluate);

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// A parameter of a study: levels, or a range from which levels are taken.
+/// A parameter of a study: levels, or a range that is divided into levels.
 struct SweepParameter {
   std::string name{};
   std::vector<std::string> levels{};  ///< empty: the range below
@@ -27,8 +27,8 @@ class DesignTable {
   /// Every combination of the levels; the last parameter changes fastest.
   static DesignTable grid(std::vector<SweepParameter> parameters);
 
-  /// `count` designs of which each parameter's values fill `count` equal parts of its range, one in each
-  /// (McKay, Beckman, Conover, 1979); levels are used equally often. The seed decides all.
+  /// `count` designs; the values of each parameter fill `count` equal parts of its range, one in each (McKay,
+  /// Beckman, Conover, 1979). Levels are used equally often. The seed determines all values.
   static DesignTable latin_hypercube(std::vector<SweepParameter> parameters, std::size_t count,
                                      std::uint64_t seed);
 

@@ -19,7 +19,7 @@ bool read_number(const std::string& text, double& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// A number for a label: five digits; a word as it is.
+/// A label for a number: five digits; a word stays unchanged.
 std::string short_text(const std::string& text) {
   double value{};
   if (!read_number(text, value)) return text;
@@ -28,8 +28,8 @@ std::string short_text(const std::string& text) {
   return digits;
 }
 
-/// Sum of squares that a sum of one term per column leaves: normal equations of indicator variables. The
-/// pseudo-inverse removes what the indicators of one column share with the constant.
+/// Residual sum of squares of a model with one term per column: normal equations of indicator variables. The
+/// pseudo-inverse removes the part that the indicators of one column share with the constant.
 double residual(const Labels& columns, const std::vector<double>& values) {
   std::vector<Eigen::Index> first{1};
   for (const LevelColumn* column : columns)
@@ -51,7 +51,7 @@ double residual(const Labels& columns, const std::vector<double>& values) {
   return std::max(0.0, square - fit.dot(right));
 }
 
-/// The levels of two columns as one.
+/// The combined levels of two columns.
 LevelColumn pair_of(const LevelColumn& a, const LevelColumn& b) {
   LevelColumn pair{
       .name = {}, .labels = std::vector<std::string>(a.labels.size() * b.labels.size()), .level = {}};
@@ -106,7 +106,7 @@ LevelColumn levels_of(const std::string& name, const std::vector<std::string>& v
 
 SweepEffects sweep_effects(const std::vector<LevelColumn>& columns, const std::vector<double>& raw) {
   SweepEffects effects;
-  // Centered values: the sums of squares are differences of like numbers otherwise.
+  // Centered values: otherwise the sums of squares are differences of nearly equal numbers.
   const double mean =
       raw.empty() ? 0.0 : std::accumulate(raw.begin(), raw.end(), 0.0) / static_cast<double>(raw.size());
   std::vector<double> values = raw;

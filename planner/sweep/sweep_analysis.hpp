@@ -5,15 +5,15 @@
 
 namespace joulepath {
 
-/// One column of a study as levels: of a list its entries, of a range at most five parts.
+/// One column of a study as levels: the entries of a list, or at most five parts of a range.
 struct LevelColumn {
   std::string name{};
   std::vector<std::string> labels{};
   std::vector<std::size_t> level{};  ///< of each row: an index into labels
 };
 
-/// Texts in the order of their numbers (of words: of their first appearance); of more than `most` different
-/// numbers, parts that hold equally many rows.
+/// Labels in the order of their numbers (words: of their first appearance). More than `most` different
+/// numbers are grouped into parts with equally many rows.
 [[nodiscard]] LevelColumn levels_of(const std::string& name, const std::vector<std::string>& values,
                                     std::size_t most = 8);
 
@@ -27,10 +27,11 @@ struct LevelMean {
 struct MainEffect {
   std::string parameter{};
   std::vector<LevelMean> levels{};
-  double share_of_variance{};  ///< of the rows' variance; of an additive model's when others are left out
+  double
+      share_of_variance{};  ///< of the rows' variance; of an additive model's if other designs are left out
 };
 
-/// What two parameters do together beyond the sum of what each does alone.
+/// The joint effect of two parameters beyond the sum of their own effects.
 struct Interaction {
   std::string first{};
   std::string second{};
@@ -43,7 +44,7 @@ struct SweepEffects {
   double unexplained{};                     ///< share of variance left by main effects and interactions
 };
 
-/// Analysis of variance by least squares, which also holds where designs without a plan leave the table
+/// Analysis of variance by least squares, which also holds if designs without a plan make the table
 /// unbalanced: a parameter's share is the loss of fit of the additive model without it, an interaction's the
 /// gain of the additive model with it. `values`: one per row, of rows with a plan.
 [[nodiscard]] SweepEffects sweep_effects(const std::vector<LevelColumn>& columns,

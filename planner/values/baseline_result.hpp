@@ -11,7 +11,7 @@ namespace joulepath {
 /// A classic profile on the same piece, at the same distance and total time as a plan.
 struct BaselineResult {
   std::string name{};  ///< trapezoid_max_acceleration | trapezoid_best_tuned | ...
-  bool feasible{};     ///< false: breaks a limit or cannot make the time; not counted
+  bool feasible{};     ///< false: exceeds a limit or is too slow; not counted
   std::string reason{};
   double energy_J{};         ///< at the battery's terminals, standby included
   double motion_energy_J{};  ///< without standby

@@ -29,7 +29,7 @@ struct Fleet {
   std::vector<FleetRobot> robots{};
   std::vector<FleetCharger> chargers{};
   std::vector<std::string> mission_files{};
-  std::vector<ItemMarks> mission_marks{};  ///< where each is named
+  std::vector<ItemMarks> mission_marks{};  ///< the place of each name in the file
 };
 
 }  // namespace joulepath

@@ -15,7 +15,7 @@
 
 namespace joulepath {
 
-/// Where an item of a file stands, and each of its keys, so that a later error can point at it.
+/// The place of an item in its file, and of each of its keys, for later error messages.
 struct ItemMarks {
   std::string path{};  ///< dotted: `legs[2]`
   SourceMark item{};
@@ -30,7 +30,7 @@ struct ItemMarks {
   }
 };
 
-/// A named place; without a heading any heading will do.
+/// A named place; without a heading, any heading is accepted.
 struct Station {
   double x_m{};
   double y_m{};
@@ -74,11 +74,11 @@ struct LegRequest {
   double end_speed_m_s{};
   std::optional<double> yaw_rate_rad_s{};  ///< cap on this leg, beside the robot's own
   std::vector<PathPart> parts{};           ///< of a path: edges of an order
-  bool charges{};                          ///< put in by the planner: its dwell is at a charger
+  bool charges{};                          ///< inserted by the planner: its dwell is at a charger
   ItemMarks marks{};
 };
 
-/// One entry of `visit:` (the order is the planner's to choose).
+/// One entry of `visit:` (the planner chooses the order).
 struct VisitRequest {
   enum class Kind { pick, drop, pass };  ///< pass (`go:`): no change of payload
   Kind kind{Kind::pick};
@@ -107,7 +107,7 @@ struct SpeedZone {
   ItemMarks marks{};
 };
 
-/// Where the planner may put in a stop at a charger, when the battery's reserve would be touched otherwise.
+/// Where the planner may insert a stop at a charger if the battery would otherwise fall below its reserve.
 struct ChargingRequest {
   std::vector<std::string> stations{};  ///< each with a charger
   double to_fraction{0.8};              ///< state of charge at which the robot leaves
@@ -116,7 +116,7 @@ struct ChargingRequest {
 
 struct StartRequest {
   std::string station{};  ///< empty: the pose below
-  Pose pose{};            ///< filled from the station when one is named and has a heading
+  Pose pose{};            ///< filled from the station if one is named and has a heading
   bool heading_given{true};
   std::optional<double> battery_fraction{};
   ItemMarks marks{};
@@ -129,7 +129,8 @@ struct SpeedMaskRequest {
   double multiplier{-1.0};
 };
 
-/// The content of a mission file. The names of its files are resolved, the files not yet read (MissionWorld).
+/// The content of a mission file. The names of its files are resolved; the files are not read yet
+/// (MissionWorld).
 struct MissionRequest {
   std::string file{};
   std::string name{};  ///< file name without extension, or `name:`

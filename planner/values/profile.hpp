@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// Where the robot is on its piece at an instant.
+/// State of the robot on its piece at an instant.
 struct ProfileState {
   double time_s{};
   double s{};

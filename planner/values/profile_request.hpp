@@ -13,13 +13,13 @@ enum class TimeMode {
   time_budget,   ///< at most duration_s
   free_time,     ///< least energy, standby included
   time_price,    ///< least energy + price_W T, at most duration_s
-  minimum_time,  ///< least time, then least energy is not looked at
+  minimum_time,  ///< least time; energy is not minimized
 };
 
 struct TimeGoal {
   TimeMode mode{TimeMode::free_time};
   double duration_s{kNoLimit};
-  double price_W{};  ///< time_price only; on top of standby
+  double price_W{};  ///< time_price only; beyond standby
 };
 
 /// Speed cap (m/s) on an interval of arc length; of no effect on a turn in place.
@@ -37,8 +37,8 @@ struct PayloadAlongPath {
   double to_kg{};
 };
 
-/// A piece of path to be driven without a stop, and what is wanted of it. Rates are those of the path
-/// coordinate: m/s along a curve, rad/s in a turn in place.
+/// A piece of path without a stop, and the requested profile. Rates are those of the path coordinate: m/s
+/// along a curve, rad/s in a turn in place.
 struct ProfileRequest {
   PathPiece piece;
   Plant plant{};
@@ -51,7 +51,7 @@ struct ProfileRequest {
   std::size_t nodes{200};
   double accuracy{1e-4};  ///< relative: NLP energy against replay, and the gap that counts as optimal
   SolverChoice solver{SolverChoice::ipopt};
-  /// For comparing paths: one grid, limits kept at its nodes alone, jerk left out, no bound.
+  /// For comparisons of paths: one grid, limits at its nodes only, no jerk limit, no bound.
   bool draft{};
   double time_of_day_s{};  ///< at the start
   EffectMemory memory{};   ///< of the effects, at the start

@@ -18,15 +18,16 @@ struct SolveSummary {
   std::string solver{};      ///< ipopt | fast | forward_backward | s_curve
   int iterations{};          ///< over all refinements
   std::size_t nodes{};       ///< of the last grid
-  double price_of_time_W{};  ///< -dE/dT: multiplier of the time row (standby included), 0 where time is free
-  /// No profile within the limits as asked takes less energy (J, standby included) in the time asked for;
-  /// with a price of time, in this profile's time. No number for a profile of least time.
+  double price_of_time_W{};  ///< -dE/dT: multiplier of the duration row (standby included), 0 if the time is
+                             ///< free
+  /// Lower bound of the energy (J, standby included) within the limits, in the requested time; with a price
+  /// of time, in this profile's time. Not a number for a profile of least time.
   double lower_bound_J{std::nan("")};
-  double lower_bound_s{std::nan("")};  ///< no profile takes less time; of a profile of least time
+  double lower_bound_s{std::nan("")};  ///< lower bound of the time, for a profile of least time
   double gap_percent{};                ///< (value - lower bound)/value, of energy or time
   bool local{};               ///< the bound is not closed because the problem is not convex: a local optimum
   double counted_J{};         ///< energy as the problem counts it, of a draft
-  std::string handed_over{};  ///< why the fast solver gave over to Ipopt; empty if it did not
+  std::string handed_over{};  ///< why the fast solver handed over to Ipopt; empty if it did not
   std::string message{};
 };
 

@@ -41,14 +41,14 @@ class WayMaker {
             .route = index,
             .wide = wide,
             .stops_at_corners = policy.kind == CornerPolicy::Kind::stop_turn_go,
-            .shape = smooth_polyline(wide ? route.wide_m : route.polyline_m, careful_, policy)};
+            .shape = blend_corners(wide ? route.wide_m : route.polyline_m, careful_, policy)};
     if (context_.space->checker().first_collision(way.shape.path)) return std::nullopt;
     return scored(std::move(way));
   }
 
   std::optional<Way> bent(const Way& natural, const std::optional<Lead>& start,
                           const std::optional<Lead>& goal) const {
-    auto shape = smooth_with_leads(natural.shape.polyline_m, start, goal, careful_, {});
+    auto shape = blend_with_leads(natural.shape.polyline_m, start, goal, careful_, {});
     if (!shape) return std::nullopt;
     Way way{.name = "route_" + std::to_string(natural.route) + (start ? "_leaving_along" : "") +
                     (goal ? "_arriving_along" : ""),

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "planner/path/search/route_pool.hpp"
+#include "planner/path/shape/blended_path.hpp"
 #include "planner/path/shape/end_leads.hpp"
-#include "planner/path/shape/smoothing.hpp"
 #include "planner/ways/way_score.hpp"
 
 namespace joulepath {

@@ -18,7 +18,7 @@ bool is_folder(const std::string& file) {
   return fs::is_directory(file, ignored) && fs::exists(fs::path(file) / "metadata.yaml", ignored);
 }
 
-/// The files of a folder, in the order of its metadata; none of them may lie outside of it.
+/// The files of a folder, in the order of its metadata. A file outside of the folder is refused.
 std::vector<std::string> files_of(const std::string& folder, const NamedBy& named_by) {
   const Document metadata = Document::load((fs::path(folder) / "metadata.yaml").string(), named_by);
   std::vector<std::string> files;

@@ -16,10 +16,10 @@
 namespace joulepath {
 namespace {
 
-constexpr double kOtherClock_s = 1.0;  ///< stamps this far from the log times are another clock's
+constexpr double kOtherClock_s = 1.0;  ///< stamps that differ more from the log times belong to another clock
 constexpr double kSteppedBack_s = 1.0;
 
-/// One topic while it is read.
+/// One topic during reading.
 struct Topic {
   std::string name{};
   std::unique_ptr<MessageNumbers> reader{};
@@ -27,7 +27,7 @@ struct Topic {
   std::vector<double> stamp_s{}, log_s{};
   std::vector<std::vector<double>> values{};
   bool stamped{};
-  bool free_form{};  ///< no definition says which fields there are: one that no message has is absent
+  bool free_form{};  ///< no definition of its fields is known: a field that no message has is absent
   std::size_t broken{};
 };
 
@@ -150,7 +150,7 @@ class BagLogReader {
       if (topic.broken > 0) tell("broken", topic.name, "messages that end early were left out", topic.broken);
   }
 
-  /// The topic on whose times the run is laid: that of the wheels, else of the body, else of the pose.
+  /// The topic whose times are the run's: that of the wheels, else of the body, else of the pose.
   [[nodiscard]] int rank(const Topic& topic) const {
     int rank = 0;
     for (const char* column : {"wheel_speed_left_rad_s", "linear_speed_m_s", "position_x_m"}) {
@@ -163,7 +163,7 @@ class BagLogReader {
     return rank;
   }
 
-  /// The stamps, or the log times where the stamps are of another clock or step back.
+  /// The stamps; the log times if the stamps belong to another clock or step back.
   std::vector<double> clock(const Topic& topic) {
     if (!topic.stamped) return topic.log_s;
     std::vector<double> lag_s(topic.log_s.size());
@@ -184,7 +184,7 @@ class BagLogReader {
     return topic.stamp_s;
   }
 
-  /// The order in which the messages are taken: ascending times, each once.
+  /// The order of the messages: ascending times, each once.
   std::vector<std::size_t> order_of(const std::vector<double>& times, const Topic& topic) {
     std::vector<std::size_t> order(times.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

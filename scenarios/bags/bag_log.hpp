@@ -12,16 +12,16 @@ namespace joulepath {
 /// Whether a file is a log by itself, not a dataset that names logs: CSV or a bag.
 [[nodiscard]] bool is_log_file(const std::string& file);
 
-/// The wanted columns of a bag, one table per topic, that of the wheels (or the body) first. Their columns
-/// have the names of the sources; `time_s` is the header's stamp, or the log time where there is none.
+/// The requested columns of a bag, one table per topic, that of the wheels (or the body) first. Their columns
+/// have the names of the sources; `time_s` is the header's stamp, or the log time without a stamp.
 struct BagLog {
   std::vector<CsvTable> tables{};
-  ColumnSources sources{};  ///< those given, or the suggested ones where none are
+  ColumnSources sources{};  ///< the given ones, or the suggested ones if none are given
   std::vector<LogArtifact> artifacts{};
 };
 
-/// Reads a bag. Messages out of order are sorted, repeated ones dropped, broken ones counted, and each is
-/// told. Throws ConfigError where nothing that is wanted is there.
+/// Reads a bag. Messages out of order are sorted, repeated ones dropped, broken ones counted; each case is
+/// reported. Throws ConfigError if no requested column is present.
 [[nodiscard]] BagLog read_bag_log(const std::string& file, const NamedBy& named_by,
                                   const ColumnSources& sources, const std::string& run);
 

@@ -16,7 +16,7 @@ std::string short_type(const BagTopic& topic) {
   return type.substr(0, type.find('/')) + type.substr(std::min(type.rfind('/'), type.size()));
 }
 
-/// Collects sources; a column keeps the first that is suggested for it.
+/// Collects sources; a column keeps its first suggestion.
 class Suggestion {
  public:
   explicit Suggestion(const BagSurvey& survey) : survey_(survey) {}
@@ -50,7 +50,7 @@ class Suggestion {
   void of_topic(const BagTopic& topic) {
     const std::string type = short_type(topic);
     if (type == kStateType) {
-      if (columns_.empty()) state(topic);  // one robot at a time
+      if (columns_.empty()) state(topic);  // one robot only
     } else if (type == "nav_msgs/Odometry") {
       add("linear_speed_m_s", topic, "twist.twist.linear.x");
       add("angular_speed_rad_s", topic, "twist.twist.angular.z");
@@ -84,7 +84,7 @@ class Suggestion {
       add(std::string("orientation_") + part, topic, std::string("pose.pose.orientation.") + part);
   }
 
-  /// The one joint whose name holds the side.
+  /// The only joint whose name contains the side.
   void wheel(const BagTopic& topic, const std::string& side) {
     std::vector<std::string> found;
     for (const std::string& joint : topic.elements)

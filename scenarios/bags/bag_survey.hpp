@@ -8,7 +8,7 @@
 
 namespace joulepath {
 
-/// A topic of a bag and what it may tell of a run.
+/// A topic of a bag and its possible columns of a run.
 struct BagTopic {
   BagChannel channel{};
   std::size_t messages{};
@@ -30,11 +30,11 @@ struct BagSurvey {
 /// among them: an effort may be a torque.
 [[nodiscard]] ColumnSources suggested_columns(const BagSurvey& survey);
 
-/// A dataset file of a bag, with the suggested columns, to be confirmed by the user.
+/// A dataset file for a bag, with the suggested columns, for the user to confirm.
 [[nodiscard]] std::string suggested_dataset(const BagSurvey& survey, const std::string& file);
 
-/// The topic and the field path of a column's `from`, `/odom.twist.twist.linear.x`; false where no topic
-/// fits.
+/// The topic and the field path of a column's `from`, `/odom.twist.twist.linear.x`; false if no topic
+/// matches.
 [[nodiscard]] bool split_source(const std::string& from, const std::string& topic, std::string& path);
 
 }  // namespace joulepath

@@ -7,13 +7,13 @@
 
 namespace joulepath {
 
-/// Bytes that end before what they announce. Never shown: readers count what they skip because of it.
+/// The data end before their announced size. Internal: readers count the skipped messages.
 class BytesEnd : public std::runtime_error {
  public:
   BytesEnd() : std::runtime_error("the bytes end early") {}
 };
 
-/// Reads little-endian values from bytes; no size that the bytes announce is trusted. Throws BytesEnd.
+/// Reads little-endian values from bytes; announced sizes are checked against the data. Throws BytesEnd.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -33,7 +33,7 @@ class ByteReader {
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
     return value;
   }
-  /// A length of 32 bits and as many bytes.
+  /// A length of 32 bits, then that many bytes.
   std::string_view text() { return take(number<std::uint32_t>()); }
   /// Skips to a multiple of `size` from `origin`.
   void align(std::size_t size, std::size_t origin) { take((size - (at_ - origin) % size) % size); }

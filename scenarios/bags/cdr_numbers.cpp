@@ -8,7 +8,7 @@
 #include "scenarios/bags/message_numbers.hpp"
 #include "scenarios/bags/ros_definitions.hpp"
 
-// OMG DDSI-RTPS 2.5, 10 (plain CDR, version 1): alignment counts from behind the 4 bytes of the
+// OMG DDSI-RTPS 2.5, 10 (plain CDR, version 1): alignment counts from the end of the 4 bytes of the
 // encapsulation.
 namespace joulepath {
 namespace {
@@ -18,7 +18,7 @@ constexpr int kNoSlot = -1;
 
 struct Wanted;
 
-/// An element of an array that is wanted.
+/// A requested element of an array.
 struct WantedElement {
   std::string name{};
   std::optional<std::size_t> index{};
@@ -32,7 +32,7 @@ struct WantedField {
   std::vector<WantedElement> elements{};
 };
 
-/// What is wanted of a message: one entry per field of its layout.
+/// The requested values of a message: one entry per field of its layout.
 struct Wanted {
   explicit Wanted(const MessageLayout& layout) : fields(layout.fields.size()) {}
   std::vector<WantedField> fields;
@@ -141,7 +141,7 @@ class CdrNumbers : public MessageNumbers {
     if (slot != kNoSlot) (*values_)[static_cast<std::size_t>(slot)] = value;
   }
 
-  /// `name` gets the text that names this element of an array.
+  /// `name` becomes the text that names this element of an array.
   void message(ByteReader& in, const MessageLayout& layout, const Wanted* wanted, std::string_view* name) {
     if (layout.fields.empty()) in.take(1);
     for (std::size_t i = 0; i < layout.fields.size(); ++i) {
@@ -216,7 +216,7 @@ class CdrNumbers : public MessageNumbers {
       std::string_view name;
       const std::size_t before = in.position();
       message(in, *field.message, nullptr, &name);
-      if (in.position() == before) throw BytesEnd();  // elements without bytes: the count says nothing
+      if (in.position() == before) throw BytesEnd();  // elements without bytes: the count is invalid
       if (!wanted) continue;
       for (const WantedElement& element : wanted->elements) {
         if (element.index ? *element.index != i : element.name != name) continue;

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The element of an array that a step names: by index, by the names beside it, or by a name inside.
+/// The element of an array for a step: by index, by the names beside it, or by a name inside.
 const json* element_of(const json& array, const json& beside, const std::string& element) {
   if (const auto index = element_index(element)) return *index < array.size() ? &array[*index] : nullptr;
   const auto names = beside.find(kElementNames);
@@ -52,7 +52,7 @@ json parsed(std::string_view data) {
   return message;
 }
 
-/// Messages of JSON say themselves what they have, so that any path may be there.
+/// JSON messages have no definition in advance, so any path is accepted.
 class JsonNumbers : public MessageNumbers {
  public:
   bool has(const std::string& path) const override { return !field_path(path).empty(); }

@@ -9,10 +9,10 @@
 
 namespace joulepath {
 
-/// What an MCAP file begins and ends with.
+/// The bytes at the start and the end of an MCAP file.
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 
-/// A topic of a bag, as its messages' schema describes it.
+/// A topic of a bag, with its messages' schema.
 struct BagChannel {
   std::string topic{};
   std::string type{};             ///< `nav_msgs/msg/Odometry`
@@ -22,21 +22,21 @@ struct BagChannel {
 };
 
 struct BagMessage {
-  std::size_t channel{};  ///< in the order in which on_channel saw them
+  std::size_t channel{};  ///< in the order of the calls of on_channel
   std::uint64_t log_time_ns{};
-  std::string_view data{};  ///< during the call alone
+  std::string_view data{};  ///< valid during the call only
 };
 
-/// What was left out of a bag.
+/// The parts of a bag that were left out.
 struct BagDamage {
-  bool truncated{};             ///< it ends in the middle: the recorder was stopped hard
-  std::size_t broken_chunks{};  ///< that do not decompress, or whose check sum is wrong
+  bool truncated{};             ///< the file ends within a record: the recorder was killed
+  std::size_t broken_chunks{};  ///< do not decompress, or have a wrong check sum
   std::size_t broken_records{};
 };
 
-/// Reads an MCAP file from its start to its end, without its index: chunks uncompressed, lz4 or zstd. What is
-/// broken is skipped and counted; no announced size is allocated before it is checked. Throws ConfigError
-/// where the file cannot be read or is no MCAP file.
+/// Reads an MCAP file from start to end, without its index: chunks uncompressed, lz4 or zstd. Broken parts
+/// are skipped and counted; an announced size is checked before memory is allocated. Throws ConfigError if
+/// the file cannot be read or is not an MCAP file.
 [[nodiscard]] BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
                                   const std::function<void(const BagChannel&)>& on_channel,
                                   const std::function<void(const BagMessage&)>& on_message);

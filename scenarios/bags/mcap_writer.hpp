@@ -14,7 +14,7 @@ class McapWriter {
  public:
   McapWriter();
 
-  /// Adds a topic; its number is what message() takes.
+  /// Adds a topic; returns its number for message().
   std::uint16_t channel(const BagChannel& channel);
   void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
   /// The whole file.

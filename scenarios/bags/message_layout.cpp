@@ -113,7 +113,7 @@ class LayoutReader {
     if (!fixed) field.count = 0;
   }
 
-  /// A type without a package is of the same package; `Header` is std_msgs'.
+  /// A type without a package belongs to the same package; `Header` belongs to std_msgs.
   [[nodiscard]] std::string full_name(std::string_view type, const std::string& inside) const {
     if (type.find('/') != std::string_view::npos) return short_name(type);
     const std::string same = inside.substr(0, inside.find('/')) + "/" + std::string(type);

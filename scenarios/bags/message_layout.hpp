@@ -43,8 +43,8 @@ struct MessageLayout {
 [[nodiscard]] std::size_t size_of(FieldKind kind);
 
 /// The layout of a message from its definition (schema encoding ros2msg: the text of its .msg file, followed
-/// by those of the types that it uses, each behind a line of `=` and `MSG: package/Type`). Null where a type
-/// is not defined, contains itself or is nested too deep.
+/// by those of the types that it uses, each after a line of `=` and `MSG: package/Type`). Null if a type is
+/// not defined, contains itself or is nested too deep.
 [[nodiscard]] std::shared_ptr<const MessageLayout> layout_of(const std::string& type,
                                                              std::string_view definition);
 

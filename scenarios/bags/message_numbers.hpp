@@ -9,26 +9,26 @@
 
 namespace joulepath {
 
-/// Takes wanted numbers out of the messages of one topic.
+/// Extracts the requested numbers from the messages of one topic.
 class MessageNumbers {
  public:
   virtual ~MessageNumbers() = default;
 
-  /// Whether messages of this type have the field that a path names.
+  /// Whether messages of this type have the field of a path.
   [[nodiscard]] virtual bool has(const std::string& path) const = 0;
 
-  /// Wants one more number; it stands in the next place of the values.
+  /// Requests one more number; it gets the next index of the values.
   virtual void want(const std::string& path) = 0;
 
-  /// The wanted numbers of a message, NaN where it does not have one. Throws BytesEnd for a broken message.
+  /// The requested numbers of a message, NaN for absent ones. Throws BytesEnd for a broken message.
   virtual void read(std::string_view data, std::vector<double>& values) = 0;
 
   /// The names of elements beside a topic's arrays of numbers (the joints of a JointState).
   [[nodiscard]] virtual std::vector<std::string> element_names(std::string_view data) = 0;
 };
 
-/// The reader of a topic's messages (CDR with a ros2msg definition or of a known type, or JSON); null where
-/// it has another encoding.
+/// The reader of a topic's messages (CDR with a ros2msg definition or of a known type, or JSON); null for
+/// other encodings.
 [[nodiscard]] std::unique_ptr<MessageNumbers> message_numbers(const BagChannel& channel);
 
 /// For CDR (little-endian, version 1) and for JSON.

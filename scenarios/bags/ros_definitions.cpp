@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-// Names and types of fields as the interfaces of ROS 2 have them (common_interfaces, geometry2).
+// Names and types of fields are those of the interfaces of ROS 2 (common_interfaces, geometry2).
 namespace joulepath {
 namespace {
 

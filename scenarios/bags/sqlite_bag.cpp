@@ -13,7 +13,7 @@ constexpr int kMostRowBytes = 256 << 20;
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
 
-/// Null where the tables are not there.
+/// Null if the tables are missing.
 Statement prepared(const Database& database, const char* query) {
   sqlite3_stmt* raw = nullptr;
   sqlite3_prepare_v2(database.get(), query, -1, &raw, nullptr);

@@ -5,7 +5,7 @@
 namespace joulepath {
 
 /// Reads a file of rosbag2's sqlite3 storage in the order of its times. Definitions are in the files since
-/// ROS 2 Iron. Throws ConfigError where the file cannot be read or is no such bag.
+/// ROS 2 Iron. Throws ConfigError if the file cannot be read or is not such a bag.
 [[nodiscard]] BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
                                         const std::function<void(const BagChannel&)>& on_channel,
                                         const std::function<void(const BagMessage&)>& on_message);

@@ -15,7 +15,7 @@ using nlohmann::json;
 constexpr std::size_t kMostLineBytes = 16u << 20;
 constexpr std::size_t kMostRobots = 4096;
 
-/// A number of exactly so many digits.
+/// A number with exactly this many digits.
 std::optional<int> digits(std::string_view text, std::size_t from, std::size_t count) {
   if (text.size() < from + count) return {};
   int value{};

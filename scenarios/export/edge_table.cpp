@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Rounding noise of what is zero by physics is written as zero.
+/// Values that are zero by physics are written as zero, without rounding noise.
 double joules(double value_J) { return std::abs(value_J) < 1e-9 ? 0.0 : value_J; }
 
 Json row_json(const EdgeEnergy& edge, const Plan& plan) {

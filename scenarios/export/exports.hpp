@@ -10,14 +10,14 @@
 
 namespace joulepath {
 
-/// A valid plan with what it was made from.
+/// A valid plan with its inputs.
 struct ExportInput {
   const MissionRequest& mission;
   const MissionWorld& world;
   const Plan& plan;
   const Plant& plant;
   std::string out_file{};           ///< as on the command line
-  std::optional<double> rate_Hz{};  ///< of samples, where the format has any
+  std::optional<double> rate_Hz{};  ///< of samples, if the format has a rate
 };
 
 /// One file of an export.
@@ -26,7 +26,7 @@ struct ExportFile {
   std::string content{};
 };
 
-/// The files of an export, the one asked for first, and what its settings lose where it has settings.
+/// The files of an export, the requested one first, and for settings the energy that they lose.
 struct Export {
   std::vector<ExportFile> files{};
   std::optional<ControllerLoss> loss{};
@@ -50,7 +50,7 @@ struct ExportFormat {
 [[nodiscard]] Export export_vda5050(const ExportInput& input);
 [[nodiscard]] Export export_speed_mask(const ExportInput& input);
 
-/// `loss` of controller.json, and the file that stands beside exports that cannot hold it (schema
+/// `loss` of controller.json, and the extra file beside exports that cannot contain it (schema
 /// joulepath/loss/1).
 [[nodiscard]] std::string loss_json_text(const ControllerLoss& loss, const std::string& what);
 

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// What is lost, at the controller's own time and at the plan's; the latter is null where it is later.
+/// The loss at the controller's own time and at the plan's; the latter is null if the controller is later.
 [[nodiscard]] nlohmann::ordered_json loss_json(const ControllerLoss& loss);
 
 }  // namespace joulepath

@@ -41,7 +41,7 @@ bool straight(const Curve& curve, double from_m, double to_m) {
                    std::abs(curve.at(to_m - 1e-9).curvature_per_m)}) < 1e-9;
 }
 
-/// Writes nodes and edges by turns; sequence ids run over both.
+/// Writes nodes and edges alternately; sequence ids count both.
 class OrderWriter {
  public:
   explicit OrderWriter(std::string map_id) : map_id_(std::move(map_id)) {}

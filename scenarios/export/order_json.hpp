@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// The order that a mission names, with the speeds of its edges lowered to the planned ones; all else as it
-/// was.
+/// The order that a mission names, with the speeds of its edges lowered to the planned ones; all else is
+/// unchanged.
 [[nodiscard]] nlohmann::ordered_json order_with_speeds(const ExportInput& input, const PartSpeeds& speeds);
 
 /// A VDA 5050 order (3.0.0) of a plan: an edge per segment of its curves, bent ones as NURBS trajectories

@@ -28,7 +28,7 @@ Json pose_json(const Trajectory& motion, std::size_t k) {
           {"orientation", {{"x", 0.0}, {"y", 0.0}, {"z", std::sin(half_rad)}, {"w", std::cos(half_rad)}}}};
 }
 
-/// Twist, Accel and Wrench of a planar motion all look alike.
+/// Twist, Accel and Wrench of a planar motion have the same form.
 Json planar_json(const char* linear, double along, const char* angular, double about) {
   return {{linear, vector_json(along, 0.0, 0.0)}, {angular, vector_json(0.0, 0.0, about)}};
 }
@@ -40,7 +40,7 @@ double yaw_acceleration(const Trajectory& motion, std::size_t k) {
   return length_s > 0 ? (motion.angular_speed_rad_s[to] - motion.angular_speed_rad_s[from]) / length_s : 0.0;
 }
 
-/// What both wheels push the body with: N forward, N m about its vertical axis.
+/// Force and moment of both wheels on the body: N forward, N m about its vertical axis.
 Json effort_json(const Trajectory& motion, std::size_t k, const Geometry& geometry) {
   const double left_N = motion.wheel_torque_Nm.left[k] / geometry.wheel_radius_m.left;
   const double right_N = motion.wheel_torque_Nm.right[k] / geometry.wheel_radius_m.right;

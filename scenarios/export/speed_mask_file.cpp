@@ -9,7 +9,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kResolution_m = 0.1;
-constexpr double kReach_m = 0.5;  ///< about the path: where a robot may be that does not quite follow it
+constexpr double kReach_m = 0.5;  ///< on both sides of the path, for a robot that does not follow it exactly
 
 std::string pgm_text(const OccupancyGrid& grid) {
   std::string text = "P5\n" + std::to_string(grid.width) + " " + std::to_string(grid.height) + "\n255\n";

@@ -10,14 +10,14 @@
 
 namespace joulepath {
 
-/// What a robot is to do at a node or on an edge of an order.
+/// An action of a robot at a node or on an edge of an order.
 struct OrderAction {
   /// none: drives on meanwhile, with other actions; single: drives on, alone; soft: stands, with other
   /// actions; hard: stands, alone.
   enum class Blocking { none, single, soft, hard };
   std::string type{};
   Blocking blocking{Blocking::none};
-  std::optional<double> duration_s{};  ///< the action parameter `duration`, where there is one
+  std::optional<double> duration_s{};  ///< the action parameter `duration`, if present
 };
 
 struct OrderNode {
@@ -27,7 +27,7 @@ struct OrderNode {
   double x_m{};
   double y_m{};
   std::optional<double> heading_rad{};
-  double deviation_m{};    ///< how far from it the robot may pass; of an ellipse the smaller half-axis
+  double deviation_m{};  ///< allowed distance of the robot from the node; of an ellipse the smaller half-axis
   double deviation_rad{};  ///< of the heading
   std::vector<OrderAction> actions{};
   ItemMarks marks{};
@@ -46,8 +46,8 @@ struct OrderEdge {
   ItemMarks marks{};
 };
 
-/// A VDA 5050 order: nodes and edges by turns, edges[i] from nodes[i] to nodes[i + 1], ascending by sequence.
-/// Released ones (the base) come first, the rest is the horizon.
+/// A VDA 5050 order: nodes and edges alternately, edges[i] from nodes[i] to nodes[i + 1], ascending by
+/// sequence. Released ones (the base) come first, the rest is the horizon.
 struct Order {
   std::string file{};
   std::string id{};
@@ -60,13 +60,14 @@ struct Order {
   [[nodiscard]] std::size_t released_count() const;
 };
 
-/// The keys of an order that joulepath reads, VDA 5050 2.x and 3.x; others are accepted and left alone.
+/// The keys of an order that joulepath uses, VDA 5050 2.x and 3.x; other keys are accepted and unchanged.
 [[nodiscard]] Schema order_schema();
 
 /// Whether a document looks like an order: it has an order id, or nodes and edges.
 [[nodiscard]] bool is_order(const Document& document);
 
-/// Reads an order. A broken one throws ConfigError; its key is a JSON pointer (`/nodes/2/nodePosition/x`).
+/// Reads an order. An invalid order throws ConfigError; its key is a JSON pointer
+/// (`/nodes/2/nodePosition/x`).
 [[nodiscard]] Order read_order(const std::string& file, const NamedBy& named_by = {});
 
 }  // namespace joulepath

@@ -27,7 +27,7 @@ double payload_after_kg(double payload_kg, const std::vector<OrderAction>& actio
   return payload_kg;
 }
 
-/// What is done at a node before the robot drives on: its actions, and those of the edge behind it.
+/// Actions at a node before the robot drives on: the node's, and those of the next edge.
 std::vector<OrderAction> actions_at(const Order& order, std::size_t node, std::size_t nodes) {
   std::vector<OrderAction> actions = order.nodes[node].actions;
   if (node + 1 < nodes)
@@ -35,7 +35,7 @@ std::vector<OrderAction> actions_at(const Order& order, std::size_t node, std::s
   return actions;
 }
 
-/// Places the robot on the first node, or checks that the mission does.
+/// Places the robot on the first node, or checks that the mission's start is there.
 void place_start(MissionRequest& mission, const Order& order) {
   const OrderNode& first = order.nodes.front();
   if (mission.marks.keys.contains("start")) {

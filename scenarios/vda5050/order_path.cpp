@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRounding_rad = 0.01;
-constexpr double kSmallestRadius_m = 0.05;  ///< of a blend; a smaller one is no better than a turn
+constexpr double kSmallestRadius_m = 0.05;  ///< of a blend; a smaller one is no better than a turn in place
 constexpr double kSharpest_rad = 2.7;
 constexpr double kLongestEdge_m = 1e4;
 
@@ -36,7 +36,7 @@ void move_to(RationalBezier::Point& point, const OrderNode& node) {
   point = {point[2] * node.x_m, point[2] * node.y_m, point[2]};
 }
 
-/// Pieces of one edge from node to node; none where the two are at the same place.
+/// Pieces of one edge from node to node; none if both are at the same place.
 std::vector<RationalBezier> pieces_of(const Order& order, std::size_t edge) {
   const OrderNode &from = order.nodes[edge], &to = order.nodes[edge + 1];
   const OrderEdge& asked = order.edges[edge];
@@ -84,7 +84,7 @@ struct Item {
   Direction direction{};
 };
 
-/// Turns a curve's beginning by a small angle about its first point.
+/// Rotates a curve's beginning by a small angle about its first point.
 void rotate_beginning(RationalBezier& piece, double angle_rad) {
   const auto from = piece.place_m(0), handle = piece.place_m(1);
   const double c = std::cos(angle_rad), s = std::sin(angle_rad), w = piece.points[1][2];
@@ -92,7 +92,7 @@ void rotate_beginning(RationalBezier& piece, double angle_rad) {
   piece.points[1] = {w * (from[0] + c * x - s * y), w * (from[1] + s * x + c * y), w};
 }
 
-/// Collects segments into curves; closes a curve where the robot has to stop.
+/// Collects segments into curves; ends a curve at each stop of the robot.
 class Builder {
  public:
   Builder(const Order& order, std::size_t first, const Pose& start)
@@ -100,7 +100,7 @@ class Builder {
     parts_.push_back({order.edges[first].id, 0, 0});
   }
 
-  /// The next item; `after`: the one behind it, for the blend of the corner between the two.
+  /// The next item; `after`: the one after it, for the blend of the corner between the two.
   void drive(Item item, Item* after) {
     if (item.edge != edge_) next_edge(item.edge);
     face(item);
@@ -136,7 +136,8 @@ class Builder {
     return std::visit([](const auto& s) { return s.at(s.length_m()); }, segment);
   }
 
-  /// A heading that a node asks for; the heading of a node that is passed is met by the way itself or by a
+  /// A heading that a node requires. The path itself, or a turn in place, provides the heading at a node that
+  /// is passed.
   /// turn in place.
   void pass(const OrderNode& node) {
     if (!node.heading_rad) return;
@@ -146,7 +147,7 @@ class Builder {
     append_turn_to(path_, here_, *node.heading_rad);
   }
 
-  /// Makes the robot look along an item: by rounding the curve's beginning, or by a turn in place.
+  /// Gives the robot the heading of an item: by rounding the curve's beginning, or by a turn in place.
   void face(Item& item) {
     if (!open_.empty() && item.direction != direction_) close();
     const double flip_rad = item.direction == Direction::reverse ? pi : 0.0;
@@ -172,7 +173,7 @@ class Builder {
     open_.push_back(std::move(segment));
   }
 
-  /// Rounds the corner between two straight edges within what their node allows.
+  /// Rounds the corner between two straight edges within the deviation that their node allows.
   void blend(const Item& before, Item& after) {
     const OrderNode& node = order_.nodes[after.edge];
     if (before.edge + 1 != after.edge || node.heading_rad || before.direction != after.direction ||
@@ -182,7 +183,7 @@ class Builder {
     const double angle_rad = wrapped_angle_rad(tangent_rad(after.piece, 0) - in_rad);
     if (std::abs(angle_rad) < kRounding_rad || std::abs(angle_rad) > kSharpest_rad) return;
     const BlendShape shape = blend_shape(angle_rad);
-    // Half of the next edge is kept for the corner at its end.
+    // Half of the next edge is reserved for the corner at its end.
     const double rest_m =
         std::min(std::get<LinearCurvature>(open_.back()).length_m(), 0.5 * after.piece.polygon_length_m());
     const double radius_m = std::min(node.deviation_m / shape.deviation, 0.999 * rest_m / shape.tangent);

@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// The way along some edges of an order, driven without a dwell.
+/// The path along some edges of an order without a dwell.
 struct OrderPath {
   Path path{};
   std::vector<PathPart> parts{};  ///< one per edge, in the path's arc length
@@ -17,12 +17,12 @@ struct OrderPath {
 inline constexpr double kTrajectoryRounding_m = 0.01;
 
 /// Drives edges `first` to `last` (not included) from a pose on nodes[first], and turns to the heading of
-/// nodes[last] where it names one.
+/// nodes[last] if it has one.
 ///
-/// Trajectories are followed exactly, as rational curves. Where two straight edges meet at a node that allows
-/// a deviation, the corner is a blend of continuous curvature within it; else the robot turns in place, and
-/// stops where curvature jumps. Steps of heading up to 0.01 rad between trajectories are rounding: the later
-/// one's second control point is turned. Throws ConfigError for what cannot be driven.
+/// Trajectories are followed exactly, as rational curves. If two straight edges meet at a node with an
+/// allowed deviation, the corner is a blend of continuous curvature within it; else the robot turns in place,
+/// and stops where curvature jumps. Steps of heading up to 0.01 rad between trajectories are rounding: the
+/// later one's second control point is rotated. Throws ConfigError for edges that cannot be driven.
 [[nodiscard]] OrderPath order_path(const Order& order, std::size_t first, std::size_t last,
                                    const Pose& start);
 

@@ -60,7 +60,7 @@ OrderNode read_node(const Node& node) {
           .marks = marks_of(node)};
 }
 
-/// Knots of a clamped uniform curve, for a trajectory that gives none.
+/// Knots of a clamped uniform curve, for a trajectory without knots.
 std::vector<double> uniform_knots(std::size_t points, std::size_t degree) {
   std::vector<double> knots;
   for (std::size_t i = 0; i < points + degree + 1; ++i)
@@ -104,7 +104,7 @@ Nurbs read_trajectory(const Node& node) {
   return nurbs;
 }
 
-/// The smaller of the two names that the versions of VDA 5050 give one limit.
+/// The smaller value of the two names that the versions of VDA 5050 use for one limit.
 std::optional<double> lower_of(const Node& edge, const char* name, const char* other) {
   const auto one = edge.optional_number(name), two = edge.optional_number(other);
   return one && two ? std::min(*one, *two) : one ? one : two;

@@ -11,20 +11,20 @@
 
 namespace joulepath {
 
-/// What the program did: exit code, standard output, standard error.
+/// The result of the program: exit code, standard output, standard error.
 struct ProgramResult {
   int code{};
   std::string out{};
   std::string err{};
 };
 
-/// The content of a file; empty where there is none.
+/// The content of a file; empty if there is none.
 inline std::string text_of(const std::string& file) {
   std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Runs `joulepath ARGUMENTS` through a shell in an empty environment but for what `before` sets
+/// Runs `joulepath ARGUMENTS` through a shell in an environment with the assignments of `before` only
 /// (`NO_COLOR=1`).
 inline ProgramResult run_program(const ScratchDirectory& scratch, const std::string& arguments,
                                  const std::string& before = "") {

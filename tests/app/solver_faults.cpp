@@ -1,5 +1,5 @@
-// Preloaded into the program: solvers that fail as told. IPOPT_FAULT and NLOPT_FAULT hold the status that
-// they return.
+// Preloaded into the program: solvers that fail on command. IPOPT_FAULT and NLOPT_FAULT are the returned
+// status.
 #include <dlfcn.h>
 
 #include <cstdlib>

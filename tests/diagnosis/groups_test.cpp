@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kRolling = 0.008;
 
-/// Runs of a robot with a rolling resistance that its file does not have. At a given load it is a
-/// friction torque of c N r, which is how it is put in here.
+/// Runs of a robot with a rolling resistance that its file does not have. At a given load it is a friction
+/// torque of c N r, which the simulation uses.
 Dataset rolling_day(const std::vector<double>& payloads_kg, const testing::LogNoise& noise) {
   Dataset dataset{.robot = testing::nomad()};
   dataset.robot.uncertainty = {{"friction_torque", 0.03}, {"torque_constant", 0.01}, {"resistance", 0.02}};

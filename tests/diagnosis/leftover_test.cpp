@@ -73,7 +73,7 @@ TEST(GhostShare, IsWhatOthersCanDrawOfASignature) {
   EXPECT_EQ(ghost_share(problem, alike, alone, 1), 0.0);
 }
 
-/// A true effect taken out of the catalog, and a word of what the answer says instead.
+/// A true effect outside of the catalog, and a word of the expected answer.
 struct TakenOut {
   std::string effect{};
   double size{};

@@ -19,7 +19,7 @@ void negate(std::vector<double>& values) {
   for (double& value : values) value = -value;
 }
 
-/// The same day in a looking glass: left is right, y and every turn have the other sign.
+/// The mirrored day: left and right are swapped, y and every turn have the other sign.
 Dataset mirrored(Dataset dataset) {
   swap_sides(dataset.robot.motor);
   swap_sides(dataset.robot.geometry.wheel_radius_m);
@@ -43,7 +43,7 @@ double share_of(const Diagnosis& d, const std::string& axis, const std::string& 
   return 0;
 }
 
-/// A parameter of the mirrored answer is the parameter itself, or its negative where it turns.
+/// A parameter of the mirrored answer equals the parameter itself, or its negative if it changes sign.
 double mirror_parameter(const FoundParameter& parameter) {
   const bool turns = parameter.name == "uphill_direction_rad";
   return turns ? -parameter.value : parameter.value;

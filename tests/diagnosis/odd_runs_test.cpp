@@ -74,7 +74,7 @@ TEST(OddRuns, WithoutVoltagesEnergiesAreThoseOfTheCurrents) {
   EXPECT_NEAR(without.before_J, with.before_J, 0.05 * with.before_J);
 }
 
-/// A finding that every run shares is told once.
+/// A finding that all runs share is reported once.
 TEST(OddRuns, TheSameArtifactOfManyRunsIsOneText) {
   Dataset dataset;
   dataset.runs.resize(5);
@@ -86,7 +86,7 @@ TEST(OddRuns, TheSameArtifactOfManyRunsIsOneText) {
                                       "run_2: clock jump: 0.3 s"}));
 }
 
-/// What counts as a usual size grows with the robot: catalog sizes are those of the Nomad.
+/// The usual size of an effect grows with the robot: catalog sizes are those of the Nomad.
 TEST(Candidates, UsualSizesGrowWithTheRobotsOwnResistance) {
   const Robot nomad = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml");
   Robot heavy = nomad;

@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// A simulator that is right but for its currents, a third too high, while the robot reverses.
+/// A simulator that is right except for its currents, a third too high, while the robot reverses.
 Trajectory wrong_in_reverse(const Trajectory& log) {
   Trajectory other;
   other.time_s = log.time_s;

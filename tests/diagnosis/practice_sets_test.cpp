@@ -17,12 +17,12 @@
 namespace joulepath {
 namespace {
 
-/// Plans on 80 nodes are optimal to about this.
+/// Accuracy of plans on 80 nodes.
 constexpr double kPlannersAccuracy_percent = 0.1;
 
 struct Practice {
   std::string folder{};
-  std::vector<std::string> effects{};  ///< empty: nothing may be named
+  std::vector<std::string> effects{};  ///< empty: no name is allowed
   bool foreign{};
 };
 
@@ -32,8 +32,8 @@ std::string path_of(const std::string& folder) {
   return std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/" + folder + "/dataset.yaml";
 }
 
-/// A corrected robot file plans better on the robot that the label describes (its true constants and effect),
-/// by at least half of what the diagnosis claims; where it claims nothing that counts, no worse.
+/// A corrected robot file gives better plans on the labelled robot (its true constants and effect), by at
+/// least half of the saving that the diagnosis claims; without a significant claim, not worse ones.
 void expect_better_plans(const std::string& folder, const Robot& nominal, const Diagnosis& d) {
   if (!d.corrected_robot) return;
   const std::string label = std::filesystem::path(path_of(folder)).replace_filename("truth.yaml").string();

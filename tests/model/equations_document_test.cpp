@@ -1,4 +1,4 @@
-// docs/equations.md says where each equation is: what it names must be there.
+// docs/equations.md names the code of each equation: these names must exist.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -109,7 +109,7 @@ TEST(Simulate, EnergyDoesNotDependOnTheStepSizeWithInductance) {
 }
 
 TEST(Simulate, StictionHoldsOnASlopeUpToItsLimit) {
-  // Held without current while (m g grade) r/2 stays below each wheel's friction torque.
+  // Held without current as long as (m g grade) r/2 is below each wheel's friction torque.
   const double holding_grade = 2 * 0.346 / 0.1 / (23.98 * kGravity_m_s2);
   for (double share : {0.98, 1.05}) {
     Robot robot = nomad();

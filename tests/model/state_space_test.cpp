@@ -20,7 +20,8 @@ using testing::nomad;
 using testing::rolling;
 using testing::typical_effect;
 
-/// A robot that hides no mistake: unequal radii, center of mass and payload off the axle.
+/// A robot without symmetries that could hide a mistake: unequal radii, center of mass and payload off the
+/// axle.
 Robot bent_robot() {
   Robot robot = nomad();
   robot.geometry.wheel_radius_m = {0.097, 0.106};

@@ -6,8 +6,8 @@
 
 #include "model/effects/effect.hpp"
 
-/// Effects that no robot has, added as docs/adding_an_effect.md says: a plain one, one with a region of the
-/// floor, one with a shape parameter.
+/// Effects that no robot has, added according to docs/adding_an_effect.md: a plain one, one with a region of
+/// the floor, one with a shape parameter.
 namespace joulepath {
 
 /// A force against the travel that grows with the yaw rate.

@@ -13,8 +13,7 @@
 #include "scenarios/write_diagnosis.hpp"
 #include "tests/support/nomad.hpp"
 
-/// The product with the three effects of more_effects.hpp: every part of it knows them, although none was
-/// changed for them.
+/// The product with the three effects of more_effects.hpp: every part of it uses them without a change.
 namespace joulepath {
 namespace {
 

@@ -74,7 +74,7 @@ class RandomMotions {
 
   EffectSetting setting(const EffectDescription& effect) {
     EffectSetting setting{.name = std::string(effect.info.name)};
-    // Soft contacts swing: the power model holds for creep that follows force within milliseconds.
+    // Soft contacts oscillate: the power model holds for creep that follows force within milliseconds.
     const double least = effect.info.stage == Stage::contact ? 1.0 : 0.3;
     for (const ParameterDescription& p : effect.parameters)
       setting.parameters[p.name] = std::clamp(p.typical * uniform(least, 2), p.min, p.max);
@@ -207,17 +207,17 @@ TEST(EnergyOfAMotion, IsTheSameByPlanEstimateAndReplayForEveryEffect) {
     for (const EffectDescription& effect : effect_catalog()) {
       const RandomMotion motion = random.next(effect);
       const double planned = planned_J(motion);
-      // The replay shares places and memories with the plan, and integrates time, path and energy by itself.
+      // The replay shares places and memories with the plan, but integrates time, path and energy itself.
       EXPECT_NEAR(replayed_J(motion) / planned, 1.0, 5e-5) << told(motion, i);
       // Speeds linear between samples miss a curve by the square of the step; 24 samples in each segment.
       EXPECT_NEAR(estimated_J(motion, sampled(motion, 24)) / planned, 1.0, 1e-4) << told(motion, i);
     }
 }
 
-/// The controller knows the plan's energy law but not how the plant got there (a caster's memory, what dry
-/// friction holds), so a run does not repeat the plan exactly. Its energy is compared with that of the motion
-/// which it executed: the simulator integrates forces and motion in one system of equations, the estimate
-/// sees the motion alone.
+/// The controller knows the plan's energy law but not the plant's history (a caster's memory, the load of dry
+/// friction), so a run does not repeat the plan exactly. Its energy is compared with that of its executed
+/// motion: the simulator integrates forces and motion in one system of equations, the estimate uses the
+/// motion alone.
 TEST(EnergyOfAMotion, IsTheSameBySimulationAndByTheEstimateOfWhatItExecuted) {
   RandomMotions random;
   for (int i = 0; i < kMotionsPerEffect / 3; ++i)

@@ -14,7 +14,7 @@ namespace {
 const std::vector<BezierPoints> kPaperCurve{{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}};
 const std::vector<BezierPoints> kStraight{{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}}};
 
-/// Little standby power, so that the robot has reason to take its time.
+/// Little standby power, so that a longer time saves energy.
 Robot patient_nomad() {
   Robot robot = testing::nomad();
   robot.power.standby_W = 1.0;

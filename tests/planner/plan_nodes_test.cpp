@@ -1,5 +1,5 @@
-// What is written of a plan: rows at every node, so that a reader who interpolates linearly sees no limit
-// exceeded, and energies that are exact at every row.
+// The written rows of a plan: one at every node, so that linear interpolation by a reader exceeds no limit,
+// and energies that are exact at every row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -58,8 +58,8 @@ TEST(PrescribedLimits, WithoutALimitTheMotionIsPlanned) {
   EXPECT_EQ(verdict_of(planned(mission_of(arc()), unlimited())), nullptr);
 }
 
-/// The value that the verdict offers is what the motion uses: a little more is enough, a tenth less is
-/// missed by that tenth.
+/// The value that the verdict offers is the one that the motion uses: a little more is enough, a tenth less
+/// is exceeded by that tenth.
 TEST(PrescribedLimits, EveryRowOfTheTableIsHeld) {
   for (const Limit& row : kLimits) {
     if (row.value == nullptr || row.name == "jerk") continue;

@@ -64,7 +64,7 @@ TEST(VisitOrder, NoOtherOrderTakesMuchLessWhenPlannedInFull) {
     fixed.legs.push_back({.to = "dock", .payload = {payload_kg, payload_kg}});
     const Plan other = visit_plan(fixed);
     ASSERT_FALSE(other.legs.empty()) << other.message;
-    EXPECT_GE(other.energy.total_J(), 0.97 * chosen.energy.total_J());  // the table leaves turns open
+    EXPECT_GE(other.energy.total_J(), 0.97 * chosen.energy.total_J());  // the table ignores turns at stops
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
@@ -81,7 +81,7 @@ TEST(VisitOrder, AWindowTurnsTheOrderRound) {
   EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
 }
 
-/// A window that the most economical drive misses and a faster one keeps, as the same stops as legs do.
+/// A window that the most economical drive misses and a faster one keeps, against the same stops as legs.
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;
@@ -105,7 +105,7 @@ TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   }
 }
 
-/// Costs of two drives in a row, by trying every way of sharing the time.
+/// Costs of two drives in a row, by a search over all splits of the time.
 TEST(TimeFront, SumSharesTheTimeAtBest) {
   const TimeFront first = TimeFront::below({{4, 90}, {5, 60}, {7, 40}, {6, 80}, {9, 39}});
   const TimeFront second = TimeFront::below({{2, 30}, {3, 22}, {6, 20}, {7, 25}});

@@ -28,7 +28,7 @@ OccupancyGrid floor_with_rack() {
   return grid;
 }
 
-/// Round the rack by three stops; only the dock names a heading.
+/// Round the rack by three stops; only the dock has a heading.
 MissionRequest round_of_three() {
   MissionRequest mission{.name = "round", .clearance_m = 0.05};
   mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0, .charger_W = 200}},
@@ -71,7 +71,7 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
   }
   for (std::size_t i = 1; i < cost_J.size(); ++i) EXPECT_LE(cost_J[i], cost_J[i - 1] * (1 + 1e-12)) << i;
   EXPECT_LT(cost_J.back(), 0.98 * cost_J.front());
-  // No deadline: a second has no price beside standby, so the last step's cost is the plan's energy.
+  // No deadline: a second has no price beyond standby, so the last step's cost is the plan's energy.
   EXPECT_NEAR(plan.energy.total_J(), cost_J.back(), 0.01 * cost_J.back());
 }
 
@@ -156,8 +156,8 @@ TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
   }
   for (const double fraction : charged.battery->fraction_after_leg)
     EXPECT_GE(fraction, robot.battery.reserve_fraction);
-  // What is left is what was there, less what was drawn and lost, plus what was taken up (its own loss
-  // aside).
+  // The charge at the end is the charge at the start, less the drawn energy and the losses, plus the energy
+  // charged (without its own loss).
   const double balance =
       1.0 - (drawn_J + charged.battery->loss_J - charged.battery->charged_J) / (0.38 * 3600);
   EXPECT_NEAR(charged.battery->end_fraction, balance, 0.02);

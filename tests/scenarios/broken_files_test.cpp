@@ -97,7 +97,7 @@ TEST(UntrustedFiles, NamesMayNotLeaveTheFolder) {
     const std::string file = scratch.write(
         "in/map.yaml",
         "image: " + image + "\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.25\n");
-    static_cast<void>(read_any_file(file));  // trusted, every one of them is fine
+    static_cast<void>(read_any_file(file));  // as trusted input, every one of them is valid
     try {
       static_cast<void>(read_any_file(file, "", {.untrusted = true}));
     } catch (const ConfigError& error) {

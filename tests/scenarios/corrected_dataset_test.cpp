@@ -21,7 +21,7 @@ columns:
   motor_voltage_left_V: {from: volL, delay_s: 0.02}
 )";
 
-/// A log with names and units of its own.
+/// A log with its own names and units.
 std::string log_text() {
   std::string text = "stamp,velL,velR,curL,volL,motor_current_right_A\n";
   for (int i = 0; i < 100; ++i)

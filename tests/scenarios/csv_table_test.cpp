@@ -53,7 +53,8 @@ TEST(CsvTable, NumbersReadBackToTheLastBit) {
   EXPECT_EQ(parse_csv(text, "t.csv", kAll).columns[0], numbers);
 }
 
-/// A good log, damaged at random places: the reader gives a table or a ConfigError, never anything else.
+/// A good log, damaged at random places: the reader returns a table or throws a ConfigError, never anything
+/// else.
 TEST(CsvTable, DamagedLogsAreReadOrRefusedButNeverBreakTheReader) {
   std::mt19937 random(11);
   const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };

@@ -21,7 +21,7 @@ TEST(DecisionCost, AWrongModelIsNeverTheBetterPlanner) {
   real.effects = {{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 10.0}}}};
   const DecisionCost cost = decision_cost(patient, real);
   EXPECT_EQ(cost.missions, 4u);
-  EXPECT_GT(cost.joules_lost_percent, 0.5);  // a robot in strong drag should have gone slower
+  EXPECT_GT(cost.joules_lost_percent, 0.5);  // with strong drag the best drive is slower
   EXPECT_LT(cost.joules_lost_percent, 50.0);
 }
 

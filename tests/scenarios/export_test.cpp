@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A planned mission with all that an export asks for.
+/// A planned mission with all inputs of an export.
 struct Planned {
   MissionRequest mission{};
   MissionWorld world{};
@@ -37,7 +37,7 @@ struct Planned {
   ExportInput input(const std::string& file) const { return {mission, world, plan, plant, file, {}}; }
 };
 
-/// The paper's curve, a turn and a straight; a dwell between, and more time than the robot needs.
+/// The paper's curve, a turn and a straight; a dwell between them, and more time than the robot needs.
 const Planned& curves() {
   static const Planned planned = [] {
     LegRequest curve{.path = PathRequest{.bezier_m = {{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}},
@@ -135,7 +135,7 @@ TEST(Export, ControllerKeepsItsLimitsAndThePlansTime) {
   ASSERT_TRUE(loss.plan_time);
   EXPECT_GT(loss.plan_time->lost_J(), 0);
   EXPECT_GT(loss.own_time.lost_J(), -1e-4 * loss.own_time.optimum_J);
-  // Tuned for this time they lose less than the robot's limits do, driven and then waiting.
+  // Tuned for this time they lose less than a drive at the robot's limits that waits afterwards.
   const ControllerLoss fastest = loss_of(planned.plan, drive_by_controller(planned.plan, fastest_settings));
   EXPECT_LT(loss.plan_time->lost_J(), fastest.plan_time->lost_J());
 }

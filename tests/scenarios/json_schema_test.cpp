@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 const std::string kData = JOULEPATH_SOURCE_DIR "/tests/data/";
 
-/// A document as an editor's YAML reader would hand it to a JSON Schema validator.
+/// A document as an editor's YAML reader passes it to a JSON Schema validator.
 Json json_of(const Value& value) {
   if (value.kind == Value::Kind::list) {
     Json list = Json::array();

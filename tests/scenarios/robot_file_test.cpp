@@ -81,7 +81,7 @@ TEST(RobotFile, AnErrorNamesFileLineColumnKeyFoundAcceptedAndTheNearestKey) {
     FAIL() << "no error";
   } catch (const ConfigError& error) {
     EXPECT_EQ(error.detail().mark.file, "r.yaml");
-    // `inertia` is missing too; a missing key is found before its neighbors' insides are looked at.
+    // `inertia` is missing too; a missing key is reported before the values inside its neighbors are checked.
     EXPECT_EQ(error.detail().key, "inertia");
   }
   try {

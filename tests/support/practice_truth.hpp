@@ -8,8 +8,8 @@
 
 namespace joulepath::testing {
 
-/// The robot of a labelled practice set as its label says it is: the constants that its calibration missed,
-/// and the true effects, instruments left out.
+/// The robot of a labelled practice set by its label: the true constants and the true effects, instruments
+/// left out.
 inline Robot true_robot(Robot robot, const std::string& truth_file) {
   const Document document = Document::load(truth_file);
   const Node root = document.root(), constants = root["parameters"];
@@ -33,7 +33,7 @@ inline Robot true_robot(Robot robot, const std::string& truth_file) {
       if (value.kind() == Value::Kind::scalar && parse_number(value.text()))
         setting.parameters[key] = value.number();
     }
-    // The label's constants hold these two already.
+    // The label's constants include these two already.
     const bool counted = setting.name == "center_of_mass_offset" || setting.name == "track_width_error";
     if (!counted && find_effect(setting.name)->info.stage != Stage::instrument)
       robot.effects.push_back(setting);

@@ -51,7 +51,7 @@ WheelVector resisting_torque_Nm(const Plant& plant, const DriveCircumstances& ci
          reduced_coriolis_matrix(plant.robot, mass, yaw_rate_rad_s) * eta;
 }
 
-/// Current (A) that a commanded voltage drives, after the driver kept its drop.   [P1, Eq. (15)]
+/// Current (A) for a commanded voltage, after the driver's voltage drop.   [P1, Eq. (15)]
 double current_from_voltage_A(const Plant& plant, const Motor& motor, double hot, double voltage_V,
                               double wheel_speed_rad_s) {
   const double across_V = voltage_V - motor.volts_per_speed_V_s_rad() * wheel_speed_rad_s;

@@ -17,7 +17,7 @@ using StateVector =
 using VelocityMap = Eigen::Matrix<double, 4, 2>;  ///< from wheel speeds to q'
 using ConstraintMatrix = Eigen::Matrix<double, 2, 4>;
 
-/// What the state vector does not hold: load, hour, and where the heading was at wheel angles zero.
+/// Quantities outside of the state vector: load, time of day, and the heading at wheel angles zero.
 struct DriveCircumstances {
   double payload_kg{};  ///< as stated
   double heading_at_zero_rad{};
@@ -56,11 +56,11 @@ struct DriveCircumstances {
 [[nodiscard]] Coordinates load_vector(const Plant& plant, const DriveCircumstances& circumstances,
                                       const StateVector& state);
 
-/// SᵀMS (kg m^2): what the wheels feel of the inertia. It does not depend on q, nor on where the center
-/// of mass is, but for Steiner's share of the yaw inertia.                     [P1, Eq. (22)]
+/// SᵀMS (kg m^2): the inertia at the wheels. It does not depend on q, and on the center of mass only
+/// through Steiner's share of the yaw inertia.                                 [P1, Eq. (22)]
 [[nodiscard]] Eigen::Matrix2d reduced_mass_matrix(const Robot& robot, const MassProperties& mass);
 
-/// SᵀM S_dot (N m s): what turning with mu != 0 costs.                         [P1, Eq. (22)]
+/// SᵀM S_dot (N m s): the torque of turning with mu != 0.                      [P1, Eq. (22)]
 [[nodiscard]] Eigen::Matrix2d reduced_coriolis_matrix(const Robot& robot, const MassProperties& mass,
                                                       double yaw_rate_rad_s);
 
@@ -80,7 +80,7 @@ struct DriveCircumstances {
 [[nodiscard]] Eigen::Matrix<double, 6, 2> input_matrix(const Plant& plant,
                                                        const DriveCircumstances& circumstances);
 
-/// Voltages (V) that give the wheel accelerations (rad/s^2) asked for; inverse of state_derivative().
+/// Voltages (V) for given wheel accelerations (rad/s^2); inverse of state_derivative().
 ///
 ///   V = (SᵀT)^-1 (SᵀM S eta' + SᵀM S_dot eta + SᵀF S eta + SᵀC)               [P1, Eq. (27)]
 [[nodiscard]] WheelVector voltages_for_V(const Plant& plant, const DriveCircumstances& circumstances,

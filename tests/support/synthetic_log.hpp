@@ -19,7 +19,7 @@ struct LogNoise {
   double voltage_V{};
 };
 
-/// What an ideal robot's log shows of a motion: wheel speeds, voltages, currents by the model of the product.
+/// The log of an ideal robot for a motion: wheel speeds, voltages, currents by the model of the product.
 inline Run synthetic_run(const Robot& robot, const std::string& name, double duration_s, double payload_kg,
                          const MotionLaw& law, const LogNoise& noise = {}, unsigned seed = 1,
                          double period_s = 0.02) {

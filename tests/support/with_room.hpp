@@ -4,8 +4,8 @@
 
 namespace joulepath::testing {
 
-/// The same request with limits smaller by a share: its profiles keep the limits as asked at all places that
-/// a dense check looks at.
+/// The same request with limits smaller by a share: its profiles keep the original limits at all places of a
+/// dense check.
 inline ProfileRequest with_room(ProfileRequest request, double share) {
   Limits& limits = request.limits;
   for (double Limits::*limit :

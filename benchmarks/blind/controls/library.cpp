@@ -16,7 +16,7 @@ std::size_t side_of(const Row& row) {
 }
 double turning(std::size_t side) { return side == 1 ? 1.0 : -1.0; }
 
-/// A column that is a torque at the wheel shaft, opposing or driving: it shows in the current rows alone.
+/// A column that is a torque at the wheel shaft, opposing or driving; it appears in the current rows only.
 Term torque_term(std::string effect, std::string parameter, std::string side,
                  std::function<double(const Instant&, std::size_t)> torque_Nm) {
   return {std::move(effect), std::move(parameter), std::move(side), [torque_Nm](const Row& row) {

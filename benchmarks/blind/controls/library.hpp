@@ -20,7 +20,7 @@ enum class Channel {
 };
 inline constexpr int kChannels = 8;
 
-/// One sample of a run, as the regressors see it.
+/// One sample of a run, as input of the regressions.
 struct Instant {
   const Robot* robot{};
   double payload_kg{}, day_s{};
@@ -37,14 +37,14 @@ struct Row {
   double nominal{}, measured{};
 };
 
-/// A column of the sparse regression: which effect and parameter it stands for, and its value in a row.
+/// A column of the sparse regression: its effect and parameter, and its value in a row.
 struct Term {
   std::string effect, parameter, side;
   std::function<double(const Row&)> value;
 };
 
-/// What an ordinary user would put into a sparse regression: one linear column per effect, with fixed shapes
-/// (Stribeck speed, heating time) where the law is not linear.
+/// A sparse regression as an ordinary user would set it up: one linear column per effect, with fixed shapes
+/// (Stribeck speed, heating time) if the law is not linear.
 [[nodiscard]] std::vector<Term> effect_library(const Robot& robot);
 
 /// One column per parameter of the robot file.

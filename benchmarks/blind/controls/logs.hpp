@@ -20,7 +20,7 @@ struct Robot {
   double torque_per_ampere() const { return gear * torque_constant; }
 };
 
-/// One run's channels, with the smoothed motion that every control takes its regressors from.
+/// One run's channels, with the smoothed motion for the regressors of all controls.
 struct Run {
   double payload_kg{}, start_s{};
   Column time_s;

@@ -1,4 +1,4 @@
-// blind_controls DATA_SET_FOLDER OUT.json: what simpler methods say about the same data, in the form of
+// blind_controls DATA_SET_FOLDER OUT.json: the answers of simpler methods on the same data, in the form of
 // diagnosis.json: always friction, a plain refit of the robot file's parameters, sparse regression (STLSQ),
 // and a black box on the residual power. Every fourth run is held out for the energy figures.
 #include <algorithm>
@@ -60,7 +60,7 @@ Regression gather(const std::vector<std::vector<Row>>& rows, const std::vector<T
   return regression;
 }
 
-/// Energies of the held-out runs as the fitted model predicts them: V and i from their rows.
+/// Energies of the held-out runs predicted by the fitted model: V and i from their rows.
 Energy held_out_energy(const std::vector<std::vector<Row>>& rows, const Fit& fit) {
   Energy energy;
   for (std::size_t run = 0; run < rows.size(); ++run) {
@@ -108,8 +108,8 @@ std::string parameter(const Term& term, double value) {
   return out.str();
 }
 
-/// What the robot file's `uncertainty` allows a parameter to be off, one sigma in the term's unit; 0 = not
-/// listed.
+/// The calibration error of a parameter that the robot file's `uncertainty` allows, one sigma in the term's
+/// unit; 0 = not listed.
 double calibration_sigma(const Term& term, const Robot& robot) {
   const double torque = robot.friction_Nm[term.side == "right" ? 1 : 0];
   const std::map<std::string, double> sigma{{"dragging_wheel", 0.015 * torque},
@@ -135,8 +135,8 @@ std::string always_friction(const std::vector<std::vector<Row>>& rows, const Rob
                 held_out_energy(rows, fit));
 }
 
-/// Least squares on the robot file's own parameters; the one that moved most sigmas of its calibration is
-/// named.
+/// Least squares on the robot file's own parameters; the named one changed by the most sigmas of its
+/// calibration.
 std::string plain_refit(const std::vector<std::vector<Row>>& rows, const Robot& robot,
                         const Weights& weights) {
   Fit fit{parameter_library(robot), {}};
@@ -189,7 +189,7 @@ std::string stlsq(const std::vector<std::vector<Row>>& rows, const Robot& robot,
   std::vector<double> error;
   for (double t : thresholds) error.push_back(check.rest(thresholded(train, fit.terms.size(), t)));
   const double best = *std::min_element(error.begin(), error.end());
-  if (best > 0.95 * check.rest(std::vector<double>(fit.terms.size(), 0.0))) {  // nothing worth a name
+  if (best > 0.95 * check.rest(std::vector<double>(fit.terms.size(), 0.0))) {  // no name
     fit.coefficient.assign(fit.terms.size(), 0.0);
     return answer({}, held_out_energy(rows, fit));
   }

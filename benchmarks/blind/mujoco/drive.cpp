@@ -37,7 +37,7 @@ std::unique_ptr<mjModel, ModelDeleter> compile(const std::string& text) {
   return model;
 }
 
-/// The robot in MuJoCo with its controller, battery and sums of what the sensors average.
+/// The robot in MuJoCo with its controller, battery and the sums that the sensors average.
 class Robot {
  public:
   Robot(const Machine& truth, const Machine& nominal, const World& world, const Run& run)

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kTireFriction = 0.9;
 constexpr double kCasterClearance_m =
-    3e-4;  // a soft contact gives way by half of it: the wheels carry the robot
+    3e-4;  // a soft contact yields by half of it: the wheels carry the robot
 
-/// The world holds nothing beyond what this physics can show.
+/// Throws for effects of the world that this physics cannot model.
 void refuse_what_has_no_form(const World& w) {
   World allowed;
   allowed.rolling_coefficient = w.rolling_coefficient;

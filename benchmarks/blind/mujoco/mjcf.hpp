@@ -17,7 +17,7 @@ inline constexpr double kPhysicsStep_s = 1e-3;
 /// (tilted gravity), a dragging wheel (friction loss of one hinge), payload (mass of its body), and all
 /// changed constants.
 ///
-/// Throws std::invalid_argument for what has no such form, and for level 1.
+/// Throws std::invalid_argument for other effects, and for level 1.
 [[nodiscard]] std::string mjcf_text(const Machine& machine, const World& world, const Run& run);
 
 }  // namespace blind

@@ -30,7 +30,7 @@ struct Wheel {
   Bristle bristle{};
 };
 
-/// The state of the whole machine and one step of it (bodies.cpp), with what acts on it (forces.cpp).
+/// The state of the whole machine and one step of it (bodies.cpp), with its forces (forces.cpp).
 class Plant {
  public:
   Plant(const Machine& truth, const Machine& nominal, const World& world, const Run& run,

@@ -13,10 +13,10 @@
 namespace blind {
 namespace {
 
-/// Which stream of random numbers a part of a case uses: parts do not disturb one another.
+/// Separate streams of random numbers for the parts of a case, so that parts do not affect one another.
 Random stream(const Case& c, std::uint64_t part) { return Random(c.request.seed * 1000003ULL + part); }
 
-/// The same of what differs from day to day.
+/// Streams for the parts that differ from day to day.
 Random day_stream(const Case& c, std::uint64_t part) { return stream(c, part + 100000ULL * c.request.day); }
 
 void draw_calibration_error(Case& c) {

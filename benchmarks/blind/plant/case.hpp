@@ -24,7 +24,7 @@ struct CaseRequest {
   std::vector<std::string> appended{};  ///< descriptions of runs after the test day, see described_run
 };
 
-/// Everything that is true in one case.
+/// The complete truth of one case.
 struct Case {
   CaseRequest request{};
   Machine nominal{};

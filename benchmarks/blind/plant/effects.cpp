@@ -17,14 +17,14 @@ const Range* find_range(const std::vector<Range>& ranges, const std::string& nam
 }
 
 /// A share of a large effect, which is half of the strongest of its range. Stiffnesses and limits are
-/// strongest where they are least.
+/// strongest at their least value.
 double shared_size(const Range& range, double share) {
   const std::string name = range.name;
   if (name == "wheel_slip" || name == "driver_foldback") return std::max(range.low, 2 * range.low / share);
   return 0.5 * share * range.high;
 }
 
-/// What an effect needs beside its size.
+/// Further parameters of an effect besides its size.
 void draw_other_parameters(Effect& e, const Machine& nominal, Random& random) {
   constexpr double kPi = std::numbers::pi;
   const Scales s = scales_of(nominal);

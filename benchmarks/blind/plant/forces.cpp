@@ -11,7 +11,7 @@ constexpr double kScrubPresliding_rad = 0.004;
 
 }  // namespace
 
-/// Friction that opposes the wheel's own motion, before its sign: everything the bearing carries.
+/// Friction that opposes the wheel's own motion, before its sign: all loads of the bearing.
 double Plant::resisting_level(std::size_t k, double day_s) const {
   const Wheel& wheel = wheel_[k];
   const double speed = std::abs(wheel.speed_rad_s);
@@ -36,7 +36,7 @@ double Plant::resisting_level(std::size_t k, double day_s) const {
   return level + m_.friction_torque_Nm[k] * (1 + w_.rolling_speed_slope_s_m * speed * m_.wheel_radius_m[k]);
 }
 
-/// All torques on a wheel but creep, back-EMF and viscous friction, which the step takes implicitly.
+/// All torques on a wheel except creep, back-EMF and viscous friction, which the step treats implicitly.
 double Plant::wheel_torque(std::size_t k, double day_s) {
   Wheel& wheel = wheel_[k];
   const double q = wheel.speed_rad_s;
@@ -87,8 +87,8 @@ Plant::BodyForces Plant::outer_forces(double day_s) {
   return f;
 }
 
-/// Casters that still point along the old course resist the turn into the new one. `caster_` is the part
-/// of the swivel that is left: set by a change of course, worn off by the distance travelled.
+/// Casters that still point along the old course resist the turn into the new one. `caster_` is the remaining
+/// part of the swivel: a change of course sets it, and it decays with the distance travelled.
 double Plant::caster_moment() {
   const double reach_m = 1.2 * m_.half_track_m;  // the caster's mounting point, ahead of the axle
   const double speed = std::hypot(forward_, reach_m * yaw_rate_);
@@ -96,7 +96,7 @@ double Plant::caster_moment() {
     const double course = std::atan2(reach_m * yaw_rate_, forward_);
     double turned = std::remainder(course - course_rad_, 2 * std::numbers::pi);
     if (std::abs(turned) > 2.6)
-      turned = 0;  // straight back: the casters on both sides swing apart, no moment
+      turned = 0;  // straight back: the casters on both sides swivel in opposite directions, no moment
     course_rad_ = course;
     caster_ =
         std::clamp(caster_ + turned / 0.35, -1.0, 1.0) * std::exp(-speed * d_.step_s / w_.caster_trail_m);

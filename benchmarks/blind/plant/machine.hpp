@@ -11,7 +11,7 @@ inline constexpr std::size_t kLeft = 0;
 inline constexpr std::size_t kRight = 1;
 using Pair = std::array<double, 2>;  ///< {left, right}
 
-/// The constants of one machine: what a robot file says (nominal), or what is really there (true).
+/// The constants of one machine: those of a robot file (nominal), or the true ones.
 struct Machine {
   std::string name{};
   Pair wheel_radius_m{};
@@ -36,12 +36,12 @@ struct Machine {
   double internal_resistance_ohm{};
   double payload_factor{1.0};  ///< true payload / the payload on the label
 
-  // What no robot file says.
+  // Constants that no robot file has.
   double inductance_H{};
   double tyre_creep_N_s_m{};
   double presliding_angle_rad{0.003};  ///< LuGre: deflection at which the bristles slide
 
-  // How the machine is driven.
+  // Settings of the drive.
   double top_speed_m_s{};
   double base_acceleration_m_s2{};
   double base_yaw_rate_rad_s{};

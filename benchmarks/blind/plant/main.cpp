@@ -1,5 +1,5 @@
-// blind_plant: writes a data set whose cause is known to its label alone. It shares nothing with the
-// programs that it examines: no header, no library, no formula's implementation, no time stepping.
+// blind_plant: writes a data set; only its label contains the cause. It shares nothing with the programs
+// under test: no header, no library, no formula's implementation, no time stepping.
 #include <cstdlib>
 #include <exception>
 #include <iostream>

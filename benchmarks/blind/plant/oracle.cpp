@@ -174,7 +174,7 @@ std::string phase_of(const Run& run, std::size_t sample) {
   return change > 1e-9 ? "accelerate" : (change < -1e-9 ? "brake" : "cruise");
 }
 
-/// Where the nominal model misses the true power, run by run, and how much energy that is.
+/// The difference between the nominal and the true power, run by run, and its energy.
 void localize(const Case& c, OracleResult& result) {
   double missed_J = 0, total_J = 0, changed_J = 0, battery_J = 0, battery_changed_J = 0, pose = 0,
          samples = 0;
@@ -237,7 +237,7 @@ OracleResult consult_oracle(const Case& c) {
     result.each[c.effects[0].name] = result.likelihood_ratio;
     return result;
   }
-  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect, the other one's size left free
+  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect; the other one's size is free
     const Scene other = scene_with(c, {1 - k}), own = scene_with(c, {k});
     std::vector<Vector> free;
     for (std::size_t run = 0; run < c.runs.size(); ++run)

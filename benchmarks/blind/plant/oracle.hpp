@@ -7,7 +7,7 @@ namespace blind {
 
 struct Case;
 
-/// What somebody who knows everything but the calibration error could say, computed before any diagnosis.
+/// The best possible answer with everything known but the calibration error, computed before any diagnosis.
 struct OracleResult {
   /// 2 ln(likelihood ratio) expected for the true effects at their true size against none, calibration
   /// errors profiled with their prior and per-run scatter marginalized, under the true noise covariance.

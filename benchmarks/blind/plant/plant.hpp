@@ -8,12 +8,12 @@
 
 namespace blind {
 
-/// What perfect sensors would have logged in one sample: means over the period that ends at `time_s`
-/// (wheel speeds, voltages, currents, battery), instantaneous pose.
+/// The log of perfect sensors for one sample: means over the period that ends at `time_s` (wheel speeds,
+/// voltages, currents, battery), instantaneous pose.
 struct Sample {
   double time_s{};
   Pair wheel_speed_rad_s{};
-  Pair motor_voltage_V{};  ///< what the driver is told to put out
+  Pair motor_voltage_V{};  ///< commanded output of the driver
   Pair motor_current_A{};
   double battery_voltage_V{};
   double battery_current_A{};

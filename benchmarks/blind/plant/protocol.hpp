@@ -11,7 +11,7 @@ namespace blind {
 inline constexpr double kControlPeriod_s = 0.01;
 inline constexpr double kSamplePeriod_s = 0.02;
 
-/// What the robot is told to do in one run: body speed and yaw rate at every control tick.
+/// The command of one run: body speed and yaw rate at every control tick.
 struct Run {
   std::string kind{};
   double payload_kg{};    ///< as weighed

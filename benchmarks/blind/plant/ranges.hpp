@@ -15,7 +15,7 @@ struct Range {
   bool both_signs;
 };
 
-/// A machine's own measures: what an effect is large or small against.
+/// A machine's own measures: the scale of an effect.
 struct Scales {
   double torque_Nm, force_N, current_A, voltage_V, speed_rad_s, speed_m_s, mass_kg;
 };

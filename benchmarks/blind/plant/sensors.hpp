@@ -29,7 +29,7 @@ void distort(std::vector<Sample>& log, const World& world, double start_time_s);
 /// Add noise (after `distort`).
 void add_noise(std::vector<Sample>& log, const SensorNoise& noise, Random& random);
 
-/// The run's CSV, each channel rounded to what its sensor resolves.
+/// The run's CSV, each channel rounded to its sensor's resolution.
 [[nodiscard]] std::string run_csv(const std::vector<Sample>& log);
 
 }  // namespace blind

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kJump = 0.02;  ///< share of the largest value on the path that counts as a jump
 
-/// Whether curvature has a kink at the node behind segment k.
+/// Whether curvature has a kink at the node after segment k.
 bool kink_behind(const Problem& fine, std::size_t k, double largest_slope) {
   const double before = fine.segments[k].limit_points.back().rates.turn_slope;
   const double behind = fine.segments[k + 1].limit_points.front().rates.turn_slope;
   return std::abs(before - behind) > kJump * largest_slope;
 }
 
-/// Nodes of the fine problem that stay: every few, and kinks of curvature, at which rows of the yaw change.
+/// Nodes of the fine problem that are kept: every few, and kinks of curvature, where the yaw rows change.
 std::vector<std::size_t> kept_nodes(const Problem& fine, std::size_t merged) {
   double largest_slope = 0;
   for (const Segment& segment : fine.segments)
@@ -28,7 +28,7 @@ std::vector<std::size_t> kept_nodes(const Problem& fine, std::size_t merged) {
   return kept;
 }
 
-/// One segment over [first, last), with the places of its points taken from the nearest ones there.
+/// One segment over [first, last); its points take their places from the nearest ones there.
 Segment merged_segment(const Problem& fine, std::size_t first, std::size_t last) {
   const std::vector<Segment>& from = fine.segments;
   const std::size_t count = last - first;

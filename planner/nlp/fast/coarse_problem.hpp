@@ -6,15 +6,16 @@
 
 namespace joulepath::nlp {
 
-/// A Problem on every few nodes of another, made from that one's own segments without asking the path or the
-/// model again: good for a start, not for a plan.
+/// A Problem on a subset of another one's nodes, built from that one's segments without new evaluations of
+/// path or model: accurate enough for a start, not for a plan.
 struct CoarseProblem {
   Problem problem{};
   std::vector<std::size_t> node{};  ///< of the fine problem, per coarse node
 
-  /// Values at the fine problem's nodes that are on these; all nodes.
+  /// Values at the coarse nodes, from values at all fine nodes.
   [[nodiscard]] std::vector<double> restricted(const std::vector<double>& fine) const;
-  /// Straight in s between coarse nodes, as squares of the rate are at constant acceleration.
+  /// Interpolates linearly in s between coarse nodes, as squares of the rate are linear at constant
+  /// acceleration.
   [[nodiscard]] std::vector<double> prolonged(const std::vector<double>& coarse, const Problem& fine) const;
 };
 

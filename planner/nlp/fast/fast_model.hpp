@@ -5,9 +5,9 @@
 
 namespace joulepath::nlp {
 
-/// A Problem's functions at one point, with derivatives, laid out for many evaluations: coefficients of
-/// affine segments stand together (a Segment is some kilobytes, of which an iteration needs 300 bytes), and
-/// rows that are linear in b keep their derivatives.
+/// A Problem's functions at one point, with derivatives, laid out for many evaluations: the coefficients of
+/// affine segments are stored together (a Segment has some kilobytes, of which an iteration needs 300 bytes),
+/// and rows that are linear in b keep their derivatives.
 class FastModel {
  public:
   explicit FastModel(const Problem& problem);
@@ -18,7 +18,7 @@ class FastModel {
 
   const SegmentJets& jets(std::size_t segment) const { return jets_[segment]; }
   const Jet& row(std::size_t i) const { return rows_[i]; }
-  double objective() const { return objective_; }  ///< recovery left out
+  double objective() const { return objective_; }  ///< without recovery
   double duration_s() const { return duration_s_; }
 
  private:

@@ -70,7 +70,7 @@ class JerkFastSolver {
       total_ += p_.recovery_weight * r.z.s;
       dual_z += std::abs(p_.recovery_weight - r.z.y - r.sum.y) * r.z.s;
     }
-    // A gradient's error counts in second order; it stops falling where slacks reach rounding.
+    // The error of the gradient has a second-order effect; it stops falling once slacks reach rounding.
     const double worst = std::max({gap, kDualWeight * newton_.dual_error(), dual_z, primal});
     const double error = std::max(worst / std::max(1e-9, std::abs(total_)), kDefectWeight * defect);
     if (!state_.has_duration()) return error;
@@ -79,7 +79,7 @@ class JerkFastSolver {
     return std::max(error, std::abs(state_.time_residual) / p_.duration_s);
   }
 
-  /// Mehrotra's predictor and corrector; false where no step is left.
+  /// Mehrotra's predictor and corrector; false if no step is left.
   bool iterate() {
     newton_.assemble();
     state_.for_each_pair([](Pair& pair) { pair.corrected = 0; });

@@ -22,7 +22,7 @@ void add_gradient(Stage& stage, const JerkJet& jet, double weight) {
   for (std::size_t i = 0; i < kLocal; ++i) stage.gradient[i] += weight * jet.d[i];
 }
 
-/// What is left of z's stationarity: weight less both wanted multipliers.
+/// The remainder of z's stationarity: weight less both target multipliers.
 double excess_of(const Recovery& r, double weight) {
   return weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
 }
@@ -129,7 +129,7 @@ std::optional<StepSizes> JerkNewton::solve() {
   return expand();
 }
 
-/// The multiplier with which the steps of all durations come to what the row of time lacks.
+/// The multiplier for which the steps of all durations close the residual of the duration row.
 void JerkNewton::price_time() {
   new_price_ = 0;
   if (!state_.has_duration()) return;

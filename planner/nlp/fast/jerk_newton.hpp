@@ -9,17 +9,17 @@
 namespace joulepath::nlp {
 
 /// The Newton system of JerkState: NewtonStep for a program with a jerk limit. Rows and recoveries are
-/// eliminated within their segment, what is left is solved from segment to segment. O(N).
+/// eliminated within their segment; the remaining system is solved from segment to segment. O(N).
 class JerkNewton {
  public:
   JerkNewton(const JerkProgram& program, JerkState& state);
 
   /// Assembles the matrices at the state.
   void assemble();
-  /// Steps of all unknowns and pairs towards the complementarities wanted (Pair::corrected). The matrices
-  /// are shifted until the steps descend; nothing where that fails.
+  /// Steps of all unknowns and pairs towards the target complementarities (Pair::corrected). The matrices are
+  /// shifted until the steps descend; nothing if that fails.
   [[nodiscard]] std::optional<StepSizes> solve();
-  /// Takes the last step and evaluates the program there.
+  /// Applies the last step and evaluates the program there.
   void take(const StepSizes& sizes);
 
   /// Sum over the unknowns of |gradient of the Lagrangian times the unknown|.

@@ -6,16 +6,16 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr double kRoom = 1e-3;  ///< least share of a bound's range that a start leaves
+constexpr double kRoom = 1e-3;  ///< least distance of a start from its bounds, as a share of their range
 
-/// Calls use(sign, bound) for the finite ones.
+/// Calls use(sign, bound) for finite bounds.
 template <class Function>
 void for_each_side(const Bounds& bounds, Function&& use) {
   if (std::isfinite(bounds.high)) use(1.0, bounds.high);
   if (std::isfinite(bounds.low)) use(-1.0, bounds.low);
 }
 
-/// Inside of its bounds. A start near a lower bound of 0 (a rate near a rest end) is kept.
+/// Moves a start inside its bounds. A start near a lower bound of 0 (a rate near a rest end) is kept.
 double inside(double x, const Bounds& bounds) {
   constexpr double kLeast = 1e-9;
   const bool both = std::isfinite(bounds.low) && std::isfinite(bounds.high);

@@ -16,7 +16,7 @@ struct BoundSide {
   Pair pair{};
 };
 
-/// Everything that an interior-point iteration of a JerkProgram moves, and the program's functions there.
+/// All variables of an interior-point iteration of a JerkProgram, and the program's functions there.
 /// RowSide::row counts within its segment.
 struct JerkState {
   std::vector<double> x{};
@@ -30,13 +30,13 @@ struct JerkState {
   DurationRow duration_row{};
 
   std::vector<SegmentValues<JerkProgram::kLocal>> values{};  ///< of the program at x
-  double objective{};                                        ///< recovery left out
+  double objective{};                                        ///< without recovery
   double duration_s{};
 
   bool has_duration() const { return duration_row != DurationRow::none; }
   bool has_budget() const { return duration_row == DurationRow::at_most; }
   double multiplier_of_time() const { return !has_duration() ? 0.0 : has_budget() ? time.y : price; }
-  /// Parts of energy that are recovered by themselves, per segment.
+  /// Number of separately recovered parts of energy per segment.
   std::size_t parts() const { return recoveries.size() / values.size(); }
 
   void evaluate(const JerkProgram& program);

@@ -161,7 +161,7 @@ void NewtonStep::border() {
   for (std::size_t k = 0; k < step_.size(); ++k) step_[k] -= new_lambda_ * time_solved_[k];
 }
 
-/// Steps of everything that was eliminated, and how far all of them can be taken.
+/// Steps of all eliminated variables, and the largest admissible step lengths.
 StepSizes NewtonStep::expand() {
   StepSizes sizes;
   const auto step_at = [&](std::size_t node) {

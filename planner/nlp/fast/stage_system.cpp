@@ -63,7 +63,7 @@ void StageSystem::combine(const Stage& stage, const Remainder& behind, Combined&
     }
 }
 
-/// Solves the rows for (u1, a1, dt) as far as they reach; what is left over is asked of the node before.
+/// Solves the rows for (u1, a1, dt) as far as possible; the rest becomes rows of the previous node.
 void StageSystem::solve_rows(const Stage& stage, const Remainder& behind, Elimination& e, Remainder& before) {
   SegmentRows rows{.count = kEqualities + behind.rows};
   for (std::size_t i = 0; i < kEqualities; ++i) {
@@ -104,7 +104,8 @@ void StageSystem::solve_rows(const Stage& stage, const Remainder& behind, Elimin
   }
 }
 
-/// The quadratic in the node's step and the free unknown, least over the latter; false where it has no least.
+/// The quadratic in the node's step and the free unknown, minimized over the latter; false if it has no
+/// minimum.
 bool StageSystem::minimize(const Combined& all, Elimination& e, Remainder& before) {
   double along[Stage::kLocal][kNode + 1]{}, shifted[Stage::kLocal][2]{};
   for (std::size_t i = 0; i < Stage::kLocal; ++i) {
@@ -170,7 +171,7 @@ void StageSystem::expand() {
 
 void StageSystem::multipliers(double border, std::vector<std::array<double, kEqualities>>& to) const {
   to.resize(stages.size());
-  double asked[kNode] = {};  // multipliers of the rows that a segment leaves to the one before
+  double asked[kNode] = {};  // multipliers of the rows that a segment passes to the previous one
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const Elimination& e = eliminations_[k];
     double reduced[kMostRows];

@@ -13,15 +13,15 @@ struct Stage {
   std::array<double, kLocal> gradient{};
   std::array<double, kLocal> border{};  ///< gradient of the row that borders the system
   std::array<std::array<double, kLocal>, kEqualities> equality{};
-  std::array<double, kEqualities> wanted{};  ///< what the equalities' steps come to
+  std::array<double, kEqualities> wanted{};  ///< targets of the equalities' steps
 };
 
 /// Minimizes the sum of the stages' quadratics over the steps of all nodes and segments, both ends fixed:
 /// dynamic programming from the last segment to the first. A segment's unknowns (u1, a1, dt) are eliminated
-/// through its equalities and through what the segments behind it ask of (u1, a1); one unknown at most is
-/// free, and the minimum exists exactly where its curvature is positive in every segment. O(N).
+/// through its equalities and through the rows that later segments impose on (u1, a1). At most one unknown is
+/// free, and the minimum exists exactly if its curvature is positive in every segment. O(N).
 ///
-/// Two right sides are solved for at once, the gradient and the border: the steps are linear in the border's
+/// Two right sides are solved at once, the gradient and the border: the steps are linear in the border's
 /// multiplier.
 class StageSystem {
  public:
@@ -29,7 +29,7 @@ class StageSystem {
 
   std::vector<Stage> stages;
 
-  /// False where a curvature is not positive.
+  /// False if a curvature is not positive.
   [[nodiscard]] bool solve();
   /// Steps of a segment's (u0, a0, u1, a1, dt): column 0 for the gradient, column 1 per unit of the border.
   const std::array<std::array<double, 2>, Stage::kLocal>& step(std::size_t segment) const {
@@ -42,7 +42,7 @@ class StageSystem {
   static constexpr std::size_t kNode = 2, kOwn = 3;  ///< unknowns of a node; (u1, a1, dt)
   static constexpr std::size_t kMostRows = Stage::kEqualities + kNode;
 
-  /// What is left of the segments behind a node: a quadratic in its step, and rows that it has to keep.
+  /// The remainder of the segments after a node: a quadratic in its step, and rows on it.
   struct Remainder {
     double hessian[kNode][kNode]{};
     double gradient[kNode][2]{};
@@ -50,21 +50,21 @@ class StageSystem {
     double row[kNode][kNode]{};
     double right[kNode][2]{};
   };
-  /// A segment's quadratic with what is behind it.
+  /// A segment's quadratic, later segments included.
   struct Combined {
     double hessian[Stage::kLocal][Stage::kLocal]{};
     double gradient[Stage::kLocal][2]{};
   };
-  /// How a segment follows from the step x of the node before it.
+  /// The step of a segment as a function of the step x of the node before it.
   struct Elimination {
     std::size_t rows{};
-    std::array<int, kMostRows> column{};         ///< of (u1, a1, dt) that a row determines; -1: none
+    std::array<int, kMostRows> column{};         ///< which of (u1, a1, dt) a row determines; -1: none
     double transform[kMostRows][kMostRows]{};    ///< reduced rows by the rows given
     double tangent[Stage::kLocal][kNode + 1]{};  ///< of the local step by x and the free unknown
     double offset[Stage::kLocal][2]{};
     bool free{};
     double gain[kNode]{}, constant[2]{};    ///< free unknown by x
-    double hessian[kOwn][Stage::kLocal]{};  ///< rows of (u1, a1, dt), what is behind included
+    double hessian[kOwn][Stage::kLocal]{};  ///< rows of (u1, a1, dt), later segments included
     double gradient[kOwn][2]{};
   };
   static void combine(const Stage& stage, const Remainder& behind, Combined& all);

@@ -12,7 +12,7 @@ struct Tridiagonal {
 
   explicit Tridiagonal(std::size_t n = 0) : diagonal(n, 0.0), below(n > 0 ? n - 1 : 0, 0.0) {}
 
-  /// False where a pivot is not positive: the matrix is not positive definite.
+  /// False if a pivot is not positive: the matrix is not positive definite.
   [[nodiscard]] bool factor() {
     for (std::size_t i = 0; i < diagonal.size(); ++i) {
       if (!(diagonal[i] > 0)) return false;

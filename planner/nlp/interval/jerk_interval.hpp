@@ -4,8 +4,8 @@
 
 namespace joulepath::nlp {
 
-/// Two neighboring nodes with constant jerk between them: acceleration is linear in time. Unknown are rate
-/// and acceleration at the nodes and the time between them, which the kinematics tie together:
+/// Two neighboring nodes with constant jerk between them: acceleration is linear in time. The unknowns are
+/// rate and acceleration at the nodes and the time between them, related by the kinematics:
 ///   u1 = u0 + dt (a0 + a1)/2,   ds = dt (u0 + u1)/2 - dt^2 (a1 - a0)/12.
 /// Terms that take an Interval take this as well.
 template <class R>
@@ -28,7 +28,7 @@ struct JerkInterval {
   }
   Motion<Real> at_energy_point(std::size_t point) const { return at(kEnergyTimes[point]); }
 
-  /// What the kinematics leave over: 0 for a motion.
+  /// Residuals of the kinematics: 0 for a motion.
   Real speed_defect() const { return u1 - u0 - 0.5 * (dt * (a0 + a1)); }
   Real distance_defect() const {
     return 0.5 * (dt * (u0 + u1)) - (1.0 / 12) * (dt * dt * (a1 - a0)) - segment.ds;

@@ -76,7 +76,7 @@ struct JetOf {
     return through(1 / value, -1 / square, 2 / (square * value));
   }
 
-  /// f(x) for a scalar function with value f, first derivative f1, second derivative f2 here.
+  /// f(x) for a scalar function with value f, first derivative f1 and second derivative f2 at x.
   constexpr JetOf through(double f, double f1, double f2) const {
     JetOf r(f);
     for (std::size_t i = 0, k = 0; i < N; ++i) {

@@ -5,8 +5,8 @@
 
 namespace joulepath::nlp {
 
-/// Interval arithmetic: what a row can reach over a whole box. A row that cannot reach its limit is left
-/// out of the problem.
+/// Interval arithmetic: the range of a row over a box. A row that cannot reach its limit is left out of the
+/// problem.
 struct Range {
   double low{};
   double high{};

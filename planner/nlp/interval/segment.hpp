@@ -25,8 +25,8 @@ struct Affine {
   }
 };
 
-/// A wheel's current, voltage and contact force where they are affine: with every effect but those that
-/// bend the law (gear loss, driver drop, Stribeck friction).
+/// A wheel's current, voltage and contact force if they are affine: with every effect except those with a
+/// nonlinear law (gear loss, driver drop, Stribeck friction).
 struct AffineWheel {
   Affine current_A{};
   Affine voltage_V{};
@@ -40,7 +40,7 @@ struct WheelLoad {
   Real force_N{};
 };
 
-/// A place within a segment with what the model needs there.
+/// A place within a segment with the model's inputs there.
 struct SegmentPoint {
   double fraction{};    ///< of the segment's length
   double time_share{};  ///< of the segment's time
@@ -50,11 +50,11 @@ struct SegmentPoint {
   Sided<AffineWheel> wheel{};
 };
 
-inline constexpr std::size_t kLimitPoints = 3;   ///< both ends, seen from the inside, and the middle
+inline constexpr std::size_t kLimitPoints = 3;   ///< both ends, evaluated inside the segment, and the middle
 inline constexpr std::size_t kEnergyPoints = 2;  ///< Gauss-Legendre in time
 inline constexpr std::array<double, kEnergyPoints> kEnergyTimes{0.21132486540518712, 0.78867513459481288};
 
-/// The stretch between two neighbouring nodes.
+/// The part of the path between two neighboring nodes.
 struct Segment {
   double s0{};
   double ds{};
@@ -63,7 +63,7 @@ struct Segment {
   std::array<SegmentPoint, kEnergyPoints> energy_points{};
 };
 
-/// How the path coordinate moves at an instant.
+/// Motion of the path coordinate at an instant.
 template <class Real>
 struct Motion {
   Real a{};  ///< acceleration
@@ -71,7 +71,7 @@ struct Motion {
   Real u{};  ///< rate
 };
 
-/// Two neighbouring nodes as a term sees them, with constant acceleration between them. Every kind of
+/// Two neighboring nodes as the input of a term, with constant acceleration between them. Every kind of
 /// interval has `Real`, `segment`, `dt`, at_limit_point() and at_energy_point(); see jerk_interval.hpp.
 template <class R>
 struct Interval {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ipopt's side of a SegmentProgram; included by ipopt_solver.cpp alone.
+// The adapter of a SegmentProgram to Ipopt; included by ipopt_solver.cpp alone.
 
 #include <IpTNLP.hpp>
 #include <algorithm>
@@ -12,8 +12,7 @@
 namespace joulepath::nlp {
 
 /// Unknowns: those of the program, then z by segment and recovered part of energy. Rows: the program's by
-/// segment, E + z by segment and part, the duration. Entries of a node that two segments share are summed by
-/// Ipopt.
+/// segment, E + z by segment and part, the duration. Ipopt sums entries of a node that two segments share.
 template <SegmentProgram Program>
 class IpoptNlp : public Ipopt::TNLP {
   using Index = Ipopt::Index;
@@ -207,7 +206,7 @@ class IpoptNlp : public Ipopt::TNLP {
       for (std::size_t c = 0; c < recovered_; ++c, ++i) use(k, c, static_cast<Index>(i));
   }
 
-  /// Calls use(column, derivative) for what is unknown.
+  /// Calls use(column, derivative) for the unknowns.
   template <class Function>
   void for_gradient(std::size_t k, const Real& jet, Function&& use) const {
     const Columns<kLocal> columns = program_.columns(k);
@@ -269,7 +268,7 @@ class IpoptNlp : public Ipopt::TNLP {
   std::vector<SegmentValues<kLocal>> values_;  ///< of the last point
   std::vector<double> start_{};
   std::vector<Index> first_row_{};  ///< per segment, and one past the last
-  std::size_t recovered_;           ///< parts of energy per segment that are recovered by themselves
+  std::size_t recovered_;           ///< separately recovered parts of energy per segment
   Index unknowns_, recoveries_;
   bool has_duration_;
 };

@@ -4,8 +4,8 @@
 
 namespace joulepath::nlp {
 
-/// Power at the battery's terminals. max(P, eta P) is the larger of two smooth functions, so the limit is
-/// kept by all of them: P_left kept or not, P_right kept or not (with sharing: bus, the sum kept or not):
+/// Power at the battery's terminals. max(P, eta P) is the larger of two smooth functions, so the limit holds
+/// for all combinations: P_left recovered or not, P_right recovered or not (with sharing: bus, the sum):
 ///   e_left P_left + e_right P_right + standby <= limit,   e in {1, eta}.
 struct BatteryPower {
   static constexpr std::string_view name = "battery_power";

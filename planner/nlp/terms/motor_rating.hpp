@@ -4,7 +4,7 @@
 
 namespace joulepath::nlp {
 
-/// |x| <= x_max per wheel, where x is what a motor's data sheet limits: Quantity says which.
+/// |x| <= x_max per wheel, where x is a quantity that a motor's data sheet limits: see Quantity.
 template <class Quantity>
 struct MotorRating {
   static constexpr std::string_view name = Quantity::name;

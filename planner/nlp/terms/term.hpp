@@ -8,7 +8,7 @@
 
 namespace joulepath::nlp {
 
-/// What a row may be; infinite where there is no limit.
+/// Bounds of a row; infinite if there is no limit.
 struct Bounds {
   double low{-kNoLimit};
   double high{kNoLimit};
@@ -16,8 +16,8 @@ struct Bounds {
 
 constexpr Bounds within(double size) { return {-size, size}; }
 
-/// A family of rows that each segment has. It depends on two neighboring nodes only. `name` is the limit's
-/// key without its unit. To add one, write its file and list it in formulation.hpp.
+/// A family of rows of each segment. A row depends on two neighboring nodes only. `name` is the limit's key
+/// without its unit. To add one, write its file and list it in formulation.hpp.
 template <class T>
 concept SegmentTerm = requires(const T& term, const Interval<double>& plain, const Interval<Jet>& jet,
                                const Interval<Range>& range, const JerkInterval<JerkJet>& with_jerk,

@@ -8,7 +8,7 @@ namespace joulepath::nlp {
 /// time, exact on a straight line. Channels: left and right wheel with sharing: wheel, their sum (channel 0)
 /// with sharing: bus.
 ///
-/// What the battery gives is max(E, eta E) = E + (1 - eta) max(0, -E): the objective carries a variable
+/// The energy from the battery is max(E, eta E) = E + (1 - eta) max(0, -E): the objective contains a variable
 /// z >= 0 per channel with the row E + z >= 0, which is exact.
 struct WheelEnergy {
   static constexpr std::string_view name = "recovered_energy";
@@ -20,14 +20,14 @@ struct WheelEnergy {
     return both(interval)[channel];
   }
 
-  /// Of both channels.
+  /// Energy of both channels.
   template <class AnyInterval, class Real = typename AnyInterval::Real>
   static std::array<Real, 2> both(const AnyInterval& interval) {
     const std::array<std::array<Real, 2>, kEnergyPoints> parts = by_point(interval);
     return {parts[0][0] + parts[1][0], parts[0][1] + parts[1][1]};
   }
 
-  /// What each quadrature point contributes to both channels: [point][channel].
+  /// Contribution of each quadrature point to both channels: [point][channel].
   template <class AnyInterval, class Real = typename AnyInterval::Real>
   static std::array<std::array<Real, 2>, kEnergyPoints> by_point(const AnyInterval& interval) {
     const bool bus = interval.segment.plant->robot.power.sharing == PowerSharing::bus;
@@ -47,8 +47,8 @@ struct WheelEnergy {
   }
 };
 
-/// What the battery gives for a segment (J), standby left out: max(E, eta E) summed over the channels. Under
-/// a jerk limit the larger is taken at each quadrature point: there power may change its sign within a
+/// Energy from the battery for a segment (J), without standby: max(E, eta E) summed over the channels. Under
+/// a jerk limit the maximum is taken at each quadrature point: there the power may change its sign within a
 /// segment.
 template <class AnyInterval>
 double kept_energy_J(const AnyInterval& interval) {

@@ -41,7 +41,7 @@ bool fit_affine(const Plant& plant, const PathRates& rates, const Site& site, Si
     wheel[side] = {fit(samples, side, &WheelState<double>::current_A),
                    fit(samples, side, &WheelState<double>::voltage_V),
                    fit(samples, side, &WheelState<double>::contact_force_N)};
-  if (plant.effects.empty()) return true;  // the bare model is affine
+  if (plant.effects.empty()) return true;  // the model without effects is affine
   constexpr double u = 0.37, a = -0.83;
   const States probe = at(u, a);
   for (Side side : kSides) {

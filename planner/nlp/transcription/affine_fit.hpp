@@ -5,8 +5,8 @@
 
 namespace joulepath::nlp {
 
-/// Reads the wheels' coefficients off the model at a place. Returns false where the model is not affine
-/// in (a, b, u) there: an effect bends the law, and derivatives have to go through it.
+/// Determines the wheels' coefficients from the model at a place. Returns false if the model is not affine in
+/// (a, b, u) there, because an effect's law is nonlinear; derivatives then include the effect.
 [[nodiscard]] bool fit_affine(const Plant& plant, const PathRates& rates, const Site& site,
                               Sided<AffineWheel>& wheel);
 

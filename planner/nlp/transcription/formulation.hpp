@@ -30,7 +30,7 @@ static_assert(std::is_same_v<std::tuple_element_t<kYawTerm, Rows>, YawAccelerati
 using Energy = WheelEnergy;
 using Time = Duration;
 
-/// A term knows the limits where it has them as its member.
+/// Gives a term the limits if it has them as a member.
 template <class Term>
 Term term_for(const Limits& limits) {
   if constexpr (requires { Term{limits}; })

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kScan = 1000;
 
-/// Torques that the wheels need to creep along at s.
+/// Torques of the wheels at negligible speed at s.
 Sided<double> rest_torque_Nm(const PathMotion& motion, double s) {
   const PathMotion::Place place = motion.place(s, 0.0);
   const auto wheels =
@@ -115,7 +115,7 @@ double parabola_squared(double length, double duration_s, double s) {
   return rate * rate;
 }
 
-/// Whether that parabola is within the limits of a request that names its time.
+/// Whether that parabola is within the limits of a request with a given time.
 bool drives_parabola(const ProfileRequest& request, double length, double least_acceleration, double cap) {
   const double T = request.time.duration_s;
   return request.time.mode == TimeMode::fixed_time && std::isfinite(T) && T > 0 && request.start_rate == 0 &&
@@ -201,7 +201,7 @@ std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& re
       grid.push_back(place_of(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts)));
     grid.push_back(nodes[k + 1]);
   }
-  // A node that rounding put upon its neighbour is left out.
+  // Rounding can put a node upon its neighbor: such a node is left out.
   return without_doubles(std::move(grid), length);
 }
 
@@ -216,7 +216,7 @@ std::vector<double> cut_by_excess(const std::vector<double>& s, const std::vecto
     if (excess[k] > allowed)
       for (double place : places)
         if (place > grid.back() + kNear * ds && place < s[k + 1] - kNear * ds) grid.push_back(place);
-    // What a part is above the least cost falls with the cube of its length.
+    // The excess of a part over the least cost falls with the cube of its length.
     const double parts = std::clamp(std::ceil(std::cbrt(excess[k] / allowed) - 0.3), 1.0, kMostParts);
     if (grid.size() == before)
       for (double i = 1; i < parts; ++i) grid.push_back(s[k] + ds * i / parts);

@@ -11,8 +11,8 @@ namespace joulepath::nlp {
 /// and jumps of the torque at rest (a wheel reverses, the turn changes its side, the floor changes).
 [[nodiscard]] std::vector<double> mandatory_nodes(const PathMotion& motion, const ProfileRequest& request);
 
-/// Speed that a plain robot would reach: sqrt of what a constant acceleration allows from both ends, under
-/// the bounds on the rate. It only shapes the grid.
+/// A rough speed profile that shapes the grid: the square root of the speed square that a constant
+/// acceleration allows from both ends, under the bounds on the rate.
 [[nodiscard]] double reference_rate(const ProfileRequest& request, double length, double s, double cap);
 
 /// About `count` nodes, denser where the reference rate is low (equal times between nodes), where
@@ -20,8 +20,8 @@ namespace joulepath::nlp {
 [[nodiscard]] std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request,
                                             std::size_t count);
 
-/// The grid with the segments cut in equal parts whose excess (of cost or time) is above what each may have;
-/// one that holds some of `places` is cut there instead.
+/// The grid with segments cut in equal parts if their excess (of cost or time) is above the allowed excess; a
+/// segment that contains some of `places` is cut there instead.
 [[nodiscard]] std::vector<double> cut_by_excess(const std::vector<double>& s,
                                                 const std::vector<double>& excess, double allowed,
                                                 const std::vector<double>& places = {});

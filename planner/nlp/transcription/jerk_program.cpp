@@ -10,7 +10,7 @@ namespace joulepath::nlp {
 namespace {
 
 constexpr std::size_t kAccelerationTerm = 0;  ///< index in Rows: a bound on the unknown a instead of a row
-constexpr double kBackOff = 1e-7;  ///< relative, of the jerk limit: what the solver's tolerance may eat
+constexpr double kBackOff = 1e-7;  ///< relative, of the jerk limit: reserve for the solver's tolerance
 
 }  // namespace
 
@@ -116,7 +116,7 @@ JerkMotion JerkProgram::motion(const std::vector<double>& x) const {
 
 JerkMotion averaged_motion(const Profile& profile, double window_s) {
   const double end_s = profile.time_s.back();
-  /// Place and rate, with the speeds of the ends kept outside of the profile.
+  /// Place and rate, with the given speeds at the ends outside of the profile.
   const auto state = [&](double t) {
     if (t <= 0)
       return ProfileState{.s = profile.s.front() + t * profile.rate.front(), .rate = profile.rate.front()};

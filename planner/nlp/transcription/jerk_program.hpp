@@ -36,8 +36,8 @@ struct JerkSolution {
 ///             rate stays below them between the nodes, too
 ///   bounds    caps on u; linear acceleration on a
 ///
-/// Recovery is counted at each quadrature point: by segment, accelerations that alternate from node to node
-/// would seem to return energy within a segment that a motor has spent.
+/// Recovery is counted at each quadrature point. Counted by segment, accelerations that alternate from node
+/// to node would seem to return energy within a segment that a motor has used.
 ///
 /// Not convex (products of dt), and three quantities at a node are coupled: Ipopt solves it.
 class JerkProgram {
@@ -45,7 +45,7 @@ class JerkProgram {
   static constexpr std::size_t kLocal = 5;  ///< u0, a0, u1, a1, dt
   static constexpr std::size_t kParts = kEnergyPoints;
 
-  /// `guess` need not satisfy the rows; it sets the scales. Refers to the problem.
+  /// `guess` need not satisfy the rows; it sets the scales. Keeps a reference to the problem.
   JerkProgram(const Problem& problem, const std::vector<Tightening>& tightenings, JerkMotion guess);
 
   const Problem& problem() const { return p_; }
@@ -57,7 +57,7 @@ class JerkProgram {
   /// The first of the two rows of the kinematics of a segment.
   std::size_t first_kinematic_row(std::size_t k) const { return rows_[k].size(); }
   Columns<kLocal> columns(std::size_t k) const;
-  /// An unknown's segment, a node's that before it, and its place among what the segment sees.
+  /// The segment of an unknown (of a node's: the one before it), and its index among that segment's unknowns.
   std::pair<std::size_t, std::size_t> place_of(std::size_t unknown) const {
     if (unknown < inner()) return {unknown, 2};
     if (unknown < 2 * inner()) return {unknown - inner(), 3};
@@ -65,7 +65,7 @@ class JerkProgram {
   }
   void evaluate(const double* x, std::size_t k, SegmentValues<kLocal>& values) const;
 
-  /// Unknowns in SI units, the fixed ends added.
+  /// All unknowns in SI units, the fixed ends included.
   JerkMotion motion(const std::vector<double>& x) const;
 
  private:
@@ -76,7 +76,7 @@ class JerkProgram {
 
   const Problem& p_;
   JerkMotion guess_{};
-  std::vector<std::vector<std::size_t>> rows_{};  ///< of the problem, by segment, acceleration left out
+  std::vector<std::vector<std::size_t>> rows_{};  ///< of the problem, by segment, without acceleration
   std::vector<Bounds> acceleration_{};            ///< at the nodes
   std::vector<double> jerk_{};                    ///< largest, by segment
   double rate_scale_{}, acceleration_scale_{}, time_scale_{};

@@ -13,7 +13,7 @@
 namespace joulepath::nlp {
 namespace {
 
-/// How far inside of a segment its ends are looked at: the law may change at the node itself.
+/// Distance inside of a segment at which its ends are evaluated: the law may change at the node itself.
 constexpr double kInset = 1e-7;
 
 template <class Function, std::size_t... I>
@@ -79,7 +79,7 @@ class Transcriber {
     return reference_rate(request_, motion_.length(), s, rate_cap_squared(request_, motion_.rates(s), s));
   }
 
-  /// Share of the length after a share of the time, as the profile before has it.
+  /// Share of the length after a share of the time, in the previous profile.
   double length_at(const Segment& segment, double u0, double u1, double tau) const {
     if (!previous_) return length_share(u0, u1, tau);
     const auto [from_s, to_s] = times(segment);

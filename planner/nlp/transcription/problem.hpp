@@ -10,8 +10,8 @@
 
 namespace joulepath::nlp {
 
-/// A limit made tighter by a factor on a stretch of the path, because the dense check found the profile
-/// above it between nodes.
+/// A limit that is tightened by a factor on a part of the path, because the dense check found an excess
+/// between nodes.
 struct Tightening {
   std::string_view limit{};
   double from{};
@@ -19,7 +19,7 @@ struct Tightening {
   double factor{1.0};
 };
 
-/// By how much a limit is tightened on a stretch: the product of all that touch it.
+/// The factor of a limit on a part of the path: the product over all tightenings that touch it.
 [[nodiscard]] double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit,
                                 double from, double to);
 
@@ -34,7 +34,7 @@ struct ActiveRow {
 
 enum class DurationRow { none, at_most, equal };
 
-/// The transcription on a grid: what a solver needs, in numbers, and nothing about any solver.
+/// The transcription on a grid: numbers for any solver.
 struct Problem {
   const ProfileRequest* request{};
   std::vector<double> s{};
@@ -57,8 +57,8 @@ struct Problem {
   std::size_t unknown_count() const { return s.size() - 2; }
 };
 
-/// Transcribes a request on a grid. `previous` (may be null) tells when the robot is where, and how the
-/// rate changes within a segment.
+/// Transcribes a request on a grid. `previous` (may be null) gives the time at each place, and how the rate
+/// changes within a segment.
 [[nodiscard]] Problem transcribe(const ProfileRequest& request, const PathMotion& motion,
                                  const std::vector<double>& s, const std::vector<Tightening>& tightenings,
                                  const Profile* previous);

@@ -9,7 +9,7 @@
 
 namespace joulepath::nlp {
 
-/// Largest square of the rate that a place allows, and the limit that says so.
+/// Largest square of the rate at a place, and the limit that determines it.
 struct RateCap {
   double squared{kNoLimit};
   std::string_view limit{};

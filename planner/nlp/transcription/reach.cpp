@@ -46,11 +46,11 @@ Reach reach_of(const Problem& problem, const std::vector<double>& squares, std::
 Reach reach_with_jerk(const Problem& problem, const std::vector<double>& squares, std::size_t k) {
   const double b0 = squares[k], b1 = squares[k + 1], ds = problem.segments[k].ds;
   const Range a = acceleration_limits(problem, k);
-  // Up from b0 and down to b1 as steeply as the acceleration may: where the two meet.
+  // The steepest rise from b0 and the steepest fall to b1 meet here.
   const double apex = (a.high * b1 - a.low * b0 - 2 * a.high * a.low * ds) / (a.high - a.low);
   const double middle_rate =
       0.5 * (std::sqrt(problem.cap[k].squared) + std::sqrt(problem.cap[k + 1].squared));
-  const double inside = std::fmin(apex, middle_rate * middle_rate);  // no number where nothing limits a
+  const double inside = std::fmin(apex, middle_rate * middle_rate);  // not a number if nothing limits a
   const Range b{0.0, std::max({b0, b1, inside})};
   return {b, b, a};
 }
@@ -65,7 +65,7 @@ Reach within_yaw_limit(Reach reach, const Segment& segment, double yaw_accelerat
     const Range rest = Range(-yaw_acceleration_rad_s2, yaw_acceleration_rad_s2) - point.rates.turn_slope * b;
     a = intersection(a, (1 / turn) * rest);
   }
-  if (a.low <= a.high) reach.a = a;  // else nothing is feasible, which is found elsewhere
+  if (a.low <= a.high) reach.a = a;  // else nothing is feasible; other code reports that
   return reach;
 }
 

@@ -53,7 +53,7 @@ class RowSelection {
       if (!std::isfinite(bounds.low) && !std::isfinite(bounds.high)) continue;
       const Range values = term(interval, row);
       const Bounds tight{bounds.low * factor, bounds.high * factor};
-      // The reach itself is made of the first two terms, so they are not judged by it.
+      // The first two terms determine the reach, so it does not decide about them.
       const bool makes_reach = Index == 0 || (Index == kYawTerm && !along(segment));
       if (!makes_reach && values.low >= tight.low && values.high <= tight.high) continue;
       problem_.rows.push_back({k, Index, row, tight, Term::name});

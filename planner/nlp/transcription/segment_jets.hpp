@@ -22,14 +22,14 @@ struct NodeRate {
   }
 };
 
-/// Time of a segment by the squares at its ends, written out: 2 ds/(u0 + u1).
+/// Time of a segment as an explicit function of the squares at its ends: 2 ds/(u0 + u1).
 inline Jet duration_jet(double ds, const NodeRate& r0, const NodeRate& r1) {
   const double sum = r0.u + r1.u, dt = 2 * ds / sum, p = -dt / sum, q = -2 * p / sum;
   return {
       dt, {p * r0.d, p * r1.d}, {q * r0.d * r0.d + p * r0.dd, q * r0.d * r1.d, q * r1.d * r1.d + p * r1.dd}};
 }
 
-/// What the power of a wheel needs of its AffineWheel.
+/// The part of an AffineWheel that determines its power.
 struct AffinePower {
   Affine voltage_V{};
   Affine current_A{};
@@ -58,8 +58,8 @@ inline PowerLaw power_law(const AffinePower& power, double a, double u) {
           2 * (V.of_b * i + vu * iu + v * I.of_b)};
 }
 
-/// Power by the squares at the ends of its segment, at a time share tau: written out, since
-/// a = (b1 - b0)/(2 ds) is linear in the squares and u is a sum of functions of one square each.
+/// Power as an explicit function of the squares at the ends of its segment, at a time share tau: a = (b1 -
+/// b0)/(2 ds) is linear in the squares and u is a sum of functions of one square each.
 inline Jet power_jet(const PowerLaw& P, double ds, double tau, const NodeRate& r0, const NodeRate& r1) {
   const double h = 0.5 / ds, a0 = r0.b <= 0 ? 0.0 : -h, a1 = r1.b <= 0 ? 0.0 : h;
   const double u0 = (1 - tau) * r0.d, u1 = tau * r1.d;
@@ -70,8 +70,8 @@ inline Jet power_jet(const PowerLaw& P, double ds, double tau, const NodeRate& r
            P.aa * a1 * a1 + 2 * P.au * a1 * u1 + P.uu * u1 * u1 + P.u * tau * r1.dd}};
 }
 
-/// Energies of the channels and the time of a segment with derivatives by the squares at its ends: the
-/// same numbers as Energy and Time through jets, written out where the model is affine.
+/// Energies of the channels and the time of a segment with derivatives by the squares at its ends: the same
+/// numbers as Energy and Time through jets, as explicit formulas for an affine model.
 struct SegmentJets {
   std::array<Jet, 2> energy_J{};
   Jet duration_s{};

@@ -7,13 +7,13 @@
 
 namespace joulepath::nlp {
 
-inline constexpr int kFixed = -1;  ///< a value at a segment's end that is no unknown
+inline constexpr int kFixed = -1;  ///< a value at a segment's end that is fixed
 
-/// Which unknowns a segment sees.
+/// The unknowns of a segment.
 template <std::size_t N>
 using Columns = std::array<int, N>;
 
-/// Everything that a program says of one segment at a point, with derivatives by what the segment sees.
+/// A segment's functions at a point, with derivatives by the segment's unknowns.
 template <std::size_t N>
 struct SegmentValues {
   std::vector<JetOf<N>> energy_J{};  ///< parts, by channel: all in the objective, some with recovery
@@ -21,9 +21,9 @@ struct SegmentValues {
   std::vector<JetOf<N>> rows{};
 };
 
-/// A nonlinear program made of segments, as a sparse solver sees it. Recovered energy, the objective and the
-/// row of time are those of problem(); the program says what the unknowns are, which rows tie them, and into
-/// how many parts (`kParts`) a channel's energy is cut, each of which is recovered by itself.
+/// A nonlinear program made of segments, as the input of a sparse solver. Recovered energy, the objective and
+/// the duration row are those of problem(). The program defines the unknowns, the rows that couple them, and
+/// the number of parts (`kParts`) of a channel's energy that are recovered separately.
 template <class P>
 concept SegmentProgram = requires(const P& program, const double* x, std::size_t i,
                                   SegmentValues<P::kLocal>& values) {
@@ -38,13 +38,13 @@ concept SegmentProgram = requires(const P& program, const double* x, std::size_t
   {program.evaluate(x, i, values)};
 };
 
-/// What a sparse solver finds for a program; rows in the order of the segments.
+/// A sparse solver's solution of a program; rows in the order of the segments.
 struct ProgramSolution {
   bool converged{};
   std::vector<double> x{};
   std::vector<double> z{};  ///< energy not recovered, [segment][channel][part]
   double objective{};
-  double price_W{};                           ///< multiplier of the row of time
+  double price_W{};                           ///< multiplier of the duration row
   std::vector<double> row_multiplier{};       ///< positive at the upper bound
   std::vector<double> recovery_multiplier{};  ///< of E + z >= 0, >= 0
   int iterations{};

@@ -5,7 +5,7 @@
 
 namespace joulepath::nlp {
 
-/// What a solver says of a Problem.
+/// A solver's solution of a Problem.
 struct Solution {
   bool converged{};
   std::vector<double> b{};  ///< squares of the rate at all nodes, fixed ends included

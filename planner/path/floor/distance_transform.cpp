@@ -25,7 +25,7 @@ class Envelope {
     }
     parabolas_.push_back({position, height, from});
   }
-  /// Value at x; calls must come with growing x, `k` starting from 0.
+  /// Value at x; calls must be in ascending order of x, `k` starts at 0.
   double value(double x, std::size_t& k) const {
     while (k + 1 < parabolas_.size() && parabolas_[k + 1].from < x) ++k;
     const double step = x - parabolas_[k].position;
@@ -65,7 +65,8 @@ std::vector<float> squared_distance_transform(const std::vector<std::uint8_t>& m
   for (std::size_t row = 0; row < rows; ++row) {
     float* values = distance.data() + row * columns;
     for (std::size_t c = 0; c < columns; ++c) {
-      const double gap = std::max(0.0, static_cast<double>(values[c]) - 0.5);  // to the square's near side
+      const double gap =
+          std::max(0.0, static_cast<double>(values[c]) - 0.5);  // to the near side of the square
       height_of[c] = values[c] >= kNoneMarked ? kNoneMarked : gap * gap;
     }
     envelope.clear();

@@ -10,11 +10,11 @@
 
 namespace joulepath {
 
-/// Where a footprint comes closer to an obstacle than the clearance asked.
+/// A place where a footprint is closer to an obstacle than the requested clearance.
 struct Collision {
   double s{};           ///< path coordinate in the piece (0 for a pose)
   Pose pose{};          ///< of the robot
-  double short_by_m{};  ///< of the clearance asked; beyond the clearance it is how deep the obstacle reaches
+  double short_by_m{};  ///< missing clearance; beyond the clearance it is the depth of the obstacle
                         ///< into the outline (for polygons: corners and centers of cells)
   ObstacleField::Nearest obstacle{};  ///< its place deepest in the outline, or nearest to it
 };
@@ -34,15 +34,15 @@ class FootprintChecker {
   [[nodiscard]] Collision collision_at(double s, const Pose& pose, double slack) const;
   /// How far a point of the outline moves at most per unit of a piece's path coordinate.
   [[nodiscard]] double reach_per_s(const PathPiece& piece) const;
-  /// The least slack along a path, sampled at steps of 3 cm and more: a step is as long as the least slack
-  /// found so far cannot be undercut by much. For optimizers; first_collision() decides.
+  /// The least slack along a path. It samples in steps of at least 3 cm; a step is so long that the slack on
+  /// it can hardly be less than the least one so far. For optimizers; first_collision() decides.
   [[nodiscard]] double least_slack_m(const Path& path) const;
-  /// The first place along a curve, or in the sweep of a turn, that is not free. Steps are as long as the
-  /// slack lets no point of the outline reach an obstacle, and at least 2 mm (2 mm at the outline).
+  /// The first place along a curve, or in the sweep of a turn, that is not free. A step is so short that no
+  /// point of the outline can reach an obstacle within it, but at least 2 mm (2 mm at the outline).
   [[nodiscard]] std::optional<Collision> first_collision(const PathPiece& piece) const;
   [[nodiscard]] std::optional<Collision> first_collision(const Path& path) const;
   [[nodiscard]] bool segment_free(const CurveSegment& segment) const;
-  /// Straight driving between two points, looking along.
+  /// Straight driving between two points, with the heading along the line.
   [[nodiscard]] bool line_free(double x0_m, double y0_m, double x1_m, double y1_m) const;
 
   /// The same outline and obstacles with another clearance.

@@ -154,7 +154,7 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
 DiscLineCheck::DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m,
                              FreeSpace::Cells cells)
     : space_(&space), start_m_(start_m), goal_m_(goal_m), cells_(cells) {
-  // The spare distance, as far as the ends themselves have it.
+  // The spare distance, but not more than the ends have.
   double spare_m = FreeSpace::kSpare_m;
   for (const Point2& end : {start_m, goal_m})
     spare_m = std::min(spare_m, space.field().distance_m(end[0], end[1]) - space.radius_m());

@@ -11,19 +11,19 @@
 
 namespace joulepath {
 
-/// The floor as a disc of one radius sees it, cell by cell: which cells are free, and which of them are
-/// connected (8-neighbors). It decides at once whether a search can succeed, at the map's resolution, and
-/// checks lines by looking up cells. Made once per map and radius.
+/// The floor for a disc of one radius, cell by cell: which cells are free, and which of them are connected
+/// (8-neighbors). It decides quickly whether a search can succeed, at the map's resolution, and checks lines
+/// by cell look-ups. Built once per map and radius.
 class FreeSpace {
  public:
   FreeSpace(const ObstacleField& field, double radius_m);
 
   const ObstacleField& field() const { return *field_; }
   double radius_m() const { return radius_m_; }
-  /// Component at a point: that of its cell, or of a free neighbor cell; absent where there is none.
+  /// Component at a point: that of its cell, or of a free neighbor cell; absent if there is none.
   [[nodiscard]] std::optional<int> component(const Point2& point_m) const;
   [[nodiscard]] bool connected(const Point2& a_m, const Point2& b_m) const;
-  /// The place nearest to `goal` that can be reached from `start`; absent when `start` has no component.
+  /// The place nearest to `goal` that can be reached from `start`; absent if `start` has no component.
   [[nodiscard]] std::optional<Point2> nearest_reachable(const Point2& start_m, const Point2& goal_m) const;
 
   /// Cells that a way may use.
@@ -31,7 +31,7 @@ class FreeSpace {
     free,  ///< the disc is free at the cell's center
     clear  ///< it is free at every point of the cell, with 5 mm to spare
   };
-  /// A way over cell centers, shortest by octile distance (A*); empty when there is none. Free cells within
+  /// A way over cell centers, shortest by octile distance (A*); empty if there is none. Free cells within
   /// kNearEnds_m of the ends may always be used.
   [[nodiscard]] std::vector<Point2> cell_route(const Point2& start_m, const Point2& goal_m,
                                                Cells cells) const;
@@ -61,8 +61,9 @@ class FreeSpace {
   std::vector<std::uint8_t> clear_{};
 };
 
-/// Whether a disc may move along lines between two ends: quick and a little conservative (clear cells only,
-/// exact near the ends), or exact everywhere for floors too narrow for that. The space must outlive it.
+/// Whether a disc may move along lines between two ends. Either quick and slightly conservative (clear cells
+/// only, exact near the ends), or exact everywhere for floors that are too narrow for that. The space must
+/// outlive it.
 class DiscLineCheck {
  public:
   DiscLineCheck(const FreeSpace& space, const Point2& start_m, const Point2& goal_m, FreeSpace::Cells cells);
@@ -81,7 +82,7 @@ class DiscLineCheck {
 
 template <class Visit>
 bool FreeSpace::for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const {
-  // Traversal of a grid from side to side, in the grid's own frame.
+  // Traversal of a grid from cell side to cell side, in the grid's own frame.
   const double c = std::cos(grid_.origin.heading_rad), s = std::sin(grid_.origin.heading_rad);
   const auto local = [&](const Point2& p) -> Point2 {
     const double dx = (p[0] - grid_.origin.x_m) / grid_.resolution_m,

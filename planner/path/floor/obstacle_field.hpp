@@ -7,14 +7,14 @@
 
 namespace joulepath {
 
-/// Percent and above: an obstacle, and so is an unknown cell of the map.
+/// An obstacle has at least this occupancy (percent); an unknown cell of the map is one, too.
 inline constexpr int kBlockedFromPercent = 65;
 
 /// Distances from points of the floor to obstacles. Obstacles are whole cells (squares) of a map that are
 /// occupied or unknown, everything outside of the map, and occupied cells of a keep-out mask.
 ///
-/// Built once per map (a Euclidean distance transform each), then read by all legs and robots; read-only
-/// and safe to share between threads.
+/// Built once per map (a Euclidean distance transform each), then read by all legs and robots; read-only and
+/// therefore safe to share between threads.
 class ObstacleField {
  public:
   explicit ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout = nullptr);
@@ -28,8 +28,8 @@ class ObstacleField {
     double y_m{};
   };
 
-  /// Bounds of the distance at a point, from the transform alone (a few nanoseconds): no farther apart
-  /// than a cell's diagonal.
+  /// Bounds of the distance at a point, from the transform alone (a few nanoseconds): they differ by at most
+  /// a cell's diagonal.
   struct Bounds {
     double lower_m{};
     double upper_m{};
@@ -81,7 +81,7 @@ class ObstacleField {
   std::vector<LayerField> layers_{};
 };
 
-/// What an obstacle is called in messages.
+/// The name of an obstacle in messages.
 [[nodiscard]] inline const char* name_of(ObstacleField::Layer layer) {
   if (layer == ObstacleField::Layer::edge) return "the map's edge";
   return layer == ObstacleField::Layer::keepout ? "the keep-out area" : "the obstacle";

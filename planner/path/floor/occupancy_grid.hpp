@@ -13,7 +13,7 @@ namespace joulepath {
 
 inline constexpr std::int8_t kUnknownCell = -1;
 
-/// A map as Nav2 means it: one value per cell, 0 (free) to 100 (occupied) or kUnknownCell, row-major
+/// A map in Nav2's format: one value per cell, 0 (free) to 100 (occupied) or kUnknownCell, row-major
 /// from the bottom row; `origin` is the pose of the bottom-left corner of the bottom-left cell.
 struct OccupancyGrid {
   int width{};
@@ -21,7 +21,7 @@ struct OccupancyGrid {
   double resolution_m{};
   Pose origin{};
   std::vector<std::int8_t> occupancy_percent{};
-  std::string file{};  ///< where it was read from, for messages
+  std::string file{};  ///< for messages
 
   struct CellIndex {
     int column{};
@@ -59,7 +59,7 @@ struct SpeedMask {
   double base{100.0};
   double multiplier{-1.0};
 
-  /// Speed cap at a point, m/s; absent where the mask sets none.
+  /// Speed cap at a point, m/s; absent if the mask sets none.
   [[nodiscard]] std::optional<double> speed_cap_m_s(double x_m, double y_m, double limit_m_s) const {
     const auto cell = grid.cell_of(x_m, y_m);
     if (!grid.contains(cell)) return std::nullopt;

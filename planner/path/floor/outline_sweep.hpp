@@ -6,10 +6,10 @@
 
 namespace joulepath {
 
-/// Calls visit(s, pose, slack_m) along a piece of way from s = 0 to its length until it returns false. Steps
-/// are as long as the slack lets no point of the outline reach an obstacle, at least 2 mm of the outline;
-/// 1 cm where it is inside of one. `reach_per_s`: a point of the outline moves at most this far per unit of
-/// s.
+/// Calls visit(s, pose, slack_m) along a piece of way from s = 0 to its length until it returns false. A step
+/// is so short that no point of the outline can reach an obstacle within it, but at least 2 mm of the
+/// outline; 1 cm inside of an obstacle. `reach_per_s`: a point of the outline moves at most this far per unit
+/// of s.
 template <class Place, class Visit>
 void sweep_outline(const FootprintChecker& checker, double length, double reach_per_s, const Place& place,
                    const Visit& visit) {

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kStands_m = 1e-6;  ///< an outline that moves by less stands
+constexpr double kStands_m = 1e-6;  ///< an outline that moves by less is at rest
 
 /// Collects places in their order along a way.
 class ConflictSearch {

@@ -8,17 +8,17 @@
 
 namespace joulepath {
 
-/// Where a way comes closer to obstacles than its clearance. Distances are arc lengths along the way.
+/// A conflict of a way with obstacles: less than its clearance. Distances are arc lengths along the way.
 struct PathConflict {
-  double first_m{};     ///< where the way stops being free
-  double deepest_m{};   ///< where the clearance is missed by most
+  double first_m{};     ///< start of the conflict
+  double deepest_m{};   ///< place of the least clearance
   Collision deepest{};  ///< there
   std::size_t stretches{};
   double length_m{};  ///< of these stretches together
 };
 
-/// Looks along a whole path, turns in place included, in steps that no point of the outline can use to enter
-/// an obstacle by more than 2 mm unseen; 1 cm where it is inside of one. Absent: the path is free.
+/// Checks a whole path, turns in place included. A point of the outline cannot enter an obstacle by more than
+/// 2 mm undetected; the steps are 1 cm inside of one. Absent: the path is free.
 [[nodiscard]] std::optional<PathConflict> path_conflict(const FootprintChecker& checker, const Path& path);
 
 /// The same along a motion with a pose in every sample.

@@ -16,11 +16,11 @@ using CurveSegment = std::variant<LinearCurvature, BezierSegment>;
 
 /// A planar curve by arc length with continuous position, heading and curvature.
 ///
-/// s in [0, length] grows along the travel. Driven in reverse the robot looks against the tangent,
-/// its signed speed is -ds/dt, and the curvature d heading / d s stays the geometric one.
+/// s in [0, length] grows along the travel. In reverse the heading is opposite to the tangent, the signed
+/// speed is -ds/dt, and the curvature is still d heading / d s.
 class Curve {
  public:
-  /// Largest steps accepted where two segments meet; they are what rounding in input files leaves.
+  /// Largest steps accepted at a joint of two segments: the rounding of input files.
   static constexpr double kPositionTolerance_m = 1e-6;
   static constexpr double kHeadingTolerance_rad = 1e-6;
   static constexpr double kCurvatureTolerance_per_m = 1e-3;

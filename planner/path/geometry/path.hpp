@@ -13,8 +13,8 @@ struct TurnInPlace {
   double angle_rad{};
 };
 
-/// A stretch that is driven in one go. Its path coordinate s is arc length in m for a curve and the
-/// angle turned in rad, >= 0, for a turn in place.
+/// A part of a path without a stop inside. Its path coordinate s is arc length in m for a curve and the angle
+/// turned in rad, >= 0, for a turn in place.
 using PathPiece = std::variant<Curve, TurnInPlace>;
 
 [[nodiscard]] bool is_turn(const PathPiece& piece);
@@ -30,9 +30,9 @@ using PathPiece = std::variant<Curve, TurnInPlace>;
 /// +1 counter-clockwise, -1 clockwise for a turn in place, 0 for a curve.
 [[nodiscard]] int turn_sign(const PathPiece& piece);
 
-/// A way from a start pose to an end pose. Each piece begins where and looking as the one before ended
-/// (headings equal modulo whole turns), and the robot is at rest between pieces: a joint is a corner,
-/// a change of direction or a step of curvature that cannot be driven at speed.
+/// A way from a start pose to an end pose. Each piece begins with the pose at which the previous one ended
+/// (headings equal modulo whole turns). The robot is at rest between pieces: a joint is a corner, a change of
+/// direction or a step of curvature that cannot be driven at speed.
 struct Path {
   std::vector<PathPiece> pieces{};
 
@@ -45,12 +45,12 @@ struct Path {
 /// Angle in (-pi, pi] that is equal modulo whole turns.
 [[nodiscard]] double wrapped_angle_rad(double angle_rad);
 
-/// A straight piece from where `start` looks.
+/// A straight piece along the heading of `start`.
 [[nodiscard]] PathPiece straight_piece(const Pose& start, double length_m,
                                        Direction direction = Direction::forward);
 
-/// Appends a turn in place from the path's end (or from `from` when the path is empty) to a heading,
-/// the shorter way round; nothing when the heading is already there to 1e-9 rad.
+/// Appends a turn in place from the path's end (or from `from` if the path is empty) to a heading, the
+/// shorter way round; nothing if the heading is already there to 1e-9 rad.
 void append_turn_to(Path& path, const Pose& from, double heading_rad);
 
 }  // namespace joulepath

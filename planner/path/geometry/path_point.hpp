@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// Where a path is after a length s of travel (s >= 0 grows along the travel, also in reverse).
+/// State of a path after a length s of travel (s >= 0 grows along the travel, also in reverse).
 struct PathPoint {
   Pose pose{};                      ///< of the axle midpoint; heading of the ROBOT, continuous, not wrapped
   double curvature_per_m{};         ///< d heading / d s; the yaw rate is curvature * ds/dt

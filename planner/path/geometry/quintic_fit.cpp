@@ -10,7 +10,7 @@ namespace {
 constexpr int kLooks = 16;
 constexpr int kDeepestFit = 12;
 
-/// Heading of the tangent: the robot's, turned round in reverse.
+/// Heading of the tangent: the robot's, turned by pi in reverse.
 double tangent_rad(const Curve& curve, const PathPoint& point) {
   return point.pose.heading_rad + (curve.direction() == Direction::reverse ? std::numbers::pi : 0.0);
 }

@@ -24,8 +24,8 @@ struct RationalBezier {
 
   /// Length of the control polygon (m): an upper bound of the curve's.
   [[nodiscard]] double polygon_length_m() const;
-  /// Whether the curve is a straight line, driven without turning back (control points within about 1e-6 of
-  /// its length).
+  /// Whether the curve is a straight line without a reversal (control points within about 1e-6 of its
+  /// length).
   [[nodiscard]] bool straight() const;
   /// Control point i in the plane.
   [[nodiscard]] std::array<double, 2> place_m(std::size_t i) const {

@@ -143,11 +143,11 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
   for (const RouteRequest* way :
        {&request, static_cast<const RouteRequest*>(&bending), static_cast<const RouteRequest*>(&stopping)}) {
     const bool leaves_along = way->blend_start && !way->start_heading_free;
-    const SmoothPath smooth = *smooth_along_headings(
-        polyline_m, leaves_along ? std::optional(way->start.heading_rad) : std::nullopt,
-        way->blend_goal ? way->goal_heading_rad : std::nullopt, careful, way->corners);
-    result.path = with_end_turns(smooth.path, request);
-    result.corners = smooth.corners;
+    const SmoothPath blended =
+        *blend_along_headings(polyline_m, leaves_along ? std::optional(way->start.heading_rad) : std::nullopt,
+                              way->blend_goal ? way->goal_heading_rad : std::nullopt, careful, way->corners);
+    result.path = with_end_turns(blended.path, request);
+    result.corners = blended.corners;
     const auto conflict = path_conflict(checker, result.path);
     if (!conflict) {
       result.verdict = {};

@@ -8,7 +8,7 @@
 #include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/floor/free_space.hpp"
 #include "planner/path/search/search.hpp"
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 namespace joulepath {
 

@@ -43,14 +43,14 @@ PathPoint end_of(const CurveSegment& segment) {
   return std::visit([](const auto& s) { return s.at(s.length_m()); }, segment);
 }
 
-/// Turns the curve's beginning by a small angle about p0.
+/// Rotates the curve's beginning by a small angle about p0.
 void rotate_first_handle(BezierPoints& p, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   const double x = p[1][0] - p[0][0], y = p[1][1] - p[0][1];
   p[1] = {p[0][0] + c * x - s * y, p[0][1] + s * x + c * y};
 }
 
-/// Collects segments into curves; closes a curve where the robot has to stop.
+/// Collects segments into curves; ends a curve at each stop of the robot.
 struct ChainBuilder {
   BezierChainResult result{};
   std::vector<CurveSegment> open{};

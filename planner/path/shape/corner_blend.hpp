@@ -28,12 +28,12 @@ struct BlendShape {
 [[nodiscard]] std::vector<CurveSegment> blend_segments(const Point2& corner_m, double heading_in_rad,
                                                        const BlendShape& shape, double radius_m);
 
-/// Corners that turn by less are none.
+/// A corner with a smaller turn is none.
 inline constexpr double kNoCorner_rad = 1e-9;
-/// Corners that turn by more are too sharp for a blend.
+/// A corner with a larger turn is too sharp for a blend.
 inline constexpr double kSharpestBlend_rad = 2.7;
 
-/// By how much a polyline turns at its point i, 0 at its ends.
+/// Turn of a polyline at its point i, 0 at its ends.
 [[nodiscard]] double corner_angle_rad(const std::vector<Point2>& polyline_m, std::size_t i);
 
 /// The polyline with a blend of smallest radius radius_m[i] at point i; 0: a turn in place there. The blends

@@ -12,15 +12,15 @@ bool better(const Path& path, const Path& best) {
   return less_rad > 1e-9 || (less_rad > -1e-9 && path.distance_m() < best.distance_m());
 }
 
-/// The best length of one lead, the other one given.
+/// The best length of one lead, for a given other one.
 std::optional<SmoothPath> best_lead(const std::vector<Point2>& polyline_m, bool at_start, double heading_rad,
                                     const FootprintChecker& checker, const CornerPolicy& policy) {
   std::optional<SmoothPath> best;
   for (const double length_m : kLeads_m) {
     const Lead lead{heading_rad, length_m};
-    auto smooth = at_start ? smooth_with_leads(polyline_m, lead, std::nullopt, checker, policy)
-                           : smooth_with_leads(polyline_m, std::nullopt, lead, checker, policy);
-    if (smooth && (!best || better(smooth->path, best->path))) best = std::move(smooth);
+    auto blended = at_start ? blend_with_leads(polyline_m, lead, std::nullopt, checker, policy)
+                            : blend_with_leads(polyline_m, std::nullopt, lead, checker, policy);
+    if (blended && (!best || better(blended->path, best->path))) best = std::move(blended);
   }
   return best;
 }
@@ -41,27 +41,27 @@ std::vector<Point2> with_leads(const std::vector<Point2>& polyline_m, const std:
   return led;
 }
 
-std::optional<SmoothPath> smooth_with_leads(const std::vector<Point2>& polyline_m,
-                                            const std::optional<Lead>& start, const std::optional<Lead>& goal,
-                                            const FootprintChecker& checker, const CornerPolicy& policy) {
-  SmoothPath smooth = smooth_polyline(with_leads(polyline_m, start, goal), checker, policy);
-  const bool start_turns = start && smooth.corners.front().radius_m == 0;
-  const bool goal_turns = goal && smooth.corners.back().radius_m == 0;
-  if (start_turns || goal_turns || checker.first_collision(smooth.path)) return std::nullopt;
-  return smooth;
+std::optional<SmoothPath> blend_with_leads(const std::vector<Point2>& polyline_m,
+                                           const std::optional<Lead>& start, const std::optional<Lead>& goal,
+                                           const FootprintChecker& checker, const CornerPolicy& policy) {
+  SmoothPath blended = blend_corners(with_leads(polyline_m, start, goal), checker, policy);
+  const bool start_turns = start && blended.corners.front().radius_m == 0;
+  const bool goal_turns = goal && blended.corners.back().radius_m == 0;
+  if (start_turns || goal_turns || checker.first_collision(blended.path)) return std::nullopt;
+  return blended;
 }
 
-std::optional<SmoothPath> smooth_along_headings(const std::vector<Point2>& polyline_m,
-                                                const std::optional<double>& start_heading_rad,
-                                                const std::optional<double>& goal_heading_rad,
-                                                const FootprintChecker& checker, const CornerPolicy& policy) {
-  std::optional<SmoothPath> smooth = smooth_polyline(polyline_m, checker, policy);
-  if (polyline_m.size() < 2 || policy.kind == CornerPolicy::Kind::stop_turn_go) return smooth;
-  if (start_heading_rad && differ(smooth->path.start().heading_rad, *start_heading_rad))
-    if (auto led = best_lead(smooth->polyline_m, true, *start_heading_rad, checker, policy)) smooth = led;
-  if (goal_heading_rad && differ(smooth->path.end().heading_rad, *goal_heading_rad))
-    if (auto led = best_lead(smooth->polyline_m, false, *goal_heading_rad, checker, policy)) smooth = led;
-  return smooth;
+std::optional<SmoothPath> blend_along_headings(const std::vector<Point2>& polyline_m,
+                                               const std::optional<double>& start_heading_rad,
+                                               const std::optional<double>& goal_heading_rad,
+                                               const FootprintChecker& checker, const CornerPolicy& policy) {
+  std::optional<SmoothPath> blended = blend_corners(polyline_m, checker, policy);
+  if (polyline_m.size() < 2 || policy.kind == CornerPolicy::Kind::stop_turn_go) return blended;
+  if (start_heading_rad && differ(blended->path.start().heading_rad, *start_heading_rad))
+    if (auto led = best_lead(blended->polyline_m, true, *start_heading_rad, checker, policy)) blended = led;
+  if (goal_heading_rad && differ(blended->path.end().heading_rad, *goal_heading_rad))
+    if (auto led = best_lead(blended->polyline_m, false, *goal_heading_rad, checker, policy)) blended = led;
+  return blended;
 }
 
 }  // namespace joulepath

@@ -3,12 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 namespace joulepath {
 
-/// A straight line along a heading at an end of a route, so that the route leaves (or reaches) the end in
-/// that heading and bends, instead of turning on the spot.
+/// A straight line along a heading at an end of a route: the route leaves (or reaches) the end with that
+/// heading and then bends, without a turn in place.
 struct Lead {
   double heading_rad{};
   double length_m{};
@@ -19,20 +19,20 @@ struct Lead {
                                              const std::optional<Lead>& start,
                                              const std::optional<Lead>& goal);
 
-/// The polyline with leads, its corners rounded; absent where a lead's corner has no room for a blend or the
+/// The polyline with leads, its corners rounded; absent if a lead's corner has no room for a blend or the
 /// curve is not free.
-[[nodiscard]] std::optional<SmoothPath> smooth_with_leads(const std::vector<Point2>& polyline_m,
-                                                          const std::optional<Lead>& start,
-                                                          const std::optional<Lead>& goal,
-                                                          const FootprintChecker& checker,
-                                                          const CornerPolicy& policy);
+[[nodiscard]] std::optional<SmoothPath> blend_with_leads(const std::vector<Point2>& polyline_m,
+                                                         const std::optional<Lead>& start,
+                                                         const std::optional<Lead>& goal,
+                                                         const FootprintChecker& checker,
+                                                         const CornerPolicy& policy);
 
-/// As smooth_with_leads with the lead lengths tried in turn: of those that are free, the path that turns
-/// least in place, then the shortest.
-[[nodiscard]] std::optional<SmoothPath> smooth_along_headings(const std::vector<Point2>& polyline_m,
-                                                              const std::optional<double>& start_heading_rad,
-                                                              const std::optional<double>& goal_heading_rad,
-                                                              const FootprintChecker& checker,
-                                                              const CornerPolicy& policy);
+/// As blend_with_leads, with several lead lengths: of the free paths the one with the least turning in
+/// place, then the shortest.
+[[nodiscard]] std::optional<SmoothPath> blend_along_headings(const std::vector<Point2>& polyline_m,
+                                                             const std::optional<double>& start_heading_rad,
+                                                             const std::optional<double>& goal_heading_rad,
+                                                             const FootprintChecker& checker,
+                                                             const CornerPolicy& policy);
 
 }  // namespace joulepath

@@ -8,10 +8,10 @@ namespace {
 
 constexpr double kShortestChord_m = 1e-3;
 constexpr double kShortestHandle_m = 1e-3;
-constexpr double kStandstill_m = 1e-6;  ///< tangents this short have no direction
+constexpr double kStandstill_m = 1e-6;  ///< shorter tangents have no direction
 constexpr int kCells = 16;
 constexpr int kDeepest = 12;
-constexpr double kCellTurn_rad = 0.3;  ///< a cell that turns less is as tight as its average
+constexpr double kCellTurn_rad = 0.3;  ///< a cell that turns less has nearly its average curvature everywhere
 
 double norm(const Point2& v) { return std::hypot(v[0], v[1]); }
 
@@ -42,7 +42,7 @@ std::vector<Point2> derivatives(const FreeSpline& spline, const std::vector<doub
   return m;
 }
 
-/// Whether a span bends more tightly than allowed: cells are halved until each turns a little.
+/// Whether a span bends more tightly than allowed: cells are halved until each turns only slightly.
 bool too_tight(const BezierPoints& span, double from_t, double to_t, int depth) {
   const BezierDerivatives a = bezier_derivatives(span, from_t), b = bezier_derivatives(span, to_t);
   if (std::min(norm(a.first_m), norm(b.first_m)) < kStandstill_m) return true;

@@ -19,11 +19,11 @@ struct FreeSpline {
   double goal_handle_m{};
 };
 
-/// The spans of the spline as cubic Bezier curves. Requires two points, each apart from the next.
+/// The spans of the spline as cubic Bezier curves. Requires two points; neighbors must differ.
 [[nodiscard]] std::vector<BezierPoints> spline_spans(const FreeSpline& spline);
 
-/// The spline as a path of one piece; absent where points or handles coincide or where it bends more tightly
-/// than kTightest_per_m anywhere: a cusp cannot be driven.
+/// The spline as a path of one piece; absent if points or handles coincide or if it bends more tightly than
+/// kTightest_per_m anywhere: a cusp cannot be driven.
 [[nodiscard]] std::optional<Path> free_spline_path(const FreeSpline& spline);
 
 inline constexpr double kTightest_per_m = 25.0;

@@ -19,7 +19,7 @@ constexpr double kClearanceMargin_m = 0.002;
 constexpr double kNotDrivable = 10;  // in units of the initial cost
 constexpr std::size_t kPerCorner = 4;
 
-/// Where a corner's vertex may go: origin + p along + q across.
+/// Coordinates of a corner's vertex: origin + p along + q across.
 struct Frame {
   Point2 origin_m{};
   Point2 along{1, 0};
@@ -30,7 +30,7 @@ struct Frame {
   }
 };
 
-/// The problem that NLopt sees. Variables of each corner: p, q, a, b.
+/// The problem for NLopt. Variables of each corner: p, q, a, b.
 class Refinement {
  public:
   Refinement(const FootprintChecker& checker, const PathCost& cost, const SmoothPath& initial,

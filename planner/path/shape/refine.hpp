@@ -6,24 +6,24 @@
 
 #include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/geometry/path.hpp"
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 namespace joulepath {
 
-/// What a path costs; infinity where it cannot be driven. Typically the energy of the path's best speed
-/// profile plus the price of its time.
+/// The cost of a path; infinite if it cannot be driven. Typically the energy of the path's best speed profile
+/// plus the price of its time.
 using PathCost = std::function<double(const Path&)>;
 
 struct RefineOptions {
   int evaluations_per_corner{30};   ///< of the path's cost; all corners move at once
   double first_step_m{0.15};        ///< of the control points
   double relative_tolerance{1e-5};  ///< of the cost
-  bool keep_start_heading{};        ///< leave in the heading that the path has now
+  bool keep_start_heading{};        ///< keep the initial path's heading at the start
   bool keep_goal_heading{};
 };
 
 struct RefineResult {
-  Path path{};           ///< the best found; the initial one where nothing was better
+  Path path{};           ///< the best path found; the initial one if none is better
   double cost_before{};  ///< of the initial path
   double cost{};         ///< of `path`
   int evaluations{};
@@ -36,19 +36,19 @@ struct RefineResult {
 /// points on the incoming line, the last of them a before V, and three on the outgoing one, the first of them
 /// b after V, spaced as those two are apart. It joins the straight lines with zero curvature and has
 /// continuous curvature inside. Variables are V, a and b of all corners together, first guessed from the
-/// initial path's blends; constraints are the footprint's clearance along the path, and that corners do not
-/// overlap. Where an end heading is kept, the corner next to it moves along that end's line alone. The result
-/// is checked along its whole length; what is not better and free is not returned. Deterministic.
+/// initial path's blends. Constraints are the footprint's clearance along the path, and that corners do not
+/// overlap. If an end heading is kept, the corner next to it moves along that end's line only. The result is
+/// checked along its whole length; it is returned only if it is better and free. Deterministic.
 [[nodiscard]] RefineResult refine_path(const FootprintChecker& checker, const SmoothPath& initial,
                                        const PathCost& cost, const RefineOptions& options = {});
 
-/// The path of such corners; absent where corners overlap or a corner is too sharp (above 2.7 rad).
+/// The path with such corners; absent if corners overlap or a corner is too sharp (above 2.7 rad).
 struct SplineCorner {
   Point2 vertex_m{};
   double before_m{};  ///< a
   double after_m{};   ///< b
 };
-/// From a corner of this turn back to where its curve begins, or on to where it ends.
+/// Distance from a corner of this turn back to the beginning of its curve, or on to its end.
 [[nodiscard]] double spline_tangent_m(const SplineCorner& corner, double turn_rad, bool before);
 [[nodiscard]] std::optional<Path> spline_path(const Point2& start_m, const std::vector<SplineCorner>& corners,
                                               const Point2& goal_m);

@@ -80,7 +80,7 @@ class Basis {
   std::vector<double> knots_;
 };
 
-/// Normal equations of the least squares, a band of four diagonals, with a right side per axis.
+/// Normal equations of the least squares: four diagonals, with a right side per axis.
 class NormalEquations {
  public:
   explicit NormalEquations(std::size_t size) : band_(size), right_(size) {}
@@ -92,7 +92,7 @@ class NormalEquations {
     }
   }
 
-  /// By Cholesky's factors, in place.
+  /// Solves by Cholesky factorization, in place.
   std::vector<Point2> solved() && {
     const std::size_t n = band_.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -125,7 +125,7 @@ class NormalEquations {
   std::vector<Point2> right_;
 };
 
-/// A fit over spans that begin and end at some of the points.
+/// A fit over spans whose ends are among the points.
 class Fit {
  public:
   Fit(const std::vector<Point2>& points_m, const std::vector<double>& u, const std::vector<std::size_t>& ends)
@@ -145,7 +145,7 @@ class Fit {
     control_.back() = points_.back();
   }
 
-  /// Spans halved where they miss; the same ends where none does.
+  /// The spans, halved where they miss the tolerance; unchanged ends if none does.
   std::vector<std::size_t> halved(double tolerance_m) {
     const std::size_t spans = basis_.spans();
     std::vector<bool> cut(spans);
@@ -153,7 +153,7 @@ class Fit {
       if (!misses(span, tolerance_m)) continue;
       cut[span] = true;
       if (ends_[span + 1] > ends_[span] + 1) continue;
-      // A span of one chord can only be helped by those around it.
+      // More spans around a span of one chord can help it; the span itself cannot be cut.
       for (std::size_t near = span - std::min(span, kOrder); near < std::min(spans, span + 1 + kOrder);
            ++near)
         cut[near] = true;
@@ -222,7 +222,7 @@ class Fit {
            products > kShared * squares;
   }
 
-  /// The point between two whose place along the curve is nearest to the middle.
+  /// The point between two points that is nearest to the middle of the curve between them.
   std::size_t middle_of(std::size_t from, std::size_t to) const {
     const auto first = u_.begin() + static_cast<std::ptrdiff_t>(from);
     const auto at =

@@ -16,7 +16,7 @@ struct SmoothingSpline {
 };
 
 /// A cubic spline with continuous curvature that begins at the first of some points, ends at the last and
-/// comes within `tolerance_m` of all others. How many spans it has depends on the shape and the length, not
+/// comes within `tolerance_m` of all others. The number of its spans depends on the shape and the length, not
 /// on the number of points.
 ///
 /// Weighted least squares over a cubic B-spline by chord length u, with a weak penalty of the third
@@ -27,9 +27,9 @@ struct SmoothingSpline {
 ///   span j.
 ///
 /// A span is halved, at a point, while it misses the tolerance, or while it is longer than 0.5 m and misses a
-/// tenth of the tolerance in a way that neighboring points share: that is shape, not noise. `deviation_m` is
-/// above the tolerance only where a spline through every point cannot be had. Two points or more, neighbors
-/// at different places.
+/// tenth of the tolerance with correlated residuals of neighboring points: that is shape, not noise.
+/// `deviation_m` is above the tolerance only if no spline through every point exists. Requires two points or
+/// more; neighbors must differ.
 [[nodiscard]] SmoothingSpline smoothing_spline(const std::vector<Point2>& points_m, double tolerance_m);
 
 }  // namespace joulepath

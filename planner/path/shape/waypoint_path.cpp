@@ -14,9 +14,9 @@ namespace joulepath {
 namespace {
 
 constexpr double kSamePlace_m = 1e-6;
-constexpr double kTurnsBack_rad = 1e-6;  ///< a corner this close to half a turn leads back along its line
+constexpr double kTurnsBack_rad = 1e-6;  ///< a turn this close to half a turn reverses along the line
 constexpr double kTurnsBackDense_rad = 2.8;
-constexpr double kLook = 5;   ///< tolerances over which the direction of dense waypoints is looked at
+constexpr double kLook = 5;   ///< length, in tolerances, over which the direction of dense waypoints is taken
 constexpr double kDense = 8;  ///< tolerances between neighbors
 constexpr std::size_t kMany = 1000;
 
@@ -26,9 +26,9 @@ std::string metres(double value_m) {
   return text;
 }
 
-/// Rounded down to the four digits of metres(): what a message proposes has to fit.
+/// Rounded down to the four digits of metres(), so that a proposed value fits.
 double proposed_m(double most_m) {
-  constexpr double kClear = 1 - 1e-12;  // of the rounding of what is compared
+  constexpr double kClear = 1 - 1e-12;  // rounding of compared values
   if (!(most_m > 0)) return 0;
   const double step_m = std::pow(10.0, std::floor(std::log10(most_m)) - 3);
   return step_m * std::floor(kClear * most_m / step_m);
@@ -117,8 +117,8 @@ bool are_dense(const std::vector<Point2>& points_m, double tolerance_m) {
          length_m < kDense * tolerance_m * static_cast<double>(points_m.size() - 1);
 }
 
-/// The places at which a curve ends and the next begins, behind a turn in place: inner waypoints whose next
-/// one lies exactly behind.
+/// The places where a curve ends and the next begins after a turn in place: inner waypoints whose next
+/// waypoint is exactly behind.
 std::vector<std::size_t> turning_points(const std::vector<Point2>& points_m) {
   std::vector<std::size_t> turns;
   for (std::size_t i = 1; i + 1 < points_m.size(); ++i)
@@ -126,7 +126,7 @@ std::vector<std::size_t> turning_points(const std::vector<Point2>& points_m) {
   return turns;
 }
 
-/// The same of dense waypoints: looked at over a few tolerances, because the direction between neighbors is
+/// The same for dense waypoints, over a length of a few tolerances: between neighbors the direction is mainly
 /// rounding and noise.
 std::vector<std::size_t> turning_points_of_dense(const std::vector<Point2>& points_m, double tolerance_m) {
   const auto apart_m = [&](const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
@@ -150,8 +150,8 @@ std::vector<std::size_t> turning_points_of_dense(const std::vector<Point2>& poin
   return turns;
 }
 
-/// Appends the curve along some waypoints, after a turn in place to its heading; the number of a waypoint
-/// that prevents it counts from the first of these.
+/// Appends the curve along some waypoints, after a turn in place to its heading. On failure, the number of
+/// the waypoint that prevents it counts from the first of these.
 std::optional<WaypointDefect> append_stretch(const std::vector<Point2>& points_m, bool dense,
                                              double tolerance_m, Path& path) {
   Path stretch;

@@ -10,15 +10,15 @@
 
 namespace joulepath {
 
-/// Why no path leads along some waypoints.
+/// The reason why there is no path along some waypoints.
 struct WaypointDefect {
   std::size_t waypoint{};
-  bool radius{};  ///< its radius is what is wrong, else its place
+  bool radius{};  ///< its radius is wrong, else its place
   std::string found{};
   std::string accepted{};
 };
 
-/// A path along waypoints, or why there is none.
+/// A path along waypoints, or the reason why there is none.
 struct WaypointPath {
   Path path{};
   std::optional<WaypointDefect> defect{};
@@ -27,17 +27,18 @@ struct WaypointPath {
 inline constexpr double kWaypointTolerance_m = 0.01;
 
 /// A curve with continuous curvature along waypoints (m), driven forward without a stop: the natural cubic
-/// spline through them by chord length, or, where they are dense, a smoothing spline within `tolerance_m` of
-/// each (0: always through them). Dense are more than 1000 waypoints, and neighbors closer than 8 tolerances
-/// on average: a slip by the tolerance at one would bend the curve through it to a radius below 8 tolerances.
+/// spline through them by chord length, or, if they are dense, a smoothing spline within `tolerance_m` of
+/// each (0: always through them). Waypoints are dense if there are more than 1000, or if neighbors are closer
+/// than 8 tolerances on average: an error of the tolerance at one would bend the curve through it to a radius
+/// below 8 tolerances.
 ///
-/// Where the waypoints lead straight back, the robot stops and turns in place between two splines. Two
-/// waypoints or more, neighbors at different places; dense ones may repeat a place (a robot that stood).
+/// Where the waypoints reverse exactly, the robot stops and turns in place between two splines. Requires two
+/// waypoints or more; neighbors must differ, except that dense ones may repeat a place (a robot that stood).
 [[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m,
                                          double tolerance_m = kWaypointTolerance_m);
 
 /// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of
-/// smallest radius radius_m[i]; 0: the robot stops and turns there. The ends' radii are not looked at.
+/// smallest radius radius_m[i]; 0: the robot stops and turns there. The ends' radii are ignored.
 [[nodiscard]] WaypointPath lines_between(const std::vector<Point2>& waypoints_m,
                                          const std::vector<double>& radius_m);
 

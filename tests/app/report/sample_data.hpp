@@ -5,7 +5,7 @@
 
 #include "app/report/report.hpp"
 
-/// Made-up inputs for reports: an L-shaped way with a stop and a turn in place, driven with trapezoids.
+/// Invented inputs for reports: an L-shaped way with a stop and a turn in place, driven with trapezoids.
 namespace joulepath::report::sample {
 
 [[nodiscard]] Columns trajectory(double sample_period_s = 0.02);

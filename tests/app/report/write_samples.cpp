@@ -1,4 +1,4 @@
-// Writes one report of each kind into a folder, for the browser test and for looking at.
+// Writes one report of each kind into a folder, for the browser test and for inspection.
 #include <fstream>
 #include <iostream>
 

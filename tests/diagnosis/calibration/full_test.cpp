@@ -77,7 +77,7 @@ TEST(FullCalibration, TakesADisplacedCenterOfMassIntoAccount) {
   dataset = dataset_of(truth, {});
   dataset.robot = nominal;
   const CalibrationResult result = calibrate(dataset, CalibrationMethod::full);
-  // The known moment is a product of smoothed speeds, so a little of it is lost: to parts in 1000.
+  // The known moment is a product of smoothed speeds, which loses a little of it: parts in 1000.
   EXPECT_NEAR(result.robot.motor.left.friction_torque_Nm / truth.motor.left.friction_torque_Nm, 1, 3e-3);
   EXPECT_NEAR(result.robot.inertia.chassis_yaw_inertia_kg_m2 / truth.inertia.chassis_yaw_inertia_kg_m2, 1,
               2e-2);
@@ -144,8 +144,7 @@ TEST(FullCalibration, IntervalsHoldTheTruthAboutAsOftenAsTheySay) {
       held += low <= value && value <= high, ++all;
     }
   }
-  // 160 intervals: below 88 % or always holding would be far from 95 % (the campaign is
-  // benchmarks/calibration).
+  // 160 intervals: below 88 % or 100 % would be far from 95 % (the campaign is benchmarks/calibration).
   EXPECT_GE(held, 0.88 * all);
   EXPECT_LT(held, all);
 }

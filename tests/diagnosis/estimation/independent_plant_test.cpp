@@ -12,7 +12,7 @@ namespace {
 
 const std::string kPractice = JOULEPATH_SOURCE_DIR "/../shared/data/practice/";
 
-/// The effects that a set's label names.
+/// The effects of a set's label.
 std::vector<EffectSetting> labelled_effects(const std::string& folder) {
   const Document truth = Document::load(folder + "/truth.yaml");
   std::vector<EffectSetting> effects;
@@ -36,7 +36,7 @@ TEST(IndependentPlant, LabelledEffectsCloseTheEnergyGap) {
   for (const char* set : {"p03_rolling_resistance", "p04_dragging_wheel_rough", "p05_floor_slope",
                           "p06_turning_scrub_rough", "p11_gear_efficiency_rough", "p14_floor_patch_rough"}) {
     Dataset dataset = read_dataset(kPractice + set + "/dataset.yaml");
-    dataset.robot.uncertainty.clear();  // no interval is asked for
+    dataset.robot.uncertainty.clear();  // no interval is needed
     const double before = estimate_dataset(dataset).model_error.value();
     dataset.robot.effects = labelled_effects(kPractice + set);
     const double after = estimate_dataset(dataset).model_error.value();

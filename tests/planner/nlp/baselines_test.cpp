@@ -41,7 +41,7 @@ const BaselineResult& named(const std::vector<BaselineResult>& results, const st
   return results.front();
 }
 
-/// Judged by the replay, which no baseline's own check has a part in.
+/// Checked by the replay, which is independent of the baselines' own checks.
 void expect_honest(const ProfileRequest& request, const std::vector<BaselineResult>& results, double T) {
   for (const BaselineResult& result : results) {
     if (!result.feasible) {

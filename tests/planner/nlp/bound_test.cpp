@@ -72,7 +72,7 @@ struct Optimum {
   Optimum(const Optimum&) = delete;
 };
 
-/// Weak duality: whatever the costate, no profile costs less than the cost of one less its gap.
+/// Weak duality: for every costate, no profile costs less than the cost of one less its gap.
 TEST(Bound, HoldsForCostatesThatBelongToNoOptimum) {
   testing::RandomProfiles random(15);
   for (int i = 0; i < 8; ++i) {
@@ -114,7 +114,7 @@ void expect_least(const ProfileRequest& request, testing::RandomProfiles& random
   }
 }
 
-/// The minimum over a place's accelerations is below every state that the check of the limits lets pass.
+/// The minimum over a place's accelerations is below every state that keeps the limits.
 TEST(Bound, LeastCostOfAPlaceIsBelowEveryAllowedState) {
   testing::RandomProfiles random(23);
   const std::vector<std::vector<EffectSetting>> effects{

@@ -58,7 +58,7 @@ Profile solved(const ProfileRequest& request) {
   return *result.profile;
 }
 
-/// Looks at 64 places of every segment, with nothing of the planner's own checks: the change of acceleration
+/// Samples 64 places of every segment, independently of the planner's own checks: the change of acceleration
 /// over time, speed, and lateral and yaw acceleration by the path's curvature.
 void expect_kept_between_nodes(const ProfileRequest& request, const Profile& profile) {
   constexpr int kPlaces = 64;
@@ -167,7 +167,7 @@ TEST(Jerk, StartsAndEndsAtSpeed) {
   }
 }
 
-/// At constant speed from start to end there is nothing to plan, and jerk costs nothing.
+/// At constant speed from start to end there is nothing to optimize, and the jerk limit costs nothing.
 TEST(Jerk, CruiseAtTheLimitIsTheFastestWhateverTheJerk) {
   ProfileRequest request = straight(4, 0.1);
   request.start_rate = request.end_rate = request.limits.speed_m_s;
@@ -231,7 +231,7 @@ TEST(Jerk, NoDeadlineThatAnSCurveMakesIsRefused) {
   EXPECT_NEAR(result.infeasibility->relaxation.at("deadline_s"), exact_s, 1e-4 * exact_s);
 }
 
-/// A deadline far before the least time: what would do without the jerk limit is not offered.
+/// A deadline far below the least time: a relaxation of the problem without the jerk limit is not offered.
 TEST(Jerk, WhatIsOfferedForAnImpossibleDeadlineIsPlanned) {
   for (double share : {0.3, 0.95}) {
     ProfileRequest request = straight(3, 0.8);
@@ -256,7 +256,7 @@ TEST(Jerk, LeavesATurnInPlaceAlone) {
   EXPECT_EQ(with_J, energy_J(request));
 }
 
-/// A limit of 0 is answered by the smallest that works, however small.
+/// For a limit of 0 the verdict names the smallest limit that works, however small.
 TEST(Jerk, ALimitOfZeroIsAnsweredBelowAThousandth) {
   ProfileRequest request = straight(3, 0.0);
   request.nodes = 40;

@@ -50,13 +50,13 @@ Tightened limit(const std::string& name, double value) {
           }};
 }
 
-/// The fastest drive without and with the limit, by both solvers, and what a dense look says.
+/// The fastest drive without and with the limit, by both solvers, with a dense check.
 void expect_costs_time_and_holds(const PathPiece& piece, const Tightened& one) {
   const ProfileResult free = solve_profile(fastest_drive(piece));
   ProfileRequest request = fastest_drive(piece);
   one.tighten(request);
 
-  const ReplayResult ignored = replay(request, *free.profile);  // the limit is exceeded where it is ignored
+  const ReplayResult ignored = replay(request, *free.profile);  // the free drive exceeds the limit
   EXPECT_EQ(ignored.limit, one.limit);
   EXPECT_GT(ignored.worst_violation, 0.01);
 

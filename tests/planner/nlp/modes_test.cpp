@@ -1,4 +1,4 @@
-// What each mode of time promises, the price of a second, speeds at the ends, and the accuracy that is asked.
+// The promise of each mode of time, the price of a second, speeds at the ends, and the requested accuracy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ PathPiece curve() { return Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, 
 
 ProfileRequest request_for(TimeGoal time, SolverChoice solver = SolverChoice::fast) {
   Robot robot = testing::nomad();
-  robot.power.standby_W = 1;  // so that the robot has reason to take its time
+  robot.power.standby_W = 1;  // so that a longer time saves energy
   return {.piece = curve(),
           .plant = make_plant(robot),
           .limits = *robot.limits,
@@ -56,7 +56,7 @@ TEST_P(EverySolver, EveryModeOfTimeKeepsItsPromise) {
     EXPECT_GE(fixed.energy_J, free.energy_J * (1 - 1e-6));
     const Driven budget = in({.mode = TimeMode::time_budget, .duration_s = T});
     EXPECT_LE(budget.duration_s, T * (1 + 1e-7));
-    const Driven& same = share < 1 ? fixed : free;  // a tight budget is used up, a slack one is of no use
+    const Driven& same = share < 1 ? fixed : free;  // a tight budget is used up, a slack one is not
     EXPECT_NEAR(budget.energy_J, same.energy_J, 1e-5 * same.energy_J) << share;
     EXPECT_NEAR(budget.duration_s, same.duration_s, 3e-3 * same.duration_s) << share;
   }

@@ -94,8 +94,8 @@ TEST(Optimality, CertificateCoversTheExcessOverAFineGrid) {
   }
 }
 
-/// More time than any speed is worth: without a price of time only friction's standing loss holds the robot
-/// to its speed, and parts of copper loss that are not convex alone have to be seen together.
+/// More time than any speed is worth: without a price of time only friction's standing loss limits the
+/// duration, and parts of copper loss that are not convex alone must be treated together.
 ProfileRequest long_drive() {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;
@@ -155,7 +155,7 @@ TEST(Front, SlopesAreThePricesAndEveryPointIsAPlan) {
     const double chord_W = (front.points[k - 1].energy_J - front.points[k].energy_J) /
                            (front.points[k].duration_s - front.points[k - 1].duration_s);
     EXPECT_LE(chord_W, front.points[k - 1].price_of_time_W * (1 + 1e-3) + 1e-3);
-    // The first point is the least time, whatever it costs: nothing was optimized there.
+    // The first point is the least time, at any cost: nothing is optimized there.
     if (k == 1) continue;
     EXPECT_GE(chord_W, front.points[k].price_of_time_W * (1 - 1e-3) - 1e-3);
   }

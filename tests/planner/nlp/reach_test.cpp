@@ -2,7 +2,7 @@
 #pragma GCC diagnostic ignored "-Wstringop-overflow"  // GCC 12 is wrong about copies of a std::variant
 #endif
 
-// Rows that are left out of the problem: where the kept ones hold, they hold, too.
+// Rows that are left out of the problem hold wherever the kept ones hold.
 #include "planner/nlp/transcription/reach.hpp"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ struct WithJerk {
     const double dt = 3 * segment.ds / (u[0] + u[1] + u[2]);
     return jet_jerk_interval(segment, {u[0], 2 * (u[1] - u[0]) / dt, u[2], 2 * (u[2] - u[1]) / dt, dt});
   }
-  /// Kept rows, and what a JerkProgram has beside them.
+  /// Kept rows, and the additional rows of a JerkProgram.
   static bool holds(const Problem& problem, std::size_t k, const Point& u) {
     const JerkInterval<JerkJet> motion = interval(problem.segments[k], u);
     const Limits& limits = problem.request->limits;
@@ -140,7 +140,7 @@ struct Count {
   std::size_t tried{}, left_out{};
 };
 
-/// Random motions of every segment, up to where the kept rows just hold: those that were left out hold too.
+/// Random motions of every segment, up to the border of the kept rows: the rows that were left out hold too.
 template <class Motions>
 void check(const ReachCase& of, RandomProfiles& random, int index, Count& count) {
   const PathMotion motion = path_motion(of.request);

@@ -46,7 +46,7 @@ double motion_J(const ProfileRequest& request, const Profile& profile) {
   return energy_by_cause(path_motion(request), profile).motion_J();
 }
 
-/// Energy (J) that one wheel returns while the other takes it, by sums over the profile in time.
+/// Energy (J) that one wheel returns while the other uses it, by sums over the profile in time.
 double passed_on_J(const ProfileRequest& request, const Profile& profile) {
   const PathMotion motion = path_motion(request);
   constexpr int kSteps = 200000;
@@ -96,7 +96,7 @@ TEST(Regeneration, TheOptimumCostsLessTheMoreComesBackAndLeastOnABus) {
                  bus_J = cost_J(PowerSharing::bus, efficiency, for_bus);
     EXPECT_LT(wheel_J, before_J * (1 - 1e-3)) << efficiency;
     EXPECT_LE(bus_J, wheel_J * (1 + 1e-3)) << efficiency;
-    // Each is the best under its own law, where the two differ at all.
+    // Each is the best under its own law, if the two differ at all.
     const double margin = efficiency < 1 ? -5e-3 : 1e-3;
     EXPECT_LE(wheel_J, cost_J(PowerSharing::wheel, efficiency, for_bus) * (1 + margin)) << efficiency;
     EXPECT_LE(bus_J, cost_J(PowerSharing::bus, efficiency, for_wheel) * (1 + margin)) << efficiency;

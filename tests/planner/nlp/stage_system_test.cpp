@@ -1,4 +1,4 @@
-// Newton systems from segment to segment against a dense solution of the same system.
+// Newton systems solved from segment to segment, against a dense solution of the same system.
 #include "planner/nlp/fast/stage_system.hpp"
 
 #include <gtest/gtest.h>

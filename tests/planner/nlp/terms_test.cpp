@@ -55,7 +55,7 @@ void expect_near(double exact, double differenced, double scale, const char* wha
 template <class Term>
 class EveryTerm : public ::testing::Test {};
 
-/// The list of the formulation itself: a term that is added there is tested here.
+/// The formulation's own list: a new term in it is tested here.
 template <class Tuple>
 struct AsTypes;
 template <class... Terms>

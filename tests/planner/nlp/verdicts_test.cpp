@@ -65,7 +65,7 @@ bool relax(ProfileRequest& r, const std::string& key, double value) {
   return true;
 }
 
-/// A thousandth more than the relaxation asked for is enough, half of it is not.
+/// A relaxation plus a thousandth is enough, half of it is not.
 TEST(Verdicts, TheRelaxationWouldDo) {
   int tried = 0;
   for (const HopelessRequest& c : hopeless_requests()) {
@@ -87,7 +87,7 @@ TEST(Verdicts, TheRelaxationWouldDo) {
   EXPECT_GE(tried, 38);
 }
 
-/// Less than what is offered must not be enough, down to 1e-6, below which nothing is offered.
+/// Less than the offered value is not enough, down to 1e-6, below which nothing is offered.
 TEST(Verdicts, NoLimitIsRaisedFurtherThanItMustBe) {
   for (const HopelessRequest& c : hopeless_requests()) {
     const ProfileResult result = solve_profile(c.request);
@@ -151,7 +151,7 @@ TEST(Verdicts, DegenerateButPossibleInputsJustPlan) {
   }
 }
 
-/// The closed form's least time, to the last digit: no grid makes it without nodes where it bends.
+/// The closed form's least time, to the last digit: a grid reaches it only with nodes at its switches.
 TEST(Verdicts, ADeadlineOfExactlyTheLeastTimeIsPlanned) {
   for (TimeMode mode : {TimeMode::time_budget, TimeMode::fixed_time, TimeMode::time_price})
     for (double length_m : {0.7, 10.0, 33.3}) {
@@ -169,7 +169,7 @@ TEST(Verdicts, ADeadlineOfExactlyTheLeastTimeIsPlanned) {
     }
 }
 
-/// On a curve the closed form is unknown: the least time of a finer grid stands in for it.
+/// On a curve there is no closed form: the least time of a finer grid replaces it.
 TEST(Verdicts, ADeadlineThatOnlyAFinerGridMakesIsPlanned) {
   ProfileRequest fine = bezier_run();
   fine.nodes = 1000;

@@ -4,9 +4,9 @@
 
 namespace joulepath {
 
-/// Largest breaches of the laws that tie a piece's channels together, found by sampling between
-/// breakpoints: position against the integral of the heading, heading against the integral of the
-/// curvature, curvature against the integral of its slope (Gauss-Legendre between samples).
+/// Largest violations of the relations between a piece's channels, by sampling between breakpoints: position
+/// against the integral of the heading, heading against the integral of the curvature, curvature against the
+/// integral of its slope (Gauss-Legendre between samples).
 struct CurveBreach {
   double position_m{};
   double heading_rad{};

@@ -193,7 +193,7 @@ TEST(FootprintChecker, ACoarseKeepoutIsSeenByPolygonsUpToItsBorder) {
 }
 
 TEST(FootprintChecker, ACollisionNamesTheObstacleThatItMeets) {
-  // The nearest obstacle to the axle is beside the robot; what it meets is the pallet at its nose.
+  // The nearest obstacle to the axle is beside the robot; the collision is with the pallet at its front.
   OccupancyGrid map = free_grid(100, 100, 0.1), keepout = free_grid(100, 100, 0.1);
   map.occupancy_percent[60 * 100 + 50] = 100;      // (5.0..5.1, 6.0..6.1)
   keepout.occupancy_percent[50 * 100 + 68] = 100;  // (6.8..6.9, 5.0..5.1)

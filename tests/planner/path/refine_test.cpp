@@ -56,7 +56,7 @@ struct Passage {
     RouteRequest request;
     request.start = {2, 3, 0};
     request.goal_x_m = 10, request.goal_y_m = 3;
-    return smooth_polyline(plan_route(space, request).polyline_m, space.checker().with_clearance(0.051), {});
+    return blend_corners(plan_route(space, request).polyline_m, space.checker().with_clearance(0.051), {});
   }
 
   OccupancyGrid map = free_grid(240, 200, 0.05);
@@ -80,8 +80,8 @@ TEST(Refine, KeepsTheHeadingsThatItIsToldToKeep) {
   const Passage passage;
   const RouteSpace space(passage.map, nullptr, {0.25, {}}, 0.05);
   const auto led =
-      smooth_with_leads(passage.blended(space).polyline_m, Lead{0.0, 1.0}, Lead{-std::numbers::pi / 2, 1.0},
-                        space.checker().with_clearance(0.051), {});
+      blend_with_leads(passage.blended(space).polyline_m, Lead{0.0, 1.0}, Lead{-std::numbers::pi / 2, 1.0},
+                       space.checker().with_clearance(0.051), {});
   ASSERT_TRUE(led.has_value());
   const RefineResult refined = refine_path(space.checker(), *led, bending_cost,
                                            {.keep_start_heading = true, .keep_goal_heading = true});
@@ -103,7 +103,7 @@ TEST(Refine, NeverReturnsACheapPathThatCollides) {
 TEST(Refine, ReturnsTheInitialPathWhereNothingIsBetter) {
   const OccupancyGrid map = free_grid(200, 200, 0.05);
   const RouteSpace space(map, nullptr, {0.25, {}}, 0.05);
-  const SmoothPath straight = smooth_polyline({{2, 3}, {8, 3}}, space.checker(), {});
+  const SmoothPath straight = blend_corners({{2, 3}, {8, 3}}, space.checker(), {});
   const RefineResult result = refine_path(space.checker(), straight, bending_cost);
   EXPECT_FALSE(result.improved);
   EXPECT_EQ(result.cost, result.cost_before);

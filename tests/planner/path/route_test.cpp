@@ -271,8 +271,8 @@ TEST(Route, LongRobotIsToldWhereItCannotTurn) {
   const RouteResult result = plan_route(space, request);
   EXPECT_EQ(result.verdict.status, RouteStatus::no_room_to_turn);
   EXPECT_NEAR(result.verdict.x_m, 9.0, 1e-6);
-  // Its corners are hypot(0.6, 0.3) from the axis, the walls 0.5 m: contact, by at most what is missing
-  // there.
+  // Its corners are hypot(0.6, 0.3) from the axis, the walls 0.5 m: contact, by at most the missing
+  // clearance.
   EXPECT_GT(result.verdict.short_by_m, 0.05);
   EXPECT_LT(result.verdict.short_by_m, std::hypot(0.6, 0.3) + 0.05 - 0.5 + 1e-3);
 }

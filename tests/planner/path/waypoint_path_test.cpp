@@ -118,7 +118,7 @@ std::size_t spans_of(const Path& path) {
   return spans;
 }
 
-/// Largest distance of a point from the path, found by walking along both.
+/// Largest distance of a point from the path, in the order of both.
 double farthest_m(const Path& path, const std::vector<Point2>& points_m) {
   double farthest = 0, s = 0;
   const PathPiece& piece = path.pieces.front();

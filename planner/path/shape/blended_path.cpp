@@ -1,4 +1,4 @@
-#include "planner/path/shape/smoothing.hpp"
+#include "planner/path/shape/blended_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ constexpr double kSmallestRadius_m = 0.03;
 constexpr double kShortestStraight_m = 0.01;  // left between blends
 constexpr std::array<double, 3> kOutwardShares{0.0, 0.5, 1.0};
 
-/// A polyline whose inner vertices have blends: the state that the ladder searches.
+/// A polyline with blends at its inner vertices: the state of the search over radii.
 class BlendedPolyline {
  public:
   BlendedPolyline(const std::vector<Point2>& polyline_m, const FootprintChecker& checker)
@@ -28,8 +28,8 @@ class BlendedPolyline {
   const std::vector<double>& radii_m() const { return radius_m_; }
   const Point2& point_m(std::size_t i) const { return points_[i]; }
 
-  /// Gives corner i a radius if that is free, with the vertex moved outwards as little as needed; its blend
-  /// may take a share of the lines to neighboring corners.
+  /// Gives corner i a radius if that is free; the vertex moves outwards as little as needed. Its blend may
+  /// take a share of the lines to neighboring corners.
   bool try_radius(std::size_t i, double radius_m, double share_of_line);
 
   std::vector<CurveSegment> blend(std::size_t i) const {
@@ -63,7 +63,7 @@ bool BlendedPolyline::try_radius(std::size_t i, double radius_m, double share_of
     radius_m_[i] = radius_m;
     const double angle = angle_rad(i);
     if (std::abs(angle) > kNoCorner_rad && std::abs(angle) < kSharpestBlend_rad) {
-      // The outside of the corner lies along the bisector of the incoming and the reversed outgoing line.
+      // The outside of the corner is along the bisector of the incoming and the reversed outgoing line.
       const double inward_rad = bearing_rad(points_[i - 1], points_[i]) + 0.5 * angle +
                                 std::copysign(0.5 * std::numbers::pi, angle);
       const double out_m = outward * radius_m * blend_shape(angle).deviation;
@@ -116,7 +116,7 @@ bool BlendedPolyline::free_around(std::size_t i) const {
 }
 
 void grow_blends(BlendedPolyline& line, double largest_m) {
-  // First each corner has half of the lines to its neighbors; then it may use what they left.
+  // First each corner may use half of the lines to its neighbors, then also the length that they left.
   for (const double share : {0.5, 1.0})
     for (std::size_t i = 1; i + 1 < line.size(); ++i)
       for (double radius_m = largest_m; radius_m > std::max(kSmallestRadius_m, line.radius_m(i));
@@ -126,8 +126,8 @@ void grow_blends(BlendedPolyline& line, double largest_m) {
 
 }  // namespace
 
-SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
-                           const CornerPolicy& policy) {
+SmoothPath blend_corners(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
+                         const CornerPolicy& policy) {
   SmoothPath result;
   if (polyline_m.size() < 2) return result;
   BlendedPolyline line(polyline_m, checker);

@@ -21,7 +21,7 @@ struct CornerPolicy {
   double radius_m{0.5};  ///< blend_radius only
 };
 
-/// What became of a corner.
+/// The result at a corner.
 struct CornerReport {
   double x_m{};
   double y_m{};
@@ -32,16 +32,16 @@ struct CornerReport {
 struct SmoothPath {
   Path path{};
   std::vector<CornerReport> corners{};
-  std::vector<Point2> polyline_m{};  ///< whose corners they are, before any was moved
+  std::vector<Point2> polyline_m{};  ///< the polyline before any vertex was moved
 };
 
 /// Rounds the corners of a polyline into a curve with continuous curvature, as far as clearance admits.
 ///
-/// Each corner gets the largest radius of a falling ladder at which the straight parts and the blends
-/// around it are free; where its inside is blocked, the vertex is moved outwards by up to the blend's
-/// deviation. What cannot be blended is a turn in place. The straight parts stay exactly straight. The
-/// path starts and ends with the polyline's own headings. Not checked here: the sweep of turns in place.
-[[nodiscard]] SmoothPath smooth_polyline(const std::vector<Point2>& polyline_m,
-                                         const FootprintChecker& checker, const CornerPolicy& policy);
+/// Each corner gets the largest radius of a descending series at which the straight parts and the blends
+/// around it are free. If its inside is blocked, the vertex is moved outwards by up to the blend's deviation.
+/// A corner without a free blend becomes a turn in place. The straight parts stay exactly straight. The path
+/// starts and ends with the polyline's own headings. The sweep of turns in place is not checked here.
+[[nodiscard]] SmoothPath blend_corners(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
+                                       const CornerPolicy& policy);
 
 }  // namespace joulepath
