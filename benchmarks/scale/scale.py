@@ -26,18 +26,24 @@ class Cost:
     peak_MiB: float
 
 
+# Peak memory counts from the fork on: a small process begins the measured one, and tells what it used.
+LAUNCH = """import json, os, sys
+_, status, used = os.wait4(os.posix_spawnp(sys.argv[1], sys.argv[1:], os.environ), 0)
+print(json.dumps([status, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024]))"""
+
+
 def start(words):
-    return subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL)
+    return subprocess.Popen([sys.executable, "-S", "-E", "-c", LAUNCH, *map(str, words)], stdout=subprocess.PIPE, text=True)
 
 
 def wait(processes):
     """The costs of processes that run at the same time."""
     begin, costs = time.monotonic(), []
     for process in processes:
-        _, status, used = os.wait4(process.pid, 0)
+        status, cpu_s, peak_MiB = json.loads(process.communicate()[0].splitlines()[-1])
         if status != 0:
             raise SystemExit(f"{process.args} ended with {status}")
-        costs.append(Cost(used.ru_utime + used.ru_stime, time.monotonic() - begin, used.ru_maxrss / 1024))
+        costs.append(Cost(cpu_s, time.monotonic() - begin, peak_MiB))
     return costs
 
 
@@ -79,6 +85,9 @@ def beside_planning(program, count, planned, shards=4):
     pathlib.Path("held.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(count)))
     words = [program, "batch", file, "-j", "1", "--quiet", "--force", *NODES, "--quarantine", "held.jsonl", "--out"]
     books, = wait([start([*words, "books"])])
+    pathlib.Path("few.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(0, count, SHARDS)))
+    listing, = wait([start([program, "batch", file, "-j", "1", "--quiet", "--force", *NODES, "--quarantine", "few.jsonl", "--shard", f"1/{SHARDS}",
+                            "--out", "listing"])])
     known = [json.loads(line) for line in pathlib.Path(f"one_{planned}/results.jsonl").read_text().splitlines()]
     folders = [pathlib.Path(f"again_{k}") for k in range(shards)]
     for k, folder in enumerate(folders):
@@ -87,7 +96,7 @@ def beside_planning(program, count, planned, shards=4):
             for index in range(k, count, shards):
                 out.write(json.dumps({**known[index % planned], "index": index}, separators=(",", ":")) + "\n")
     merge, = wait([start([program, "merge", *folders, "--out", "merged_again", "--quiet", "--force"])])
-    return books, merge, sum(f.stat().st_size for f in pathlib.Path("merged_again").iterdir()) / 2**20
+    return books, listing, merge, sum(f.stat().st_size for f in pathlib.Path("merged_again").iterdir()) / 2**20
 
 
 def on_dask(count, workers, shards):
@@ -104,26 +113,27 @@ def on_dask(count, workers, shards):
 
 
 def task_cost():
-    """CPU and wall time of a shard's process that has next to nothing to plan, begun as a worker begins it."""
-    words = [sys.executable, "-m", "joulepath.cluster", os.getpid(), 0, "batch", "missions_100.jsonl", "--shard", "1/100", "-j", "1",
-             "--quiet", "--force", "--out", "tiny", *NODES]
-    found = [wait([start(words)])[0] for _ in range(5)]
-    return min(found, key=lambda cost: cost.cpu_s)
+    """CPU and wall time of a shard's process that has one mission to plan."""
+    words = [sys.executable, "-m", "joulepath", "batch", "missions_100.jsonl", "--shard", "1/100", "-j", "1", "--quiet", "--force",
+             "--out", "tiny", *NODES]
+    return min((wait([start(words)])[0] for _ in range(5)), key=lambda cost: cost.cpu_s)
 
 
 def yes(same):
     return "the same" if same else "DIFFERENT"
 
 
-def projection(per_mission_s, task, books, merge, count, files_MiB):
+def projection(per_mission_s, task, books, listing, merge, count, files_MiB):
     plan_s, tasks_s = GOAL * per_mission_s / CORES, SHARDS * task.cpu_s / CORES
+    list_s = listing.cpu_s * GOAL / count * SHARDS / CORES
     merge_s = merge.cpu_s * GOAL / count
     return [f"## Projection: {GOAL:,} missions on {CORES} cores, {SHARDS} shards", "",
             "| part | from | s |", "|---|---|---:|",
             f"| planning | {1000 * per_mission_s:.1f} ms of CPU per mission, divided by {CORES} | {plan_s:.0f} |",
             f"| processes of shards | {task.cpu_s:.2f} s of CPU each, divided by {CORES} | {tasks_s:.0f} |",
+            f"| the list of missions, read by each shard | {listing.cpu_s:.2f} s of CPU for {count:,}, in proportion, times {SHARDS}, divided by {CORES} | {list_s:.0f} |",
             f"| merge, one process | {merge.cpu_s:.1f} s of CPU for {count:,} lines, in proportion | {merge_s:.0f} |",
-            f"| sum | efficiency {100 * plan_s / (plan_s + tasks_s + merge_s):.0f} % | {plan_s + tasks_s + merge_s:.0f} |", "",
+            f"| sum | efficiency {100 * plan_s / (plan_s + tasks_s + list_s + merge_s):.0f} % | {plan_s + tasks_s + list_s + merge_s:.0f} |", "",
             f"The files of the merged results take {files_MiB * GOAL / count:,.0f} MiB, and about as much again in the shards until the merge.", "",
             f"**What breaks first** is memory in one process: the merge takes {merge.peak_MiB:.0f} MiB for {count:,} lines, "
             f"{merge.peak_MiB * GOAL / count / 1024:.1f} GiB in proportion, and every shard reads the whole list of missions "
@@ -157,12 +167,13 @@ def main():
     for workers in (1, 2):
         wall_s, peak_MiB, same = on_dask(count, workers, 8)
         lines.append(f"| {workers} Dask worker{'s' * (workers > 1)}, 8 shards | | | {wall_s:.0f} | {peak_MiB:.0f} (the worker itself) | {yes(same)} |")
-    books, merge, files_MiB = beside_planning(program, 100_000, count)
-    lines += ["", "## 100,000 missions without their planning", "", "| part | CPU, s | peak memory, MiB |", "|---|---:|---:|",
+    many = 100_000
+    books, listing, merge, files_MiB = beside_planning(program, many, count)
+    lines += ["", f"## {many:,} missions without their planning", "", "| part | CPU, s | peak memory, MiB |", "|---|---:|---:|",
               f"| `batch` that reads all missions and plans none (`--quarantine`) | {books.cpu_s:.1f} | {books.peak_MiB:.0f} |",
               f"| `merge` of 4 shards with lines like real ones: {files_MiB:.0f} MiB of files | {merge.cpu_s:.1f} | {merge.peak_MiB:.0f} |"]
     largest, cost, *_ = rows[-1]
-    lines += ["", *projection(cost.cpu_s / largest, task_cost(), books, merge, 100_000, files_MiB)]
+    lines += ["", *projection(cost.cpu_s / largest, task_cost(), books, listing, merge, many, files_MiB)]
     result.write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 

@@ -39,7 +39,8 @@ std::optional<std::uint64_t> utc_nanoseconds(std::string_view text) {
              hour = digits(text, 11, 2), minute = digits(text, 14, 2), second = digits(text, 17, 2);
   if (!y || !m || !d || !hour || !minute || !second) return {};
   const year_month_day date{year(*y), month(static_cast<unsigned>(*m)), day(static_cast<unsigned>(*d))};
-  if (!date.ok() || *y < 1970 || *hour > 23 || *minute > 59 || *second > 60) return {};
+  constexpr int kLastYear = 2261;  // 64 bits hold the nanoseconds until 2262-04-11
+  if (!date.ok() || *y < 1970 || *y > kLastYear || *hour > 23 || *minute > 59 || *second > 60) return {};
   const auto whole = sys_days(date) + hours(*hour) + minutes(*minute) + seconds(*second);
   auto total = static_cast<std::uint64_t>(duration_cast<nanoseconds>(whole.time_since_epoch()).count());
   std::uint64_t unit = 100'000'000;
