@@ -123,7 +123,7 @@ Schema diagnosis_schema() {
       {required("schema", text()), required("gap", gap_schema()), required("where", where_schema()),
        required("verdict", choice({"no_gap", "explained", "partly_explained", "unexplained", "ambiguous",
                                    "too_little_data", "data_suspect"})),
-       required("causes", list(cause_schema())),
+       optional("sentence", text(), "the answer in one line"), required("causes", list(cause_schema())),
        required("ranking",
                 list(open(map({required("effect", text()), required("probability", number(kFraction))})))),
        required("leftover", open(map({required("significant", boolean()), required("description", text())}))),

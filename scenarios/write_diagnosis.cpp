@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scenarios/diagnosis_sentence.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
@@ -128,6 +129,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"gap", gap_json(d.gap)},
       {"where", where},
       {"verdict", verdict_name(d.verdict)},
+      {"sentence", diagnosis_sentence(d)},
       {"causes", causes},
       {"ranking", ranking},
       {"leftover",

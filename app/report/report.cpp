@@ -124,6 +124,7 @@ std::string page_of(const std::string& kind, const std::string& title, const jso
   return filled(page, {{"@KIND@", kind},
                        {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
                        {"@NOTICE@", std::string(notice)},
+                       {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
                        {"@LIBRARY_CSS@", std::string(library_css)},
                        {"@STYLE@", std::string(style)},
                        {"@DATA@", script_safe(versioned)},

@@ -12,6 +12,17 @@ const kVerdicts = {
 
 jp.cause_name = (cause) => jp.words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
 
+/** One card for each named cause, with its sizes. */
+jp.cause_cards = function (d) {
+  const line = (text) => jp.h("div", {}, text);
+  const interval = (entry) => (entry.interval_95 ? ` (95 %: ${jp.number(entry.interval_95[0])} to ${jp.number(entry.interval_95[1])})` : "");
+  const card = (cause) => jp.tile(jp.cause_name(cause), jp.is_number(cause.energy_share) ? jp.fraction(cause.energy_share, 3) + " of the gap" : "–", [
+    ...Object.entries(cause.parameters || {}).filter(([key]) => key !== "side").map(([key, entry]) => line(jp.key_value(key, entry.value) + interval(entry))),
+    line(`probability ${jp.fraction(cause.probability, 3)}`), line(`closes ${jp.fraction(cause.shrink_fraction_alone, 3)} of the gap alone`),
+    (cause.indistinguishable_from || []).length ? line("these runs cannot tell it from " + cause.indistinguishable_from.map(jp.words).join(", ")) : null].filter(Boolean));
+  return (d.causes || []).length ? jp.h("div", {class: "tiles"}, d.causes.map(card)) : null;
+};
+
 jp.diagnosis_tiles = function (d) {
   const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
   return jp.h("div", {class: "tiles"}, [
@@ -100,13 +111,7 @@ jp.which_section = function (d) {
   const causes = d.causes || [], ranking = d.ranking || [];
   const grouped = new Set(causes.flatMap((cause) => (cause.indistinguishable_from || []).length ? [cause.effect, ...cause.indistinguishable_from] : []));
   const named = new Set(causes.map((cause) => cause.effect));
-  const parameters = (cause) => Object.entries(cause.parameters || {}).map(([key, entry]) => {
-    const interval = entry.interval_95 ? ` (${jp.number(entry.interval_95[0])} to ${jp.number(entry.interval_95[1])})` : "";
-    return jp.key_value(key, entry.value) + interval;
-  }).join("; ");
-  const rows = causes.map((cause) => [jp.cause_name(cause), {n: jp.fraction(cause.probability, 3)}, parameters(cause), {n: jp.fraction(cause.energy_share, 3)}, {n: jp.fraction(cause.shrink_fraction_alone, 3)}, (cause.indistinguishable_from || []).map(jp.words).join(", ") || "–"]);
-  return jp.section("Which effect", rows.length ? jp.table(["cause", {n: "probability"}, "parameters, 95 % interval", {n: "share of the gap's energy"}, {n: "closes alone"}, "indistinguishable from"], rows)
-    : jp.h("p", {}, "No cause is named."),
+  return jp.section("Which effect", causes.length ? null : jp.h("p", {}, "No cause is named."),
   d.pinned_combination ? jp.h("p", {}, "Determined by the data: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
   ranking.length ? [jp.h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: jp.words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: jp.fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
     grouped.size ? jp.h("p", {class: "soft small"}, "◇ one group: these runs cannot separate its members.") : null] : null);
@@ -171,8 +176,8 @@ jp.draw_diagnosis = function (data) {
   const d = data.diagnosis, [words, meaning, good] = kVerdicts[d.verdict] || [jp.words(d.verdict), "", false];
   const where = jp.where_section(data), runs = jp.runs_section(data);
   if (d.verdict === "data_suspect")
-    return jp.page(jp.header(data.title || "Diagnosis", meaning, words, good), jp.suspect_section(d), jp.caveats_section(d));
-  jp.page(jp.header(data.title || "Diagnosis", `The gap between the model and the measured robot. ${meaning}`, words, good), jp.diagnosis_tiles(d), where ? where.section : null, jp.which_section(d),
+    return jp.page(jp.header(data.title || "Diagnosis", d.sentence || meaning, words, good), jp.suspect_section(d), jp.caveats_section(d));
+  jp.page(jp.header(data.title || "Diagnosis", d.sentence || meaning, words, good), jp.cause_cards(d), jp.diagnosis_tiles(d), where ? where.section : null, jp.which_section(d),
     jp.how_far_section(d), runs ? runs.section : null, jp.next_section(d), jp.caveats_section(d));
   if (where) where.ready();
   if (runs) runs.ready();

@@ -1,0 +1,104 @@
+#include "scenarios/diagnosis_sentence.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "model/effects/catalog.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string three_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string percent_text(double percent) { return three_digits(percent) + " %"; }
+
+std::string plain_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+/// "dragging wheel (left), 0.24 N m": the effect with its strength.
+std::string cause_words(const Cause& cause) {
+  std::string text = plain_words(cause.effect.name);
+  if (cause.effect.side) text += std::string(" (") + side_name(*cause.effect.side) + ")";
+  if (cause.parameters.empty()) return text;
+  const FoundParameter& strength = cause.parameters.front();
+  const EffectDescription* effect = find_effect(cause.effect.name);
+  const ParameterDescription* described = effect ? effect->find(strength.name) : nullptr;
+  const std::string unit = described && described->unit != "1" ? described->unit : "";
+  return text + ", " + three_digits(strength.value) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string text_of_list(const std::vector<std::string>& parts, const std::string& between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
+std::string causes_words(const std::vector<Cause>& causes) {
+  std::vector<std::string> words;
+  for (const Cause& cause : causes) words.push_back(cause_words(cause));
+  return text_of_list(words, "; ");
+}
+
+/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."
+std::string gap_words(const Diagnosis& d) {
+  const EnergyGap& e = d.gap.energy;
+  if (!(e.before_J > 0)) return "";
+  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ").";
+  if (d.causes.empty() || !(e.after_percent < e.before_percent))
+    return " The energy gap is " + percent_text(e.before_percent) + floor;
+  return " The energy gap shrinks from " + percent_text(e.before_percent) + " to " +
+         percent_text(e.after_percent) + floor;
+}
+
+std::string unknown_words(const Diagnosis& d) {
+  if (!d.leftover_significant || d.leftover_description.empty()) return "";
+  return " What no effect explains " + d.leftover_description + ".";
+}
+
+/// "these runs cannot tell viscous friction from quadratic drag, stribeck friction".
+std::string group_words(const Diagnosis& d) {
+  for (const Cause& cause : d.causes) {
+    if (cause.indistinguishable_from.empty()) continue;
+    std::vector<std::string> others;
+    for (const std::string& other : cause.indistinguishable_from) others.push_back(plain_words(other));
+    return "these runs cannot tell " + cause_words(cause) + " from " + text_of_list(others, ", ") + ".";
+  }
+  return "the likeliest cause is uncertain: " + causes_words(d.causes) + ".";
+}
+
+std::string suspects_words(const std::vector<DataCheck>& checks) {
+  std::vector<std::string> words;
+  for (const DataCheck& check : checks)
+    words.push_back(check.channel + " " + check.kind + (check.run.empty() ? "" : " in " + check.run));
+  return text_of_list(words, "; ");
+}
+
+}  // namespace
+
+std::string diagnosis_sentence(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::no_gap:
+      return "No gap: calibration errors and noise explain the runs." + gap_words(d);
+    case Verdict::explained:
+      return "Explained: " + causes_words(d.causes) + "." + gap_words(d);
+    case Verdict::partly_explained:
+      return "Partly explained: " + causes_words(d.causes) + "." + gap_words(d) + unknown_words(d);
+    case Verdict::unexplained:
+      return "Unexplained: no effect of the catalog fits." + gap_words(d) + unknown_words(d);
+    case Verdict::ambiguous:
+      return "Ambiguous: " + group_words(d) + gap_words(d);
+    case Verdict::too_little_data:
+      return "Too little data: the runs name no cause and give no all-clear." + gap_words(d);
+    case Verdict::data_suspect:
+      return "Suspect data: " + suspects_words(d.data_checks) + ". Repair the dataset first.";
+  }
+  return {};
+}
+
+}  // namespace joulepath

@@ -1,0 +1,63 @@
+#include "scenarios/diagnosis_sentence.hpp"
+
+#include <gtest/gtest.h>
+
+namespace joulepath {
+namespace {
+
+Diagnosis with_gap(Verdict verdict, double before_percent, double after_percent) {
+  Diagnosis d{.verdict = verdict};
+  d.gap.energy.before_J = 100;
+  d.gap.energy.before_percent = before_percent;
+  d.gap.energy.after_percent = after_percent;
+  d.gap.energy.noise_floor_percent = 0.1;
+  return d;
+}
+
+Cause dragging(Side side) {
+  return {.effect = {.name = "dragging_wheel", .side = side},
+          .parameters = {{"torque_Nm", 0.2413, {0.22, 0.26}}}};
+}
+
+TEST(DiagnosisSentence, NamesTheCauseItsSizeAndWhatBecomesOfTheGap) {
+  Diagnosis d = with_gap(Verdict::explained, 26.04, 0.302);
+  d.causes = {dragging(Side::left)};
+  EXPECT_EQ(diagnosis_sentence(d),
+            "Explained: dragging wheel (left), 0.241 N m. The energy gap shrinks from 26 % to 0.302 % (noise "
+            "floor 0.1 %).");
+}
+
+TEST(DiagnosisSentence, SaysNoShrinkWhereThereIsNone) {
+  Diagnosis d = with_gap(Verdict::explained, 1.2, 1.3);
+  d.causes = {dragging(Side::right)};
+  const std::string said = diagnosis_sentence(d);
+  EXPECT_EQ(said.find("shrinks"), std::string::npos) << said;
+  EXPECT_NE(said.find("The energy gap is 1.2 %"), std::string::npos) << said;
+}
+
+TEST(DiagnosisSentence, WithoutMeasuredEnergySaysNothingOfIt) {
+  Diagnosis d{.verdict = Verdict::unexplained, .leftover_significant = true};
+  d.leftover_description = "depends on heading (current)";
+  EXPECT_EQ(
+      diagnosis_sentence(d),
+      "Unexplained: no effect of the catalog fits. What no effect explains depends on heading (current).");
+}
+
+TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
+  Diagnosis group = with_gap(Verdict::ambiguous, 4, 1);
+  group.causes = {dragging(Side::left)};
+  group.causes[0].indistinguishable_from = {"coulomb_friction", "rolling_resistance"};
+  EXPECT_EQ(diagnosis_sentence(group).rfind("Ambiguous: these runs cannot tell dragging wheel (left), 0.241 "
+                                            "N m from coulomb friction, rolling resistance.",
+                                            0),
+            0u)
+      << diagnosis_sentence(group);
+  const Diagnosis suspect{
+      .verdict = Verdict::data_suspect,
+      .data_checks = {{.run = "run_03.csv", .channel = "gyro_yaw_rate_rad_s", .kind = "inverted"}}};
+  EXPECT_EQ(diagnosis_sentence(suspect),
+            "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
+}
+
+}  // namespace
+}  // namespace joulepath
