@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_summary.hpp"
@@ -12,6 +13,8 @@
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
+#include "scenarios/controller_settings.hpp"
+#include "scenarios/export/loss_json.hpp"
 #include "scenarios/mission_file.hpp"
 
 namespace joulepath {
@@ -55,10 +58,13 @@ class CompareCommand : public Command {
                  .examples =
                      "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
                      "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
-                     "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n"}) {}
+                     "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n"
+                     "  joulepath compare mission.yaml --controller nav2_params.yaml\n"}) {}
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult);
+    line.option("--controller", controller_,
+                "parameter file of Nav2 or ros2_control (YAML): what its speeds and accelerations cost");
     add_plan_options(line, study_.plan);
   }
 
@@ -72,6 +78,7 @@ class CompareCommand : public Command {
                 << "\n";
       return kInfeasibleOrFailed;
     }
+    if (!controller_.empty()) return compare_controller(plan, out);
     const std::vector<ComparedProfile> compared = compare_baselines(plan);
     nlohmann::json result = {
         {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
@@ -85,6 +92,31 @@ class CompareCommand : public Command {
   }
 
  private:
+  /// What the settings of a file cost on the plan's path; no classic profiles.
+  int compare_controller(const Plan& plan, OutputDirectory& out) const {
+    const ControllerFile settings = read_controller_settings(controller_);
+    const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
+    nlohmann::json result{{"schema", "joulepath/loss/1"}, {"of", controller_}, {"parameters", settings.read}};
+    result.update(loss_json(loss));
+    if (study_writes(study_)) {
+      out.write(kResult, result.dump(1) + "\n");
+      out.commit();
+    }
+    if (!study_prints(study_, result)) return kDone;
+    Table table({"", "s", "J", "optimum J", "lost J", "lost"});
+    const auto row = [&](const std::string& name, const LossAtTime& at) {
+      table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
+                 figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
+    };
+    table.row({"plan", figure(plan.duration_s), figure(plan.energy.total_J(), 6), "", "", ""});
+    row("controller, its own time", loss.own_time);
+    if (loss.plan_time) row("controller, the plan's time", *loss.plan_time);
+    table.print(std::cout);
+    if (!loss.plan_time) std::cout << "later than the plan\n";
+    if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
+    return kDone;
+  }
+
   static std::vector<report::NamedColumns> motions(const Plan& plan,
                                                    const std::vector<ComparedProfile>& compared) {
     std::vector<const ProfileRequest*> requests;
@@ -103,6 +135,7 @@ class CompareCommand : public Command {
 
   static constexpr const char* kResult = "compare.json";
   StudyOptions study_{};
+  std::string controller_{};
 };
 
 }  // namespace

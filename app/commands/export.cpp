@@ -9,7 +9,9 @@
 #include "app/terminal.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/export/exports.hpp"
+#include "scenarios/export/route_graph.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/robot_file.hpp"
 // Design: docs/decisions/0091-exports-plan-again.md
 namespace joulepath {
 namespace {
@@ -38,9 +40,14 @@ std::string examples() {
       "  joulepath export mission.yaml --to nav2_path --out path.json\n"
       "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n"
       "  joulepath export mission.yaml --to controller --out controller.json\n"
-      "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n\nFormats:\n";
-  for (const ExportFormat& format : export_formats())
-    text += "  " + format.name + std::string(13 - format.name.size(), ' ') + format.says + "\n";
+      "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n"
+      "  joulepath export graph.geojson --robot robot.yaml --payload 5 --to route_graph --out "
+      "energy.geojson\n\nFormats:\n";
+  const auto line = [&](const std::string& name, const std::string& says) {
+    text += "  " + name + std::string(15 - name.size(), ' ') + says + "\n";
+  };
+  for (const ExportFormat& format : export_formats()) line(format.name, format.says);
+  line(kRouteGraphFormat, kRouteGraphSays);
   return text;
 }
 
@@ -54,16 +61,24 @@ class ExportCommand : public Command {
   void declare(CommandLine& line) override {
     std::vector<std::string> names;
     for (const ExportFormat& format : export_formats()) names.push_back(format.name);
+    names.push_back(kRouteGraphFormat);
     add_mission_source(line, source_);
     line.option("--to", format_, "format").required().one_of(names);
     line.option("--out", out_, "file to write; further files use its name").required();
     line.option("--rate", rate_Hz_, "samples per second, for formats with samples").between(0.1, 1000.0);
+    line.option("--corner-radius", corner_radius_m_,
+                "route_graph: radius of the arcs that the robot drives in corners; 0: it stops and turns")
+        .not_negative()
+        .shows_default();
+    line.flag("--expand-turns", expand_turns_,
+              "route_graph: a node per arriving edge, so that costs of corners are exact");
     add_plan_options(line, options_);
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
     const ReadOptions reading{.untrusted = common_.untrusted};
+    if (format_ == kRouteGraphFormat) return write_route_graph();
     const ExportFormat& format = format_named(format_);
     check_extension();
     const MissionRequest mission = read_mission_source(source_, reading);
@@ -77,7 +92,7 @@ class ExportCommand : public Command {
     }
     const Plant plant = make_plant(world.robot);
     const Export result = format.write({mission, world, plan, plant, out_, rate_Hz_});
-    write_files(result);
+    write_files(result.files);
     if (common_.json && result.loss)
       std::cout << loss_json_text(*result.loss, format_);
     else if (!common_.quiet)
@@ -95,18 +110,44 @@ class ExportCommand : public Command {
   }
 
   /// All or none: an existing file is reported before anything is written.
-  void write_files(const Export& result) const {
-    for (const ExportFile& file : result.files)
+  void write_files(const std::vector<ExportFile>& files) const {
+    for (const ExportFile& file : files)
       if (!common_.force && std::filesystem::exists(file.name))
         throw ConfigError(
             {{file.name, 0, 0}, "", "a file that exists", "a new name", "--force overwrites it"});
-    for (const ExportFile& file : result.files) write_output_file(file.name, file.content, common_.force);
+    for (const ExportFile& file : files) write_output_file(file.name, file.content, common_.force);
+  }
+
+  int write_route_graph() const {
+    if (source_.robot_file.empty())
+      throw ConfigError({{source_.file, 0, 0},
+                         "",
+                         "a route graph, which names no robot",
+                         "--robot with the name of a robot file",
+                         ""});
+    const RouteGraphExport result = export_route_graph(
+        {source_.file, out_, source_.payload_kg.value_or(0.0), corner_radius_m_, expand_turns_},
+        read_robot(source_.robot_file));
+    write_files(result.files);
+    if (common_.quiet) return kDone;
+    std::cout << result.nodes << " nodes, " << result.edges << " edges\n";
+    const TurnAttribution& turns = result.attribution;
+    if (turns.corners > 0)
+      std::cout << "corners: " << turns.corners << ", mean " << figure(turns.mean_J, 3)
+                << " J; edges alone miss a corner by " << figure(turns.rms_J, 3) << " J (rms), "
+                << figure(turns.worst_J, 3) << " J (worst): --expand-turns is exact\n";
+    tell_names(result.files);
+    return kDone;
   }
 
   static void tell(const Export& result) {
     if (result.loss) print_loss(*result.loss);
+    tell_names(result.files);
+  }
+
+  static void tell_names(const std::vector<ExportFile>& files) {
     std::string names;
-    for (const ExportFile& file : result.files) names += (names.empty() ? "" : ", ") + file.name;
+    for (const ExportFile& file : files) names += (names.empty() ? "" : ", ") + file.name;
     std::cout << "written: " << names << "\n";
   }
 
@@ -114,6 +155,8 @@ class ExportCommand : public Command {
   std::string format_{};
   std::string out_{};
   std::optional<double> rate_Hz_{};
+  double corner_radius_m_{};
+  bool expand_turns_{};
   PlanOptions options_{};
   CommonOptions common_{};
 };

@@ -14,12 +14,16 @@ constexpr std::array<double, 3> kSettingShares{1.0, 0.75, 0.5};
 /// Stretches of one kind that share their settings.
 class Group {
  public:
-  Group(const LegPlan& leg, bool turns) {
+  /// What all of them may be driven with at most is the least of theirs.
+  void add(const LegPlan& leg, bool turns) {
     for (const StretchPlan& stretch : leg.stretches) {
       if (is_turn(stretch.request.piece) != turns) continue;
       families_.emplace_back(stretch.request);
       duration_s_ += stretch.profile.time_s.back();
-      fastest_ = fastest_settings({}, stretch, families_.back());
+      const TrapezoidSettings own = fastest_settings({}, stretch, families_.back());
+      fastest_.rate = std::min(fastest_.rate, own.rate);
+      fastest_.acceleration = std::min(fastest_.acceleration, own.acceleration);
+      fastest_.deceleration = std::min(fastest_.deceleration, own.deceleration);
     }
   }
 
@@ -76,14 +80,13 @@ class Group {
 
   std::vector<TrapezoidFamily> families_{};
   double duration_s_{};
-  TrapezoidSettings fastest_{};
+  TrapezoidSettings fastest_{kNoLimit, kNoLimit, kNoLimit};
 };
 
 /// Up to three decimals, but not above the robot's limits.
 double rounded_up(double value, double most) { return std::min(most, std::ceil(1000 * value - 1e-6) / 1000); }
 
-std::optional<TrapezoidSettings> settings_of(const LegPlan& leg, bool turns) {
-  const Group group(leg, turns);
+std::optional<TrapezoidSettings> settings_of(const Group& group) {
   if (group.empty()) return std::nullopt;
   const TrapezoidSettings& fastest = group.fastest();
   TrapezoidSettings settings = group.tuned().value_or(fastest);
@@ -97,9 +100,22 @@ std::optional<TrapezoidSettings> settings_of(const LegPlan& leg, bool turns) {
 
 std::vector<LegSettings> leg_settings(const Plan& plan) {
   std::vector<LegSettings> settings;
-  for (const LegPlan& leg : plan.legs)
-    settings.push_back({.drive = settings_of(leg, false), .turn = settings_of(leg, true)});
+  for (const LegPlan& leg : plan.legs) {
+    Group drives, turns;
+    drives.add(leg, false);
+    turns.add(leg, true);
+    settings.push_back({.drive = settings_of(drives), .turn = settings_of(turns)});
+  }
   return settings;
+}
+
+LegSettings mission_settings(const Plan& plan) {
+  Group drives, turns;
+  for (const LegPlan& leg : plan.legs) {
+    drives.add(leg, false);
+    turns.add(leg, true);
+  }
+  return {.drive = settings_of(drives), .turn = settings_of(turns)};
 }
 
 ControlledDrive drive_with(const Plan& plan, const std::vector<LegSettings>& settings) {

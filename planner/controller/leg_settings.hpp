@@ -17,6 +17,9 @@ struct LegSettings {
 /// robot's limits.
 [[nodiscard]] std::vector<LegSettings> leg_settings(const Plan& plan);
 
+/// One set for all curves of a plan and one for all its turns, for controllers that keep theirs.
+[[nodiscard]] LegSettings mission_settings(const Plan& plan);
+
 /// The mission driven with them.
 [[nodiscard]] ControlledDrive drive_with(const Plan& plan, const std::vector<LegSettings>& settings);
 

@@ -44,6 +44,10 @@ const std::vector<ExportFormat>& export_formats() {
       {"controller",
        "speed, acceleration and deceleration for each leg, with the energy that they lose (JSON)",
        export_controller},
+      {"nav2_settings",
+       "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the energy that they lose "
+       "(YAML)",
+       export_nav2_settings},
       {"vda5050", "the order with a maximum speed on each edge (JSON), and the energy that it loses",
        export_vda5050},
       {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the energy that it loses", export_speed_mask},

@@ -47,6 +47,7 @@ struct ExportFormat {
 [[nodiscard]] Export export_bag(const ExportInput& input);    ///< MCAP: Path, Odometry, power
 [[nodiscard]] Export export_edges(const ExportInput& input);  ///< CSV, or JSON by the file's extension
 [[nodiscard]] Export export_controller(const ExportInput& input);
+[[nodiscard]] Export export_nav2_settings(const ExportInput& input);  ///< YAML
 [[nodiscard]] Export export_vda5050(const ExportInput& input);
 [[nodiscard]] Export export_speed_mask(const ExportInput& input);
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/plant.hpp"
+#include "planner/path/search/route_graph.hpp"
+
+// Design: docs/decisions/0322-turning-energy-on-edges.md
+namespace joulepath {
+
+/// What driving over one directed edge costs.
+struct EdgeCost {
+  double energy_J{};  ///< standby included; > 0
+  double time_s{};
+  double speed_m_s{};  ///< that takes the least energy along the edge, standby included
+};
+
+/// What a corner between two edges costs beyond driving both at their speeds: stop, turn and start, or the
+/// slower arc. `in` and `out` are indices of edges, `out` starts where `in` ends.
+struct CornerCost {
+  std::size_t in{}, out{};
+  double energy_J{}, time_s{};
+};
+
+/// How well costs of corners are carried by edges alone.
+struct TurnAttribution {
+  std::size_t corners{};
+  double mean_J{};  ///< of a corner
+  double rms_J{};   ///< of what attribution leaves over at a corner
+  double worst_J{};
+};
+
+/// Costs of a route graph for one robot with one payload.
+struct GraphCosts {
+  std::vector<EdgeCost> edges{};       ///< without the corners at their ends
+  std::vector<EdgeCost> with_turns{};  ///< each corner's cost split over its two edges
+  std::vector<CornerCost> corners{};   ///< all pairs but those that lead straight back
+  TurnAttribution attribution{};
+};
+
+/// `corner_radius_m`: of the arcs by which corners are driven; 0: the robot stops and turns.
+[[nodiscard]] GraphCosts graph_costs(const RouteGraph& graph, const Robot& robot, double payload_kg,
+                                     double corner_radius_m);
+
+}  // namespace joulepath

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "planner/accounts/graph_costs.hpp"
+#include "scenarios/export/exports.hpp"
+
+namespace joulepath {
+
+inline constexpr const char* kRouteGraphFormat = "route_graph";
+inline constexpr const char* kRouteGraphSays =
+    "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and route_server.yaml";
+
+struct RouteGraphOrder {
+  std::string graph_file{};
+  std::string out_file{};
+  double payload_kg{};
+  double corner_radius_m{};  ///< 0: the robot stops and turns in corners
+  bool expand_turns{};
+};
+
+/// The graph file with `energy_J`, `abs_time_taken`, `abs_speed_limit` and `speed_limit` (percent) in the
+/// metadata of each edge, and the settings of a route server that reads it. With `expand_turns` a node
+/// becomes one node per arriving edge, so that costs of corners are exact.
+struct RouteGraphExport {
+  std::vector<ExportFile> files{};
+  TurnAttribution attribution{};
+  std::size_t nodes{}, edges{};  ///< written
+};
+
+/// Throws ConfigError for a broken graph, or a robot that cannot drive it.
+[[nodiscard]] RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& robot);
+
+}  // namespace joulepath

@@ -1,0 +1,184 @@
+#include "scenarios/export/route_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <queue>
+
+#include "scenarios/mission_file.hpp"
+#include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string point(long id, double x, double y) {
+  return R"({"type": "Feature", "properties": {"id": )" + std::to_string(id) +
+         R"(}, "geometry": {"type": "Point", "coordinates": [)" + std::to_string(x) + ", " +
+         std::to_string(y) + "]}}";
+}
+std::string line(long id, long from, long to, const std::string& metadata = "{}") {
+  return R"({"type": "Feature", "properties": {"id": )" + std::to_string(id) + R"(, "startid": )" +
+         std::to_string(from) + R"(, "endid": )" + std::to_string(to) + R"(, "metadata": )" + metadata +
+         R"(}, "geometry": {"type": "LineString", "coordinates": []}})";
+}
+std::string collection(const std::vector<std::string>& features) {
+  std::string text = R"({"type": "FeatureCollection", "features": [)";
+  for (std::size_t i = 0; i < features.size(); ++i) text += (i ? ",\n" : "") + features[i];
+  return text + "]}";
+}
+
+/// A square of 4 m, once round, and a straight edge of 8 m out of it.
+std::string square() {
+  return collection({point(1, 0, 0), point(2, 4, 0), point(3, 4, 4), point(4, 0, 4), point(5, 12, 0),
+                     line(10, 1, 2), line(11, 2, 3), line(12, 3, 4), line(13, 4, 1), line(14, 2, 5)});
+}
+
+std::map<long, Json> metadata_of(const std::string& text) {
+  std::map<long, Json> metadata;
+  const Json json = Json::parse(text);
+  for (const Json& feature : json["features"])
+    if (feature["geometry"]["type"] == "LineString")
+      metadata[feature["properties"]["id"]] = feature["properties"]["metadata"];
+  return metadata;
+}
+
+TEST(RouteGraph, EveryNumberOfAnEdgeIsAPositiveFloat) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("graph.geojson", square());
+  for (const bool expand : {false, true}) {
+    const RouteGraphExport result =
+        export_route_graph({file, directory.at("out.geojson"), 5.0, 0.0, expand}, testing::nomad());
+    for (const auto& [id, metadata] : metadata_of(result.files[0].content))
+      for (const char* key : {"energy_J", "abs_time_taken", "abs_speed_limit", "speed_limit"}) {
+        EXPECT_TRUE(metadata.at(key).is_number_float()) << id << ' ' << key;
+        EXPECT_NE(metadata.at(key).dump().find('.'), std::string::npos) << metadata.at(key);
+        EXPECT_GT(metadata.at(key).get<double>(), 0);
+      }
+  }
+}
+
+TEST(RouteGraph, KeepsWhatTheGraphSaysAndASpeedLimit) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write(
+      "graph.geojson", collection({point(1, 0, 0), point(2, 8, 0),
+                                   line(10, 1, 2, R"({"abs_speed_limit": 0.3, "class": "aisle"})")}));
+  const RouteGraphExport result =
+      export_route_graph({file, directory.at("out.geojson"), 0, 0, false}, testing::nomad());
+  const Json edge = metadata_of(result.files[0].content).at(10);
+  EXPECT_EQ(edge["class"], "aisle");
+  EXPECT_NEAR(edge["abs_speed_limit"].get<double>(), 0.3, 1e-6);
+  EXPECT_NEAR(edge["abs_time_taken"].get<double>(), 8 / 0.3, 1e-3);
+  EXPECT_NEAR(edge["speed_limit"].get<double>(), 30.0, 1e-3);
+}
+
+/// Friction and standby per meter, by the closed form of constant speed: (R i^2 + Kt n i w) for both motors.
+TEST(RouteGraph, AStraightEdgeCostsItsSteadyPower) {
+  const ScratchDirectory directory;
+  const std::string file =
+      directory.write("graph.geojson", collection({point(1, 0, 0), point(2, 8, 0), line(10, 1, 2)}));
+  const Robot robot = testing::nomad();
+  const RouteGraphExport result = export_route_graph({file, directory.at("o.geojson"), 0, 0, false}, robot);
+  const Json edge = metadata_of(result.files[0].content).at(10);
+  const double v = edge["abs_speed_limit"].get<double>(), w = v / 0.1;
+  double power_W = robot.power.standby_W;
+  for (const Side side : kSides) {
+    const Motor& motor = robot.motor[side];
+    const double kt = motor.torque_per_ampere_Nm_A();
+    const double i = (motor.friction_torque_Nm + motor.viscous_friction_Nm_s_rad * w) / kt;
+    power_W += motor.resistance_ohm * i * i + motor.volts_per_speed_V_s_rad() * w * i;
+  }
+  EXPECT_NEAR(edge["energy_J"].get<double>(), power_W * 8 / v, 1e-4 * power_W * 8 / v);
+}
+
+/// Around a ring each corner belongs to one pair of edges: attribution leaves nothing over there.
+TEST(RouteGraph, CornersOfAPathAreAttributedExactly) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write(
+      "graph.geojson", collection({point(1, 0, 0), point(2, 4, 0), point(3, 4, 4), point(4, 0, 4),
+                                   line(10, 1, 2), line(11, 2, 3), line(12, 3, 4), line(13, 4, 1)}));
+  const GraphCosts costs = graph_costs(read_route_graph(file), testing::nomad(), 5, 0);
+  EXPECT_EQ(costs.corners.size(), 4u);
+  EXPECT_LT(costs.attribution.worst_J, 1e-6);
+  double apart = 0, together = 0;
+  for (const EdgeCost& cost : costs.edges) apart += cost.energy_J;
+  for (const CornerCost& corner : costs.corners) apart += corner.energy_J;
+  for (const EdgeCost& cost : costs.with_turns) together += cost.energy_J;
+  EXPECT_NEAR(apart, together, 1e-6 * apart);
+  for (const CornerCost& corner : costs.corners) EXPECT_GT(corner.energy_J, 5);
+}
+
+TEST(RouteGraph, MoreOnBoardCostsMoreOnEveryCorner) {
+  const ScratchDirectory directory;
+  const RouteGraph graph = read_route_graph(directory.write("graph.geojson", square()));
+  const GraphCosts empty = graph_costs(graph, testing::nomad(), 0, 0);
+  const GraphCosts loaded = graph_costs(graph, testing::nomad(), 10, 0);
+  for (std::size_t i = 0; i < empty.corners.size(); ++i)
+    EXPECT_GE(loaded.corners[i].energy_J, empty.corners[i].energy_J);
+}
+
+/// The expanded graph's cheapest route from node 1 to node 5 costs two edges and a straight joint; to node 3
+/// it costs two edges and a corner.
+TEST(RouteGraph, ExpandedCostsOfRoutesAreExact) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("graph.geojson", square());
+  const GraphCosts costs = graph_costs(read_route_graph(file), testing::nomad(), 5, 0);
+  const RouteGraphExport result =
+      export_route_graph({file, directory.at("o.geojson"), 5, 0, true}, testing::nomad());
+  const Json json = Json::parse(result.files[0].content);
+  std::map<long, std::vector<std::pair<long, double>>> leaving;
+  std::map<long, long> goal;
+  for (const Json& feature : json["features"]) {
+    const Json& p = feature["properties"];
+    if (p.contains("startid"))
+      leaving[p["startid"]].push_back({p["endid"], p["metadata"]["energy_J"]});
+    else if (p.contains("metadata") && p["metadata"].contains("goal_of"))
+      goal[p["metadata"]["goal_of"]] = p["id"];
+  }
+  const auto cheapest = [&](long from, long to) {
+    std::map<long, double> cost{{from, 0.0}};
+    std::priority_queue<std::pair<double, long>, std::vector<std::pair<double, long>>, std::greater<>> open;
+    open.emplace(0.0, from);
+    while (!open.empty()) {
+      const auto [c, node] = open.top();
+      open.pop();
+      for (const auto& [next, step] : leaving[node])
+        if (!cost.contains(next) || c + step < cost[next]) open.emplace(cost[next] = c + step, next);
+    }
+    return cost.at(to);
+  };
+  const auto corner_J = [&](std::size_t in, std::size_t out) {
+    for (const CornerCost& corner : costs.corners)
+      if (corner.in == in && corner.out == out) return corner.energy_J;
+    return std::nan("");
+  };
+  const auto& e = costs.edges;
+  EXPECT_NEAR(corner_J(0, 4), 0, 1e-9);
+  EXPECT_NEAR(cheapest(1, goal.at(5)), e[0].energy_J + e[4].energy_J, 2e-3);
+  EXPECT_NEAR(cheapest(1, goal.at(3)), e[0].energy_J + corner_J(0, 1) + e[1].energy_J, 2e-3);
+}
+
+TEST(RouteGraph, TheSettingsNameTheGraphAndTheTag) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("graph.geojson", square());
+  const RouteGraphExport result =
+      export_route_graph({file, directory.at("energy.geojson"), 0, 0, false}, testing::nomad());
+  ASSERT_EQ(result.files.size(), 2u);
+  EXPECT_EQ(result.files[1].name, directory.at("route_server.yaml"));
+  EXPECT_NE(result.files[1].content.find("penalty_tag: energy_J"), std::string::npos);
+  EXPECT_NE(result.files[1].content.find("graph_filepath: energy.geojson"), std::string::npos);
+}
+
+TEST(RouteGraph, AGraphWithoutEdgesIsRefused) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("graph.geojson", collection({point(1, 0, 0)}));
+  EXPECT_THROW((void)export_route_graph({file, directory.at("o"), 0, 0, false}, testing::nomad()),
+               ConfigError);
+}
+
+}  // namespace
+}  // namespace joulepath
