@@ -16,11 +16,12 @@ inline Limits kobuki_limits() {
   return limits;
 }
 
-/// The robots of the campaigns: 6 to 600 kg, each with limits and a largest payload.
-inline std::vector<Robot> four_robots() {
+/// The robots of the campaigns: 6 to 600 kg, each with limits and a largest payload. `folder`: of their
+/// files.
+inline std::vector<Robot> four_robots(const std::string& folder = "scenarios/robots/") {
   std::vector<Robot> robots;
   for (const char* name : {"nomad_super_scout", "kobuki", "amr_150kg", "tug_600kg"}) {
-    Robot robot = read_robot("scenarios/robots/" + std::string(name) + ".yaml");
+    Robot robot = read_robot(folder + name + ".yaml");
     if (!robot.limits) robot.limits = kobuki_limits();
     robot.limits->max_payload_kg =
         std::min(robot.limits->max_payload_kg, 0.5 * robot.inertia.chassis_mass_kg);

@@ -8,12 +8,13 @@
 #include "benchmarks/support/robots.hpp"
 #include "planner/motion/replay.hpp"
 #include "planner/profile/profile_solver.hpp"
+#include "tests/support/locations.hpp"
 
 namespace joulepath::problems {
 namespace {
 
 TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
-  const std::vector<Robot> robots = four_robots();
+  const std::vector<Robot> robots = four_robots(JOULEPATH_SOURCE_DIR "/scenarios/robots/");
   for (unsigned index = 0; index < 48; ++index) {
     const std::optional<CampaignProblem> one = campaign_problem(robots, 7, index);
     if (!one) continue;
@@ -38,7 +39,7 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
 /// Optima at which the gradient's rounding is above the solver's tolerance, found by the campaign: tight
 /// corners, a straight line and a bend of heavy robots. They are solved, not handed over.
 TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
-  const std::vector<Robot> robots = four_robots();
+  const std::vector<Robot> robots = four_robots(JOULEPATH_SOURCE_DIR "/scenarios/robots/");
   for (unsigned index : {43U, 830U, 3817U, 3864U}) {
     const std::optional<CampaignProblem> one = campaign_problem(robots, 20261123, index);
     ASSERT_TRUE(one);
@@ -49,7 +50,7 @@ TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
 }
 
 TEST(Campaign, AProblemIsAFunctionOfItsIndex) {
-  const std::vector<Robot> robots = four_robots();
+  const std::vector<Robot> robots = four_robots(JOULEPATH_SOURCE_DIR "/scenarios/robots/");
   for (unsigned index : {3U, 8U}) {
     const auto one = campaign_problem(robots, 7, index), again = campaign_problem(robots, 7, index);
     ASSERT_TRUE(one && again);

@@ -159,7 +159,9 @@ on("edit", ({release}) => {
   if (store.state === "planned" || store.state === "certified") store.state = "draft";
   if (ways_are_known()) draft();
   clearTimeout(timer);
-  if (release) timer = setTimeout(settle, 60);
+  if (!release) return;
+  working("certifying");
+  timer = setTimeout(settle, 60);
 });
 
 /** The first plan of the page. */
