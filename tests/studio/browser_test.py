@@ -85,7 +85,11 @@ def check_keyboard(page):
     else:
         raise AssertionError("Tab does not reach the map")
     before = energy_J(page)
-    page.keys("nnn", "\ue014\ue013\ue014\ue013")
+    for _ in range(30):
+        page.keys("n")
+        if page.run("return studio.store.selection.kind === 'handle' && studio.store.selection.point < 3"):
+            break
+    page.keys("\ue014\ue013\ue014\ue013")
     page.settle()
     assert energy_J(page) != before, "arrow keys on the map changed nothing"
     for _ in range(150):
