@@ -94,7 +94,8 @@ def test_check_lists_topics_and_proposes_a_dataset(program, tmp_path):
     robot.save(tmp_path / "robot.yaml")
     text = done.stdout[done.stdout.index("schema:"):]
     (tmp_path / "dataset.yaml").write_text(text)
-    subprocess.run([program, "check", tmp_path / "dataset.yaml"], check=True, stdout=subprocess.DEVNULL)
+    done = subprocess.run([program, "check", tmp_path / "dataset.yaml"], capture_output=True, text=True)
+    assert done.returncode == 1 and "heading_rad dead" in done.stdout  # the recorded robot turns, its heading stays 0
     subprocess.run([program, "estimate", tmp_path / "day.mcap", "--robot", tmp_path / "robot.yaml"], check=True,
                    stdout=subprocess.DEVNULL)
 

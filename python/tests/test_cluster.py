@@ -104,18 +104,19 @@ def test_a_sweep_has_the_bytes_of_one_process(client, missions, tmp_path):
 
 
 def test_workers_killed_at_random_change_nothing(workers, client, missions, tmp_path):
-    one = one_process("batch", missions, "--nodes", 500)
+    slow = ("--nodes", "500", "--no-cache")
+    one = one_process("batch", missions, *slow)
     chance, killed = random.Random(4), []
 
     def kill():
-        if chance.random() < 0.05 and len(killed) < 8:
+        if chance.random() < (0.05 if killed else 0.3) and len(killed) < 8:
             pid = chance.choice([nanny.pid for nanny in workers.workers.values()])
             if pid is not None:
                 os.kill(pid, signal.SIGKILL)
                 killed.append(pid)
 
     with Repeated(kill):
-        found = cluster.run(missions, client, "many", shards=10, options=("--nodes", "500"))
+        found = cluster.run(missions, client, "many", shards=10, options=slow)
     assert killed
     assert_same(one, found)
     assert not shard_processes(tmp_path)
