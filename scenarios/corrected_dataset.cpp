@@ -1,5 +1,7 @@
 #include "scenarios/corrected_dataset.hpp"
 
+#include <algorithm>
+
 #include "model/effects/catalog.hpp"
 #include "scenarios/dataset_text.hpp"
 #include "scenarios/document.hpp"
@@ -42,11 +44,8 @@ ColumnSource undone(ColumnSource source, const Distortion& distortion, bool is_c
 
 bool is_logged(const Dataset& dataset, const std::string& column) {
   const LogColumn* known = find_log_column(column);
-  for (const Run& run : dataset.runs) {
-    Trajectory log = run.log;
-    if (known && !known->channel(log).empty()) return true;
-  }
-  return false;
+  return known != nullptr &&
+         std::ranges::any_of(dataset.runs, [&](const Run& run) { return !known->of(run.log).empty(); });
 }
 
 ColumnSources corrected_sources(const Dataset& dataset, ColumnSources sources,
