@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "scenarios/log_columns.hpp"
 // Design: docs/decisions/0150-input-is-bounded.md
@@ -47,33 +48,17 @@ LogArtifact jump_before(const Run& run, std::size_t sample) {
   return {"cut", run.name, "time_s", text, 1, run.log.time_s[sample - 1]};
 }
 
-/// All but the samples, without a copy of them.
-Run without_log(const Run& run) {
-  return {.name = run.name,
-          .payload = run.payload,
-          .payload_known = run.payload_known,
-          .surface = run.surface,
-          .start_time_s = run.start_time_s,
-          .use = run.use,
-          .wheels_from_body_speeds = run.wheels_from_body_speeds,
-          .current_sign_from_motion = run.current_sign_from_motion,
-          .mark = run.mark};
-}
-
-/// A later stretch as a run: its clock begins at 0, its payload is what the log says.
-Run later_stretch(const Run& run, Trajectory log, std::size_t number) {
-  Run later = without_log(run);
-  later.name = run.name + " (part " + std::to_string(number) + ")";
-  later.log = std::move(log);
+/// A later stretch: its clock begins at 0, its payload is what the log says.
+void begin_anew(Run& later, double log_begin_s, std::size_t number) {
+  later.name += " (part " + std::to_string(number) + ")";
   const double begin_s = later.log.time_s.front();
   for (double& time_s : later.log.time_s) time_s -= begin_s;
-  if (begin_s - run.log.time_s.front() > kKnownTimeOfDay_s) later.start_time_s.reset();
+  if (begin_s - log_begin_s > kKnownTimeOfDay_s) later.start_time_s.reset();
   if (later.start_time_s) *later.start_time_s += begin_s;
   later.payload.clear();
   for (std::size_t i = 0; i < later.log.payload_kg.size(); ++i)
     if (i == 0 || later.log.payload_kg[i] != later.log.payload_kg[i - 1])
       later.payload.push_back({later.log.time_s[i], later.log.payload_kg[i]});
-  return later;
 }
 
 }  // namespace
@@ -84,15 +69,12 @@ std::vector<Run> stretches_between(Run run, const std::vector<std::size_t>& boun
     stretches.push_back(std::move(run));
     return stretches;
   }
+  const Trajectory log = std::exchange(run.log, {});  // the rest is copied into each stretch
   for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
     if (bounds[k + 1] - bounds[k] < 2) continue;
-    Trajectory part = samples_between(run.log, bounds[k], bounds[k + 1]);
-    if (k > 0) {
-      stretches.push_back(later_stretch(run, std::move(part), stretches.size() + 1));
-      continue;
-    }
-    stretches.push_back(without_log(run));
-    stretches.back().log = std::move(part);
+    stretches.push_back(run);
+    stretches.back().log = samples_between(log, bounds[k], bounds[k + 1]);
+    if (k > 0) begin_anew(stretches.back(), log.time_s.front(), stretches.size());
   }
   return stretches;
 }
