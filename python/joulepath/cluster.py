@@ -88,7 +88,6 @@ def _run_shard(shard: _Shard) -> None:
 def _wait(client: Any, shards: list[_Shard], progress: Callable[[int, int], None] | None) -> None:
     """Runs all shards. One whose workers died is begun again."""
     dask: Any = importlib.import_module("distributed")
-
     running = {client.submit(_run_shard, shard, pure=False): shard for shard in shards}
     deaths: Counter[tuple[int, int]] = Counter()
     finished = dask.as_completed(list(running))
@@ -122,7 +121,8 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     target, folder = FilePath(out).absolute(), FilePath(f"{FilePath(out).absolute()}.shards")
     if target.exists():
         raise refused("out", f"{target}, which exists", "a new name")
-    if strangers := {worker: build for worker, build in client.run(build_id).items() if build != build_id()}:
+    builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
+    if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
         raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
     count = whole("shards", shards or 4 * len(client.nthreads()), 1, 1_000_000)
     is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(os.fspath(study)))
