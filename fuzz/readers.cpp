@@ -1,0 +1,97 @@
+// One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. An input is
+// right, or it is refused with a ConfigError; anything else (crash, sanitizer report, other exception, more
+// time or memory than the limits of ./dev fuzz) is a finding.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "app/command.hpp"
+#include "app/jobs/journal.hpp"
+#include "scenarios/any_file.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Target {
+  std::string file{};  ///< name under which the input is read
+  std::string kind{};  ///< as `joulepath check --kind`; empty: told by the content
+  std::string read{};  ///< the file that names the input, where it is not read itself
+};
+
+const std::map<std::string, Target>& targets() {
+  static const std::map<std::string, Target> all{{"robot", {"input.yaml", "robot", {}}},
+                                                 {"mission", {"input.yaml", "mission", {}}},
+                                                 {"dataset", {"input.yaml", "dataset", {}}},
+                                                 {"fleet", {"input.yaml", "fleet", {}}},
+                                                 {"study", {"input.yaml", "study", {}}},
+                                                 {"map", {"input.yaml", "map", {}}},
+                                                 {"pgm", {"input.pgm", "map", "pgm_map.yaml"}},
+                                                 {"png", {"input.png", "map", "png_map.yaml"}},
+                                                 {"log", {"input.csv", "run log", {}}},
+                                                 {"waypoints", {"input.csv", "path", {}}},
+                                                 {"path", {"input.yaml", "path", {}}},
+                                                 {"order", {"input.json", "", {}}},
+                                                 {"graph", {"input.geojson", "route graph", {}}},
+                                                 {"plan", {"input.json", "plan", {}}},
+                                                 {"bag", {"input.mcap", "bag", {}}},
+                                                 {"rosbag", {"input.db3", "bag", {}}},
+                                                 {"states", {"input.jsonl", "bag", {}}},
+                                                 {"journal", {"input.jsonl", "", {}}}};
+  return all;
+}
+
+/// The scratch folder in memory, with a right file of each kind in ../good, as the files of tests/data/broken
+/// name it.
+const fs::path& scratch() {
+  static const fs::path folder = [] {
+    fs::path made = fs::temp_directory_path() / ("joulepath_fuzz_" + std::to_string(::getpid()));
+    fs::remove_all(made);
+    fs::create_directories(made / "in");
+    fs::copy(JOULEPATH_GOOD_FILES, made / "good");
+    for (const std::string image : {"pgm", "png"})
+      std::ofstream(made / "in" / (image + "_map.yaml"))
+          << "image: input." << image << "\nmode: scale\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+          << "occupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    std::atexit([] { fs::remove_all(scratch()); });
+    return made;
+  }();
+  return folder;
+}
+
+const Target& chosen() {
+  static const Target& target = [&]() -> const Target& {
+    const char* kind = std::getenv("FUZZ_KIND");
+    const auto found = targets().find(kind == nullptr ? "" : kind);
+    if (found != targets().end()) return found->second;
+    std::cerr << "FUZZ_KIND is one of:";
+    for (const auto& [name, unused] : targets()) std::cerr << ' ' << name;
+    std::cerr << '\n';
+    std::exit(2);
+  }();
+  return target;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string input = scratch() / "in" / chosen().file;
+  static const std::string read =
+      chosen().read.empty() ? input : std::string(scratch() / "in" / chosen().read);
+  std::ofstream(input, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  try {
+    if (chosen().kind.empty() && chosen().file == "input.jsonl")
+      joulepath::JobJournal(input, joulepath::JobJournal::Use::resume).add({.line = "{}"}, "0");
+    else
+      static_cast<void>(joulepath::read_any_file(read, chosen().kind));
+  } catch (const joulepath::ConfigError&) {
+  }
+  return 0;
+}
