@@ -1,10 +1,14 @@
 // One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. An input is
 // right, or it is refused with a ConfigError; anything else (crash, sanitizer report, other exception, more
-// time or memory than the limits of ./dev fuzz) is a finding.
+// time or memory than the limits of ./dev fuzz) is a finding. Another value lists the targets.
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -70,22 +74,35 @@ const Target& chosen() {
     const char* kind = std::getenv("FUZZ_KIND");
     const auto found = targets().find(kind == nullptr ? "" : kind);
     if (found != targets().end()) return found->second;
-    std::cerr << "FUZZ_KIND is one of:";
-    for (const auto& [name, unused] : targets()) std::cerr << ' ' << name;
-    std::cerr << '\n';
+    for (const auto& [name, unused] : targets()) std::cout << name << '\n';
     std::exit(2);
   }();
   return target;
 }
 
-}  // namespace
+double cpu_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string input = scratch() / "in" / chosen().file;
+/// What `fuzz/run` reads at the end. CPU time: a loaded machine does not change it.
+struct Figures {
+  std::uint64_t inputs{};
+  double worst_input_s{};  ///< CPU time of the slowest input
+
+  ~Figures() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    std::fprintf(stderr, "figures: %llu inputs, %.3f s CPU, worst input %.4f s, peak %.1f MiB\n",
+                 static_cast<unsigned long long>(inputs), cpu_time_s(), worst_input_s,
+                 static_cast<double>(used.ru_maxrss) / 1024);
+  }
+};
+
+void read_as_chosen(const std::string& input) {
   static const std::string read =
       chosen().read.empty() ? input : std::string(scratch() / "in" / chosen().read);
-  std::ofstream(input, std::ios::binary)
-      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
     if (chosen().kind.empty() && chosen().file == "input.jsonl")
       joulepath::JobJournal(input, joulepath::JobJournal::Use::resume).add({.line = "{}"}, "0");
@@ -93,5 +110,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       static_cast<void>(joulepath::read_any_file(read, chosen().kind));
   } catch (const joulepath::ConfigError&) {
   }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  static_cast<void>(chosen());
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string input = scratch() / "in" / chosen().file;
+  static Figures figures;
+  std::ofstream(input, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  const double start_s = cpu_time_s();
+  read_as_chosen(input);
+  figures.worst_input_s = std::max(figures.worst_input_s, cpu_time_s() - start_s);
+  ++figures.inputs;
   return 0;
 }

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Mutants: changes one operator or constant at a time and looks whether a test notices.
 
-usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--site FILE:LINE] [--list]
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--survivors] [--report] [--list]
 
-Draws sites by a fixed seed, 75 in each of four areas, in an order in which every prefix is a fair sample. Each
-mutant is compiled in build/mutants/tree (its object alone, then the relinked tests of its area) and tested: quick
-tests first, then those of tests/slow_tests.txt. Verdicts are kept in build/mutants/verdicts.jsonl, so that a later
-call goes on; the table is mutants.md in benchmarks/results/.
+Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
+mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
+tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
+first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
+in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. The table is
+benchmarks/results/mutants.md.
 """
 import argparse
 import hashlib
@@ -14,198 +16,249 @@ import itertools
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
 import time
 
-ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
-TREE = os.path.join(ROOT, "build/mutants/tree")
-BUILD = os.path.join(TREE, "build/release")  # as deep as in the tree itself, so that ccache knows the objects
-VERDICTS = os.path.join(ROOT, "build/mutants/verdicts.jsonl")
-SEED, PER_AREA, TEST_LIMIT_S = 20261122, 75, 600
-AREAS = {
-    "model": (["model/"], ["test_model"]),
-    "nlp": (["planner/nlp/"], ["test_nlp"]),
-    "profile": (["planner/accounts/", "planner/profile/"], ["test_nlp", "test_energy", "test_mission"]),
-    "diagnosis": (["diagnosis/"], ["test_estimation", "test_calibration", "test_diagnosis"]),
-}
-# (name, pattern, replacement); group 1 is what is replaced.
-OPERATORS = [
-    ("sign of a term", r"(?<=[\w)\]]) (\+) (?=[\w(-])", "-"),
-    ("sign of a term", r"(?<=[\w)\]]) (-) (?=[\w(])", "+"),
-    ("product", r"(?<=[\w)\]]) (\*) (?=[\w(])", "/"),
-    ("quotient", r"(?<=[\w)\]]) (/) (?=[\w(])", "*"),
-    ("sum", r" (\+=) ", "-="),
-    ("dropped term", r" (\+=) ", "="),
-    ("comparison", r"(?<=[\w)\]]) (<) (?=[\w(-])", "<="),
-    ("comparison", r"(?<=[\w)\]]) (>) (?=[\w(-])", "<"),
-    ("comparison", r"(?<=[\w)\]]) (<=) (?=[\w(-])", ">"),
-    ("comparison", r"(?<=[\w)\]]) (>=) (?=[\w(-])", "<"),
-    ("logic", r" (&&) ", "||"),
-    ("logic", r" (\|\|) ", "&&"),
-    ("extremum", r"std::(max)\(", "min"),
-    ("extremum", r"std::(min)\(", "max"),
-    ("absolute value", r"(std::abs)\(", ""),
-    ("negation", r"(?<=[(=,] )(-)(?=[A-Za-z(])", ""),
-    ("constant", r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+e-?\d+)(?![\w.])", None),
-]
+from sites import AREAS, ROOT, SEED, drawn, identity, key, mutated, with_mutants
+
+OUT = os.path.join(ROOT, "build/mutants")
+TREE = os.path.join(OUT, "tree")
+BUILD = os.path.join(TREE, "build/release")
+VERDICTS, FORMS = os.path.join(OUT, "verdicts.jsonl"), os.path.join(OUT, "forms.json")
+PER_AREA, SPARE, MEMORY_BYTES = 75, 1.3, 4 << 30
 
 
-def code_lines(text):
-    """(number, line) of lines of code: no comment, string, directive, table of words or tolerance of a loop."""
-    for number, line in enumerate(text.split("\n")):
-        bare = re.sub(r'"(?:[^"\\]|\\.)*"', lambda m: '"' + "_" * (len(m.group()) - 2) + '"', line)
-        bare = bare.split("//")[0]
-        if bare.strip() and not bare.lstrip().startswith(("#", "*", "template", "static_assert")):
-            yield number, bare
+def read(path):
+    with open(path) as stream:
+        return stream.read()
 
 
-def other_constant(text):
-    return repr(float(text) * 1.25) if float(text) != 0 else "1.0"
+def write(path, text):
+    """Unchanged files keep their time."""
+    if not os.path.exists(path) or read(path) != text:
+        with open(path, "w") as stream:
+            stream.write(text)
 
 
-def sites_of(file):
-    with open(os.path.join(ROOT, file)) as stream:
-        text = stream.read()
-    for number, line in code_lines(text):
-        for name, pattern, new in OPERATORS:
-            for found in re.finditer(pattern, line):
-                yield {"file": file, "line": number + 1, "column": found.start(1), "name": name, "code": line.strip(),
-                       "old": found.group(1), "new": other_constant(found.group(1)) if new is None else new}
-
-
-def lot(site):
-    """Decides the order of the draw; it does not change with lines elsewhere."""
-    text = "%d %s %d %s %s %s" % (SEED, site["file"], site["column"], site["code"], site["old"], site["new"])
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def drawn(area):
-    files = subprocess.run(["git", "-C", ROOT, "ls-files", *AREAS[area][0]], capture_output=True, text=True,
-                           check=True).stdout.split()
-    return sorted((site for file in files if file.endswith((".cpp", ".hpp")) for site in sites_of(file)), key=lot)
-
-
-def key(site):
-    return "%s:%d:%d %s -> %s" % (site["file"], site["line"], site["column"] + 1, site["old"], site["new"])
-
-
-def source_line(site):
-    with open(os.path.join(ROOT, site["file"])) as stream:
-        return stream.read().split("\n")[site["line"] - 1].strip()
-
-
-def equivalents():
-    """Mutants that no test can notice: file, code, old, new, argument; separated by tabs."""
-    with open(os.path.join(ROOT, "tests/mutants/equivalent.tsv")) as stream:
-        rows = [line.rstrip("\n").split("\t") for line in stream if line.strip() and not line.startswith("#")]
-    return {tuple(row[:4]): row[4] for row in rows}
-
-
-def prepare():
-    """A copy of the tree, so that no mutant is ever in the tree itself; unchanged files keep their time."""
-    os.makedirs(TREE, exist_ok=True)
+def copy_tree():
+    """A copy of the tree, so that no mutant is ever in the tree itself."""
     files = subprocess.run(["git", "-C", ROOT, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
     for file in filter(None, files):
         source, target = os.path.join(ROOT, file), os.path.join(TREE, file)
-        if not os.path.exists(source):
-            continue
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        if not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read():
+        if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
+            os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
     if not os.path.exists(os.path.join(BUILD, "build.ninja")):
-        subprocess.run(["cmake", "--preset", "release", "-Wno-dev"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DJOULEPATH_BUILD_BENCHMARKS=OFF",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+
+
+def programs_of(areas):
+    return sorted({program for area in areas for program in AREAS[area][1]})
 
 
 def build_error(programs):
     """Empty after a build; else what the compiler says."""
-    done = subprocess.run(["ninja", "-C", BUILD, *programs], capture_output=True, text=True, errors="replace")
+    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, *programs], capture_output=True, text=True, errors="replace")
     return done.stdout + done.stderr if done.returncode else ""
 
 
-def slow_tests():
-    with open(os.path.join(ROOT, "tests/slow_tests.txt")) as stream:
-        return ":".join(line.strip() for line in stream if line.strip() and not line.startswith("#"))
+def number(sites):
+    """Each site's number, and the form that compiled in an earlier run."""
+    forms = json.loads(read(FORMS)) if os.path.exists(FORMS) else {}
+    for id, site in enumerate(sites, 1):
+        live, alone = forms.get(identity(site), [site["kind"] == "constant", False])
+        site.update(id=id, live=live, alone=alone)
 
 
-def killer(programs):
-    """The first test that fails, or None. Quick tests run before slow ones."""
-    for choice, program in itertools.product(("-" + slow_tests(), slow_tests()), programs):
-        command = [os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=TEST_LIMIT_S, cwd=TREE)
-        except subprocess.TimeoutExpired:
-            return program + " does not end"
+def build_all(sites, programs):
+    """Compiles all mutants at once. A site that does not compile loses its live constant, then its place."""
+    while True:
+        for file in {site["file"] for site in sites}:
+            own = [site for site in sites if site["file"] == file and not site["alone"]]
+            text = read(os.path.join(ROOT, file))
+            write(os.path.join(TREE, file), with_mutants(text, own) if own else text)
+        error = build_error(programs)
+        if not error:
+            return
+        places = {(os.path.normpath(os.path.join(BUILD, path)), int(line)) for path, line in re.findall(r"([\w./-]+\.[ch]pp):(\d+):", error)}
+        guilty = [site for site in sites if not site["alone"] and (os.path.join(TREE, site["file"]), site["line"]) in places]
+        if not guilty:
+            sys.exit(error[-4000:] + "\nmutate: the tree does not build")
+        for site in guilty:
+            print("not with the others: " + key(site), flush=True)
+            site["alone"] = not site["live"]
+            site["live"] = False
+        write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
+
+
+def fingerprint():
+    """Of all sources with all mutants."""
+    digest = hashlib.sha256()
+    for folder, folders, files in os.walk(TREE):
+        folders[:] = sorted(set(folders) - {"build"})
+        for file in sorted(files):
+            if file.endswith((".cpp", ".hpp", ".txt")):
+                digest.update(read(os.path.join(folder, file)).encode())
+    return digest.hexdigest()
+
+
+def limit(cpu_s):
+    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def run_tests(program, choice, mutant=0, cpu_s=600, notes=os.devnull):
+    environment = {**os.environ, "MUTANT": str(mutant), "MUTANT_REACHED": notes}
+    return subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice],
+                          capture_output=True, text=True, errors="replace", cwd=TREE, env=environment, preexec_fn=lambda: limit(cpu_s))
+
+
+def children_s():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def suites(program):
+    """Filters, one for each suite of tests; each slow test is on its own."""
+    listed = subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
+    names = [line.split()[0] for line in listed.split("\n") if re.match(r"^\S+\.( |$)", line)]
+    slow = [line for line in read(os.path.join(ROOT, "tests/slow_tests.txt")).split("\n") if line and not line.startswith("#")]
+    own = [test for test in slow if test.rsplit(".", 1)[0] + "." in names]
+    return [name + "*-" + ":".join(own) for name in names] + own
+
+
+def survey(programs):
+    """What each suite reaches and its CPU time, with no mutant active. Kept as long as the sources stay."""
+    notes, kept, found = os.path.join(OUT, "reached.txt"), os.path.join(OUT, "survey.json"), []
+    state = fingerprint()
+    if os.path.exists(kept) and (old := json.loads(read(kept)))["state"] == state:
+        return old["suites"]
+    for program, choice in ((program, choice) for program in programs for choice in suites(program)):
+        write(notes, "")
+        start_s = children_s()
+        done = run_tests(program, choice, notes=notes)
+        if done.returncode != 0:
+            sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
+        found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
+    found.sort(key=lambda suite: suite["cpu_s"])
+    print("%d suites take %.0f s of CPU" % (len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
+    write(kept, json.dumps({"state": state, "suites": found}))
+    return found
+
+
+def killer(site, chosen):
+    """The first test that fails, or None."""
+    for suite in chosen:
+        done = run_tests(suite["program"], suite["choice"], site["id"], int(10 + 5 * suite["cpu_s"]))
         if done.returncode != 0:
             failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
-            return failed.group(1) if failed else program + " ended with code %d" % done.returncode
+            ended = "does not end" if done.returncode == -24 else "ends with code %d" % done.returncode
+            return failed.group(1) if failed else suite["choice"].split("-")[0] + " " + ended
     return None
 
 
-def verdict_on(site, programs):
+def alone(site, surveyed):
+    """Compiled with this mutant only; every suite of its area is asked."""
+    programs = AREAS[site["area"]][1]
     path = os.path.join(TREE, site["file"])
-    with open(path) as stream:
-        original = stream.read()
-    lines = original.split("\n")
-    line = lines[site["line"] - 1]
-    at = site["column"]
-    assert line[at:at + len(site["old"])] == site["old"], key(site)
-    lines[site["line"] - 1] = line[:at] + site["new"] + line[at + len(site["old"]):]
+    before = read(path)
     try:
-        with open(path, "w") as stream:
-            stream.write("\n".join(lines))
-        if error := build_error(programs):
-            is_warning = "[-Werror" in error  # CI would not build it
-            return {"verdict": "killed", "by": "a warning of the compiler"} if is_warning else {"verdict": "invalid"}
-        killed_by = killer(programs)
-        return {"verdict": "killed", "by": killed_by} if killed_by else {"verdict": "survived"}
+        write(path, mutated(read(os.path.join(ROOT, site["file"])), site))
+        if build_error(programs):
+            return {"verdict": "invalid"}
+        asked = [suite for suite in surveyed if suite["program"] in programs]
+        by = killer({**site, "id": 0}, asked)
+        return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(asked)}
     finally:
-        with open(path, "w") as stream:
-            stream.write(original)
+        write(path, before)
+
+
+def needs_own_build(site, surveyed):
+    """Not compiled with the others, or evaluated by the compiler."""
+    reached = any(site["id"] in suite["reaches"] for suite in surveyed)
+    return site["alone"] or ("constexpr" in site["source"] and not reached)
+
+
+def verdict_on(site, surveyed):
+    if needs_own_build(site, surveyed):
+        return alone(site, surveyed)
+    programs = AREAS[site["area"]][1]
+    reaching = [suite for suite in surveyed if suite["program"] in programs and site["id"] in suite["reaches"]]
+    by = killer(site, reaching)
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(reaching)}
 
 
 def known():
     if not os.path.exists(VERDICTS):
         return {}
-    with open(VERDICTS) as stream:
-        return {entry["key"] + " | " + entry["code"]: entry for entry in map(json.loads, stream)}
+    return {entry["identity"]: entry for entry in map(json.loads, read(VERDICTS).splitlines())}
 
 
-def judge(area, site, done):
-    equivalent = equivalents().get((site["file"], source_line(site), site["old"], site["new"]))
-    if equivalent:
-        return {"verdict": "equivalent", "why": equivalent}
-    name = key(site) + " | " + source_line(site)
-    if name in done:
-        return done[name]
-    start = time.monotonic()
-    entry = {"key": key(site), "code": source_line(site), "area": area, "what": site["name"],
-             **verdict_on(site, AREAS[area][1]), "seconds": round(time.monotonic() - start, 1)}
-    with open(VERDICTS, "a") as stream:
-        stream.write(json.dumps(entry) + "\n")
-    print("%-9s %s  %s" % (entry["verdict"], entry["key"], entry.get("by", "")), flush=True)
-    done[name] = entry
-    return entry
+def equivalents():
+    """Mutants that no test can notice: file, source line, old, new, argument; separated by tabs."""
+    rows = [line.split("\t") for line in read(os.path.join(ROOT, "tests/mutants/equivalent.tsv")).split("\n") if line and line[0] != "#"]
+    return {tuple(row[:4]): row[4] for row in rows}
 
 
-def report(rows):
+def equivalent(site, table):
+    why = table.get((site["file"], site["source"], site["old"], site["new"] or "nothing"))
+    return {"verdict": "equivalent", "why": why} if why else None
+
+
+def remark(entry):
+    return entry["why"] if "why" in entry else "passed by %d suites" % entry["suites"] if entry.get("suites") else "reached by no test"
+
+
+def report(queues):
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites" % (commit, SEED, PER_AREA),
-            "of the draw. A mutant is killed when a test of its area fails; equivalent mutants are excluded by the argument",
-            "in `tests/mutants/equivalent.tsv`.", "",
+    done, table, rows = known(), equivalents(), []
+    for area, sites in queues.items():
+        judged = [(area, site, equivalent(site, table) or done.get(identity(site))) for site in first(sites, PER_AREA, done)]
+        rows += [row for row in judged if row[2]]
+    text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (commit, SEED, PER_AREA),
+            "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
             "| area | tests | judged | equivalent | killed | survived | killed of the rest |", "|---|---|---:|---:|---:|---:|---:|"]
     for area, (_, programs) in AREAS.items():
-        own = [verdict["verdict"] for at, _, verdict in rows if at == area]
+        own = [entry["verdict"] for at, _, entry in rows if at == area]
         killed, survived = own.count("killed"), own.count("survived")
         share = "%.0f %%" % (100 * killed / (killed + survived)) if killed + survived else "-"
         text.append("| %s | %s | %d | %d | %d | %d | %s |" % (area, ", ".join(programs), len(own), own.count("equivalent"), killed, survived, share))
     for title, verdict in (("Survivors", "survived"), ("Equivalent", "equivalent")):
         chosen = [(site, entry) for _, site, entry in rows if entry["verdict"] == verdict]
-        text += ["", "## " + title, ""] + (["- `%s` in `%s`%s" % (key(site), source_line(site), ": " + entry["why"] if "why" in entry else "")
-                                            for site, entry in chosen] or ["None."])
-    with open(os.path.join(ROOT, "benchmarks/results", "mutants.md"), "w") as stream:
-        stream.write("\n".join(text) + "\n")
+        text += ["", "## " + title, ""] + (["- `%s` in `%s`: %s" % (key(site), site["source"], remark(entry)) for site, entry in chosen] or ["None."])
+    write(os.path.join(ROOT, "benchmarks/results/mutants.md"), "\n".join(text) + "\n")
+
+
+def first(queue, count, done):
+    """The first sites of the draw that are not invalid."""
+    return [site for site in queue if done.get(identity(site), {}).get("verdict") != "invalid"][:count]
+
+
+def judge_all(queues, asked):
+    done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
+    again = {name for name, entry in done.items() if entry["verdict"] == "survived"} if asked.survivors else set()
+    copy_tree()
+    sites = [site for queue in queues.values() for site in queue]
+    number(sites)
+    build_all(sites, programs_of(AREAS))
+    surveyed = survey(programs_of(AREAS))
+    for own_build in (False, True):  # those last: afterwards the programs have one mutant only
+        chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
+        for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
+            name = identity(site)
+            settled = equivalent(site, table) or (name in done and name not in again)
+            if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
+                continue
+            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed)}
+            again.discard(name)
+            with open(VERDICTS, "a") as stream:
+                stream.write(json.dumps(done[name]) + "\n")
+            print("%-9s %s  %s" % (done[name]["verdict"], key(site), done[name].get("by", "")), flush=True)
 
 
 def main():
@@ -213,33 +266,17 @@ def main():
     arguments.add_argument("--area", choices=AREAS, action="append")
     arguments.add_argument("--sites", type=int, default=PER_AREA)
     arguments.add_argument("--minutes", type=float, default=float("inf"))
-    arguments.add_argument("--site", help="every mutant of FILE:LINE, outside of the draw")
-    arguments.add_argument("--list", action="store_true")
+    for flag in ("--survivors", "--report", "--list"):
+        arguments.add_argument(flag, action="store_true")
     asked = arguments.parse_args()
-    areas = asked.area or list(AREAS)
-    queues = {area: drawn(area) for area in areas}
-    if asked.site:
-        queues = {area: [site for site in queue if "%s:%d" % (site["file"], site["line"]) == asked.site] for area, queue in queues.items()}
+    queues = {area: drawn(area)[:int(SPARE * PER_AREA)] for area in AREAS}
     if asked.list:
-        for area, queue in queues.items():
-            print("\n".join(area + " " + key(site) for site in queue[:asked.sites]), "\n%s: %d sites in all" % (area, len(queue)))
+        print("\n".join(area + " " + key(site) + "  " + site["source"] for area in asked.area or AREAS for site in queues[area][:asked.sites]))
         return 0
-    os.makedirs(os.path.dirname(VERDICTS), exist_ok=True)
-    prepare()
-    if error := build_error(sorted({program for area in areas for program in AREAS[area][1]})):
-        print(error[-2000:] + "\nmutate: the tree does not build", file=sys.stderr)
-        return 1
-    done, rows, end = known(), [], time.monotonic() + 60 * asked.minutes
-    valid = dict.fromkeys(areas, 0)
-    for area, site in (pair for wave in itertools.zip_longest(*([(area, site) for site in queues[area]] for area in areas)) for pair in wave if pair):
-        if valid[area] >= asked.sites or (time.monotonic() > end and key(site) + " | " + source_line(site) not in done):
-            continue
-        verdict = judge(area, site, done)
-        if verdict["verdict"] != "invalid":
-            valid[area] += 1
-            rows.append((area, site, verdict))
-    if not asked.site:
-        report(rows)
+    os.makedirs(TREE, exist_ok=True)
+    if not asked.report:
+        judge_all(queues, asked)
+    report(queues)
     return 0
 
 
