@@ -45,7 +45,7 @@ def write(path, text):
 
 def copy_tree():
     """A copy of the tree, so that no mutant is ever in the tree itself."""
-    files = subprocess.run(["git", "-C", ROOT, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
+    files = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\n")
     for file in filter(None, files):
         source, target = os.path.join(ROOT, file), os.path.join(TREE, file)
         if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
