@@ -51,22 +51,28 @@ const std::map<std::string, Target>& targets() {
   return all;
 }
 
-/// The scratch folder in memory, with a right file of each kind in ../good, as the files of tests/data/broken
+/// A scratch folder in memory, with a right file of each kind in ../good, as the files of tests/data/broken
 /// name it.
-const fs::path& scratch() {
-  static const fs::path folder = [] {
-    fs::path made = fs::temp_directory_path() / ("joulepath_fuzz_" + std::to_string(::getpid()));
-    fs::remove_all(made);
-    fs::create_directories(made / "in");
-    fs::copy(JOULEPATH_GOOD_FILES, made / "good");
+struct Scratch {
+  fs::path folder{fs::temp_directory_path() / ("joulepath_fuzz_" + std::to_string(::getpid()))};
+
+  Scratch() {
+    fs::remove_all(folder);
+    fs::create_directories(folder / "in");
+    fs::copy(JOULEPATH_GOOD_FILES, folder / "good");
     for (const std::string image : {"pgm", "png"})
-      std::ofstream(made / "in" / (image + "_map.yaml"))
+      std::ofstream(folder / "in" / (image + "_map.yaml"))
           << "image: input." << image << "\nmode: scale\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
           << "occupied_thresh: 0.65\nfree_thresh: 0.25\n";
-    std::atexit([] { fs::remove_all(scratch()); });
-    return made;
-  }();
-  return folder;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { fs::remove_all(folder); }
+};
+
+std::string in_scratch(const std::string& file) {
+  static const Scratch scratch;
+  return scratch.folder / "in" / file;
 }
 
 const Target& chosen() {
@@ -101,8 +107,7 @@ struct Figures {
 };
 
 void read_as_chosen(const std::string& input) {
-  static const std::string read =
-      chosen().read.empty() ? input : std::string(scratch() / "in" / chosen().read);
+  static const std::string read = chosen().read.empty() ? input : in_scratch(chosen().read);
   try {
     if (chosen().kind.empty() && chosen().file == "input.jsonl")
       joulepath::JobJournal(input, joulepath::JobJournal::Use::resume).add({.line = "{}"}, "0");
@@ -120,7 +125,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string input = scratch() / "in" / chosen().file;
+  static const std::string input = in_scratch(chosen().file);
   static Figures figures;
   std::ofstream(input, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
