@@ -1,4 +1,7 @@
-"""The sites that a mutant changes, their draw by a committed seed, and the source text with all mutants in it."""
+"""The sites that a mutant changes, their draw by a committed seed, and the source text with all mutants in it.
+
+Design: docs/decisions/0360-mutants-are-compiled-at-once.md
+"""
 import hashlib
 import os
 import re
