@@ -50,8 +50,8 @@ std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diag
     extras.runs.push_back(compared(signals, nominal, corrected, is_validation, is_corrected));
   }
   // Held-out runs come first.
-  std::ranges::stable_partition(extras.runs,
-                                [](const RunComparison& run) { return run.use == "validation"; });
+  std::stable_partition(extras.runs.begin(), extras.runs.end(),
+                        [](const RunComparison& run) { return run.use == "validation"; });
   return diagnosis_report_html(nlohmann::json::parse(diagnosis_json), extras);
 }
 

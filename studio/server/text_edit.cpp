@@ -46,7 +46,8 @@ class Edit {
       if (auto text = towards(entry.value, wanted.at(entry.key), in_flow)) return text;
     }
     for (const auto& [key, value] : wanted.items())
-      if (std::none_of(map.entries.begin(), map.entries.end(), [&](const auto& e) { return e.key == key; }))
+      if (std::none_of(map.entries.begin(), map.entries.end(),
+                       [&key = key](const auto& e) { return e.key == key; }))
         return with_entry(map, flow_text(Json{{key, value}}), in_flow);
     return std::nullopt;
   }

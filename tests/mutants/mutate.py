@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+"""Mutants: changes one operator or constant at a time and looks whether a test notices.
+
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--survivors] [--report] [--list]
+
+Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
+mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
+tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
+first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
+in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. The table is
+benchmarks/results/mutants.md.
+"""
+import argparse
+import hashlib
+import itertools
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import time
+
+from sites import AREAS, ROOT, SEED, drawn, identity, key, mutated, with_mutants
+
+OUT = os.path.join(ROOT, "build/mutants")
+TREE = os.path.join(OUT, "tree")
+BUILD = os.path.join(TREE, "build/release")
+VERDICTS, FORMS = os.path.join(OUT, "verdicts.jsonl"), os.path.join(OUT, "forms.json")
+PER_AREA, SPARE, MEMORY_BYTES = 75, 1.3, 4 << 30
+
+
+def read(path):
+    with open(path) as stream:
+        return stream.read()
+
+
+def write(path, text):
+    """Unchanged files keep their time."""
+    if not os.path.exists(path) or read(path) != text:
+        with open(path, "w") as stream:
+            stream.write(text)
+
+
+def copy_tree():
+    """A copy of the tree, so that no mutant is ever in the tree itself."""
+    files = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\n")
+    for file in filter(None, files):
+        source, target = os.path.join(ROOT, file), os.path.join(TREE, file)
+        if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            shutil.copy(source, target)
+    if not os.path.exists(os.path.join(BUILD, "build.ninja")):
+        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DJOULEPATH_BUILD_BENCHMARKS=OFF",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+
+
+def programs_of(areas):
+    return sorted({program for area in areas for program in AREAS[area][1]})
+
+
+def build_error(programs):
+    """Empty after a build; else what the compiler says."""
+    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, *programs], capture_output=True, text=True, errors="replace")
+    return done.stdout + done.stderr if done.returncode else ""
+
+
+def number(sites):
+    """Each site's number, and the form that compiled in an earlier run."""
+    forms = json.loads(read(FORMS)) if os.path.exists(FORMS) else {}
+    for id, site in enumerate(sites, 1):
+        live, alone = forms.get(identity(site), [site["kind"] == "constant", False])
+        site.update(id=id, live=live, alone=alone)
+
+
+def build_all(sites, programs):
+    """Compiles all mutants at once. A site that does not compile loses its live constant, then its place."""
+    while True:
+        for file in {site["file"] for site in sites}:
+            own = [site for site in sites if site["file"] == file and not site["alone"]]
+            text = read(os.path.join(ROOT, file))
+            write(os.path.join(TREE, file), with_mutants(text, own) if own else text)
+        error = build_error(programs)
+        if not error:
+            return
+        places = {(os.path.normpath(os.path.join(BUILD, path)), int(line)) for path, line in re.findall(r"([\w./-]+\.[ch]pp):(\d+):", error)}
+        guilty = [site for site in sites if not site["alone"] and (os.path.join(TREE, site["file"]), site["line"]) in places]
+        if not guilty:
+            sys.exit(error[-4000:] + "\nmutate: the tree does not build")
+        for site in guilty:
+            print("not with the others: " + key(site), flush=True)
+            site["alone"] = not site["live"]
+            site["live"] = False
+        write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
+
+
+def fingerprint():
+    """Of all sources with all mutants."""
+    digest = hashlib.sha256()
+    for folder, folders, files in os.walk(TREE):
+        folders[:] = sorted(set(folders) - {"build"})
+        for file in sorted(files):
+            if file.endswith((".cpp", ".hpp", ".txt")):
+                digest.update(read(os.path.join(folder, file)).encode())
+    return digest.hexdigest()
+
+
+def limit(cpu_s):
+    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def run_tests(program, choice, mutant=0, cpu_s=600, notes=os.devnull):
+    environment = {**os.environ, "MUTANT": str(mutant), "MUTANT_REACHED": notes}
+    return subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice],
+                          capture_output=True, text=True, errors="replace", cwd=TREE, env=environment, preexec_fn=lambda: limit(cpu_s))
+
+
+def children_s():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def suites(program):
+    """Filters, one for each suite of tests; each slow test is on its own."""
+    listed = subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
+    names = [line.split()[0] for line in listed.split("\n") if re.match(r"^\S+\.( |$)", line)]
+    slow = [line for line in read(os.path.join(ROOT, "tests/slow_tests.txt")).split("\n") if line and not line.startswith("#")]
+    own = [test for test in slow if test.rsplit(".", 1)[0] + "." in names]
+    return [name + "*-" + ":".join(own) for name in names] + own
+
+
+def survey(programs):
+    """What each suite reaches and its CPU time, with no mutant active. Kept as long as the sources stay."""
+    notes, kept, found = os.path.join(OUT, "reached.txt"), os.path.join(OUT, "survey.json"), []
+    state = fingerprint()
+    if os.path.exists(kept) and (old := json.loads(read(kept)))["state"] == state:
+        return old["suites"]
+    for program, choice in ((program, choice) for program in programs for choice in suites(program)):
+        write(notes, "")
+        start_s = children_s()
+        done = run_tests(program, choice, notes=notes)
+        if done.returncode != 0:
+            sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
+        found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
+    found.sort(key=lambda suite: suite["cpu_s"])
+    print("%d suites take %.0f s of CPU" % (len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
+    write(kept, json.dumps({"state": state, "suites": found}))
+    return found
+
+
+def killer(site, chosen):
+    """The first test that fails, or None."""
+    for suite in chosen:
+        done = run_tests(suite["program"], suite["choice"], site["id"], int(10 + 5 * suite["cpu_s"]))
+        if done.returncode != 0:
+            failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
+            ended = "does not end" if done.returncode == -24 else "ends with code %d" % done.returncode
+            return failed.group(1) if failed else suite["choice"].split("-")[0] + " " + ended
+    return None
+
+
+def alone(site, surveyed):
+    """Compiled with this mutant only; every suite of its area is asked."""
+    programs = AREAS[site["area"]][1]
+    path = os.path.join(TREE, site["file"])
+    before = read(path)
+    try:
+        write(path, mutated(read(os.path.join(ROOT, site["file"])), site))
+        if build_error(programs):
+            return {"verdict": "invalid"}
+        asked = [suite for suite in surveyed if suite["program"] in programs]
+        by = killer({**site, "id": 0}, asked)
+        return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(asked)}
+    finally:
+        write(path, before)
+
+
+def needs_own_build(site, surveyed):
+    """Not compiled with the others, or evaluated by the compiler."""
+    reached = any(site["id"] in suite["reaches"] for suite in surveyed)
+    return site["alone"] or ("constexpr" in site["source"] and not reached)
+
+
+def verdict_on(site, surveyed):
+    if needs_own_build(site, surveyed):
+        return alone(site, surveyed)
+    programs = AREAS[site["area"]][1]
+    reaching = [suite for suite in surveyed if suite["program"] in programs and site["id"] in suite["reaches"]]
+    by = killer(site, reaching)
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(reaching)}
+
+
+def known():
+    if not os.path.exists(VERDICTS):
+        return {}
+    return {entry["identity"]: entry for entry in map(json.loads, read(VERDICTS).splitlines())}
+
+
+def equivalents():
+    """Mutants that no test can notice: file, source line, old, new, argument; separated by tabs."""
+    rows = [line.split("\t") for line in read(os.path.join(ROOT, "tests/mutants/equivalent.tsv")).split("\n") if line and line[0] != "#"]
+    return {tuple(row[:4]): row[4] for row in rows}
+
+
+def equivalent(site, table):
+    why = table.get((site["file"], site["source"], site["old"], site["new"] or "nothing"))
+    return {"verdict": "equivalent", "why": why} if why else None
+
+
+def remark(entry):
+    return entry["why"] if "why" in entry else "passed by %d suites" % entry["suites"] if entry.get("suites") else "reached by no test"
+
+
+def report(queues):
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    done, table, rows = known(), equivalents(), []
+    for area, sites in queues.items():
+        judged = [(area, site, equivalent(site, table) or done.get(identity(site))) for site in first(sites, PER_AREA, done)]
+        rows += [row for row in judged if row[2]]
+    text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (commit, SEED, PER_AREA),
+            "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
+            "| area | tests | judged | equivalent | killed | survived | killed of the rest |", "|---|---|---:|---:|---:|---:|---:|"]
+    for area, (_, programs) in AREAS.items():
+        own = [entry["verdict"] for at, _, entry in rows if at == area]
+        killed, survived = own.count("killed"), own.count("survived")
+        share = "%.0f %%" % (100 * killed / (killed + survived)) if killed + survived else "-"
+        text.append("| %s | %s | %d | %d | %d | %d | %s |" % (area, ", ".join(programs), len(own), own.count("equivalent"), killed, survived, share))
+    for title, verdict in (("Survivors", "survived"), ("Equivalent", "equivalent")):
+        chosen = [(site, entry) for _, site, entry in rows if entry["verdict"] == verdict]
+        text += ["", "## " + title, ""] + (["- `%s` in `%s`: %s" % (key(site), site["source"], remark(entry)) for site, entry in chosen] or ["None."])
+    write(os.path.join(ROOT, "benchmarks/results/mutants.md"), "\n".join(text) + "\n")
+
+
+def first(queue, count, done):
+    """The first sites of the draw that are not invalid."""
+    return [site for site in queue if done.get(identity(site), {}).get("verdict") != "invalid"][:count]
+
+
+def judge_all(queues, asked):
+    done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
+    again = {name for name, entry in done.items() if entry["verdict"] == "survived"} if asked.survivors else set()
+    copy_tree()
+    sites = [site for queue in queues.values() for site in queue]
+    number(sites)
+    build_all(sites, programs_of(AREAS))
+    surveyed = survey(programs_of(AREAS))
+    for own_build in (False, True):  # those last: afterwards the programs have one mutant only
+        chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
+        for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
+            name = identity(site)
+            settled = equivalent(site, table) or (name in done and name not in again)
+            if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
+                continue
+            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed)}
+            again.discard(name)
+            with open(VERDICTS, "a") as stream:
+                stream.write(json.dumps(done[name]) + "\n")
+            print("%-9s %s  %s" % (done[name]["verdict"], key(site), done[name].get("by", "")), flush=True)
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--area", choices=AREAS, action="append")
+    arguments.add_argument("--sites", type=int, default=PER_AREA)
+    arguments.add_argument("--minutes", type=float, default=float("inf"))
+    for flag in ("--survivors", "--report", "--list"):
+        arguments.add_argument(flag, action="store_true")
+    asked = arguments.parse_args()
+    queues = {area: drawn(area)[:int(SPARE * PER_AREA)] for area in AREAS}
+    if asked.list:
+        print("\n".join(area + " " + key(site) + "  " + site["source"] for area in asked.area or AREAS for site in queues[area][:asked.sites]))
+        return 0
+    os.makedirs(TREE, exist_ok=True)
+    if not asked.report:
+        judge_all(queues, asked)
+    report(queues)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
