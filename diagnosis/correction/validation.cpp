@@ -51,8 +51,8 @@ bool holds(const Examination& x, const std::vector<double>& base_loss, const Mod
 bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated) {
   const double left = energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0),
                                                       x.point_of(within_calibration(x, calibrated.state))));
-  return !(left <= std::max(kFloorsUnnamed * finite_or_zero(noise_floor_percent(x, calibrated)),
-                            kGapUnnamed_percent));
+  const double floor = finite_or_zero(noise_floor_percent(x, calibrated));
+  return !(left <= kCautionFactor * std::max(kFloorsLeft * floor, kMaterialGap_percent));
 }
 
 /// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
