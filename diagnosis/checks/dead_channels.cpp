@@ -19,8 +19,8 @@ VectorXd differences(const VectorXd& values) {
   return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
 }
 
-/// Part of an expected change that a channel shows, and the size of the channel's own change over it: a
-/// channel that follows something else is not dead.
+/// Share of an expected change that a channel shows, and the ratio of the channel's own change to the
+/// expected change. A channel with a large change of another shape is not dead.
 struct Following {
   double share{1.0};
   double size{1.0};
@@ -64,7 +64,7 @@ class Search {
     if (follows.is_dead()) dead_.push_back({std::move(columns), follows.share, needed});
   }
 
-  /// A motor's channels against its wheel's motion; the wheel's speed against its voltage.
+  /// Compares a motor's channels with its wheel's motion, and the wheel's speed with its voltage.
   void wheel(Side side) {
     const std::string suffix = std::string("_") + side_name(side);
     const Motor& motor = robot_.motor[side];

@@ -18,15 +18,15 @@ namespace {
 using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Speeds below which a direction is blurred.
+/// Below these speeds the direction of motion is uncertain.
 constexpr double kBlurredWheel_rad_s = 0.2;
-/// Rows over which a pose must have moved: increments of single rows drown in its noise.
+/// Rows over which changes of a pose are taken: increments of single rows disappear in the noise.
 constexpr Eigen::Index kIncrementRows = 6;
-/// A run that turns or travels less says nothing about a gyro or a pose.
+/// Runs that turn or travel less do not test a gyro or a pose.
 constexpr double kLeastYawRate_rad_s = 0.06, kLeastSpeed_m_s = 0.04;
-/// Readings that are late: the change of a speed within this time looks like an offset.
+/// Longest delay of readings: a speed that changes within this time looks like an offset.
 constexpr double kLongestDelay_s = 0.15;
-/// Offset of a current sensor over the current that friction takes.
+/// Greatest offset of a current sensor, relative to the current that friction takes.
 constexpr double kGreatestOffset = 0.7;
 
 bool has(const RunSignals& run, const VectorXd& channel) {
@@ -59,7 +59,7 @@ VectorXd speed_of_wheels(const RunSignals& run, const Geometry& geometry) {
   return 0.5 * (r.right * run.wheel_speed_rad_s.right + r.left * run.wheel_speed_rad_s.left);
 }
 
-/// A factor that is 1 where the robot file is right.
+/// A coefficient that is 1 where the robot file is right.
 BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
   return {std::move(value), std::pow(least, freedom), std::pow(most, freedom)};
 }
@@ -70,8 +70,8 @@ std::optional<Relation> relation(std::string law, double sound, const VectorXd& 
   return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
 }
 
-/// V = R i + Kv n q'. A constant stands for an offset of the sensor, the sign for a driver's drop, the
-/// acceleration for readings that are late.
+/// V = R i + Kv n q'. The constant term models a sensor offset, the sign term a driver's voltage drop, the
+/// acceleration term delayed readings.
 std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 Side side, double freedom) {
   const VectorXd& voltage = run.motor_voltage_V[side];
@@ -93,8 +93,8 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
        {emf * run.wheel_acceleration_rad_s2[side], -kLongestDelay_s, kLongestDelay_s}});
 }
 
-/// Current against what friction and inertia ask for. Resistances and loads may be several times those of the
-/// robot file; their signs are certain.
+/// Measured current against the current that friction and inertia require. Resistances and loads may be
+/// several times those of the robot file; their signs are certain.
 std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                   Side side, double freedom) {
   const VectorXd& current = run.motor_current_A[side];
@@ -156,7 +156,7 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
       {factor(turned, 0.7, 1.4, freedom), {VectorXd::Constant(turned.size(), span_s), -0.1, 0.1}});
 }
 
-/// Along the measured heading; without one the distances alone can be compared.
+/// Compares motion along the measured heading; without a heading, distances only.
 std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!has(run, run.x_m) || !has(run, run.y_m)) return {};
   const Sided<double>& r = geometry.wheel_radius_m;
@@ -176,8 +176,8 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
                   {factor(stacked(x, y), 0.55, 1.6, freedom), {stacked(-y, x), -0.4, 0.4}});
 }
 
-/// Battery power = what the motors take + standby. Without measured motors: several times what the robot file
-/// asks for.
+/// Battery power = motor power + standby. Without measured motors, the factor of the predicted motor power
+/// may be large.
 std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 double freedom) {
   if (!has(run, run.battery_power_W)) return {};

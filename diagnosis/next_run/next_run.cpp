@@ -12,11 +12,11 @@
 namespace joulepath {
 namespace {
 
-/// A safe manoeuvre with the reason to run it.
+/// A safe manoeuvre and its purpose.
 struct Manoeuvre {
   std::string why{};
   std::vector<PrescribedMotion> motions{};
-  double load{};  ///< of the greatest payload
+  double load{};  ///< share of the greatest payload
 };
 
 double usual_speed_m_s(const Robot& robot) {
@@ -92,7 +92,7 @@ RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot&
   const TimedMotion timed = timed_motion(robot, motions, {.payload_kg = payload_kg});
   Run run{.name = "proposed", .log = timed.trajectory, .payload_known = true, .start_time_s = time_of_day_s};
   run.log.payload_kg.assign(run.log.size(), payload_kg);
-  // Current and voltage are there: the proposed run will measure them.
+  // Currents and voltages count as present: the proposed run will measure them.
   for (Side side : kSides) {
     run.log.motor_current_A[side].assign(run.log.size(), 0.0);
     run.log.motor_voltage_V[side].assign(run.log.size(), 0.0);
@@ -100,7 +100,7 @@ RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot&
   return make_run_signals(run, 0, robot);
 }
 
-/// The state with one candidate alone, as the data at hand fit it.
+/// The state with one candidate only, fitted to the present data.
 std::optional<ModelState> fitted_state(const Identification& id, const std::string& label) {
   for (const Explanation& e : id.explanations) {
     if (e.candidates.size() != 1) continue;
@@ -115,7 +115,8 @@ std::optional<ModelState> fitted_state(const Identification& id, const std::stri
   return std::nullopt;
 }
 
-/// Squared difference of two models' predictions in units of the noise, half of it: log evidence to expect.
+/// Expected log evidence between two models: half the squared difference of their predictions in units of the
+/// noise.
 double evidence_between(const Identification& id, const Robot& robot, const RunSignals& signals,
                         const ModelState& a, const ModelState& b) {
   const ModelPoint first = model_point(robot, id.nuisances, a), second = model_point(robot, id.nuisances, b);
@@ -171,7 +172,7 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
       next.payload_kg = payload_kg;
       next.why = manoeuvre.why;
     } catch (const ConfigError&) {
-      continue;  // this robot's limits do not allow the manoeuvre
+      continue;  // the robot's limits do not allow the manoeuvre
     }
   }
   return next;
