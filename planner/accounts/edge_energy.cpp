@@ -57,7 +57,7 @@ class Rows {
          .energy = prescribed_energy(leg, plant_)});
   }
 
-  /// The row of a stretch between two of its path coordinates.
+  /// The row of a part of a stretch between two path coordinates.
   EdgeEnergy between(const StretchPlan& stretch, double from, double to) const {
     const PathMotion motion = path_motion(stretch.request);
     const Profile& profile = stretch.profile;

@@ -14,7 +14,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kStep_m = 0.25;  ///< within which the floor is the same
+constexpr double kStep_m = 0.25;  ///< sampling distance of the floor's properties
 constexpr double kSlowest_m_s = 0.02;
 constexpr int kBits = 14;  ///< of the cheapest speed
 constexpr double kStraightBack_rad = 3.13;
@@ -55,7 +55,7 @@ class GraphPricer {
   }
 
  private:
-  /// Median length of an edge: how far the robot drives between two corners.
+  /// Median length of an edge: the typical distance between two corners.
   static double typical_leg_m(const RouteGraph& graph) {
     std::vector<double> lengths;
     for (const RouteGraph::Edge& edge : graph.edges) {
@@ -68,7 +68,7 @@ class GraphPricer {
     return std::max(0.5, lengths[lengths.size() / 2]);
   }
 
-  /// Straight lines at a constant speed, and the corners between them.
+  /// Cost of an edge driven at constant speed along straight lines, with its corners.
   EdgeCost edge_cost(const RouteGraph::Edge& edge) const {
     const std::vector<Point2> line = graph_line(graph_, edge);
     const double most = std::min({limits_.speed_m_s, edge.speed_limit_m_s.value_or(kNoLimit), 10.0});
@@ -123,8 +123,8 @@ class GraphPricer {
     }
   }
 
-  /// The two-way fit corner(in, out) = end of `in` + start of `out` with the least squares over the corners:
-  /// sweeps of averages, which converge for every pattern of pairs.
+  /// Attribution of corner costs to edges: the fit corner(in, out) = end of `in` + start of `out` of least
+  /// squares over the corners. It iterates averages, which converge for every pattern of pairs.
   void attribute(GraphCosts& costs) const {
     const std::size_t count = graph_.edges.size();
     std::vector<double> end_J(count, 0.0), start_J(count, 0.0), end_s(count, 0.0), start_s(count, 0.0);
@@ -165,7 +165,8 @@ class GraphPricer {
       for (std::size_t e = 0; e < mine.size(); ++e)
         if (count[e] > 0) mine[e] = sum[e] / count[e];
     };
-    sweep(&CornerCost::in, end, &CornerCost::out, start, 0.5);  // halves first: no edge bears all of a node
+    // Equal halves first: no edge gets the whole cost of a node.
+    sweep(&CornerCost::in, end, &CornerCost::out, start, 0.5);
     for (int i = 0; i < kFitSweeps; ++i) {
       sweep(&CornerCost::out, start, &CornerCost::in, end, 1.0);
       sweep(&CornerCost::in, end, &CornerCost::out, start, 1.0);

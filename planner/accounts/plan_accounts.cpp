@@ -49,8 +49,8 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
-/// A leg's bound, gap and status from those of its stretches. Of seconds that it waits at its stop a slower
-/// drive could make use, at what they cost here.
+/// Bound, gap and status of a leg from those of its stretches. Where a leg waits at its stop, the bound
+/// accounts for a slower drive that uses the waiting time.
 void judge_leg(LegPlan& leg, double standby_W, double accuracy) {
   leg.lower_bound_J = leg.energy.total_J();
   if (leg.prescribed) return;
@@ -90,7 +90,7 @@ void add_baselines(LegPlan& leg) {
     for (std::size_t b = 0; b < leg.baselines.size(); ++b)
       add_stretch(leg.baselines[b], stretch.baselines[b], planned_s);
   }
-  if (leg.prescribed)  // every way of planning drives it the same
+  if (leg.prescribed)  // a prescribed motion is the same in every plan
     for (BaselineTotal& baseline : leg.baselines) {
       baseline.energy_J = leg.energy.total_J();
       baseline.motion_energy_J = leg.energy.motion_J();

@@ -97,7 +97,8 @@ std::optional<Profile> s_curve(RampLimits ramp, double length, double duration_s
     for (const JerkPiece& piece : s_curve_pieces(rate, ramp, 0)) sum_s += piece.duration_s;
     return 0.5 * sum_s;
   };
-  // Ramps are symmetric: they cover half of rate times their duration. The search finds the slower root.
+  // Ramps are symmetric: their length is half of the rate times their duration. The search finds the slower
+  // root.
   const auto taken_s = [&](double rate) { return length / rate + ramp_s(rate); };
   double low = length / duration_s, high = low;
   while (high * ramp_s(high) < length && taken_s(high) > duration_s) high *= 1.02;
@@ -123,8 +124,8 @@ BaselineResult minimum_time_then_wait(const ProfileRequest& request, double dura
   return finish_baseline(request, kFastest, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
 }
 
-/// For pieces that are entered and left at this very speed: never a motion from rest, and it cannot be
-/// clipped.
+/// A constant speed, for pieces that begin and end at exactly this speed; it is never a motion from rest and
+/// cannot be clipped.
 BaselineResult constant_speed(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "constant_speed";
   constexpr double kSame = 1e-6;

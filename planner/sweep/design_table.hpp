@@ -21,7 +21,7 @@ struct SweepParameter {
   [[nodiscard]] double fraction_of(double value) const;
 };
 
-/// The designs of a study, each a text per parameter; numbers read back to the last bit.
+/// The designs of a study, each a text per parameter; numbers parse back to the same bits.
 class DesignTable {
  public:
   /// Every combination of the levels; the last parameter changes fastest.

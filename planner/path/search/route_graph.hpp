@@ -18,7 +18,7 @@ struct RouteGraph {
     std::size_t start{};  ///< index into nodes
     std::size_t end{};
     std::optional<double> speed_limit_m_s{};
-    std::vector<double> via_m{};  ///< inner points of the edge's line: x, y, x, y ...
+    std::vector<double> via_m{};  ///< inner points of the edge's polyline: x, y, x, y ...
   };
   std::vector<Node> nodes{};
   std::vector<Edge> edges{};
