@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// The running program's file: another build keeps answers of its own.
+/// Key of the running program's file: answers of another build are not used.
 const ContentKey& program_key() {
   static const ContentKey key = [] {
     std::ostringstream content;

@@ -26,7 +26,7 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-/// One note for each kind and channel, for all runs together.
+/// One note for each kind and channel, over all runs.
 std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
   std::vector<std::string> notes;
   std::vector<std::pair<const LogArtifact*, std::size_t>> groups;

@@ -33,7 +33,7 @@ std::string flow_text(const Value& value) {
   return text;
 }
 
-/// Names of files, relative to the dataset's folder, become relative to another one.
+/// Converts file names relative to the dataset's folder to names relative to another folder.
 class Relocation {
  public:
   Relocation(const std::string& dataset_file, const std::string& directory)

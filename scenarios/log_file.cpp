@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Whether a column of a file is a channel of its run.
+/// True if a column of a file is a channel of its run.
 bool wanted(const std::string& header, const ColumnSources& sources) {
   const auto names = [&](const std::string& column) {
     const auto in_file = names_in_file(column, sources);
@@ -37,7 +37,7 @@ class LogFileReader {
       if (column.measured && column.name != "time_s") read_channel(column.name);
     for (const char* name_of : kOrientationColumns) read_channel(name_of);
     if (used_orientation()) heading_from_orientation();
-    file_.table.columns = {};  // their values are in the channels
+    file_.table.columns = {};  // the channels now contain the values
   }
 
   LogFile take() { return std::move(file_); }
@@ -50,7 +50,8 @@ class LogFileReader {
     return nullptr;
   }
 
-  /// How many channels read each column: the last one takes it, so that a long log is not in memory twice.
+  /// Counts the channels that read each column, so that the last one can move it; a long log is then not in
+  /// memory twice.
   void count_uses() {
     for (const auto& column : log_columns())
       if (column.measured) ++uses_[raw(column.name)];
@@ -140,7 +141,7 @@ class LogFileReader {
            file_.channels.contains("orientation_z");
   }
 
-  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
+  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one with one argument.
   void heading_from_orientation() {
     const auto part = [&](const char* name) {
       return file_.channels.contains(name) ? file_.channels[name]

@@ -4,7 +4,7 @@
 #include "scenarios/document.hpp"
 #include "scenarios/significant.hpp"
 
-// Numbers from and to text by <charconv>, which some libraries lack for floating-point numbers.
+// Converts numbers from and to text with <charconv>. Some libraries lack it for floating-point numbers.
 
 namespace joulepath {
 

@@ -122,7 +122,7 @@ void check_map(const Node& node, const Schema& schema) {
     if (const auto* key = key_named(schema, name)) check_value(child, key->schema);
 }
 
-/// Alternatives differ by their shape; where two have the same, the last one reports the error.
+/// Alternatives differ by their shape; where two have the same shape, the error is that of the last one.
 void check_any_of(const Node& node, const Schema& schema) {
   std::vector<const Schema*> fitting;
   for (const auto& alternative : schema.parts)

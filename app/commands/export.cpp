@@ -84,7 +84,7 @@ class ExportCommand : public Command {
     const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
-    options_.baselines = false;  // nothing here reads the plan's own
+    options_.baselines = false;  // exports do not use the plan's own baselines
     const Plan plan = plan_mission(mission, world, options_);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to export: " << solve_status_name(plan.status) << ": " << plan.message << "\n";

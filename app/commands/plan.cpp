@@ -70,7 +70,7 @@ class PlanCommand : public Command {
     for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
     const std::unique_ptr<AnswerCache> answers = answer_cache({cache_, cache_.empty()});
-    // In memory nothing but this mission is kept, so that there is one world.
+    // The cache holds this mission only, so that there is one world.
     options_.answers.cache = answers.get();
     if (!cache_.empty()) options_.answers.world = world_key(floor_key(mission, world), world.robot);
     Plan plan = [&] {

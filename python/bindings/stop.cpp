@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBetweenChecks{20};
 
-thread_local StopToken* token = nullptr;  // kept alive by the thread that waits
+thread_local StopToken* token = nullptr;  // the waiting thread keeps it alive
 
 void raise_interrupt() {
   const nb::gil_scoped_acquire acquire;

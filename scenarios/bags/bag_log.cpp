@@ -77,7 +77,8 @@ class BagLogReader {
     return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
   }
 
-  /// The suggested columns, with what is given without a topic (a scale, a delay, that one is absent) on top.
+  /// The suggested columns, overridden by columns that are given without a topic (a scale, a delay, an absent
+  /// column).
   static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
     ColumnSources sources = suggested;
     for (const auto& [column, source] : given) {
@@ -150,7 +151,7 @@ class BagLogReader {
       if (topic.broken > 0) tell("broken", topic.name, "messages that end early were left out", topic.broken);
   }
 
-  /// The topic whose times are the run's: that of the wheels, else of the body, else of the pose.
+  /// Priority of a topic as the source of the run's times: wheels first, then body, then pose.
   [[nodiscard]] int rank(const Topic& topic) const {
     int rank = 0;
     for (const char* column : {"wheel_speed_left_rad_s", "linear_speed_m_s", "position_x_m"}) {

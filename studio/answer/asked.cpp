@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Where a leg of the mission leaves the robot; the start where its path cannot be driven (planning says
-/// why).
+/// The pose of the robot after a leg; the start where the leg's path cannot be driven (planning reports the
+/// reason).
 LegStart after(const LegRequest& leg, const LegStart& start, const Plant& plant) {
   if (leg.motion) {
     const Trajectory motion = *prescribed_leg(leg, plant, start.pose).prescribed;

@@ -56,7 +56,7 @@ jp.draw_front = function (data) {
   const points = (data.front.points || []).filter((one) => jp.is_number(one.duration_s) && jp.is_number(one.energy_J)).sort((a, b) => a.duration_s - b.duration_s);
   const others = (data.front.baselines || []).filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
   const span_s = points.length ? points[points.length - 1].duration_s - points[0].duration_s : 0;
-  const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones stand in the table alone
+  const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones are shown in the table only
   const names = [...new Set(near.map((one) => one.name))];
   const x = [...new Set([...points, ...near].map((one) => one.duration_s))].sort((a, b) => a - b);
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && jp.is_number(one[key]) ? one[key] : null; });

@@ -152,7 +152,7 @@ async function settle() {
   emit("settled");
 }
 
-// Before the listeners of the panels: they show the state that follows from an edit.
+// Registered before the listeners of the panels, which show the state that follows from an edit.
 let timer;
 on("edit", ({release}) => {
   store.classics = store.front = null;

@@ -86,7 +86,7 @@ export function move_handle(k, curve, point, x, y, gesture) {
     const curves = curves_of(k).map((one) => one.map((p) => [...p]));
     const last = curves.length - 1;
     if (point === 0 && curve === 0) return;
-    // The handle before an end goes with it.
+    // The handle before an end moves with it.
     if (point === 3 && curve === last) curves[curve][2] = [0, 1].map((a) => curves[curve][2][a] + [x, y][a] - curves[curve][3][a]);
     curves[curve][point] = [x, y];
     set_curves(k, curves.length > 1 ? smooth(curves) : curves);

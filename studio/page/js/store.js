@@ -8,8 +8,8 @@ const files = JSON.parse(data.files);
 export const store = {
   served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null,
   files, mission: structuredClone(files.mission), robot: structuredClone(files.robot), ways: [],
-  answer: null,      // the last with a motion
-  verdict: null,     // the plan of the last answer, which may have no motion
+  answer: null,      // the last answer with a motion
+  verdict: null,     // the plan of the last answer, with or without a motion
   state: "none",     // none | draft | certified | planned: how much the last answer is worth
   problem: "",       // why there is no newer answer
   working: "",       // what is being computed
@@ -18,7 +18,7 @@ export const store = {
   kept: null,        // plan A of a comparison: {answer}
   classics: null,    // classic profiles beside the plan
   front: null,
-  edits: 0,          // counts changes: an answer to an older one is no longer wanted
+  edits: 0,          // counts changes; answers to older states are discarded
 };
 
 const listeners = {};
