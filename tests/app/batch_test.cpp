@@ -56,7 +56,7 @@ TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
   }
 }
 
-/// Missions that share legs, and some that differ from each other in one thing alone.
+/// Missions that share legs, and missions that differ from each other in one property.
 std::vector<std::string> sharing_missions() {
   const std::string legs[] = {
       R"([{"to": "shelf"}, {"to": "dock", "payload_kg": 5}])",
@@ -144,8 +144,8 @@ TEST(Batch, AnotherRobotOrFloorIsAnotherWorld) {
   EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
-/// A leg's own duration is tried with ways that stop at corners where no other keeps it: the second choice is
-/// another question than the first.
+/// If no way keeps a leg's own duration, ways that stop at corners are tried: the second choice is another
+/// question to the cache.
 TEST(Batch, OtherStepsAreAnotherQuestion) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
@@ -301,7 +301,7 @@ TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
     EXPECT_EQ(journal.find(0, ""), nullptr);
     EXPECT_EQ(journal.find(1, "x"), nullptr);
     journal.add({.index = 2, .line = R"({"status": "b"})"}, "z");
-    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // one writer at a time
+    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // only one writer at a time
   }
   EXPECT_EQ(text_of(file).substr(0, before.size()), before);
   const JobJournal again(file, JobJournal::Use::resume);

@@ -52,8 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Injection{"current_sensor_gain", 0.1}, Injection{"time_misalignment", 0.08}),
     [](const ::testing::TestParamInfo<Injection>& injected) { return injected.param.effect; });
 
-/// This robot coasts against so much friction that regeneration returns a fifth of the materiality floor; the
-/// data still prove it.
+/// This robot coasts against so much friction that regeneration returns only a fifth of the materiality
+/// floor; the evidence is still decisive.
 TEST(SmallEffect, IsNamedBelowTheMaterialityFloorWhereTheDataAreBeyondDoubt) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(blind_day("regeneration_error", 0.6, 0, 12, 4242), {.bootstrap = 50});

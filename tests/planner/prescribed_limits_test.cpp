@@ -155,8 +155,7 @@ TEST(PrescribedLimits, TwoLimitsThatAreExceededAreBothNamedAndNoneIsSaidToBeEnou
   EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
 }
 
-/// After a spin to the left the casters have to swivel by twice as much for one to the right as from
-/// straight.
+/// After a spin to the left, the casters swivel twice as far for a spin to the right as from straight.
 TEST(PrescribedLimits, WhatTheCastersRememberOfTheLegBeforeCounts) {
   const auto spin = [](double angle_rad) {
     return LegRequest{.motion = PrescribedMotion{.profile = MotionProfile::spin,

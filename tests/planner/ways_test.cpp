@@ -28,7 +28,7 @@ OccupancyGrid floor_with_rack() {
   return grid;
 }
 
-/// Round the rack by three stops; only the dock has a heading.
+/// Three stops around the rack; only the dock has a heading.
 MissionRequest round_of_three() {
   MissionRequest mission{.name = "round", .clearance_m = 0.05};
   mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0, .charger_W = 200}},
@@ -77,7 +77,7 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
 
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
   PlanOptions turning = kCoarse;
-  turning.steps.refinement = false;  // refinement replaces turns by curves itself
+  turning.steps.refinement = false;  // refinement would replace turns by curves
   const PlanOptions bending = turning;
   turning.steps.stops = false;
   const Plan turned = plan_of(round_of_three(), turning), bent = plan_of(round_of_three(), bending);
