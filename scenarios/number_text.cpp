@@ -1,10 +1,12 @@
+#include "model/number_text.hpp"
+
 #include <charconv>
 #include <cmath>
 
 #include "scenarios/document.hpp"
 #include "scenarios/significant.hpp"
 
-// Converts numbers from and to text with <charconv>. Some libraries lack it for floating-point numbers.
+// Numbers from and to text by <charconv>, which some libraries lack for floating-point numbers.
 
 namespace joulepath {
 
@@ -19,10 +21,6 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::string significant_text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, six_digits(value)).ptr;
-  return {buffer, end};
-}
+std::string significant_text(double value) { return number_text(six_digits(value)); }
 
 }  // namespace joulepath

@@ -1,10 +1,10 @@
 #include "scenarios/run_log.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "model/kinematics.hpp"
+#include "model/number_text.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
@@ -215,10 +215,9 @@ std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraCo
     channels.push_back(column.values);
   }
   text += '\n';
-  char buffer[32];
   for (std::size_t row = 0; row < trajectory.size(); ++row)
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, (*channels[i])[row]).ptr);
+      append_number(text, (*channels[i])[row]);
       text += i + 1 < channels.size() ? ',' : '\n';
     }
   return text;

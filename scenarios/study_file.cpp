@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/number_text.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 

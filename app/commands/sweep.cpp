@@ -10,6 +10,7 @@
 #include "app/jobs/sweep_result.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
+#include "model/number_text.hpp"
 #include "planner/sweep/design_search.hpp"
 
 namespace joulepath {

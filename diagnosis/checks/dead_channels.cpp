@@ -6,6 +6,7 @@
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/rms.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/kinematics.hpp"
 
 namespace joulepath {
 namespace {
@@ -39,9 +40,7 @@ class Search {
 
   std::vector<DeadChannel> list() {
     for (Side side : kSides) wheel(side);
-    const Sided<double>& r = robot_.geometry.wheel_radius_m;
-    const VectorXd yaw = (r.right * run_.wheel_speed_rad_s.right - r.left * run_.wheel_speed_rad_s.left) /
-                         (2 * robot_.geometry.half_track_m);
+    const VectorXd yaw = body_twist(robot_.geometry, run_.wheel_speed_rad_s).yaw_rate_rad_s;
     compare(run_.gyro_yaw_rate_rad_s, yaw, 0.1, {"gyro_yaw_rate_rad_s"});
     if (run_.heading_measured)
       compare(differences(run_.heading_rad), differences(integral(yaw)), 0.1 * run_.period_s,
@@ -87,11 +86,8 @@ class Search {
     if (run_.x_m.size() != run_.size() || run_.y_m.size() != run_.size()) return;
     const VectorXd dx = differences(run_.x_m), dy = differences(run_.y_m);
     const VectorXd moved = (dx.array().square() + dy.array().square()).sqrt();
-    const Sided<double>& r = robot_.geometry.wheel_radius_m;
-    const VectorXd rolled =
-        0.5 *
-        differences(r.right * run_.wheel_angle_rad.right + r.left * run_.wheel_angle_rad.left).cwiseAbs();
-    compare(moved, rolled, 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
+    const VectorXd distance_m = body_twist(robot_.geometry, run_.wheel_angle_rad).speed_m_s;
+    compare(moved, differences(distance_m).cwiseAbs(), 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
   }
 
   void supply() {

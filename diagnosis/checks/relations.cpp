@@ -42,21 +42,15 @@ VectorXd increments(const VectorXd& values) {
   return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
 }
 
+/// Distance (m) and angle (rad) of the body over the increments of the wheels' angles.
+Twist<VectorXd> rolled(const Geometry& geometry, const Sided<VectorXd>& angle_rad) {
+  return body_twist(geometry, Sided<VectorXd>{increments(angle_rad.left), increments(angle_rad.right)});
+}
+
 VectorXd stacked(const VectorXd& a, const VectorXd& b) {
   VectorXd both(a.size() + b.size());
   both << a, b;
   return both;
-}
-
-VectorXd yaw_rate_of_wheels(const RunSignals& run, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  return (r.right * run.wheel_speed_rad_s.right - r.left * run.wheel_speed_rad_s.left) /
-         (2 * geometry.half_track_m);
-}
-
-VectorXd speed_of_wheels(const RunSignals& run, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  return 0.5 * (r.right * run.wheel_speed_rad_s.right + r.left * run.wheel_speed_rad_s.left);
 }
 
 /// A coefficient that is 1 where the robot file is right.
@@ -101,7 +95,7 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
   if (!has(run, current) || rms(run.wheel_speed_rad_s[side]) < kBlurredWheel_rad_s) return {};
   const Motor& motor = robot.motor[side];
   const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
-  const VectorXd yaw = yaw_rate_of_wheels(run, robot.geometry);
+  const VectorXd yaw = body_twist(robot.geometry, run.wheel_speed_rad_s).yaw_rate_rad_s;
   const double load_A = robot.geometry.wheel_radius_m[side] * kGravity_m_s2 * robot.total_mass_kg(0) / 2 /
                         motor.torque_per_ampere_Nm_A();
   std::vector<BoxedTerm> terms{
@@ -120,27 +114,26 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
 
 std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!has(run, run.gyro_yaw_rate_rad_s)) return {};
-  const VectorXd yaw = yaw_rate_of_wheels(run, geometry);
+  const Twist<VectorXd> wheels = body_twist(geometry, run.wheel_speed_rad_s);
+  const VectorXd& yaw = wheels.yaw_rate_rad_s;
   if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
   const double mismatch = 0.08 / (2 * geometry.half_track_m);
   return relation("gyro = yaw rate of the wheels", kSoundTurn, run.gyro_yaw_rate_rad_s,
                   {factor(yaw, 0.55, 1.6, freedom),
-                   {speed_of_wheels(run, geometry), -mismatch, mismatch},
+                   {wheels.speed_m_s, -mismatch, mismatch},
                    {VectorXd::Ones(run.size()), -0.1, 0.1}});
 }
 
 std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!run.heading_measured || !has(run, run.heading_rad)) return {};
-  const Sided<double>& r = geometry.wheel_radius_m;
-  const VectorXd right = increments(run.wheel_angle_rad.right), left = increments(run.wheel_angle_rad.left);
-  const VectorXd turned = (r.right * right - r.left * left) / (2 * geometry.half_track_m);
+  const Twist<VectorXd> wheels = rolled(geometry, run.wheel_angle_rad);
+  const VectorXd& turned = wheels.yaw_rate_rad_s;
   const VectorXd heading = increments(run.heading_rad);
   const double least = kLeastYawRate_rad_s * run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
   const double mismatch = 0.08 / (2 * geometry.half_track_m);
-  return relation(
-      "heading = angle turned by the wheels", kSoundTurn, heading,
-      {factor(turned, 0.55, 1.6, freedom), {0.5 * (r.right * right + r.left * left), -mismatch, mismatch}});
+  return relation("heading = angle turned by the wheels", kSoundTurn, heading,
+                  {factor(turned, 0.55, 1.6, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
 }
 
 std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) {
@@ -159,19 +152,17 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
 /// Compares motion along the measured heading; without a heading, distances only.
 std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!has(run, run.x_m) || !has(run, run.y_m)) return {};
-  const Sided<double>& r = geometry.wheel_radius_m;
   const VectorXd dx = increments(run.x_m), dy = increments(run.y_m);
   const double least_m = kLeastSpeed_m_s * run.period_s * kIncrementRows;
   if (dx.size() == 0) return {};
-  const auto rolled = [&](const Sided<VectorXd>& angle) {
-    return VectorXd(0.5 * (r.right * increments(angle.right) + r.left * increments(angle.left)));
-  };
-  if (rms(rolled(run.wheel_angle_rad)) < least_m && rms(stacked(dx, dy)) < least_m) return {};
+  const VectorXd distance = rolled(geometry, run.wheel_angle_rad).speed_m_s;
+  if (rms(distance) < least_m && rms(stacked(dx, dy)) < least_m) return {};
   if (!run.heading_measured)
     return relation("distance = path of the wheels", kSoundPosition,
                     (dx.array().square() + dy.array().square()).sqrt().matrix(),
-                    {factor(rolled(run.wheel_angle_rad).cwiseAbs(), 0.55, 1.6, freedom)});
-  const VectorXd x = rolled(run.wheel_along_x_rad), y = rolled(run.wheel_along_y_rad);
+                    {factor(distance.cwiseAbs(), 0.55, 1.6, freedom)});
+  const VectorXd x = rolled(geometry, run.wheel_along_x_rad).speed_m_s;
+  const VectorXd y = rolled(geometry, run.wheel_along_y_rad).speed_m_s;
   return relation("position = path of the wheels along the heading", kSoundPosition, stacked(dx, dy),
                   {factor(stacked(x, y), 0.55, 1.6, freedom), {stacked(-y, x), -0.4, 0.4}});
 }

@@ -53,7 +53,7 @@ class Rows {
          .distance_m = leg.distance_m,
          .payload_kg = leg.payload.from_kg,
          .from = sampled_state(motion, motion.time_s.front()).pose,
-         .to = sampled_state(motion, motion.time_s.back()).pose,
+         .to = end_pose(motion),
          .energy = prescribed_energy(leg, plant_)});
   }
 

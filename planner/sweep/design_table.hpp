@@ -45,7 +45,4 @@ class DesignTable {
   std::vector<std::vector<double>> fractions_{};  ///< of a hypercube: per parameter, per design
 };
 
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string number_text(double value);
-
 }  // namespace joulepath

@@ -20,7 +20,7 @@ using nlohmann::json;
 LegStart after(const LegRequest& leg, const LegStart& start, const Plant& plant) {
   if (leg.motion) {
     const Trajectory motion = *prescribed_leg(leg, plant, start.pose).prescribed;
-    return {.pose = sampled_state(motion, motion.time_s.back()).pose};
+    return {.pose = end_pose(motion)};
   }
   if (leg.path->ready) return leg.path->ready->pieces.empty() ? start : LegStart{leg.path->ready->end()};
   const BezierFrame frame =
