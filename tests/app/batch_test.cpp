@@ -34,7 +34,7 @@ std::string mission(const std::string& name, double length_m, const std::string&
          R"(", "legs": [{"path": {"bezier_m": [[[0, 0], [1, 0], [2, 0], [)" + end + ", 0]]]}}]}";
 }
 
-TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
+TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   ASSERT_EQ(::mkfifo(scratch.at("pipe.yaml").c_str(), 0600), 0);
@@ -83,7 +83,7 @@ std::string figures(Json line) {
   return line.dump();
 }
 
-TEST(Batch, ResultsDependNeitherOnOrderNorOnThreadsNorOnWhatIsKept) {
+TEST(Batch, ResultsDoNotDependOnOrderThreadsOrCache) {
   const ScratchDirectory scratch;
   const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";
   for (const char* file : {"robot.yaml", "map.yaml", "map.pgm"}) scratch.write(file, text_of(good + file));
@@ -146,7 +146,7 @@ TEST(Batch, AnotherRobotOrFloorIsAnotherWorld) {
 
 /// If no way keeps a leg's own duration, ways that stop at corners are tried: the second choice is another
 /// question to the cache.
-TEST(Batch, OtherStepsAreAnotherQuestion) {
+TEST(Batch, OtherStepsAreCachedSeparately) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;
@@ -166,7 +166,7 @@ TEST(Batch, OtherStepsAreAnotherQuestion) {
   }
 }
 
-TEST(Plan, DependsNeitherOnThreadsNorOnWhatIsKept) {
+TEST(Plan, DoesNotDependOnThreadsOrCache) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;
@@ -245,7 +245,7 @@ TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
   EXPECT_EQ(fingerprint(), "");
 }
 
-TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
+TEST(Batch, ResumePlansChangedMissionsOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
@@ -288,7 +288,7 @@ TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   EXPECT_EQ(text_of(partial), "{}\n");
 }
 
-TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
+TEST(JobJournal, ExistingLinesNeverChangeAndATruncatedLineAffectsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");
   { JobJournal(file, JobJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }

@@ -173,7 +173,7 @@ TEST_F(Shards, SweepsMergeToo) {
         << file;
 }
 
-TEST_F(Shards, WhatDoesNotBelongTogetherIsRefused) {
+TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   for (const char* k : {"1", "2", "3"})
     ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/3").code, 0);
   const auto refused = [&](const std::string& directories, const std::string& word) {

@@ -26,7 +26,7 @@ Dataset battery_only(Dataset dataset, bool battery = true) {
   return dataset;
 }
 
-TEST(AllClear, StatesTheGapThatWouldHaveBeenSeen) {
+TEST(AllClear, ReportsTheDetectableGap) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(quiet_day("--effect none --protocol 24"), {.bootstrap = 20});
   ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
@@ -34,7 +34,7 @@ TEST(AllClear, StatesTheGapThatWouldHaveBeenSeen) {
   EXPECT_LT(d.gap.energy.detectable_percent, 10.0);
 }
 
-TEST(AllClear, ALogWithoutAnyPowerGetsNone) {
+TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset day = quiet_day("--effect rolling_resistance --size 0.01 --protocol 12");
   const Diagnosis d = diagnose(battery_only(day, false), {.bootstrap = 20});

@@ -124,7 +124,7 @@ TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
   EXPECT_NEAR(first.causes[0].parameters[0].value, reversed.causes[0].parameters[0].value, 1e-6);
 }
 
-TEST(Diagnosis, NeverNamesWhatIsTakenOutOfTheCatalog) {
+TEST(Diagnosis, NeverNamesAnEffectRemovedFromTheCatalog) {
   if (!std::filesystem::exists(path_of("p14_floor_patch_rough")))
     GTEST_SKIP() << "no practice sets beside the sources";
   using Pair = std::pair<const char*, const char*>;

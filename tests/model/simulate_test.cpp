@@ -53,7 +53,7 @@ TEST(Simulate, FollowsItsReferenceAndComesToRest) {
   EXPECT_EQ(result.saturated_fraction, 0.0);
 }
 
-TEST(Simulate, FeedbackHoldsTheSpeedAgainstWhatTheControllerDoesNotKnow) {
+TEST(Simulate, FeedbackHoldsTheSpeedAgainstUnmodeledEffects) {
   SimulationRequest request = request_for(nomad(), {kStraight});
   request.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.05}}}};
   const double with_feedback = simulate(request).worst_speed_error_rad_s;

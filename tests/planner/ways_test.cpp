@@ -134,7 +134,7 @@ TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   EXPECT_NEAR(best_J, least_J, 1e-9 * least_J);
 }
 
-TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
+TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   MissionRequest mission = round_of_three();
   mission.legs.push_back({.to = "east"});
   mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
@@ -165,7 +165,7 @@ TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
   EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
 }
 
-TEST(EnergyBand, LegsErrTogetherAndNoUncertaintyMeansNoBand) {
+TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
   Robot robot = testing::nomad();
   EXPECT_EQ(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J, 0.0);
   robot.uncertainty["standby_W"] = 0.1;

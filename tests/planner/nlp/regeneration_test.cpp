@@ -64,7 +64,7 @@ double passed_on_J(const ProfileRequest& request, const Profile& profile) {
   return sum_J;
 }
 
-TEST(Regeneration, OnABusAWheelTakesWhatTheOtherReturns) {
+TEST(Regeneration, OnABusAWheelUsesThePowerThatTheOtherReturns) {
   const ProfileRequest any = smooth_running(PowerSharing::wheel, 0);
   const Profile profile = *solve_profile(any).profile;
   const double passed_J = passed_on_J(any, profile);

@@ -120,7 +120,7 @@ TEST(Verdicts, AJerkLimitTooLowForTheDeadlineNamesOneThatWouldDo) {
   EXPECT_FALSE(solve_profile(request).profile.has_value());
 }
 
-TEST(Verdicts, DegenerateButPossibleInputsJustPlan) {
+TEST(Verdicts, DegenerateButPossibleInputsArePlanned) {
   std::vector<HopelessRequest> cases;
   const auto add = [&](std::string name, ProfileRequest request) {
     cases.push_back({std::move(name), std::move(request), ""});
