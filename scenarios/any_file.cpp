@@ -145,7 +145,7 @@ FileSummary summary_of_bag(const std::string& file) {
     summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
                             topic.channel.type + (topic.readable ? "" : ", cannot be read"));
   }
-  if (survey.damage.truncated) summary.notes.push_back("the bag ends in the middle");
+  if (survey.damage.truncated) summary.notes.push_back("the bag is truncated");
   if (survey.damage.broken_chunks > 0)
     summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
   char duration[32];

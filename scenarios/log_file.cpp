@@ -95,7 +95,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(file_.times, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, "time_s", "the clock restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& time_s : file_.times) time_s = mapping.scale * time_s + mapping.offset;
     for (std::size_t i = 1; i < file_.times.size(); ++i)
       if (file_.times[i] <= file_.times[i - 1]) fail_backward(i, mapping);
@@ -108,7 +108,7 @@ class LogFileReader {
                          file_.times[i - 1] - file_.times[i] > 0.5 * (file_.times[i - 1] - file_.times[0]) &&
                          file_.times[i] >= 0.0 && i > 2;
     fail_time(i, found, "times that increase strictly",
-              wrapped ? "if the clock starts again at 0, set columns: time_s: {wraps_at: ...}" : "");
+              wrapped ? "if the clock restarts at 0, set columns: time_s: {wraps_at: ...}" : "");
   }
 
   void read_channel(const std::string& name) {
@@ -125,7 +125,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& value : channel) value = mapping.scale * value + mapping.offset;
     if (mapping.derivative) channel = change_per_second(file_.times, channel);
     if (mapping.delay_s != 0.0) {

@@ -106,7 +106,7 @@ void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogAr
   LogArtifact slow = of;
   slow.kind = "slow_channel";
   slow.count = holds.size();
-  slow.description = "a new value only at every " + std::to_string(middle->length) +
+  slow.description = "a new value only in every " + std::to_string(middle->length) +
                      ". row: the channel is slower than the log";
   artifacts.push_back(slow);
 }

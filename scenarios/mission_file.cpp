@@ -163,7 +163,7 @@ std::map<std::string, double> figures_by_name(const Node& root, const char* key)
 void check_consistency(const Node& root, const MissionRequest& mission) {
   const int ways = int(root.has("legs")) + int(root.has("visit")) + int(root.has("order"));
   const bool empty = mission.legs.empty() && mission.visit.empty() && mission.order_file.empty();
-  if (empty) root.fail_found("a mission with nothing to do", "legs, visit or order with at least one entry");
+  if (empty) root.fail_found("a mission without stops", "legs, visit or order with at least one entry");
   if (ways > 1 && !(root.has("legs") && mission.legs.empty()) &&
       !(root.has("visit") && mission.visit.empty()))
     root.fail_found("more than one of legs, visit, order", "one of them");

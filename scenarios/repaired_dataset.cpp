@@ -108,7 +108,7 @@ std::string repaired_dataset_text(const Dataset& dataset, const std::vector<Data
                        "runs",
                        "no run that a repair makes usable",
                        "a dataset with a run that can be repaired",
-                       "see what check says of each channel"});
+                       "joulepath check lists the findings"});
   DatasetEdit edit = repairs.edit();
   edit.comment = "# Channels repaired by `joulepath check --repair`:\n";
   for (const DataCheck& check : checks)

@@ -63,8 +63,9 @@ class CompareCommand : public Command {
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult);
-    line.option("--controller", controller_,
-                "parameter file of Nav2 or ros2_control (YAML): what its speeds and accelerations cost");
+    line.option(
+        "--controller", controller_,
+        "parameter file of Nav2 or ros2_control (YAML): compares the energy of its speeds and accelerations");
     add_plan_options(line, study_.plan);
   }
 

@@ -53,9 +53,8 @@ class PlanCommand : public Command {
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
-    line.option(
-        "--cache", cache_,
-        "directory of answers kept for later runs, as batch and sweep keep them; default: nothing is kept");
+    line.option("--cache", cache_,
+                "directory in which results about legs are cached for later runs; default: no cache on disk");
     add_common_flags(line, common_, "qjfu");
   }
 

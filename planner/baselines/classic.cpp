@@ -131,7 +131,7 @@ BaselineResult constant_speed(const ProfileRequest& request, double duration_s) 
   constexpr double kSame = 1e-6;
   const double length = piece_length(request.piece), rate = length / duration_s;
   if (std::abs(request.start_rate - rate) > kSame || std::abs(request.end_rate - rate) > kSame)
-    return no_baseline(kName, "needs a jump of speed at the ends");
+    return no_baseline(kName, "needs a step of speed at the ends");
   Profile profile{
       .time_s = {0, duration_s}, .s = {0, length}, .rate = {rate, rate}, .acceleration = {0}, .jerk = {0}};
   return finish_baseline(request, kName, std::move(profile), duration_s,
@@ -145,7 +145,7 @@ using SettingsOf = Settings (*)(const ProfileRequest& request, double length, do
 Baseline from_rest_to_rest(const char* name, Shape shape, SettingsOf settings) {
   return [=](const ProfileRequest& request, double duration_s) {
     if (request.start_rate != 0 || request.end_rate != 0)
-      return no_baseline(name, "runs from rest to rest only");
+      return no_baseline(name, "defined from rest to rest only");
     const double length = piece_length(request.piece);
     return clipped_baseline(
         request, name, [&](double t) { return shape(request, length, t); }, duration_s,

@@ -222,7 +222,8 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   }
   if (!(request.limits.jerk_m_s3 > 0)) {
     ProfileResult none;
-    none.summary.message = "a jerk limit of 0 or less allows no change of acceleration: nothing can start";
+    none.summary.message =
+        "a jerk limit of 0 or less allows no change of acceleration: the robot cannot start";
     return blame_jerk(request, std::move(none));
   }
   if (soon) return too_soon(request, *fastest);

@@ -64,7 +64,7 @@ std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const
 }  // namespace
 
 void bind_diagnosis(nb::module_& module) {
-  nb::class_<DiagnosisResults>(module, "DiagnosisValue", "A diagnosis with what is written of it.")
+  nb::class_<DiagnosisResults>(module, "DiagnosisValue", "A diagnosis with its output files.")
       .def_prop_ro(
           "json", [](const DiagnosisResults& self) { return self.json; }, "diagnosis.json")
       .def(

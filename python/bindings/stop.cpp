@@ -39,7 +39,7 @@ void bind_stop(nb::module_& module) {
       .def("stop", [](StopToken& self) { self.set = true; });
   module.def(
       "use_stop_token", [](StopToken* used) { token = used; }, nb::arg("token").none(),
-      "Makes this thread's computations end when the token says so; it must outlive them.");
+      "Ends this thread's computations when the token is set; the token must outlive them.");
 }
 
 }  // namespace joulepath::python

@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all."""
+"""Writing results atomically."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arguments as the compiled part takes them; what cannot be meant is refused with its name."""
+"""Conversion of arguments for the compiled module; invalid ones raise an error with their name."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def text_of(name: str, value: Any) -> str:
             return dict(item)
         if isinstance(item, (np.ndarray, np.generic)):
             return item.tolist()
-        raise refused(name, f"a value of type {type(item).__name__}", "what JSON can hold")
+        raise refused(name, f"a value of type {type(item).__name__}", "values that JSON supports")
 
     try:
         text = json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False)
@@ -119,21 +119,21 @@ def text_of(name: str, value: Any) -> str:
         raise
     except ValueError as error:
         if "Out of range" not in str(error):
-            raise refused(name, "a value that holds itself", "what JSON can hold") from error
+            raise refused(name, "a value that contains itself", "values that JSON supports") from error
         raise refused(name, "a number that is not finite", "finite numbers", "leave the key out instead") from error
     except TypeError as error:
-        raise refused(name, "a key that is no text", "what JSON can hold") from error
+        raise refused(name, "a key that is not a string", "values that JSON supports") from error
     except RecursionError as error:
-        raise refused(name, "lists and maps of great depth", "what JSON can hold") from error
+        raise refused(name, "lists and maps of great depth", "values that JSON supports") from error
     return encodable(name, text)
 
 
 def encodable(name: str, text: str) -> str:
-    """A text that UTF-8 can hold."""
+    """A text that UTF-8 can encode."""
     try:
         text.encode()
     except UnicodeEncodeError as error:
-        raise refused(name, ascii(text[max(0, error.start - 20):error.end]), "text that UTF-8 can hold") from error
+        raise refused(name, ascii(text[max(0, error.start - 20):error.end]), "text that UTF-8 can encode") from error
     return text
 
 

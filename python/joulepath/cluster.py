@@ -65,7 +65,7 @@ class _Shard:
 
 
 def _run_shard(shard: _Shard) -> None:
-    """On a worker: runs a shard until it is whole."""
+    """On a worker: runs a shard until it is complete."""
     if build_id() != shard.build:
         raise ClusterError(f"a worker has joulepath {build_id()}, the client {shard.build}")
     deaths: Counter[tuple[int, int]] = Counter()
@@ -86,7 +86,7 @@ def _run_shard(shard: _Shard) -> None:
 
 
 def _wait(client: Any, shards: list[_Shard], progress: Callable[[int, int], None] | None) -> None:
-    """Runs all shards. One whose workers died is begun again."""
+    """Runs all shards. A shard whose workers died is restarted."""
     dask: Any = importlib.import_module("distributed")
 
     running = {client.submit(_run_shard, shard, pure=False): shard for shard in shards}

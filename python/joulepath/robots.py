@@ -94,7 +94,7 @@ class Robot:
         return getattr(self._values, key)
 
     def __setattr__(self, key: str, value: object) -> None:
-        raise AttributeError("a robot does not change; replace() makes another one")
+        raise AttributeError("a robot is read-only; replace() makes a changed copy")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._values]

@@ -28,7 +28,7 @@ export async function reload() {
 }
 async function look_at_disk() {
   const files = await (await fetch("files")).json();
-  if (!files.error && (files.base.mission !== store.files.base.mission || files.base.robot !== store.files.base.robot)) tell("The files were changed on the disk. Saving is refused until they are read again.", true);
+  if (!files.error && (files.base.mission !== store.files.base.mission || files.base.robot !== store.files.base.robot)) tell("The files were changed on the disk. Reload them before you save.", true);
 }
 
 const quoted = (text) => (/^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
