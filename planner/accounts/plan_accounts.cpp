@@ -5,22 +5,10 @@
 #include <cstdio>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/baselines/comparison.hpp"
 
 namespace joulepath {
 namespace {
-
-void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s) {
-  total.name = result.name;
-  if (!result.feasible) {
-    total.feasible = false;
-    if (total.reason.empty()) total.reason = result.reason;
-  }
-  total.energy_J += result.energy_J;
-  total.motion_energy_J += result.motion_energy_J;
-  total.duration_s += result.duration_s;
-  total.later_s += std::max(0.0, result.duration_s - planned_s);
-  total.settings.push_back(result.parameters);
-}
 
 void add_leg(BaselineTotal& total, const BaselineTotal& leg) {
   total.name = leg.name;
