@@ -50,7 +50,7 @@ def points(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def samples(name: str, value: ArrayLike, count: int, least: float, most: float) -> NDArray[np.float64]:
-    """``count`` samples within bounds; one number stands for all."""
+    """``count`` samples within bounds; one number counts for all."""
     if np.ndim(value) == 0:
         value = np.full(count, number(name, value))
     array = numbers(name, value, 1, least, most)
@@ -70,7 +70,7 @@ def times(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def number(name: str, value: Any, least: float = -math.inf, above: float = -math.inf, most: float = math.inf) -> float:
-    """A finite number; ``least`` and ``most`` are accepted themselves, ``above`` is not."""
+    """A finite number; ``least`` and ``most`` are included, ``above`` is excluded."""
     if type(value) is float and math.isfinite(value) and above < value and least <= value <= most:
         return value
     accepted = f"a number > {above:g}" if above > -math.inf else f"a number >= {least:g}" if least > -math.inf else "a finite number"
@@ -98,14 +98,14 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
 
 
 def one_of(name: str, value: Any, words: tuple[str, ...]) -> str:
-    """One of some words."""
+    """One of several words."""
     if not isinstance(value, str) or value not in words:
         raise refused(name, repr(value), "one of: " + ", ".join(words))
     return str(value)
 
 
 def text_of(name: str, value: Any) -> str:
-    """A dict or list as JSON; numpy's numbers and arrays, mappings and tuples are fine in it."""
+    """A dict or list as JSON; numpy's numbers and arrays, mappings and tuples are accepted."""
     def plain(item: Any) -> Any:
         if isinstance(item, Mapping):
             return dict(item)
