@@ -1,4 +1,4 @@
-/* Bars as plain elements: they print sharply, a screen reader reads them, and their numbers stay text. */
+/* Bars as plain elements: sharp in print, readable by screen readers, with numbers as text. */
 
 /** [{label, value, text, interval: [low, high], color, marks: [value]}] on one scale from 0. */
 jp.bar_rows = function (rows, options = {}) {

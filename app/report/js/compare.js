@@ -3,7 +3,7 @@
 const kSeriesColors = ["plan", "second", "third", "fourth", "fifth", "sixth"];
 const kDashes = [null, [6, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 4]];
 
-/** A profile's name, with the seconds by which it is later than what it stands beside. */
+/** A profile's name, with its delay in seconds after the plan or point. */
 jp.profile_name = (one) => jp.words(one.name) + (one.later_s ? `, ${jp.number(one.later_s, 2)} s later` : "");
 
 /** Profiles {name, columns} over time or over distance: speed, power, energy. */

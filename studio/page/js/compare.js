@@ -1,4 +1,4 @@
-/** Plan A beside the plan, and the classic profiles on the same ways. */
+/** Comparison with plan A, and with the classic profiles on the same ways. */
 import {button, h} from "studio/dom.js";
 import {number, signed, words} from "studio/numbers.js";
 import {ask} from "studio/answers.js";

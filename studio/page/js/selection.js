@@ -1,4 +1,4 @@
-/** The panel of what is chosen: a stop, a leg, the start; and the mission's own numbers. */
+/** The panel of the selection (a stop, a leg, the start) and of the mission's numbers. */
 import {button, h} from "studio/dom.js";
 import {is_number, with_unit} from "studio/numbers.js";
 import {number_field} from "studio/fields.js";
@@ -48,7 +48,7 @@ function mission_fields() {
     optional_field(["start", "battery_fraction"], "battery at the start", 1), optional_field(["clearance_m"], "clearance", 0.05)];
 }
 
-/** Rebuilt when something else is chosen or appears, not while its own sliders move. */
+/** Rebuilt when the selection or its content changes, not while its sliders move. */
 export function selection_panel() {
   const body = h("div", {class: "fields"});
   let shown = "";

@@ -38,7 +38,7 @@ async function copy() {
   try { await navigator.clipboard.writeText(text); tell(is_saved() ? "Copied: " + text : "Copied; save first, or the command plans the mission as it is on the disk: " + text, !is_saved()); } catch { tell(text); }
 }
 
-/** This page with the mission, the robot and the plan as they are now: it needs no program and no network. */
+/** The page with the present mission, robot and plan as one file that needs no program and no network. */
 export function page_text() {
   const copy = document.documentElement.cloneNode(true);
   const data = {files: JSON.stringify({...store.files, mission: store.mission, robot: store.robot}), floor: store.floor, schemas: store.schemas, served: false, version: store.version_of_program, answer: store.answer};
