@@ -76,7 +76,7 @@ void add_baselines(LegPlan& leg) {
     for (const auto make : {trapezoid_max_acceleration, trapezoid_best_tuned})
       stretch.baselines.push_back(soonest(make, stretch.request, planned_s));
     for (std::size_t b = 0; b < leg.baselines.size(); ++b)
-      add_stretch(leg.baselines[b], stretch.baselines[b], planned_s);
+      add_result(leg.baselines[b], stretch.baselines[b], planned_s);
   }
   if (leg.prescribed)  // a prescribed motion is the same in every plan
     for (BaselineTotal& baseline : leg.baselines) {

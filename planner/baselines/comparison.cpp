@@ -8,13 +8,13 @@ namespace joulepath {
 namespace {
 
 void add(ComparedProfile& sum, BaselineResult result, double planned_s) {
-  add_stretch(sum.total, result, planned_s);
+  add_result(sum.total, result, planned_s);
   if (result.profile) sum.profiles.push_back(std::move(*result.profile));
 }
 
 }  // namespace
 
-void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s) {
+void add_result(BaselineTotal& total, const BaselineResult& result, double planned_s) {
   total.name = result.name;
   if (!result.feasible) {
     total.feasible = false;

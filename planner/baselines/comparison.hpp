@@ -14,7 +14,7 @@ struct ComparedProfile {
 };
 
 /// Adds the result of one stretch to a total.
-void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s);
+void add_result(BaselineTotal& total, const BaselineResult& result, double planned_s);
 
 /// A stretch and its driving time.
 struct TimedStretch {
