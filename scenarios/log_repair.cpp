@@ -52,7 +52,7 @@ bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
   return 10 * distinct(values) > 9 * changes;
 }
 
-/// Equal consecutive values, except zeros (a robot at rest).
+/// Equal values in a row, zeros aside (a robot at rest).
 struct Hold {
   std::size_t start{};
   std::size_t length{};
@@ -69,7 +69,7 @@ std::vector<Hold> holds_of(const std::vector<double>& values) {
   return holds;
 }
 
-/// True if another channel changed during the hold: then the sensor stopped, not the robot.
+/// Whether another channel changed all the time: then the sensor stopped, not the robot.
 bool changes_during(const std::vector<double>& witness, const Hold& hold) {
   std::size_t changes = 0;
   for (std::size_t i = hold.start + 1; i < hold.start + hold.length; ++i)
@@ -77,7 +77,7 @@ bool changes_during(const std::vector<double>& witness, const Hold& hold) {
   return 10 * changes >= 9 * (hold.length - 1);
 }
 
-/// Finds values that stay exactly the same while a wheel's speed changes.
+/// A value that stays exactly the same while a wheel's speed changes.
 void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<Hold>& holds,
                const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
   LogArtifact held = of;
@@ -96,7 +96,7 @@ void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<H
   artifacts.push_back(held);
 }
 
-/// Finds channels that repeat every value in several rows: sensors slower than the log.
+/// A channel that repeats every value in several rows: its sensor is slower than the log.
 void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogArtifact>& artifacts) {
   if (holds.size() < 30) return;
   const auto middle = holds.begin() + static_cast<long>(holds.size() / 2);
@@ -106,7 +106,7 @@ void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogAr
   LogArtifact slow = of;
   slow.kind = "slow_channel";
   slow.count = holds.size();
-  slow.description = "a new value only in every " + std::to_string(middle->length) +
+  slow.description = "a new value only at every " + std::to_string(middle->length) +
                      ". row: the channel is slower than the log";
   artifacts.push_back(slow);
 }
@@ -137,7 +137,7 @@ void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<
   find_slow(of, holds, artifacts);
 }
 
-/// True for channels that may be constant for long: heading, temperature, payload and commands.
+/// Heading, temperature, payload and commands may stay constant for long; other measured channels may not.
 bool may_stay(const LogColumn& column) {
   for (const char* name :
        {"time_s", "payload_kg", "temperature_C", "heading_rad", "position_x_m", "position_y_m",
