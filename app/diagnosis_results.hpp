@@ -16,8 +16,8 @@ struct DiagnosisResults {
   [[nodiscard]] std::string report() const;  ///< report.html
 };
 
-/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is what the
-/// dataset was read from; null: its file.
+/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is the source of
+/// the dataset; null: its file.
 [[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
                                                  const Document* document = nullptr);
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kShortestJump_s = 60.0;
 constexpr double kShortestJumpInSteps = 100.0;
-constexpr double kKnownTimeOfDay_s = 1e6;  ///< a longer jump is an error of the clock, and tells no time
+/// A greater clock value is an error of the clock, so its time of day is unknown.
+constexpr double kKnownTimeOfDay_s = 1e6;
 
 /// First samples of the stretches between jumps, and the end.
 std::vector<std::size_t> stretch_bounds(const std::vector<double>& time_s) {
@@ -48,7 +49,7 @@ LogArtifact jump_before(const Run& run, std::size_t sample) {
   return {"cut", run.name, "time_s", text, 1, run.log.time_s[sample - 1]};
 }
 
-/// A later stretch: its clock begins at 0, its payload is what the log says.
+/// Changes a later stretch: its clock begins at 0, its payload is that of the log.
 void begin_anew(Run& later, double log_begin_s, std::size_t number) {
   later.name += " (part " + std::to_string(number) + ")";
   const double begin_s = later.log.time_s.front();

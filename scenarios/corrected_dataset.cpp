@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// What the instruments did to a current and its time stamps.
+/// Distortion of a current and of its time stamps by the instruments.
 struct Distortion {
   double gain{1.0};
   double offset_A{};
@@ -32,7 +32,8 @@ Distortion distortion_of(const std::vector<EffectSetting>& instruments, Side sid
   return distortion;
 }
 
-/// A column's mapping with the distortion undone: value = ((scale x + offset) - offset_A) / gain, read later.
+/// A column's mapping with the distortion removed: value = ((scale x + offset) - offset_A) / gain, read
+/// later.
 ColumnSource undone(ColumnSource source, const Distortion& distortion, bool is_current) {
   if (is_current) {
     source.scale /= distortion.gain;

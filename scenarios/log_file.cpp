@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Whether a column of a file is a channel of its run.
+/// True if a column of a file is a channel of its run.
 bool wanted(const std::string& header, const ColumnSources& sources) {
   const auto names = [&](const std::string& column) {
     const auto in_file = names_in_file(column, sources);
@@ -37,7 +37,7 @@ class LogFileReader {
       if (column.measured && column.name != "time_s") read_channel(column.name);
     for (const char* name_of : kOrientationColumns) read_channel(name_of);
     if (used_orientation()) heading_from_orientation();
-    file_.table.columns = {};  // their values are in the channels
+    file_.table.columns = {};  // the channels now contain the values
   }
 
   LogFile take() { return std::move(file_); }
@@ -50,7 +50,8 @@ class LogFileReader {
     return nullptr;
   }
 
-  /// How many channels read each column: the last one takes it, so that a long log is not in memory twice.
+  /// Counts the channels that read each column, so that the last one can move it; a long log is then not in
+  /// memory twice.
   void count_uses() {
     for (const auto& column : log_columns())
       if (column.measured) ++uses_[raw(column.name)];
@@ -94,7 +95,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(file_.times, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, "time_s", "the clock restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& time_s : file_.times) time_s = mapping.scale * time_s + mapping.offset;
     for (std::size_t i = 1; i < file_.times.size(); ++i)
       if (file_.times[i] <= file_.times[i - 1]) fail_backward(i, mapping);
@@ -107,7 +108,7 @@ class LogFileReader {
                          file_.times[i - 1] - file_.times[i] > 0.5 * (file_.times[i - 1] - file_.times[0]) &&
                          file_.times[i] >= 0.0 && i > 2;
     fail_time(i, found, "times that increase strictly",
-              wrapped ? "if the clock starts again at 0, set columns: time_s: {wraps_at: ...}" : "");
+              wrapped ? "if the clock restarts at 0, set columns: time_s: {wraps_at: ...}" : "");
   }
 
   void read_channel(const std::string& name) {
@@ -124,7 +125,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& value : channel) value = mapping.scale * value + mapping.offset;
     if (mapping.derivative) channel = change_per_second(file_.times, channel);
     if (mapping.delay_s != 0.0) {
@@ -140,7 +141,7 @@ class LogFileReader {
            file_.channels.contains("orientation_z");
   }
 
-  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
+  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one with one argument.
   void heading_from_orientation() {
     const auto part = [&](const char* name) {
       return file_.channels.contains(name) ? file_.channels[name]

@@ -1,10 +1,10 @@
 #include "scenarios/run_log.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "model/kinematics.hpp"
+#include "model/number_text.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
@@ -13,14 +13,14 @@
 namespace joulepath {
 namespace {
 
-constexpr double kEpochClock_s = 1e6;  // a clock that begins later than this counts from no start of a run
+constexpr double kEpochClock_s = 1e6;  // a clock with a later start does not count from the start of the run
 
 bool is_orientation(const std::string& name) {
   return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns),
                      [&](const char* q) { return name == q; });
 }
 
-/// Takes the channels of all files to the times of the first, where all overlap.
+/// Resamples the channels of all files at the times of the first one, within the common range.
 void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   double begin_s = files.front().times.front(), end_s = files.front().times.back();
   for (const auto& file : files) {
@@ -92,8 +92,8 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
   }
 }
 
-/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from pose where nothing else is
-/// there. True where the wheels' speeds come from the body's.
+/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from the pose where there are no
+/// others. True where the wheels' speeds come from the body's.
 bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
                    std::vector<LogArtifact>& artifacts) {
   const auto have_wheels = [&] {
@@ -215,10 +215,9 @@ std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraCo
     channels.push_back(column.values);
   }
   text += '\n';
-  char buffer[32];
   for (std::size_t row = 0; row < trajectory.size(); ++row)
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, (*channels[i])[row]).ptr);
+      append_number(text, (*channels[i])[row]);
       text += i + 1 < channels.size() ? ',' : '\n';
     }
   return text;

@@ -4,6 +4,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/loss_table.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/terminal.hpp"
@@ -15,19 +16,6 @@
 // Design: docs/decisions/0091-exports-plan-again.md
 namespace joulepath {
 namespace {
-
-void print_loss(const ControllerLoss& loss) {
-  Table table({"", "s", "J", "optimum J", "lost J", "lost"});
-  const auto row = [&](const std::string& name, const LossAtTime& at) {
-    table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
-               figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
-  };
-  row("at its own time", loss.own_time);
-  if (loss.plan_time) row("at the plan's time", *loss.plan_time);
-  table.print(std::cout);
-  if (!loss.plan_time) std::cout << "later than the plan: no comparison at the plan's time\n";
-  if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
-}
 
 const ExportFormat& format_named(const std::string& name) {
   for (const ExportFormat& format : export_formats())
@@ -84,7 +72,7 @@ class ExportCommand : public Command {
     const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
-    options_.baselines = false;  // nothing here reads the plan's own
+    options_.baselines = false;  // exports do not use the plan's own baselines
     const Plan plan = plan_mission(mission, world, options_);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to export: " << solve_status_name(plan.status) << ": " << plan.message << "\n";
@@ -96,7 +84,7 @@ class ExportCommand : public Command {
     if (common_.json && result.loss)
       std::cout << loss_json_text(*result.loss, format_);
     else if (!common_.quiet)
-      tell(result);
+      tell(plan, result);
     return kDone;
   }
 
@@ -140,8 +128,8 @@ class ExportCommand : public Command {
     return kDone;
   }
 
-  static void tell(const Export& result) {
-    if (result.loss) print_loss(*result.loss);
+  static void tell(const Plan& plan, const Export& result) {
+    if (result.loss) print_loss(std::cout, plan, *result.loss);
     tell_names(result.files);
   }
 

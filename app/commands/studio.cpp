@@ -25,13 +25,14 @@ class StudioCommand : public Command {
 
   void declare(CommandLine& line) override {
     line.option("mission", mission_, "mission (YAML)").required();
-    line.option("--port", server_.port, "port on the loopback interface; 0: any that is free")
+    line.option("--port", server_.port, "port on the loopback interface; 0: any free port")
         .between(0, 65535)
         .shows_default();
     line.flag("--open", open_, "open the page in the default browser");
     line.option("--out", out_,
                 "write the page with the planned mission as one HTML file instead of serving it");
-    line.option("--page", server_.page_folder, "folder to take the page from, for work on the page itself");
+    line.option("--page", server_.page_folder,
+                "folder with the files of the page, for development of the page");
     add_common_flags(line, common_, "qf");
   }
 

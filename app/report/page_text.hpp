@@ -8,14 +8,13 @@
 
 namespace joulepath::report {
 
-/// JSON that may stand inside of a script element: no "<" can close it or open a comment.
+/// JSON for a script element: no "<" in it can close the element or open a comment.
 [[nodiscard]] std::string script_safe(const nlohmann::json& data);
 
 /// Text of an HTML element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// One pass over a page: a name between @ signs is replaced where it is known, and nothing that is put in is
-/// looked at again.
+/// Replaces every known name between @ signs in one pass; inserted text is not searched again.
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::vector<std::pair<std::string_view, std::string>>& values);
 

@@ -9,8 +9,8 @@
 namespace joulepath::report {
 namespace {
 
-/// The plan with every stretch driven by its baseline number `index` instead; absent where one of them does
-/// not keep the plan's time, or none was asked for.
+/// The plan with every stretch driven by its baseline number `index`; absent where one of them does not keep
+/// the plan's time, or where baselines were not requested.
 std::optional<Plan> driven_by(const Plan& plan, std::size_t index) {
   constexpr double kSameTime = 1e-9;
   Plan other = plan;

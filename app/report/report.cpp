@@ -75,8 +75,8 @@ double number_at(const json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
 }
 
-/// What a report of thousands of missions needs: counts, the numbers that are spread over all of them, and
-/// the missions themselves only where a table names them (no plan, or the most joules per meter).
+/// Content of a report of thousands of missions: counts, the distributions of their numbers, and the missions
+/// only where a table names them (no plan, or the most joules per meter).
 json compact_batch(const json& batch) {
   constexpr std::size_t kMostNamed = 200, kMostNumbers = 20'000;
   json status = json::object(), columns = json::object(), unsolved = json::array();

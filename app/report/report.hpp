@@ -48,7 +48,7 @@ struct DiagnosisExtras {
                                                 const DiagnosisExtras& extras = {});
 
 /// `compare`: {"profiles": [{name, feasible, reason, energy_J, motion_energy_J, duration_s, parameters}]},
-/// the plan first; `profiles` the motions behind them.
+/// the plan first; `profiles`: their motions.
 [[nodiscard]] std::string compare_report_html(const nlohmann::json& compare,
                                               const std::vector<NamedColumns>& profiles,
                                               const std::string& title = {});

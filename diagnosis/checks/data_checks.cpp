@@ -19,16 +19,16 @@ namespace {
 
 using Relations = std::vector<std::optional<Relation>>;
 
-/// Below it a relation is exact.
+/// A relation with a smaller unexplained share is exact.
 constexpr double kExact = 1e-5;
 
-/// A run on its way: as logged, or with the repairs that were found so far.
+/// A run with the repairs found so far.
 struct Examined {
-  std::size_t index{};          ///< of the dataset
-  std::optional<Run> mended{};  ///< absent: as logged
+  std::size_t index{};          ///< index of the run in the dataset
+  std::optional<Run> mended{};  ///< absent: no repair yet
   RunSignals signals{};
   Relations relations{};
-  bool lost{};  ///< a channel without which nothing can be told is dead
+  bool lost{};  ///< a dead channel leaves nothing to diagnose in this run
 };
 
 bool is_beyond_doubt(const Relations& relations) {
@@ -37,16 +37,16 @@ bool is_beyond_doubt(const Relations& relations) {
   });
 }
 
-/// What a repair does to a run's relations.
+/// Effect of a repair on the relations of a run.
 struct Effectiveness {
-  double nats{};       ///< sum of the logarithms of what is less unexplained
-  bool repairs{};      ///< a relation becomes whole, and none is harmed
-  bool contradicts{};  ///< a relation that was whole breaks
-  std::size_t most{};  ///< the relation that gains most
+  double nats{};       ///< sum over the relations of log(unexplained share before / after)
+  bool repairs{};      ///< the repair makes a relation sound and harms none
+  bool contradicts{};  ///< the repair breaks a sound relation
+  std::size_t most{};  ///< relation with the greatest gain
 };
 
-/// `by_factor`: a factor that is no unit is sure only where a measured channel shows it: resistances of the
-/// floor may ask for several times the torque.
+/// With `by_factor` (a factor that is not a unit conversion), relations that predict torques do not count:
+/// resistances of the floor may multiply the torque several times.
 Effectiveness compare(const Relations& before, const Relations& after, bool by_factor = false) {
   Effectiveness result;
   double greatest = 0;
@@ -88,8 +88,8 @@ class DataCheckSearch {
                  [&](std::size_t r) { runs_[r].relations = relations_of(runs_[r].signals, dataset_.robot); });
   }
 
-  /// Sides, signs and units first: a swapped or tiny channel follows its own quantity as little as a dead
-  /// one. A factor that is no unit comes last, as it might stand in for a dead channel.
+  /// Order of the search: sides, signs and units, then dead channels, then other factors. A swapped or tiny
+  /// channel follows its quantity as little as a dead one, and a factor could imitate a dead channel.
   std::vector<DataCheck> find() {
     find_faults(false);
     find_dead();
@@ -164,7 +164,7 @@ class DataCheckSearch {
     double nats{};
   };
 
-  /// The fault that explains most, over the runs that it mends.
+  /// The fault whose repair explains most, summed over the runs that it repairs.
   std::optional<Found> best_fault(const std::vector<std::size_t>& broken, bool with_factors) const {
     std::optional<Found> best;
     for (const Fault& fault : possible_faults(run_of(runs_[broken.front()]))) {
@@ -183,7 +183,7 @@ class DataCheckSearch {
     return best;
   }
 
-  /// A fault of all runs that can tell is a fault of all runs.
+  /// Extends a fault to all runs with its columns, unless it contradicts one of them.
   void widen(Found& found) const {
     std::vector<char> against(runs_.size(), 0);
     parallel_for(runs_.size(), [&](std::size_t r) {
@@ -203,7 +203,8 @@ class DataCheckSearch {
     return std::ranges::any_of(possible, [&](const Fault& other) { return other.channel == fault.channel; });
   }
 
-  /// A factor that is no unit, to within the calibration: where relations with fixed factors fit best.
+  /// Refines a factor that is not a unit conversion: the factor at which relations with fixed coefficients
+  /// fit best.
   void refine(Found& found) const {
     const Examined& examined = runs_[found.which.front()];
     const double first = found.fault.columns.front().scale;
@@ -252,7 +253,7 @@ class DataCheckSearch {
   std::vector<DataCheck> checks_{};
 };
 
-/// What no robot has, and no repair above explains.
+/// Adds values that no robot has and that no repair above explains.
 void add_implausible(const Dataset& dataset, std::vector<DataCheck>& checks) {
   const auto covered = [&](std::size_t run, const std::string& channel) {
     return std::ranges::any_of(checks, [&](const DataCheck& check) {

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
 constexpr double kRadSPerRpm = std::numbers::pi / 30;
-/// Loggers of robots are slower.
+/// Loggers of robots have longer sample periods.
 constexpr double kShortestPeriod_s = 5e-4;
-/// Factors that are no unit, on both sides of what may be an effect (0.67 to 1.5).
+/// Factors that are not unit conversions, outside the range that an effect may cause (0.67 to 1.5).
 constexpr double kFactors[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 2.0, 2.5, 3.3, 5.0, 10.0, 20.0, 50.0};
 
 const LogColumn& log_column(const std::string& name) {
@@ -25,7 +25,7 @@ const LogColumn& log_column(const std::string& name) {
 
 using Names = std::vector<std::string>;
 
-/// Columns of one quantity, both sides where it has two.
+/// Columns of one quantity; two where it has a left and a right side.
 struct Quantity {
   Names columns{};
   std::vector<double> units{};
@@ -99,7 +99,7 @@ class Faults {
     if (quantity.may_be_inverted) scale("inverted", quantity, -1.0);
   }
 
-  /// Each column alone, and both together.
+  /// Scales each column separately, and both together.
   void scale(const char* kind, const Quantity& quantity, double factor) {
     Fault both{.kind = kind};
     for (const std::string& column : quantity.columns) {

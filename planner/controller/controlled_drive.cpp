@@ -35,7 +35,7 @@ BaselineResult drive_stretch(const ProfileRequest& request, const TrapezoidFamil
   return best ? std::move(*best) : no_baseline("controller", "cannot keep the speeds at the ends");
 }
 
-/// Least energy of a stretch in a time; the controller's own energy if no profile is as fast.
+/// Least energy of a stretch in a time; `otherwise` if no profile is as fast.
 double optimum_J(const StretchPlan& stretch, double duration_s, double otherwise_J) {
   ProfileRequest request = stretch.request;
   request.time = {.mode = TimeMode::fixed_time, .duration_s = duration_s};
@@ -69,7 +69,7 @@ TrapezoidSettings fastest_settings(const StretchPlace& /*place*/, const StretchP
 
 ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
                                     const StretchCaps& caps) {
-  // All parts that the controller does not drive are as in the plan: dwells, waits, prescribed motions.
+  // Parts that the controller does not drive are as in the plan: dwells, waits, prescribed motions.
   ControlledDrive drive{.energy_J = plan.energy.total_J(),
                         .motion_energy_J = plan.energy.motion_J(),
                         .duration_s = plan.duration_s};

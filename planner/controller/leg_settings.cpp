@@ -14,7 +14,7 @@ constexpr std::array<double, 3> kSettingShares{1.0, 0.75, 0.5};
 /// Stretches of one kind that share their settings.
 class Group {
  public:
-  /// What all of them may be driven with at most is the least of theirs.
+  /// Adds the stretches of a leg; the upper bounds of the settings are the least of theirs.
   void add(const LegPlan& leg, bool turns) {
     for (const StretchPlan& stretch : leg.stretches) {
       if (is_turn(stretch.request.piece) != turns) continue;
@@ -83,7 +83,7 @@ class Group {
   TrapezoidSettings fastest_{kNoLimit, kNoLimit, kNoLimit};
 };
 
-/// Up to three decimals, but not above the robot's limits.
+/// Rounded up to three decimals, but not above the robot's limits.
 double rounded_up(double value, double most) { return std::min(most, std::ceil(1000 * value - 1e-6) / 1000); }
 
 std::optional<TrapezoidSettings> settings_of(const Group& group) {

@@ -57,7 +57,8 @@ std::size_t index_in(const OccupancyGrid& grid, OccupancyGrid::CellIndex cell) {
          static_cast<std::size_t>(cell.column);
 }
 
-/// Copies the crossed cells' values to the cells within reach; the nearest crossed cell decides.
+/// Copies the values of crossed cells to the cells within reach; the nearest crossed cell determines the
+/// value.
 void spread(OccupancyGrid& grid, double reach_m) {
   const std::vector<std::int8_t> crossed = grid.occupancy_percent;
   std::vector<double> nearest(crossed.size(), std::numeric_limits<double>::infinity());

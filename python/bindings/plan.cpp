@@ -93,7 +93,7 @@ std::unique_ptr<PlanValue> planned(const MakeMission& make_mission, const RobotV
 }
 
 void bind_path(nb::module_& module) {
-  nb::class_<PathValue>(module, "PathValue", "A path that is ready to be driven.")
+  nb::class_<PathValue>(module, "PathValue", "A drivable path.")
       .def_prop_ro("length_m", [](const PathValue& self) { return self.path.distance_m(); })
       .def_prop_ro("turned_rad", [](const PathValue& self) { return self.path.turned_rad(); })
       .def("poses", &path_poses, nb::arg("step_m"), "Position and heading along the path.");
@@ -102,7 +102,7 @@ void bind_path(nb::module_& module) {
 }
 
 void bind_plan_value(nb::module_& module) {
-  nb::class_<PlanValue>(module, "PlanValue", "A plan with what is written of it.")
+  nb::class_<PlanValue>(module, "PlanValue", "A plan with its output files.")
       .def_prop_ro("status",
                    [](const PlanValue& self) { return solve_status_name(self.results.plan.status); })
       .def_prop_ro("message", [](const PlanValue& self) { return self.results.plan.message; })

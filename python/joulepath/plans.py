@@ -112,7 +112,7 @@ class Plan:
         return axes
 
     def report(self) -> str:
-        """report.html: one page that needs nothing else."""
+        """report.html: one self-contained page."""
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:

@@ -61,8 +61,7 @@ class BagLogReader {
     for (Topic& topic : topics_)
       if (topic.reader && !topic.log_s.empty()) order.push_back(&topic);
     if (order.empty())
-      throw named_by.error(file_,
-                           any_given_ ? "none of the mapped topics" : "no topic that tells of a motion",
+      throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
                            "a bag with Odometry or JointState, or columns: that name its topics",
                            "joulepath check lists the topics and proposes a dataset");
     std::stable_sort(order.begin(), order.end(),
@@ -77,7 +76,8 @@ class BagLogReader {
     return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
   }
 
-  /// The suggested columns, with what is given without a topic (a scale, a delay, that one is absent) on top.
+  /// The suggested columns, overridden by columns that are given without a topic (a scale, a delay, an absent
+  /// column).
   static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
     ColumnSources sources = suggested;
     for (const auto& [column, source] : given) {
@@ -140,7 +140,7 @@ class BagLogReader {
   }
 
   void tell_damage() {
-    if (damage_.truncated) tell("truncated", "", "the bag ends in the middle; what is whole was read", 1);
+    if (damage_.truncated) tell("truncated", "", "the bag is truncated; its complete records were read", 1);
     if (damage_.broken_chunks > 0)
       tell("broken", "", "chunks that do not decompress or have a wrong check sum were left out",
            damage_.broken_chunks);
@@ -150,7 +150,7 @@ class BagLogReader {
       if (topic.broken > 0) tell("broken", topic.name, "messages that end early were left out", topic.broken);
   }
 
-  /// The topic whose times are the run's: that of the wheels, else of the body, else of the pose.
+  /// Priority of a topic as the source of the run's times: wheels first, then body, then pose.
   [[nodiscard]] int rank(const Topic& topic) const {
     int rank = 0;
     for (const char* column : {"wheel_speed_left_rad_s", "linear_speed_m_s", "position_x_m"}) {
@@ -172,13 +172,13 @@ class BagLogReader {
     const double lag = median(std::move(lag_s));
     if (std::abs(lag) > kOtherClock_s) {
       char text[112];
-      std::snprintf(text, sizeof text, "stamps are %.3f s before the log times: log times are taken", lag);
+      std::snprintf(text, sizeof text, "stamps are %.3f s before the log times: log times are used", lag);
       tell("other_clock", topic.name, text, topic.log_s.size());
       return topic.log_s;
     }
     for (std::size_t i = 1; i < topic.stamp_s.size(); ++i)
       if (topic.stamp_s[i] < topic.stamp_s[i - 1] - kSteppedBack_s) {
-        tell("other_clock", topic.name, "stamps step back: log times are taken", 1);
+        tell("other_clock", topic.name, "stamps step back: log times are used", 1);
         return topic.log_s;
       }
     return topic.stamp_s;
@@ -198,7 +198,7 @@ class BagLogReader {
     const auto same = [&](std::size_t a, std::size_t b) { return times[a] == times[b]; };
     const auto end = std::unique(order.begin(), order.end(), same);
     if (const auto repeated = order.end() - end; repeated > 0)
-      tell("repeated", topic.name, "messages with the time of the one before were left out",
+      tell("repeated", topic.name, "messages with the time of the previous message were left out",
            static_cast<std::size_t>(repeated));
     order.erase(end, order.end());
     return order;

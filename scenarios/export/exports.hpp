@@ -26,7 +26,7 @@ struct ExportFile {
   std::string content{};
 };
 
-/// The files of an export, the requested one first, and for settings the energy that they lose.
+/// The files of an export, the requested one first; for settings also the energy that they lose.
 struct Export {
   std::vector<ExportFile> files{};
   std::optional<ControllerLoss> loss{};

@@ -14,7 +14,7 @@ extern const std::string_view studio_page, studio_style, studio_core_js, studio_
 namespace joulepath::studio {
 namespace {
 
-/// A text inside of a script element that no browser runs: nothing in it may end the element.
+/// A text for a script element that browsers do not run; no part of it can end the element.
 std::string shielded(std::string_view text) {
   std::string out(text);
   for (std::size_t at = 0; (at = out.find("</script", at)) != std::string::npos; at += 9)

@@ -31,10 +31,10 @@ json schema_of(const std::string& kind) {
   return nullptr;
 }
 
-/// A question that a newer one of the same page took the place of.
+/// Thrown by a question that a newer one of the same page replaces.
 struct Superseded {};
 
-/// The newest question of each page in each mode: older ones end early.
+/// The newest question of each page in each mode; older ones end early.
 class Newest {
  public:
   using Key = std::pair<std::string, std::string>;
@@ -98,7 +98,7 @@ class Studio {
  private:
   static constexpr const char* kJson = "application/json";
 
-  /// Another site's page may neither read nor write here, whatever name it gave to this address.
+  /// Rejects requests of another site's page, whatever name it gave to this address.
   bool refused(const httplib::Request& request, httplib::Response& response) const {
     const std::string port = std::to_string(port_), host = request.get_header_value("Host");
     const bool own_host = host == "127.0.0.1:" + port || host == "localhost:" + port;

@@ -9,17 +9,17 @@
 namespace joulepath::studio {
 
 struct ServerOptions {
-  int port{};                 ///< 0: any that is free
-  std::string page_folder{};  ///< empty: the page that the program holds
+  int port{};                 ///< 0: any free port
+  std::string page_folder{};  ///< empty: the page inside the program
 };
 
-/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or null.
+/// The initial data of the page: files, floor, schemas. `answer`: a first plan, or null.
 [[nodiscard]] nlohmann::json page_data(const MissionFiles& files, const MissionWorld& floor,
                                        const std::string& answer);
 
 /// Serves the studio of one mission on the loopback interface until the program ends. Every address begins
-/// with a random token; requests that another site makes (Host, Origin) are refused; bodies are bounded.
-/// `ready` is called with the address. Throws std::system_error where no port is free.
+/// with a random token. Requests of other sites (Host, Origin) are rejected, and the size of bodies is
+/// bounded. `ready` is called with the address. Throws std::system_error where no port is free.
 void serve(MissionFiles& files, const ServerOptions& options,
            const std::function<void(const std::string& address)>& ready);
 

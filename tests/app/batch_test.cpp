@@ -31,7 +31,7 @@ std::string mission(const std::string& name, double length_m, const std::string&
          R"(", "legs": [{"path": {"bezier_m": [[[0, 0], [1, 0], [2, 0], [)" + end + ", 0]]]}}]}";
 }
 
-TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
+TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   ASSERT_EQ(::mkfifo(scratch.at("pipe.yaml").c_str(), 0600), 0);
@@ -53,7 +53,7 @@ TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
   }
 }
 
-/// Missions that share legs, and some that differ from each other in one thing alone.
+/// Missions that share legs, and missions that differ from each other in one property.
 std::vector<std::string> sharing_missions() {
   const std::string legs[] = {
       R"([{"to": "shelf"}, {"to": "dock", "payload_kg": 5}])",
@@ -80,7 +80,7 @@ std::string figures(Json line) {
   return line.dump();
 }
 
-TEST(Batch, ResultsDependNeitherOnOrderNorOnThreadsNorOnWhatIsKept) {
+TEST(Batch, ResultsDoNotDependOnOrderThreadsOrCache) {
   const ScratchDirectory scratch;
   const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";
   for (const char* file : {"robot.yaml", "map.yaml", "map.pgm"}) scratch.write(file, text_of(good + file));
@@ -179,7 +179,7 @@ TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
   EXPECT_EQ(fingerprint(), "");
 }
 
-TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
+TEST(Batch, ResumePlansChangedMissionsOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
@@ -222,7 +222,7 @@ TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   EXPECT_EQ(text_of(partial), "{}\n");
 }
 
-TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
+TEST(JobJournal, ExistingLinesNeverChangeAndATruncatedLineAffectsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");
   { JobJournal(file, JobJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }
@@ -235,7 +235,7 @@ TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
     EXPECT_EQ(journal.find(0, ""), nullptr);
     EXPECT_EQ(journal.find(1, "x"), nullptr);
     journal.add({.index = 2, .line = R"({"status": "b"})"}, "z");
-    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // one writer at a time
+    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // only one writer at a time
   }
   EXPECT_EQ(text_of(file).substr(0, before.size()), before);
   const JobJournal again(file, JobJournal::Use::resume);

@@ -40,9 +40,9 @@ TEST(KeptAnswers, AnotherRobotOrFloorIsAnotherWorld) {
   EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
-/// A leg's own duration is tried with ways that stop at corners where no other keeps it: the second choice is
-/// another question than the first.
-TEST(KeptAnswers, OtherStepsAreAnotherQuestion) {
+/// If no way keeps a leg's own duration, ways that stop at corners are tried: the second choice is another
+/// question to the cache.
+TEST(KeptAnswers, OtherStepsAreCachedSeparately) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;
@@ -62,7 +62,7 @@ TEST(KeptAnswers, OtherStepsAreAnotherQuestion) {
   }
 }
 
-TEST(Plan, DependsNeitherOnThreadsNorOnWhatIsKept) {
+TEST(Plan, DoesNotDependOnThreadsOrCache) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;

@@ -42,7 +42,7 @@ PrescribedMotion bend(double radius_m, double angle_rad) {
           .angle_rad = angle_rad};
 }
 
-/// A test day with a wattmeter alone: the energy of a plant, with an error of `scatter` from run to run.
+/// A test day with a wattmeter only: the energy of a plant, with an error of `scatter` per run.
 Dataset wattmeter_day(const std::vector<EffectSetting>& effects, double scatter, unsigned seed) {
   Dataset dataset{.file = "wattmeter.yaml", .robot = testing::nomad()};
   dataset.robot.uncertainty = {{"friction_torque_Nm", 0.01}, {"resistance_ohm", 0.01}};

@@ -41,7 +41,7 @@ bool group_holds(const Cause& cause, const std::string& effect) {
          std::count(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end(), effect) > 0;
 }
 
-TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
+TEST(Group, OnePayloadDoesNotSeparateRollingResistanceFromCoulombFriction) {
   const Diagnosis d =
       diagnose(rolling_day(std::vector<double>(8, 5.0), {0.002, 0.005, 0.01}), {.bootstrap = 20});
   ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
@@ -55,7 +55,7 @@ TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
                           [](const std::string& n) { return n.find("one payload") != std::string::npos; }));
 }
 
-TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
+TEST(Group, TwoPayloadsSeparateThemAlsoWithoutNoise) {
   const Diagnosis d = diagnose(rolling_day({0, 8, 0, 8, 0, 8, 0, 8, 0, 8}, {}), {.bootstrap = 20});
   ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
   EXPECT_EQ(d.verdict, Verdict::explained);
@@ -66,7 +66,7 @@ TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
   EXPECT_EQ(diagnosis_json(d).find("null"), std::string::npos);
 }
 
-TEST(Group, WithoutVoltagesAMagnetIsNotToldFromACurrentSensor) {
+TEST(Group, WithoutVoltagesMagnetAndCurrentSensorAreAGroup) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = testing::blind_day("torque_constant_error", 0.1, 0, 12, 77);
   for (auto& run : dataset.runs) {

@@ -41,7 +41,7 @@ TEST(LocalFit, ParabolasPassUnchanged) {
   }
 }
 
-TEST(LocalFit, NoiseIsToldFromMotion) {
+TEST(LocalFit, NoiseIsSeparatedFromMotion) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 0.01);
   std::vector<double> values;
@@ -63,7 +63,7 @@ TEST(Estimate, ConstantSpeedCostsPowerTimesTime) {
   EXPECT_NEAR(estimate.distance_m, 5.0, 1e-12);
 }
 
-TEST(Estimate, BodySpeedsAndWheelSpeedsSayTheSame) {
+TEST(Estimate, BodySpeedsAndWheelSpeedsGiveTheSameEnergy) {
   const SimulationResult run = noisy_run(nomad(), 1);
   Trajectory wheels = run.log;
   wheels.linear_speed_m_s.clear();

@@ -25,7 +25,7 @@ VisitRequest pick(const std::string& station, double payload_kg) {
       .kind = VisitRequest::Kind::pick, .station = station, .payload_kg = payload_kg, .payload_given = true};
 }
 
-/// A light load nearby, a heavy one far off, another light one on the way; all goes back to the dock.
+/// A light load nearby, a heavy one far away, another light one on the way; all go back to the dock.
 MissionRequest round_trip() {
   MissionRequest mission{.name = "round"};
   mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0}},
@@ -81,7 +81,8 @@ TEST(VisitOrder, AWindowTurnsTheOrderRound) {
   EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
 }
 
-/// A window that the most economical drive misses and a faster one keeps, against the same stops as legs.
+/// A window that the most economical drive misses and a faster one meets, compared with the same stops as
+/// legs.
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;

@@ -38,7 +38,7 @@ TEST(ClockJumps, ALogIsCutAtAJumpAndTheJumpIsReported) {
   EXPECT_NEAR(runs[1].payload[1].from_s, 2.5, 1e-9);
 }
 
-TEST(ClockJumps, AGapOfAMinuteIsNoJumpAndABrokenClockTellsNoTimeOfDay) {
+TEST(ClockJumps, AGapOfAMinuteIsNotAJumpAndABrokenClockHasNoTimeOfDay) {
   std::vector<LogArtifact> artifacts;
   EXPECT_EQ(split_at_clock_jumps(run_with_jump(55), artifacts).size(), 1u);
   EXPECT_TRUE(artifacts.empty());

@@ -21,7 +21,7 @@ TEST_F(Bags, ChunksOfEveryCompressionReadTheSame) {
   }
 }
 
-TEST_F(Bags, ABagThatEndsAnywhereGivesWhatIsWhole) {
+TEST_F(Bags, ATruncatedBagGivesItsCompleteRecords) {
   const std::string whole = drive();
   std::size_t before = 0;
   for (std::size_t size = 9; size + 60 < whole.size(); size += 997) {
@@ -38,7 +38,7 @@ TEST_F(Bags, ABagThatEndsAnywhereGivesWhatIsWhole) {
   EXPECT_GT(before, 190u);
 }
 
-TEST_F(Bags, AnAnnouncedSizeIsNotAllocated) {
+TEST_F(Bags, AnnouncedSizesAreCheckedBeforeAllocation) {
   std::string bag = chunked(drive(), "zstd");
   const std::uint64_t huge = std::uint64_t{1} << 60;
   std::memcpy(bag.data() + 8 + 9 + 16, &huge, sizeof huge);

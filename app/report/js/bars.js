@@ -1,4 +1,4 @@
-/* Bars as plain elements: they print sharply, a screen reader reads them, and their numbers stay text. */
+/* Bars as plain elements: sharp in print, readable by screen readers, with numbers as text. */
 
 /** [{label, value, text, interval: [low, high], color, marks: [value]}] on one scale from 0. */
 jp.bar_rows = function (rows, options = {}) {
@@ -29,7 +29,7 @@ jp.causes = function (by_cause) {
     }
   }
   const most = listed.reduce((most, cause) => Math.max(most, Math.abs(cause.J)), 0);
-  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-9 * most) cause.J = 0; });  // rounding, not energy
+  listed.forEach((cause) => { if (Math.abs(cause.J) < 1e-9 * most) cause.J = 0; });  // rounding errors
   const order = ["standby", "coulomb_friction", "viscous_friction", "copper", "kinetic", "not_recovered"];
   const place = (cause) => (order.includes(cause.name) ? order.indexOf(cause.name) : order.length);
   return listed.sort((a, b) => place(a) - place(b));

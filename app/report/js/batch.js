@@ -1,4 +1,4 @@
-/* `joulepath batch`: how many missions, how they ended, how they spread, which are the worst. */
+/* `joulepath batch`: number of missions, their status, their distributions, and the worst missions. */
 
 jp.draw_batch = function (data) {
   const {count, status, total, spread, unsolved, worst} = data.batch;

@@ -3,7 +3,7 @@
 const kSeriesColors = ["plan", "second", "third", "fourth", "fifth", "sixth"];
 const kDashes = [null, [6, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 4]];
 
-/** A profile's name, with the seconds by which it is later than what it stands beside. */
+/** A profile's name, with its delay in seconds after the plan or point. */
 jp.profile_name = (one) => jp.words(one.name) + (one.later_s ? `, ${jp.number(one.later_s, 2)} s later` : "");
 
 /** Profiles {name, columns} over time or over distance: speed, power, energy. */
@@ -56,7 +56,7 @@ jp.draw_front = function (data) {
   const points = (data.front.points || []).filter((one) => jp.is_number(one.duration_s) && jp.is_number(one.energy_J)).sort((a, b) => a.duration_s - b.duration_s);
   const others = (data.front.baselines || []).filter((one) => one.feasible !== false && jp.is_number(one.energy_J));
   const span_s = points.length ? points[points.length - 1].duration_s - points[0].duration_s : 0;
-  const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones stand in the table alone
+  const near = others.filter((one) => points.length && one.duration_s <= points[points.length - 1].duration_s + span_s);  // much later ones are shown in the table only
   const names = [...new Set(near.map((one) => one.name))];
   const x = [...new Set([...points, ...near].map((one) => one.duration_s))].sort((a, b) => a - b);
   const find = (list, key) => x.map((t) => { const one = list.find((entry) => entry.duration_s === t); return one && jp.is_number(one[key]) ? one[key] : null; });

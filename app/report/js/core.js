@@ -6,7 +6,7 @@ window.addEventListener("error", (event) => jp.errors.push(String(event.message)
 
 jp.data = JSON.parse(document.getElementById("data").textContent);
 
-/** h("p", {class: "soft"}, "text", child): an element; null children are left out. */
+/** h("p", {class: "soft"}, "text", child): an element; null children are skipped. */
 jp.h = function (tag, attributes, ...children) {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(attributes || {})) {

@@ -3,7 +3,7 @@
 /** Viridis, sampled: readable with every kind of color vision and in gray. */
 const kRamp = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 jp.ramp = function (fraction) {
-  // The darkest fifth would vanish on a dark ground, the brightest on a light one.
+  // The darkest fifth of the palette is not visible on a dark background, the brightest not on a light one.
   const [low, high] = jp.is_dark() ? [0.22, 1] : [0, 0.88];
   const t = (low + (high - low) * Math.min(1, Math.max(0, fraction))) * (kRamp.length - 1);
   const k = Math.min(kRamp.length - 2, Math.floor(t));

@@ -92,7 +92,7 @@ jp.baseline_section = function (plan) {
         [one.later_s ? jp.number(one.later_s, 2) + " s later than the plan (the plan's time is infeasible for this profile)" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
 };
 
-/** Settings of the baselines for controllers that follow nothing else: per leg and stretch. */
+/** Settings of the baselines per leg and stretch, for controllers that follow only trapezoids. */
 jp.settings_details = function (plan) {
   const rows = (plan.legs || []).flatMap((leg, k) => (leg.baselines || []).flatMap((one) => (one.stretches || []).map((settings, n) =>
     [jp.leg_name(leg, k), {n: String(n + 1)}, jp.words(((leg.stretches || [])[n] || {}).kind || ""), jp.words(one.name), Object.entries(settings).map(([key, value]) => jp.key_value(key, value)).join(", ")])));

@@ -14,7 +14,7 @@ jp.draw_limits = function (context, area, graph, limits) {
   context.restore();
 };
 
-/** [low, high] that shows the limits too, where they are not far outside of what is drawn; else null: fitted. */
+/** [low, high] including the limits, if they are not far outside of the drawn values; else null: fitted to the values. */
 jp.range_with_limits = function (series, limits) {
   if (!limits.length) return null;
   let low = 0, high = 0;
@@ -69,7 +69,7 @@ jp.plot = function (options) {
   return plot;
 };
 
-/** The shared cursor: a slider (keyboard and touch), a readout, and everything that follows a row. */
+/** The shared cursor: a slider (keyboard and touch), a readout, and all views that follow a row. */
 jp.cursor = function (count, describe) {
   const followers = [];
   const plots = [];
@@ -104,7 +104,7 @@ jp.cursor = function (count, describe) {
   return cursor;
 };
 
-/** Draws plots that are in the page now and keeps them fitting the theme, the window and the paper. */
+/** Draws the plots of the page and adapts them to the theme, the window and the paper. */
 jp.draw_plots = function (plots) {
   plots.forEach((plot) => plot.draw());
   const redraw = () => plots.forEach((plot) => plot.redraw());

@@ -146,8 +146,8 @@ RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
   return envelope;
 }
 
-/// Whether any row is other than affine in the squares of the rates. A term that is not named here counts as
-/// one that bends.
+/// True if a row is not affine in the squares of the rates. A term that is not listed here counts as
+/// nonlinear.
 bool bends(const Problem& problem) {
   constexpr std::string_view kStraight[] = {Acceleration::name, YawAcceleration::name,
                                             WheelAcceleration::name, Traction::name};
@@ -157,9 +157,9 @@ bool bends(const Problem& problem) {
   });
 }
 
-/// The tangent of a row that bends, taken at a speed that the row forbids, may leave nothing at all (a
-/// voltage is concave in the square of the rate). Where the first sweep is blocked it is tried at slower and
-/// slower profiles before that counts.
+/// The tangent of a nonlinear row at a speed that the row forbids may exclude every speed (a voltage is
+/// concave in the square of the rate). If the first sweep is blocked, it is repeated about slower profiles
+/// before the request counts as blocked.
 RateEnvelope first_sweep(const Problem& problem, std::vector<double>& at) {
   RateEnvelope envelope = sweep(problem, at);
   for (int i = 0; i < kSlowings && envelope.blocked; ++i) {

@@ -7,8 +7,8 @@
 
 namespace joulepath::nlp {
 
-/// What the motion can be in a segment, by the caps of the rate and by rows that are never left out: rows of
-/// the other limits are judged by it.
+/// Bounds of the motion in a segment, from the caps of the rate and from rows that are always kept; they
+/// decide whether a row of another limit is needed.
 struct Reach {
   Range b0{}, b1{};  ///< squares of the rate at the ends
   Range a{};         ///< acceleration

@@ -30,7 +30,7 @@ onmessage = async ({data}) => {
   }
 };`;
 
-/** What a benchmark asks of drafts: {nodes, by_program}. */
+/** Settings of drafts for benchmarks: {nodes, by_program}. */
 const studio_draft = () => window.studio.draft || {};
 
 let wasm_bytes;
@@ -42,7 +42,7 @@ async function core_bytes() {
   return (await wasm_bytes).slice(0);
 }
 
-/** A planner in a thread of its own; a question that is no longer wanted ends with its thread. */
+/** A planner in a separate thread; an outdated question ends with its thread. */
 class Lane {
   async open() {
     this.worker = new Worker(URL.createObjectURL(new Blob([core_js + "\n" + kWorker], {type: "text/javascript"})));
@@ -83,7 +83,7 @@ async function in_program(text) {
   return response.text();
 }
 
-/** One question about the mission as it is now. */
+/** A question about the present mission. */
 export async function ask(mode, extra = {}) {
   const question = JSON.stringify({mode, page: page_name, name: store.files.name, mission: store.mission, robot: store.robot, paths: store.ways, ...extra});
   const draft = mode === "draft";
@@ -130,7 +130,7 @@ async function draft() {
 }
 
 let settled = 0;
-/** Certifies the mission as it is: along its ways at once, then with ways searched anew where stops have moved. */
+/** Certifies the present mission: at once along its ways, then with a new search of ways where stops have moved. */
 async function settle() {
   const edits = store.edits;
   const current = () => edits === store.edits;
@@ -152,7 +152,7 @@ async function settle() {
   emit("settled");
 }
 
-// Before the listeners of the panels: they show the state that follows from an edit.
+// Registered before the listeners of the panels, which show the state that follows from an edit.
 let timer;
 on("edit", ({release}) => {
   store.classics = store.front = null;

@@ -12,7 +12,7 @@ export function h(tag, attributes, ...children) {
 
 const live = h("div", {class: "unseen", "aria-live": "polite"});
 
-/** Says a sentence to who listens to the page. */
+/** Announces a sentence to screen readers. */
 export function announce(text) {
   if (!live.isConnected) document.body.append(live);
   live.textContent = text;
@@ -20,7 +20,7 @@ export function announce(text) {
 
 export const button = (text, onclick, attributes = {}) => h("button", {type: "button", onclick, ...attributes}, text);
 
-/** A section that can be closed; what is open stays in mind. */
+/** A section that can be closed; its state is stored for the session. */
 export function section(title, id, ...children) {
   const open = sessionStorageGet("open:" + id) !== "no";
   const details = h("details", {id, class: "section", open}, h("summary", {}, h("h2", {}, title)), ...children);

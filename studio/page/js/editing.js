@@ -36,7 +36,7 @@ function set_curves(k, curves) {
   path.bezier_m = curves.map((curve) => curve.map(([x, y]) => [Number(x.toFixed(6)), Number(y.toFixed(6))]));
 }
 
-/** Paths drawn in the map that begin where a leg ends are taken along to its new end. */
+/** Moves the start of drawn paths with the end of the previous leg. */
 function follow(k, x, y) {
   const next = legs()[k + 1];
   if (!next || !next.path || next.path.frame !== "map") return;
@@ -86,7 +86,7 @@ export function move_handle(k, curve, point, x, y, gesture) {
     const curves = curves_of(k).map((one) => one.map((p) => [...p]));
     const last = curves.length - 1;
     if (point === 0 && curve === 0) return;
-    // The handle before an end goes with it.
+    // The handle before an end moves with it.
     if (point === 3 && curve === last) curves[curve][2] = [0, 1].map((a) => curves[curve][2][a] + [x, y][a] - curves[curve][3][a]);
     curves[curve][point] = [x, y];
     set_curves(k, curves.length > 1 ? smooth(curves) : curves);
@@ -94,7 +94,7 @@ export function move_handle(k, curve, point, x, y, gesture) {
   }, gesture);
 }
 
-/** A leg to a station becomes a path of its own, drawn through waypoints of the way it has now. */
+/** Turns a leg to a station into a drawn path through waypoints of its present way. */
 export function draw_by_hand(k) {
   const motion = store.answer.motion, rows = motion.leg.map((leg, row) => [leg, row]).filter(([leg]) => leg === k).map(([, row]) => row);
   const s = rows.map((row) => motion.arc_length_m[row]), length = s.at(-1);
@@ -170,7 +170,7 @@ export function remove_leg(k) {
   });
   select({kind: "none"});
 }
-/** Leg k changes places with the one before (-1) or after it (+1). */
+/** Exchanges leg k with the one before (-1) or after it (+1). */
 export function reorder(k, by) {
   const j = k + by;
   if (j < 0 || j >= legs().length) return;

@@ -7,7 +7,7 @@ import {handles} from "studio/handles.js";
 
 const kOccupied_percent = 65;
 
-/** A map in one picture: free, unknown, occupied, kept out, slowed. */
+/** A map as one picture: free, unknown, occupied, keep-out and speed-limited cells. */
 function picture_of(floor) {
   const grid = floor.map, canvas = document.createElement("canvas");
   canvas.width = grid.width; canvas.height = grid.height;

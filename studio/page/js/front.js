@@ -30,7 +30,7 @@ export function front_panel() {
   }
 
   const dwell_s = () => { const leg = (store.mission.legs || []).at(-1); return leg && leg.dwell_s ? leg.dwell_s : 0; };
-  /** The mission's deadline counts to its end; beyond the cheapest time it does not bind. */
+  /** The deadline refers to the end of the mission; beyond the cheapest time it does not bind. */
   function put(time_s, release) {
     const points = curve(), low = points[0].duration_s, value = Math.max(low * 1.0002 + 1e-3, time_s);
     kept = store.front;

@@ -78,7 +78,7 @@ function start() {
   draw();
 }
 window.studio.store = store;
-// What tests and benchmarks look at.
+// Interface for tests and benchmarks.
 Object.assign(window.studio, {answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))});
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;

@@ -116,7 +116,7 @@ export function plots_panel() {
     for (let k = 0; k + 1 < m.time_s.length; ++k) if (m.limit[k] >= 0) share[store.answer.limits[m.limit[k]]] = (share[store.answer.limits[m.limit[k]]] || 0) + m.time_s[k + 1] - m.time_s[k];
     legend.replaceChildren("Active limit: ", ...Object.entries(share).sort((a, b) => b[1] - a[1]).map(([name, time_s]) =>
       h("span", {class: "key"}, h("i", {class: "box", style: `background:${limit_color(name)}`}), `${name.replace(/_/g, " ")} ${short(100 * time_s / end, 2)} %`)),
-    h("span", {class: "key"}, h("i", {class: "box", style: `background:${free_color()}`}), "none: energy decides"));
+    h("span", {class: "key"}, h("i", {class: "box", style: `background:${free_color()}`}), "no limit binds"));
   };
   let queued = false;
   const later = (all) => { if (all) names(); if (queued) return; queued = true; requestAnimationFrame(() => { queued = false; draw(); }); };

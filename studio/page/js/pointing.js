@@ -86,7 +86,7 @@ canvas.addEventListener("dblclick", (event) => {
 });
 
 const kStep_m = 0.05, kTurn_rad = Math.PI / 36;
-/** Turns what is chosen, where it has a heading. */
+/** Turns the selected handle if it has a heading. */
 function turn(by) {
   const {kind, name, of} = store.selection, station = kind === "station" ? name : kind === "heading" ? of : null;
   if (station) turn_station(station, (store.mission.stations[station].heading_rad || 0) + by, {of: "turn " + station});

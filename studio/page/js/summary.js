@@ -1,4 +1,4 @@
-/** What the plan takes: figures, joules by cause, legs. */
+/** Summary of the plan: figures, joules by cause, legs. */
 import {button, h} from "studio/dom.js";
 import {number, percent, short, signed, with_unit, words} from "studio/numbers.js";
 import {has_legs, on, select, store} from "studio/store.js";
@@ -6,7 +6,7 @@ import {legs, remove_leg, reorder} from "studio/editing.js";
 
 const kStates = {draft: "draft", certified: "certified on these ways", planned: "", none: "planning"};
 
-/** Status in words: how good the plan is, and how much of it is certified. */
+/** Status in words: quality of the plan and extent of its certificate. */
 export const collides = () => !!store.answer && store.answer.legs.some((leg) => leg.blocked);
 export function status_text() {
   if (store.problem) return store.verdict && store.verdict.infeasibility ? "infeasible" : "no plan";

@@ -1,4 +1,4 @@
-/** The clock of the animation: play, a slider, what holds at the cursor. */
+/** The clock of the animation: play button, slider, values at the cursor. */
 import {button, h} from "studio/dom.js";
 import {number, row_at, value_at, words} from "studio/numbers.js";
 import {on, set_cursor, store} from "studio/store.js";
