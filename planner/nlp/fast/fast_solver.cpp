@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "planner/nlp/fast/coarse_problem.hpp"
+#include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
 // Design: docs/decisions/0051-fast-solver.md
 namespace joulepath::nlp {
@@ -24,10 +25,11 @@ constexpr double kMostRounding = 1e-5;  ///< of the weighted gradient, relative 
 
 class FastSolver {
  public:
-  FastSolver(const Problem& problem, const FastStart& start)
-      : p_(problem),
-        model_(problem),
-        state_(starting_state(model_, start)),
+  FastSolver(const Problem& problem, const FastStart& start, double kink_width)
+      : kinks_(problem, kink_width),
+        p_(kinks_.problem()),
+        model_(p_),
+        state_(rounded_start(start)),
         newton_(model_, state_),
         dual_residual_(problem.unknown_count()) {}
 
@@ -38,7 +40,7 @@ class FastSolver {
     for (; i < options.max_iterations; ++i) {
       measure();
       if (!std::isfinite(error_)) break;
-      if (error_ <= options.tolerance || at_rest_ >= kAtRest) {
+      if (kinks_.is_settled() && (error_ <= options.tolerance || at_rest_ >= kAtRest)) {
         solution.converged = true;
         break;
       }
@@ -51,6 +53,11 @@ class FastSolver {
   }
 
  private:
+  FastState rounded_start(const FastStart& start) {
+    kinks_.start(start.b, start.gap);
+    return starting_state(model_, start);
+  }
+
   /// Residuals of the optimality conditions at the current point, relative to the objective.
   void measure() {
     const double total_before = total_;
@@ -120,6 +127,7 @@ class FastSolver {
     });
     const StepSizes sizes = newton_.solve();
     newton_.take(sizes);
+    kinks_.narrow(error_);
     model_.evaluate(state_.b);
     return sizes.primal > 1e-8;
   }
@@ -136,6 +144,7 @@ class FastSolver {
     }
   }
 
+  NarrowingKinks kinks_;
   const Problem& p_;
   FastModel model_;
   FastState state_;
@@ -146,6 +155,19 @@ class FastSolver {
   double mu_{}, error_{}, tolerance_{};
   int at_rest_{};  ///< iterations that changed nothing but the rounding of the gradient
 };
+
+/// With wider kinks where the solver does not converge with narrow ones.
+Solution solve_from(const Problem& problem, const FastStart& start, const FastOptions& options) {
+  Solution solution;
+  int iterations = 0;
+  for (const double width : kFinalWidths) {
+    solution = FastSolver(problem, start, width).solve(options);
+    iterations += solution.iterations;
+    if (solution.converged || !has_kinks(problem)) break;
+  }
+  solution.iterations = iterations;
+  return solution;
+}
 
 /// A rough optimum on fewer nodes, as a start for all of them: nothing where even that is not found, or where
 /// kinks of curvature keep so many nodes that it would cost as much as the problem itself.
@@ -165,11 +187,11 @@ Solution solve_fast(const Problem& problem, const std::vector<double>& b_guess, 
   if (problem.segment_count() >= kContinuedFrom) {
     const std::optional<std::vector<double>> near = start_from_coarse(problem, b_guess);
     if (near) {
-      Solution solution = FastSolver(problem, {*near, kWarmGap, kWarmRoom}).solve(options);
+      Solution solution = solve_from(problem, {*near, kWarmGap, kWarmRoom}, options);
       if (solution.converged) return solution;
     }
   }
-  return FastSolver(problem, {b_guess, kColdGap, kColdRoom}).solve(options);
+  return solve_from(problem, {b_guess, kColdGap, kColdRoom}, options);
 }
 
 }  // namespace joulepath::nlp
