@@ -35,8 +35,11 @@ def main(source, out):
     rows = [f'    {{"{name}", {value}, std::is_integral_v<{kind}>}},' for kind, name, value in constants]
     macros = [f"#define {name} (::joulepath::read_threshold<{kind}>(::joulepath::kThresholds[{k}]))"
               for k, (kind, name, _) in enumerate(constants)]
-    pathlib.Path(out).write_text(HEAD + "\n".join(["inline Threshold kThresholds[] = {", *rows, "};", "",
-                                                   "}  // namespace joulepath", *macros, ""]))
+    text = HEAD + "\n".join(["inline Threshold kThresholds[] = {", *rows, "};", "", "}  // namespace joulepath", *macros, ""])
+    file = pathlib.Path(out)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if not file.exists() or file.read_text() != text:  # sources that include it are compiled again
+        file.write_text(text)
 
 
 if __name__ == "__main__":
