@@ -144,9 +144,9 @@ TEST(Batch, AnotherRobotOrFloorIsAnotherWorld) {
   EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
-/// If no way keeps a leg's own duration, ways that stop at corners are tried: the second choice is another
-/// question to the cache.
-TEST(Batch, OtherStepsAreCachedSeparately) {
+/// A leg's own duration is tried with ways that stop at corners where no other keeps it: the second choice is
+/// another question than the first.
+TEST(Batch, OtherStepsAreAnotherQuestion) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;
@@ -166,7 +166,7 @@ TEST(Batch, OtherStepsAreCachedSeparately) {
   }
 }
 
-TEST(Plan, DoesNotDependOnThreadsOrCache) {
+TEST(Plan, DependsNeitherOnThreadsNorOnWhatIsKept) {
   const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
   const MissionWorld world = read_world(mission);
   AnswerCache kept;
