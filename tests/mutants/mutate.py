@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Mutants: changes one operator or constant at a time and looks whether a test notices.
 
-usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--survivors] [--report] [--list]
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--longest S] [--survivors] [--report] [--list]
 
 Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
 mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
 tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
 first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
-in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. The table is
+in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. --longest
+leaves out suites that take more than S seconds of CPU; a later call asks them about the survivors. The table is
 benchmarks/results/mutants.md.
 """
 import argparse
@@ -28,7 +29,7 @@ OUT = os.path.join(ROOT, "build/mutants")
 TREE = os.path.join(OUT, "tree")
 BUILD = os.path.join(TREE, "build/release")
 VERDICTS, FORMS = os.path.join(OUT, "verdicts.jsonl"), os.path.join(OUT, "forms.json")
-PER_AREA, SPARE, MEMORY_BYTES = 75, 1.3, 4 << 30
+PER_AREA, SPARE, MEMORY_BYTES, NO_LIMIT, QUICK_S = 75, 1.3, 4 << 30, float("inf"), 0.5
 
 
 def read(path):
@@ -151,9 +152,21 @@ def survey(programs):
     return found
 
 
+def joined(suites):
+    """The quickest suites of a program run together."""
+    groups = []
+    for program in sorted({suite["program"] for suite in suites}):
+        own = [suite for suite in suites if suite["program"] == program and suite["cpu_s"] < QUICK_S]
+        parts = [(suite["choice"] + "-").split("-") for suite in own]
+        choice = ":".join(part[0] for part in parts) + "-" + ":".join({part[1] for part in parts} - {""})
+        if own:
+            groups.append({"program": program, "choice": choice, "cpu_s": sum(suite["cpu_s"] for suite in own)})
+    return groups + [suite for suite in suites if suite["cpu_s"] >= QUICK_S]
+
+
 def killer(site, chosen):
     """The first test that fails, or None."""
-    for suite in chosen:
+    for suite in joined(chosen):
         done = run_tests(suite["program"], suite["choice"], site["id"], int(10 + 5 * suite["cpu_s"]))
         if done.returncode != 0:
             failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
@@ -162,18 +175,15 @@ def killer(site, chosen):
     return None
 
 
-def alone(site, surveyed):
+def alone(site, suites, longest_s):
     """Compiled with this mutant only; every suite of its area is asked."""
-    programs = AREAS[site["area"]][1]
     path = os.path.join(TREE, site["file"])
     before = read(path)
     try:
         write(path, mutated(read(os.path.join(ROOT, site["file"])), site))
-        if build_error(programs):
+        if build_error(AREAS[site["area"]][1]):
             return {"verdict": "invalid"}
-        asked = [suite for suite in surveyed if suite["program"] in programs]
-        by = killer({**site, "id": 0}, asked)
-        return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(asked)}
+        return asked_about({**site, "id": 0}, suites, longest_s)
     finally:
         write(path, before)
 
@@ -184,13 +194,17 @@ def needs_own_build(site, surveyed):
     return site["alone"] or ("constexpr" in site["source"] and not reached)
 
 
-def verdict_on(site, surveyed):
+def asked_about(site, reaching, longest_s):
+    quick = [suite for suite in reaching if suite["cpu_s"] <= longest_s]
+    by = killer(site, quick)
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(quick), "left_out": len(reaching) - len(quick)}
+
+
+def verdict_on(site, surveyed, longest_s):
+    own = [suite for suite in surveyed if suite["program"] in AREAS[site["area"]][1]]
     if needs_own_build(site, surveyed):
-        return alone(site, surveyed)
-    programs = AREAS[site["area"]][1]
-    reaching = [suite for suite in surveyed if suite["program"] in programs and site["id"] in suite["reaches"]]
-    by = killer(site, reaching)
-    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(reaching)}
+        return alone(site, own, longest_s)
+    return asked_about(site, [suite for suite in own if site["id"] in suite["reaches"]], longest_s)
 
 
 def known():
@@ -211,7 +225,10 @@ def equivalent(site, table):
 
 
 def remark(entry):
-    return entry["why"] if "why" in entry else "passed by %d suites" % entry["suites"] if entry.get("suites") else "reached by no test"
+    if "why" in entry:
+        return entry["why"]
+    slow = ", %d slow ones not asked" % entry["left_out"] if entry.get("left_out") else ""
+    return "reached by no test" if not entry["suites"] and not slow else "passed by %d suites%s" % (entry["suites"], slow)
 
 
 def report(queues):
@@ -241,7 +258,8 @@ def first(queue, count, done):
 
 def judge_all(queues, asked):
     done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
-    again = {name for name, entry in done.items() if entry["verdict"] == "survived"} if asked.survivors else set()
+    again = {name for name, entry in done.items() if entry["verdict"] == "survived" and (
+        asked.survivors or (entry.get("left_out") and asked.longest == NO_LIMIT))}
     copy_tree()
     sites = [site for queue in queues.values() for site in queue]
     number(sites)
@@ -254,7 +272,7 @@ def judge_all(queues, asked):
             settled = equivalent(site, table) or (name in done and name not in again)
             if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
                 continue
-            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed)}
+            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed, asked.longest)}
             again.discard(name)
             with open(VERDICTS, "a") as stream:
                 stream.write(json.dumps(done[name]) + "\n")
@@ -265,7 +283,8 @@ def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--area", choices=AREAS, action="append")
     arguments.add_argument("--sites", type=int, default=PER_AREA)
-    arguments.add_argument("--minutes", type=float, default=float("inf"))
+    arguments.add_argument("--minutes", type=float, default=NO_LIMIT)
+    arguments.add_argument("--longest", type=float, default=NO_LIMIT)
     for flag in ("--survivors", "--report", "--list"):
         arguments.add_argument(flag, action="store_true")
     asked = arguments.parse_args()
