@@ -1,9 +1,12 @@
 // Every effect's law by closed form on a simple motion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "model/effects/catalog.hpp"
 #include "model/power.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -246,6 +249,23 @@ TEST(EffectLaw, InstrumentsChangeReadings) {
   EXPECT_NEAR(late.motor_voltage_V.left[2], 3.0, 1e-12);
   EXPECT_NEAR(late.motor_current_A.right[2], 1.5, 1e-12);
   EXPECT_EQ(late.wheel_speed_rad_s.left.size(), 0u);
+}
+
+TEST(EffectCatalog, WithoutAGridOfItsOwnASearchSpansADecadeAroundTheTypicalSize) {
+  int searched = 0;
+  for (const EffectDescription& effect : effect_catalog())
+    for (const ParameterDescription& parameter : effect.parameters) {
+      if (!parameter.grid.empty()) continue;
+      const std::vector<double> grid = search_grid(parameter, nomad());
+      const double typical = typical_size(parameter, nomad());
+      ASSERT_EQ(grid.size(), 3u);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double factor = std::array{0.3, 1.0, 3.0}[k];
+        EXPECT_EQ(grid[k], std::clamp(factor * typical, parameter.min, parameter.max));
+      }
+      ++searched;
+    }
+  EXPECT_GT(searched, 5);
 }
 
 }  // namespace

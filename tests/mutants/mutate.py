@@ -28,7 +28,7 @@ from sites import AREAS, ROOT, SEED, drawn, identity, key, mutated, with_mutants
 OUT = os.path.join(ROOT, "build/mutants")
 TREE = os.path.join(OUT, "tree")
 BUILD = os.path.join(TREE, "build/release")
-VERDICTS, FORMS = os.path.join(OUT, "verdicts.jsonl"), os.path.join(OUT, "forms.json")
+VERDICTS, FORMS, SURVEY = (os.path.join(OUT, name) for name in ("verdicts.jsonl", "forms.json", "survey.json"))
 PER_AREA, SPARE, MEMORY_BYTES, NO_LIMIT, QUICK_S = 75, 1.3, 4 << 30, float("inf"), 0.5
 
 
@@ -52,18 +52,19 @@ def copy_tree():
         if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
+    shared = os.path.join(ROOT, "../shared")  # data sets beside the sources: tests skip without them
+    if os.path.isdir(shared) and not os.path.islink(os.path.join(OUT, "shared")):
+        os.symlink(os.path.realpath(shared), os.path.join(OUT, "shared"))
     if not os.path.exists(os.path.join(BUILD, "build.ninja")):
-        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DJOULEPATH_BUILD_BENCHMARKS=OFF",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
 
 
-def programs_of(areas):
-    return sorted({program for area in areas for program in AREAS[area][1]})
+PROGRAMS = sorted({program for _, programs in AREAS.values() for program in programs})
 
 
 def build_error(programs):
     """Empty after a build; else what the compiler says."""
-    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, *programs], capture_output=True, text=True, errors="replace")
+    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, "blind_plant", *programs], capture_output=True, text=True, errors="replace")
     return done.stdout + done.stderr if done.returncode else ""
 
 
@@ -96,17 +97,6 @@ def build_all(sites, programs):
         write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
 
 
-def fingerprint():
-    """Of all sources with all mutants."""
-    digest = hashlib.sha256()
-    for folder, folders, files in os.walk(TREE):
-        folders[:] = sorted(set(folders) - {"build"})
-        for file in sorted(files):
-            if file.endswith((".cpp", ".hpp", ".txt")):
-                digest.update(read(os.path.join(folder, file)).encode())
-    return digest.hexdigest()
-
-
 def limit(cpu_s):
     resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
@@ -133,23 +123,30 @@ def suites(program):
     return [name + "*-" + ":".join(own) for name in names] + own
 
 
-def survey(programs):
-    """What each suite reaches and its CPU time, with no mutant active. Kept as long as the sources stay."""
-    notes, kept, found = os.path.join(OUT, "reached.txt"), os.path.join(OUT, "survey.json"), []
-    state = fingerprint()
-    if os.path.exists(kept) and (old := json.loads(read(kept)))["state"] == state:
-        return old["suites"]
-    for program, choice in ((program, choice) for program in programs for choice in suites(program)):
+def suites_of(program):
+    """What each suite reaches and its CPU time, with no mutant active."""
+    notes, found = os.path.join(OUT, "reached.txt"), []
+    for choice in suites(program):
         write(notes, "")
         start_s = children_s()
         done = run_tests(program, choice, notes=notes)
         if done.returncode != 0:
             sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
         found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
-    found.sort(key=lambda suite: suite["cpu_s"])
-    print("%d suites take %.0f s of CPU" % (len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
-    write(kept, json.dumps({"state": state, "suites": found}))
+    print("%s: %d suites take %.0f s of CPU" % (program, len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
     return found
+
+
+def survey(programs):
+    """The suites of all programs, quick ones first. Kept for each program as long as its bytes stay."""
+    kept = json.loads(read(SURVEY)) if os.path.exists(SURVEY) else {}
+    for program in programs:
+        with open(os.path.join(BUILD, "bin", program), "rb") as stream:
+            state = hashlib.sha256(stream.read()).hexdigest()
+        if kept.get(program, {}).get("state") != state:
+            kept[program] = {"state": state, "suites": suites_of(program)}
+            write(SURVEY, json.dumps(kept))
+    return sorted((suite for program in programs for suite in kept[program]["suites"]), key=lambda suite: suite["cpu_s"])
 
 
 def joined(suites):
@@ -263,8 +260,8 @@ def judge_all(queues, asked):
     copy_tree()
     sites = [site for queue in queues.values() for site in queue]
     number(sites)
-    build_all(sites, programs_of(AREAS))
-    surveyed = survey(programs_of(AREAS))
+    build_all(sites, PROGRAMS)
+    surveyed = survey(PROGRAMS)
     for own_build in (False, True):  # those last: afterwards the programs have one mutant only
         chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
         for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
