@@ -251,6 +251,16 @@ TEST(EffectLaw, InstrumentsChangeReadings) {
   EXPECT_EQ(late.wheel_speed_rad_s.left.size(), 0u);
 }
 
+TEST(Plant, EffectsOfOneKindAddUp) {
+  const EffectSetting slip{.name = "wheel_slip", .parameters = {{"creep_stiffness_N_s_m", 400}}};
+  const EffectSetting drop{.name = "driver_voltage_drop", .parameters = {{"voltage_V", 0.3}}};
+  const EffectSetting gear{.name = "gear_efficiency", .parameters = {{"loss_fraction", 0.1}}};
+  const Plant plant = make_plant(nomad(), {slip, drop, gear, slip, drop, gear});
+  EXPECT_NEAR(plant.creep_m_s_N, 2.0 / 400, 1e-15);
+  EXPECT_NEAR(plant.driver_voltage_drop_V, 0.6, 1e-15);
+  EXPECT_NEAR(plant.torque_loss_fraction, 2 * make_plant(nomad(), {gear}).torque_loss_fraction, 1e-15);
+}
+
 TEST(EffectCatalog, WithoutAGridOfItsOwnASearchSpansADecadeAroundTheTypicalSize) {
   int searched = 0;
   for (const EffectDescription& effect : effect_catalog())
