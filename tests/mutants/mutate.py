@@ -190,7 +190,7 @@ def needs_own_build(site, surveyed):
 def asked_about(site, reaching, longest_s):
     quick = [suite for suite in reaching if suite["cpu_s"] <= longest_s]
     by = killer(site, quick)
-    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(quick), "left_out": len(reaching) - len(quick)}
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(quick), "left_out": len(reaching) - len(quick), "longest": longest_s}
 
 
 def verdict_on(site, surveyed, longest_s):
@@ -203,7 +203,7 @@ def verdict_on(site, surveyed, longest_s):
 def judge_all(queues, asked):
     done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
     again = {name for name, entry in done.items() if entry["verdict"] == "survived" and (
-        asked.survivors or (entry.get("left_out") and asked.longest == NO_LIMIT))}
+        asked.survivors or (entry.get("left_out") and asked.longest > entry.get("longest", 0)))}
     copy_tree()
     sites = [site for queue in queues.values() for site in queue]
     number(sites)

@@ -45,13 +45,15 @@ def report(queues):
         rows += [row for row in judged if row[2]]
     text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (commit, SEED, PER_AREA),
             "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
-            "| area | tests | judged | equivalent | killed | survived | killed of the rest |", "|---|---|---:|---:|---:|---:|---:|"]
+            "Open: passed by the suites that were asked, slow ones were left out (`--longest`).", "",
+            "| area | tests | judged | equivalent | killed | survived | open | killed of those decided |", "|---|---|---:|---:|---:|---:|---:|---:|"]
     for area, (_, programs) in AREAS.items():
-        own = [entry["verdict"] for at, _, entry in rows if at == area]
+        own = ["open" if entry.get("left_out") else entry["verdict"] for at, _, entry in rows if at == area]
         killed, survived = own.count("killed"), own.count("survived")
         share = "%.0f %%" % (100 * killed / (killed + survived)) if killed + survived else "-"
-        text.append("| %s | %s | %d | %d | %d | %d | %s |" % (area, ", ".join(programs), len(own), own.count("equivalent"), killed, survived, share))
-    for title, verdict in (("Survivors", "survived"), ("Equivalent", "equivalent")):
+        text.append("| %s | %s | %d | %d | %d | %d | %d | %s |" % (
+            area, ", ".join(programs), len(own), own.count("equivalent"), killed, survived, own.count("open"), share))
+    for title, verdict in (("Survived or open", "survived"), ("Equivalent", "equivalent")):
         chosen = [(site, entry) for _, site, entry in rows if entry["verdict"] == verdict]
         text += ["", "## " + title, ""] + (["- `%s` in `%s`: %s" % (key(site), site["source"], remark(entry)) for site, entry in chosen] or ["None."])
     with open(os.path.join(ROOT, "benchmarks/results/mutants.md"), "w") as stream:
