@@ -62,6 +62,16 @@ Dataset wattmeter_day(const std::vector<EffectSetting>& effects, double scatter,
   return dataset;
 }
 
+TEST(EnergyOnly, ACurveIsNamedByTheSideToWhichItTurns) {
+  Dataset dataset{.robot = testing::nomad()};
+  dataset.runs = {run_of(bend(1.0, 1.5), 0, 0), run_of(bend(1.0, -1.5), 0, 1), run_of(steady(0.5), 0, 2)};
+  const std::vector<EnergyRun> runs = energy_runs(dataset);
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0].path, "curve to the left");
+  EXPECT_EQ(runs[1].path, "curve to the right");
+  EXPECT_EQ(runs[2].path, "straight");
+}
+
 TEST(EnergyOnly, SteadySpeedTakesWhatTheClosedFormSays) {
   Dataset dataset{.robot = testing::nomad()};
   dataset.runs.push_back(run_of(steady(0.5), 5.0, 0));

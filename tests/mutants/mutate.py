@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Mutants: changes one operator or constant at a time and looks whether a test notices.
 
-usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--survivors] [--report] [--list]
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--longest S] [--survivors] [--report] [--list]
 
 Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
 mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
 tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
 first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
-in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. The table is
+in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. --longest
+leaves out suites that take more than S seconds of CPU; a later call asks them about the survivors. The table is
 benchmarks/results/mutants.md.
 """
 import argparse
@@ -22,18 +23,14 @@ import subprocess
 import sys
 import time
 
-from sites import AREAS, ROOT, SEED, drawn, identity, key, mutated, with_mutants
+from sites import AREAS, PER_AREA, ROOT, drawn, identity, key, mutated, with_mutants
+from verdicts import VERDICTS, equivalent, equivalents, first, known, read, report
 
 OUT = os.path.join(ROOT, "build/mutants")
 TREE = os.path.join(OUT, "tree")
 BUILD = os.path.join(TREE, "build/release")
-VERDICTS, FORMS = os.path.join(OUT, "verdicts.jsonl"), os.path.join(OUT, "forms.json")
-PER_AREA, SPARE, MEMORY_BYTES = 75, 1.3, 4 << 30
-
-
-def read(path):
-    with open(path) as stream:
-        return stream.read()
+FORMS, SURVEY = os.path.join(OUT, "forms.json"), os.path.join(OUT, "survey.json")
+SPARE, MEMORY_BYTES, NO_LIMIT, QUICK_S = 1.3, 4 << 30, float("inf"), 0.5
 
 
 def write(path, text):
@@ -51,18 +48,19 @@ def copy_tree():
         if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
+    shared = os.path.join(ROOT, "../shared")  # data sets beside the sources: tests skip without them
+    if os.path.isdir(shared) and not os.path.islink(os.path.join(OUT, "shared")):
+        os.symlink(os.path.realpath(shared), os.path.join(OUT, "shared"))
     if not os.path.exists(os.path.join(BUILD, "build.ninja")):
-        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DJOULEPATH_BUILD_BENCHMARKS=OFF",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
 
 
-def programs_of(areas):
-    return sorted({program for area in areas for program in AREAS[area][1]})
+PROGRAMS = sorted({program for _, programs in AREAS.values() for program in programs})
 
 
 def build_error(programs):
     """Empty after a build; else what the compiler says."""
-    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, *programs], capture_output=True, text=True, errors="replace")
+    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, "blind_plant", *programs], capture_output=True, text=True, errors="replace")
     return done.stdout + done.stderr if done.returncode else ""
 
 
@@ -95,17 +93,6 @@ def build_all(sites, programs):
         write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
 
 
-def fingerprint():
-    """Of all sources with all mutants."""
-    digest = hashlib.sha256()
-    for folder, folders, files in os.walk(TREE):
-        folders[:] = sorted(set(folders) - {"build"})
-        for file in sorted(files):
-            if file.endswith((".cpp", ".hpp", ".txt")):
-                digest.update(read(os.path.join(folder, file)).encode())
-    return digest.hexdigest()
-
-
 def limit(cpu_s):
     resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
@@ -132,28 +119,47 @@ def suites(program):
     return [name + "*-" + ":".join(own) for name in names] + own
 
 
-def survey(programs):
-    """What each suite reaches and its CPU time, with no mutant active. Kept as long as the sources stay."""
-    notes, kept, found = os.path.join(OUT, "reached.txt"), os.path.join(OUT, "survey.json"), []
-    state = fingerprint()
-    if os.path.exists(kept) and (old := json.loads(read(kept)))["state"] == state:
-        return old["suites"]
-    for program, choice in ((program, choice) for program in programs for choice in suites(program)):
+def suites_of(program):
+    """What each suite reaches and its CPU time, with no mutant active."""
+    notes, found = os.path.join(OUT, "reached.txt"), []
+    for choice in suites(program):
         write(notes, "")
         start_s = children_s()
         done = run_tests(program, choice, notes=notes)
         if done.returncode != 0:
             sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
         found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
-    found.sort(key=lambda suite: suite["cpu_s"])
-    print("%d suites take %.0f s of CPU" % (len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
-    write(kept, json.dumps({"state": state, "suites": found}))
+    print("%s: %d suites take %.0f s of CPU" % (program, len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
     return found
+
+
+def survey(programs):
+    """The suites of all programs, quick ones first. Kept for each program as long as its bytes stay."""
+    kept = json.loads(read(SURVEY)) if os.path.exists(SURVEY) else {}
+    for program in programs:
+        with open(os.path.join(BUILD, "bin", program), "rb") as stream:
+            state = hashlib.sha256(stream.read()).hexdigest()
+        if kept.get(program, {}).get("state") != state:
+            kept[program] = {"state": state, "suites": suites_of(program)}
+            write(SURVEY, json.dumps(kept))
+    return sorted((suite for program in programs for suite in kept[program]["suites"]), key=lambda suite: suite["cpu_s"])
+
+
+def joined(suites):
+    """The quickest suites of a program run together."""
+    groups = []
+    for program in sorted({suite["program"] for suite in suites}):
+        own = [suite for suite in suites if suite["program"] == program and suite["cpu_s"] < QUICK_S]
+        parts = [(suite["choice"] + "-").split("-") for suite in own]
+        choice = ":".join(part[0] for part in parts) + "-" + ":".join({part[1] for part in parts} - {""})
+        if own:
+            groups.append({"program": program, "choice": choice, "cpu_s": sum(suite["cpu_s"] for suite in own)})
+    return groups + [suite for suite in suites if suite["cpu_s"] >= QUICK_S]
 
 
 def killer(site, chosen):
     """The first test that fails, or None."""
-    for suite in chosen:
+    for suite in joined(chosen):
         done = run_tests(suite["program"], suite["choice"], site["id"], int(10 + 5 * suite["cpu_s"]))
         if done.returncode != 0:
             failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
@@ -162,18 +168,15 @@ def killer(site, chosen):
     return None
 
 
-def alone(site, surveyed):
+def alone(site, suites, longest_s):
     """Compiled with this mutant only; every suite of its area is asked."""
-    programs = AREAS[site["area"]][1]
     path = os.path.join(TREE, site["file"])
     before = read(path)
     try:
         write(path, mutated(read(os.path.join(ROOT, site["file"])), site))
-        if build_error(programs):
+        if build_error(AREAS[site["area"]][1]):
             return {"verdict": "invalid"}
-        asked = [suite for suite in surveyed if suite["program"] in programs]
-        by = killer({**site, "id": 0}, asked)
-        return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(asked)}
+        return asked_about({**site, "id": 0}, suites, longest_s)
     finally:
         write(path, before)
 
@@ -184,69 +187,28 @@ def needs_own_build(site, surveyed):
     return site["alone"] or ("constexpr" in site["source"] and not reached)
 
 
-def verdict_on(site, surveyed):
+def asked_about(site, reaching, longest_s):
+    quick = [suite for suite in reaching if suite["cpu_s"] <= longest_s]
+    by = killer(site, quick)
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(quick), "left_out": len(reaching) - len(quick), "longest": longest_s}
+
+
+def verdict_on(site, surveyed, longest_s):
+    own = [suite for suite in surveyed if suite["program"] in AREAS[site["area"]][1]]
     if needs_own_build(site, surveyed):
-        return alone(site, surveyed)
-    programs = AREAS[site["area"]][1]
-    reaching = [suite for suite in surveyed if suite["program"] in programs and site["id"] in suite["reaches"]]
-    by = killer(site, reaching)
-    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(reaching)}
-
-
-def known():
-    if not os.path.exists(VERDICTS):
-        return {}
-    return {entry["identity"]: entry for entry in map(json.loads, read(VERDICTS).splitlines())}
-
-
-def equivalents():
-    """Mutants that no test can notice: file, source line, old, new, argument; separated by tabs."""
-    rows = [line.split("\t") for line in read(os.path.join(ROOT, "tests/mutants/equivalent.tsv")).split("\n") if line and line[0] != "#"]
-    return {tuple(row[:4]): row[4] for row in rows}
-
-
-def equivalent(site, table):
-    why = table.get((site["file"], site["source"], site["old"], site["new"] or "nothing"))
-    return {"verdict": "equivalent", "why": why} if why else None
-
-
-def remark(entry):
-    return entry["why"] if "why" in entry else "passed by %d suites" % entry["suites"] if entry.get("suites") else "reached by no test"
-
-
-def report(queues):
-    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    done, table, rows = known(), equivalents(), []
-    for area, sites in queues.items():
-        judged = [(area, site, equivalent(site, table) or done.get(identity(site))) for site in first(sites, PER_AREA, done)]
-        rows += [row for row in judged if row[2]]
-    text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (commit, SEED, PER_AREA),
-            "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
-            "| area | tests | judged | equivalent | killed | survived | killed of the rest |", "|---|---|---:|---:|---:|---:|---:|"]
-    for area, (_, programs) in AREAS.items():
-        own = [entry["verdict"] for at, _, entry in rows if at == area]
-        killed, survived = own.count("killed"), own.count("survived")
-        share = "%.0f %%" % (100 * killed / (killed + survived)) if killed + survived else "-"
-        text.append("| %s | %s | %d | %d | %d | %d | %s |" % (area, ", ".join(programs), len(own), own.count("equivalent"), killed, survived, share))
-    for title, verdict in (("Survivors", "survived"), ("Equivalent", "equivalent")):
-        chosen = [(site, entry) for _, site, entry in rows if entry["verdict"] == verdict]
-        text += ["", "## " + title, ""] + (["- `%s` in `%s`: %s" % (key(site), site["source"], remark(entry)) for site, entry in chosen] or ["None."])
-    write(os.path.join(ROOT, "benchmarks/results/mutants.md"), "\n".join(text) + "\n")
-
-
-def first(queue, count, done):
-    """The first sites of the draw that are not invalid."""
-    return [site for site in queue if done.get(identity(site), {}).get("verdict") != "invalid"][:count]
+        return alone(site, own, longest_s)
+    return asked_about(site, [suite for suite in own if site["id"] in suite["reaches"]], longest_s)
 
 
 def judge_all(queues, asked):
     done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
-    again = {name for name, entry in done.items() if entry["verdict"] == "survived"} if asked.survivors else set()
+    again = {name for name, entry in done.items() if entry["verdict"] == "survived" and (
+        asked.survivors or (entry.get("left_out") and asked.longest > entry.get("longest", 0)))}
     copy_tree()
     sites = [site for queue in queues.values() for site in queue]
     number(sites)
-    build_all(sites, programs_of(AREAS))
-    surveyed = survey(programs_of(AREAS))
+    build_all(sites, PROGRAMS)
+    surveyed = survey(PROGRAMS)
     for own_build in (False, True):  # those last: afterwards the programs have one mutant only
         chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
         for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
@@ -254,7 +216,7 @@ def judge_all(queues, asked):
             settled = equivalent(site, table) or (name in done and name not in again)
             if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
                 continue
-            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed)}
+            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed, asked.longest)}
             again.discard(name)
             with open(VERDICTS, "a") as stream:
                 stream.write(json.dumps(done[name]) + "\n")
@@ -265,7 +227,8 @@ def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--area", choices=AREAS, action="append")
     arguments.add_argument("--sites", type=int, default=PER_AREA)
-    arguments.add_argument("--minutes", type=float, default=float("inf"))
+    arguments.add_argument("--minutes", type=float, default=NO_LIMIT)
+    arguments.add_argument("--longest", type=float, default=NO_LIMIT)
     for flag in ("--survivors", "--report", "--list"):
         arguments.add_argument(flag, action="store_true")
     asked = arguments.parse_args()

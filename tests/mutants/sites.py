@@ -8,7 +8,7 @@ import re
 import subprocess
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
-SEED = 20261122
+SEED, PER_AREA = 20261122, 75
 AREAS = {  # folders and the test programs that judge their mutants
     "model": (["model/"], ["test_model", "test_energy", "test_estimation", "test_calibration", "test_diagnosis"]),
     "nlp": (["planner/nlp/"], ["test_nlp", "test_energy"]),
