@@ -21,8 +21,8 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
     const ProfileRequest& request = one->problem.request;
     const ProfileResult result = solve_profile(request);
     ASSERT_TRUE(result.profile) << index << " " << result.summary.message;
-    // A voltage drop gives the power a kink where the current changes its sign; Newton steps may oscillate
-    // about it.
+    // A voltage drop bends the power where the current changes its sign: Newton's steps may swing about the
+    // bend.
     if (one->effect != "driver_voltage_drop") {
       EXPECT_EQ(result.summary.handed_over, "") << index;
     }
@@ -36,8 +36,8 @@ TEST(Campaign, FastSolverHandsNothingOverAndBoundsAreBelowThePlans) {
   }
 }
 
-/// Optima at which the rounding of the gradient is above the solver's tolerance: tight corners, a straight
-/// line and a bend of heavy robots, found by the campaign. The fast solver must solve them.
+/// Optima at which the gradient's rounding is above the solver's tolerance, found by the campaign: tight
+/// corners, a straight line and a bend of heavy robots. They are solved, not handed over.
 TEST(Campaign, RoundingOfTheGradientIsNoReasonToHandOver) {
   const std::vector<Robot> robots = four_robots(JOULEPATH_SOURCE_DIR "/scenarios/robots/");
   for (unsigned index : {43U, 830U, 3817U, 3864U}) {
