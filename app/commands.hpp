@@ -16,6 +16,7 @@ namespace joulepath {
   COMMAND(merge)                    \
   COMMAND(export)                   \
   COMMAND(simulate)                 \
+  COMMAND(follow)                   \
   COMMAND(estimate)                 \
   COMMAND(diagnose)                 \
   COMMAND(experiment)               \
