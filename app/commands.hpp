@@ -17,6 +17,7 @@ namespace joulepath {
   COMMAND(export)                   \
   COMMAND(simulate)                 \
   COMMAND(follow)                   \
+  COMMAND(monitor)                  \
   COMMAND(estimate)                 \
   COMMAND(diagnose)                 \
   COMMAND(experiment)               \

@@ -10,6 +10,7 @@
 #include "planner/motion/path_motion.hpp"
 #include "planner/profile/profile_solver.hpp"
 
+// Design: docs/decisions/0376-controllers-under-jerk.md
 namespace joulepath {
 namespace {
 

@@ -9,7 +9,7 @@ PLANNER = """model planner/cache planner/path/geometry planner/path/floor planne
 planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
 planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/mission planner/controller planner/online""".split()
 DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/checks diagnosis/prediction
-diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
+diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only diagnosis/monitor
 diagnosis""".split()
 HOUSE = ["model", "planner", "diagnosis", "scenarios", "app/report", "studio", "app", "python"]  # planner and diagnosis do not know each other
 # Headers that take long to compile or that a replacement of the library must find in one place.
