@@ -21,8 +21,9 @@ struct StretchPlace {
 void for_each_stretch(const Plan& plan,
                       const std::function<void(const StretchPlace&, const StretchPlan&)>& visit);
 
-/// A plan's path driven by a controller without a speed profile: trapezoids from stop to stop, as fast as its
-/// settings and the local limits allow. Prescribed motions and dwells are as in the plan.
+/// A plan's path driven by a controller without a speed profile, as fast as its settings and the local limits
+/// allow: trapezoids from stop to stop, rounded where the robot has a jerk limit. Prescribed motions and
+/// dwells are as in the plan.
 struct ControlledDrive {
   double energy_J{};         ///< at the battery's terminals, standby included
   double motion_energy_J{};  ///< without standby
@@ -36,6 +37,10 @@ using StretchSettings =
     std::function<TrapezoidSettings(const StretchPlace&, const StretchPlan&, const TrapezoidFamily&)>;
 /// Speed caps on one stretch, besides the mission's own.
 using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, const StretchPlan&)>;
+
+/// The fastest profile along a curve within a controller's settings and all limits; none if there is none.
+[[nodiscard]] std::optional<Profile> fastest_profile(const ProfileRequest& request,
+                                                     const TrapezoidSettings& settings);
 
 /// Drives a valid plan's stretches. Energy by the same model on the exact path.
 [[nodiscard]] ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,

@@ -92,11 +92,11 @@ SpeedMask planned_speed_mask(const Plan& plan, double resolution_m, double reach
     cell = std::max(cell, scale * sample.speed_m_s);
     top_m_s = std::max(top_m_s, cell);
   }
-  mask.multiplier = std::floor(1e5 * top_m_s / kTop) / 1e5;
+  mask.multiplier = std::ceil(1e5 * top_m_s / kTop - 1e-9) / 1e5;
   for (std::size_t k = 0; k < highest.size(); ++k)
     if (highest[k] > 0)
       mask.grid.occupancy_percent[k] = static_cast<std::int8_t>(
-          std::clamp(static_cast<int>(std::floor(highest[k] / mask.multiplier + 1e-9)), 1, kTop));
+          std::clamp(static_cast<int>(std::ceil(highest[k] / mask.multiplier - 1e-9)), 1, kTop));
   spread(mask.grid, reach_m);
   return mask;
 }

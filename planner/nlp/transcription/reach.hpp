@@ -15,7 +15,7 @@ struct Reach {
 };
 
 /// Largest squares of the rate at all nodes that the caps and the limits of acceleration leave.
-[[nodiscard]] std::vector<double> reachable_squares(const Problem& problem);
+void reachable_squares(const Problem& problem, std::vector<double>& b);
 
 /// For constant acceleration within a segment, by caps and limits of acceleration; `squares` from
 /// reachable_squares. As a = (b1 - b0)/(2 ds), the squares bound it, too.
