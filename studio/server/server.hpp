@@ -10,12 +10,14 @@ namespace joulepath::studio {
 
 struct ServerOptions {
   int port{};                 ///< 0: any that is free
+  std::string diagnosis{};    ///< diagnosis.json with signals that the page shows; empty: none
   std::string page_folder{};  ///< empty: the page that the program holds
 };
 
-/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or null.
+/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or ""; `diagnosis`: as
+/// ServerOptions has it.
 [[nodiscard]] nlohmann::json page_data(const MissionFiles& files, const MissionWorld& floor,
-                                       const std::string& answer);
+                                       const std::string& answer, const std::string& diagnosis);
 
 /// Serves the studio of one mission on the loopback interface until the program ends. Every address begins
 /// with a random token; requests that another site makes (Host, Origin) are refused; bodies are bounded.
