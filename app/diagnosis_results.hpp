@@ -14,6 +14,8 @@ struct DiagnosisResults {
   std::string json{};  ///< diagnosis.json
 
   [[nodiscard]] std::string report() const;  ///< report.html
+  /// diagnosis.json with `signals`: what every run measured, and what the model says of it.
+  [[nodiscard]] std::string json_with_signals() const;
 };
 
 /// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is the source of

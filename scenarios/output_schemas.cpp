@@ -136,6 +136,12 @@ Schema diagnosis_schema() {
                                required("evidence", text()), required("repair", text())}))),
                 "channels that contradict physics; with any of them the verdict is data_suspect"),
        optional("artifacts", list(any_of({text(), open(map({}))}))),
+       optional(
+           "signals",
+           list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
+                          required("columns", dictionary(list(number())),
+                                   "time_s, and measured_X, predicted_X, corrected_X for each signal X")}))),
+           "with --signals: measured against predicted, before and after the correction"),
        optional("missing_channels", list(text())), optional("decisions", open(map({}))),
        optional("validation", open(map({required("runs", list(text())), required("method", text())})))}));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,5 +18,24 @@ namespace joulepath::report {
 /// Replaces every known name between @ signs in one pass; inserted text is not searched again.
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::vector<std::pair<std::string_view, std::string>>& values);
+
+/// A JavaScript module of a page: imported by its name; `file` is where it lies in the source tree.
+struct Module {
+  std::string_view name{}, file{}, text{};
+};
+
+/// The modules that every page shares (app/report/page/).
+[[nodiscard]] std::span<const Module> shared_modules();
+
+/// Script elements that hold modules until the page's boot script names them. `tree`: the source tree to read
+/// them from; empty: as built in.
+[[nodiscard]] std::string module_scripts(std::span<const Module> modules, const std::string& tree = {});
+
+/// Style and boot script that every page shares.
+[[nodiscard]] std::string shared_style();
+[[nodiscard]] std::string boot_script();
+
+/// Text inside of a script element that no browser runs: nothing in it can end the element.
+[[nodiscard]] std::string shielded(std::string_view text);
 
 }  // namespace joulepath::report

@@ -68,8 +68,9 @@ bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
   LegTiming timing(
       stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options),
       context.options.answers);
-  return std::ranges::all_of(timing.solve(context.price_W, SolverChoice::fast),
-                             [](const ProfileResult& result) { return result.profile.has_value(); });
+  const std::vector<ProfileResult>& results = timing.solve(context.price_W, SolverChoice::fast);
+  return std::all_of(results.begin(), results.end(),
+                     [](const ProfileResult& result) { return result.profile.has_value(); });
 }
 
 const TurnScores::Table& TurnScores::table(double payload_kg) {

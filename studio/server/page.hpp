@@ -6,9 +6,10 @@
 
 namespace joulepath::studio {
 
-/// The studio's page as one self-contained text: markup, style, modules, the WebAssembly if the build
-/// contains it, and data. `from`: a folder with the page's files; empty: the files inside the program.
-[[nodiscard]] std::string page(const nlohmann::json& data, const std::string& from = {});
+/// The studio's page in one text that needs nothing else: markup, style, modules, the WebAssembly where the
+/// build has it, and data. `tree`: the source tree to take the page's files from; empty: those that the
+/// program holds.
+[[nodiscard]] std::string page(const nlohmann::json& data, const std::string& tree = {});
 
 /// True if the page can plan without the program.
 [[nodiscard]] bool has_web_assembly();

@@ -74,8 +74,9 @@ class Studio {
                                  {"X-Frame-Options", "DENY"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"}});
     server_.Get(base, [this](const auto&, auto& response) {
-      guarded(response, "text/html; charset=utf-8",
-              [&] { return studio::page(page_data(files_, floor_, ""), options_.page_folder); });
+      guarded(response, "text/html; charset=utf-8", [&] {
+        return studio::page(page_data(files_, floor_, "", options_.diagnosis), options_.page_folder);
+      });
     });
     server_.Get(base + "files", [this](const auto&, auto& response) {
       guarded(response, kJson, [&] { return files_.load().dump(); });
@@ -124,8 +125,18 @@ class Studio {
     }
   }
 
+  /// An order is the one file that planning reads: which one is the mission file's to say, not the page's.
+  void refuse_other_order(const json& question) const {
+    const json mission = question.value("mission", json::object());
+    if (!mission.contains("order") || mission["order"] == json(files_.load()["mission"].value("order", "")))
+      return;
+    throw ConfigError(
+        {{}, "order", "another file than the mission's own", "the one that the file names", ""});
+  }
+
   std::string answer(const std::string& question) {
     const json asked = json::parse(question);
+    refuse_other_order(asked);
     const Newest::Key key{asked.value("page", ""), asked.value("mode", "")};
     const long number = newest_.next(key);
     const StopScope stop([&] {
@@ -145,12 +156,14 @@ class Studio {
 
 }  // namespace
 
-json page_data(const MissionFiles& files, const MissionWorld& floor, const std::string& answer) {
+json page_data(const MissionFiles& files, const MissionWorld& floor, const std::string& answer,
+               const std::string& diagnosis) {
   json data{{"files", files.load().dump()},
             {"floor", floor_json(floor)},
             {"schemas", {{"mission", schema_of("mission")}, {"robot", schema_of("robot")}}},
             {"served", answer.empty()}};
   if (!answer.empty()) data["answer"] = json::parse(answer);
+  if (!diagnosis.empty()) data["diagnosis"] = json::parse(diagnosis);
   return data;
 }
 

@@ -9,13 +9,15 @@
 namespace joulepath::studio {
 
 struct ServerOptions {
-  int port{};                 ///< 0: any free port
-  std::string page_folder{};  ///< empty: the page inside the program
+  int port{};                 ///< 0: any that is free
+  std::string diagnosis{};    ///< diagnosis.json with signals that the page shows; empty: none
+  std::string page_folder{};  ///< empty: the page that the program holds
 };
 
-/// The initial data of the page: files, floor, schemas. `answer`: a first plan, or null.
+/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or ""; `diagnosis`: as
+/// ServerOptions has it.
 [[nodiscard]] nlohmann::json page_data(const MissionFiles& files, const MissionWorld& floor,
-                                       const std::string& answer);
+                                       const std::string& answer, const std::string& diagnosis);
 
 /// Serves the studio of one mission on the loopback interface until the program ends. Every address begins
 /// with a random token. Requests of other sites (Host, Origin) are rejected, and the size of bodies is

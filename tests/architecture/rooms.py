@@ -18,6 +18,11 @@ CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/yaml_text.cp
             "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/", "httplib": "studio/server/"}
 
 
+# The studio's page is compiled from these by emscripten, whose standard library has no algorithms on ranges.
+# Design: docs/decisions/0330-one-answer-for-page-and-program.md
+PAGE, PROGRAM_ALONE = re.compile("model/|planner/|studio/answer/"), re.compile("model/(simulation|estimate)|planner/(sweep|controller)|ipopt_solver|search/search.cpp|ompl_space|shape/refine|ways/spline_search")
+
+
 def room(path, rooms):
     inside = [name for name in rooms if path == name or path.startswith(name + "/")]
     return max(inside, key=len, default=None)
@@ -45,6 +50,8 @@ def main(root):
                 match = re.match(r'#include "(\w+/[^"]+)"', line)
                 if match and upward(root, path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which stands above it")
+                if "std::ranges::" in line and PAGE.match(path) and not PROGRAM_ALONE.search(path):
+                    complaints.append(f"{path}:{number}: std::ranges, which the page's compiler does not have")
                 match = re.match(r"#include <([^>]+)>", line)
                 if match and misplaced(path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which has another place")

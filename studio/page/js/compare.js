@@ -1,6 +1,6 @@
-/** Comparison with plan A, and with the classic profiles on the same ways. */
-import {button, h} from "studio/dom.js";
-import {number, signed, words} from "studio/numbers.js";
+/** Plan A beside the plan, and the classic profiles on the same ways. */
+import {button, h} from "page/dom.js";
+import {number, signed, words} from "page/numbers.js";
 import {ask} from "studio/answers.js";
 import {emit, on, store} from "studio/store.js";
 import {causes_of} from "studio/summary.js";

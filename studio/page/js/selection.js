@@ -1,6 +1,6 @@
-/** The panel of the selection (a stop, a leg, the start) and of the mission's numbers. */
-import {button, h} from "studio/dom.js";
-import {is_number, with_unit} from "studio/numbers.js";
+/** The panel of what is chosen: a stop, a leg, the start; and the mission's own numbers. */
+import {button, h} from "page/dom.js";
+import {is_number, with_unit} from "page/numbers.js";
 import {number_field} from "studio/fields.js";
 import {add_stop, add_waypoint, draw_by_hand, legs, remove_leg, set_value, turn_station} from "studio/editing.js";
 import {view} from "studio/floor_view.js";

@@ -1,5 +1,5 @@
 /** Save, copy the command, write the page as one file. */
-import {announce, button, h} from "studio/dom.js";
+import {announce, button, h} from "page/dom.js";
 import {has_core} from "studio/answers.js";
 import {is_saved, on, set_files, store} from "studio/store.js";
 

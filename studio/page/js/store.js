@@ -6,7 +6,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const files = JSON.parse(data.files);
 
 export const store = {
-  served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null,
+  served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null, diagnosis: data.diagnosis || null,
   files, mission: structuredClone(files.mission), robot: structuredClone(files.robot), ways: [],
   answer: null,      // the last answer with a motion
   verdict: null,     // the plan of the last answer, with or without a motion

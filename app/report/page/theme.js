@@ -29,3 +29,4 @@ export function on_theme(redraw) {
   new MutationObserver(redraw).observe(document.documentElement, {attributes: true, attributeFilter: ["data-theme"]});
 }
 export const toggle_theme = () => { document.documentElement.dataset.theme = is_dark() ? "light" : "dark"; };
+export const ramp_css = () => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map(ramp).join(",")})`;

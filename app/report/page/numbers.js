@@ -15,7 +15,8 @@ export function number(value, digits = 4) {
 /** Without zeros at the end: for axes and settings. */
 export const short = (value, digits = 4) => number(value, digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
 export const with_unit = (value, unit, digits) => (is_number(value) ? number(value, digits) + "\u202f" + unit : "–");
-export const percent = (fraction, digits = 4) => (is_number(fraction) ? number(100 * fraction, digits) + "\u202f%" : "–");
+export const percent = (value, digits = 3) => with_unit(value, "%", digits);
+export const fraction = (value, digits = 3) => percent(is_number(value) ? 100 * value : value, digits);
 /** A difference with its sign. */
 export const signed = (value, digits = 3) => (is_number(value) && value > 0 ? "+" : "") + number(value, digits);
 export const words = (name) => String(name ?? "").replace(/_/g, " ");

@@ -18,18 +18,8 @@ export function announce(text) {
   live.textContent = text;
 }
 
+export const key = (text, color, style = "") => h("span", {class: "key"}, h("i", {class: style, style: style === "box" ? `background:${color}` : `border-color:${color}`}), text);
 export const button = (text, onclick, attributes = {}) => h("button", {type: "button", onclick, ...attributes}, text);
-
-/** A section that can be closed; its state is stored for the session. */
-export function section(title, id, ...children) {
-  const open = sessionStorageGet("open:" + id) !== "no";
-  const details = h("details", {id, class: "section", open}, h("summary", {}, h("h2", {}, title)), ...children);
-  details.addEventListener("toggle", () => sessionStorageSet("open:" + id, details.open ? "yes" : "no"));
-  return details;
-}
-
-function sessionStorageGet(key) { try { return sessionStorage.getItem(key); } catch { return null; } }
-function sessionStorageSet(key, value) { try { sessionStorage.setItem(key, value); } catch { /* a page from a file may have no storage */ } }
 
 /** A canvas of its element's size in sharp pixels; {context, width, height} in CSS pixels. */
 export function sharp(canvas, height) {
