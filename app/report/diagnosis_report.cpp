@@ -98,7 +98,8 @@ std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dat
       runs.push_back({signals.name, is_validation ? "validation" : "diagnosis", std::move(columns)});
   }
   // Held-out runs come first.
-  std::ranges::stable_partition(runs, [](const RunComparison& run) { return run.use == "validation"; });
+  std::stable_partition(runs.begin(), runs.end(),
+                        [](const RunComparison& run) { return run.use == "validation"; });
   return runs;
 }
 
