@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kBagRate_Hz = 50.0;
 constexpr std::string_view kFrame = "map";
+constexpr double kLastStamp_s = 2147483647.0;  ///< 32 bits hold the seconds of a stamp
 
 /// The channels of the power messages of a plan; those of a log are all that it has beside its motion.
 const std::vector<std::string> kPlanPower{"battery_power_W",      "energy_J",
@@ -142,7 +144,12 @@ std::string log_bag(const Trajectory& log, const Geometry& geometry) {
   std::vector<std::string> columns;
   for (const LogColumn& column : log_columns())
     if (column.name != "time_s" && !column.of(log).empty()) columns.push_back(column.name);
-  return bag_of(with_body_motion(log, geometry), "/log", columns);
+  Trajectory motion = with_body_motion(log, geometry);
+  const double before_0_s = std::min(0.0, log.time_s.front());  // a stamp is not negative
+  for (double& time_s : motion.time_s) time_s -= before_0_s;
+  if (motion.time_s.back() > kLastStamp_s)
+    throw ConfigError({{}, "time_s", std::to_string(motion.time_s.back()) + " s", "times below 2^31 s", ""});
+  return bag_of(motion, "/log", columns);
 }
 
 }  // namespace joulepath
