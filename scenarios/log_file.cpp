@@ -37,7 +37,9 @@ class LogFileReader {
       if (column.measured && column.name != "time_s") read_channel(column.name);
     for (const char* name_of : kOrientationColumns) read_channel(name_of);
     if (used_orientation()) heading_from_orientation();
-    file_.table.columns = {};  // the channels now contain the values
+    for (const char* name_of : kOrientationColumns) file_.channels.erase(name_of);
+    file_.table.columns = {};  // their values are in the channels
+    file_.table.line_of_row = std::vector<int>();
   }
 
   LogFile take() { return std::move(file_); }
@@ -69,7 +71,7 @@ class LogFileReader {
 
   [[noreturn]] void fail_time(std::size_t row, std::string found, std::string accepted,
                               std::string hint = {}) const {
-    throw ConfigError({{file_.table.file, file_.table.line_of_row[row], 1},
+    throw ConfigError({{file_.table.file, file_.table.line(row), 1},
                        names_in_file("time_s", sources_).front(),
                        std::move(found),
                        std::move(accepted),
@@ -143,23 +145,23 @@ class LogFileReader {
 
   /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one with one argument.
   void heading_from_orientation() {
-    const auto part = [&](const char* name) {
-      return file_.channels.contains(name) ? file_.channels[name]
-                                           : std::vector<double>(file_.times.size(), 0.0);
+    const auto channel = [&](const char* name) {
+      const auto found = file_.channels.find(name);
+      return found == file_.channels.end() ? nullptr : &found->second;
     };
-    const auto w = part("orientation_w"), x = part("orientation_x"), y = part("orientation_y"),
-               z = part("orientation_z");
+    const auto *w_of = channel("orientation_w"), *x_of = channel("orientation_x"),
+               *y_of = channel("orientation_y"), *z_of = channel("orientation_z");
     std::vector<double> heading_rad(file_.times.size());
     for (std::size_t i = 0; i < file_.times.size(); ++i) {
-      const double norm = w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      const double w = (*w_of)[i], x = x_of ? (*x_of)[i] : 0.0, y = y_of ? (*y_of)[i] : 0.0, z = (*z_of)[i];
+      const double norm = w * w + x * x + y * y + z * z;
       if (norm < 0.25 || norm > 4.0)
-        throw ConfigError({{file_.table.file, file_.table.line_of_row[i], 1},
+        throw ConfigError({{file_.table.file, file_.table.line(i), 1},
                            "orientation_w",
                            "a quaternion of length " + std::to_string(std::sqrt(norm)),
                            "a unit quaternion",
                            ""});
-      heading_rad[i] = std::atan2(2.0 * (w[i] * z[i] + x[i] * y[i]),
-                                  w[i] * w[i] + x[i] * x[i] - y[i] * y[i] - z[i] * z[i]);
+      heading_rad[i] = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
     }
     unwrap_angle(heading_rad);
     file_.channels["heading_rad"] = std::move(heading_rad);

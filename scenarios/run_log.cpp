@@ -20,7 +20,8 @@ bool is_orientation(const std::string& name) {
                      [&](const char* q) { return name == q; });
 }
 
-/// Resamples the channels of all files at the times of the first one, within the common range.
+/// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
+/// one by one: a long log is in memory once.
 void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   double begin_s = files.front().times.front(), end_s = files.front().times.back();
   for (const auto& file : files) {
@@ -36,23 +37,28 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                        "times that do not overlap with those of " + files.front().table.file,
                        "files of one run on one clock",
                        "map time_s so that all files use the same clock"});
-  log.trajectory.time_s.assign(first, last);
-  const auto skip = static_cast<std::size_t>(first - base.begin()),
-             rows = static_cast<std::size_t>(last - first);
-  for (std::size_t f = 0; f < files.size(); ++f)
-    for (auto& [name, values] : files[f].channels) {
+  const long skip = first - base.begin(), end = last - base.begin();
+  const auto taken = [&](std::vector<double>& values) {
+    values.erase(values.begin() + end, values.end());
+    values.erase(values.begin(), values.begin() + skip);
+    return std::move(values);
+  };
+  log.trajectory.time_s = taken(files.front().times);
+  for (LogFile& file : files) {
+    for (auto& [name, values] : file.channels) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
-      if (f == 0) {
-        values.erase(values.begin() + static_cast<long>(skip + rows), values.end());
-        values.erase(values.begin(), values.begin() + static_cast<long>(skip));
-        column->channel(log.trajectory) = std::move(values);
+      if (&file == &files.front()) {
+        column->channel(log.trajectory) = taken(values);
         continue;
       }
       if (name == "heading_rad") unwrap_angle(values);
-      column->channel(log.trajectory) = interpolated(files[f].times, values, log.trajectory.time_s);
-      values = std::vector<double>();
+      column->channel(log.trajectory) = interpolated(file.times, values, log.trajectory.time_s);
+      values = std::vector<double>();  // `= {}` would keep the memory
     }
+    file.times = std::vector<double>();
+    file.channels.clear();
+  }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
                              "several files or topics, interpolated linearly to the times of the first",

@@ -9,10 +9,12 @@
 #include "app/plan_options.hpp"
 #include "app/terminal.hpp"
 #include "planner/mission/mission.hpp"
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/export/exports.hpp"
 #include "scenarios/export/route_graph.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
 // Design: docs/decisions/0091-exports-plan-again.md
 namespace joulepath {
 namespace {
@@ -29,6 +31,7 @@ std::string examples() {
       "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n"
       "  joulepath export mission.yaml --to controller --out controller.json\n"
       "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n"
+      "  joulepath export logs/run_01.csv --robot robot.yaml --to bag --out log.mcap\n"
       "  joulepath export graph.geojson --robot robot.yaml --payload 5 --to route_graph --out "
       "energy.geojson\n\nFormats:\n";
   const auto line = [&](const std::string& name, const std::string& says) {
@@ -43,7 +46,7 @@ class ExportCommand : public Command {
  public:
   ExportCommand()
       : Command({.name = "export",
-                 .says = "plan a mission and write it in the format of another program",
+                 .says = "plan a mission, or take a log, and write it in the format of another program",
                  .examples = examples()}) {}
 
   void declare(CommandLine& line) override {
@@ -67,6 +70,7 @@ class ExportCommand : public Command {
   int run() override {
     const ReadOptions reading{.untrusted = common_.untrusted};
     if (format_ == kRouteGraphFormat) return write_route_graph();
+    if (format_ == "bag" && is_run_log(source_.file)) return write_log_bag();
     const ExportFormat& format = format_named(format_);
     check_extension();
     const MissionRequest mission = read_mission_source(source_, reading);
@@ -106,13 +110,27 @@ class ExportCommand : public Command {
     for (const ExportFile& file : files) write_output_file(file.name, file.content, common_.force);
   }
 
-  int write_route_graph() const {
+  void need_robot(const char* input) const {
     if (source_.robot_file.empty())
       throw ConfigError({{source_.file, 0, 0},
                          "",
-                         "a route graph, which names no robot",
+                         std::string(input) + ", which names no robot",
                          "--robot with the name of a robot file",
                          ""});
+  }
+
+  int write_log_bag() const {
+    need_robot("a log");
+    const Geometry geometry = read_robot(source_.robot_file).geometry;
+    const std::vector<ExportFile> files{
+        {out_, log_bag(read_run_log(source_.file, geometry).trajectory, geometry)}};
+    write_files(files);
+    if (!common_.quiet) tell_names(files);
+    return kDone;
+  }
+
+  int write_route_graph() const {
+    need_robot("a route graph");
     const RouteGraphExport result = export_route_graph(
         {source_.file, out_, source_.payload_kg.value_or(0.0), corner_radius_m_, expand_turns_},
         read_robot(source_.robot_file));

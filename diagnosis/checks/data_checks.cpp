@@ -24,11 +24,14 @@ constexpr double kExact = 1e-5;
 
 /// A run with the repairs found so far.
 struct Examined {
-  std::size_t index{};          ///< index of the run in the dataset
-  std::optional<Run> mended{};  ///< absent: no repair yet
-  RunSignals signals{};
+  const RunSignals* logged{};
+  std::optional<Run> mended{};  ///< absent: as logged
+  std::optional<RunSignals> mended_signals{};
   Relations relations{};
-  bool lost{};  ///< a dead channel leaves nothing to diagnose in this run
+  bool lost{};  ///< a channel without which nothing can be told is dead
+
+  [[nodiscard]] std::size_t index() const { return logged->run_index; }
+  [[nodiscard]] const RunSignals& signals() const { return mended_signals ? *mended_signals : *logged; }
 };
 
 bool is_beyond_doubt(const Relations& relations) {
@@ -82,10 +85,10 @@ std::string percent(double share) {
 class DataCheckSearch {
  public:
   DataCheckSearch(const Dataset& dataset, const RunsByUse& runs) : dataset_(dataset), options_(runs.options) {
-    for (const RunSignals& signals : runs.signals)
-      runs_.push_back({.index = signals.run_index, .signals = signals});
-    parallel_for(runs_.size(),
-                 [&](std::size_t r) { runs_[r].relations = relations_of(runs_[r].signals, dataset_.robot); });
+    for (const RunSignals& signals : runs.signals) runs_.push_back({.logged = &signals});
+    parallel_for(runs_.size(), [&](std::size_t r) {
+      runs_[r].relations = relations_of(runs_[r].signals(), dataset_.robot);
+    });
   }
 
   /// Order of the search: sides, signs and units, then dead channels, then other factors. A swapped or tiny
@@ -99,27 +102,27 @@ class DataCheckSearch {
 
  private:
   const Run& run_of(const Examined& examined) const {
-    return examined.mended ? *examined.mended : dataset_.runs[examined.index];
+    return examined.mended ? *examined.mended : dataset_.runs[examined.index()];
   }
 
   Relations relations_with(const Examined& examined, const std::vector<ColumnRepair>& columns,
                            double freedom = 1.0) const {
     const Run run = repaired(run_of(examined), columns, dataset_.robot.geometry);
-    return relations_of(make_run_signals(run, examined.index, dataset_.robot, options_), dataset_.robot,
+    return relations_of(make_run_signals(run, examined.index(), dataset_.robot, options_), dataset_.robot,
                         freedom);
   }
 
   void mend(Examined& examined, const std::vector<ColumnRepair>& columns) {
     examined.mended = repaired(run_of(examined), columns, dataset_.robot.geometry);
-    examined.signals = make_run_signals(*examined.mended, examined.index, dataset_.robot, options_);
-    examined.relations = relations_of(examined.signals, dataset_.robot);
+    examined.mended_signals = make_run_signals(*examined.mended, examined.index(), dataset_.robot, options_);
+    examined.relations = relations_of(examined.signals(), dataset_.robot);
   }
 
   void report(DataCheck check, const std::vector<std::size_t>& which) {
     for (std::size_t r : which) {
-      check.runs.push_back(runs_[r].index);
+      check.runs.push_back(runs_[r].index());
       if (which.size() < runs_.size())
-        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index].name;
+        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index()].name;
     }
     checks_.push_back(std::move(check));
   }
@@ -133,7 +136,7 @@ class DataCheckSearch {
     std::map<std::vector<std::string>, std::vector<std::pair<std::size_t, DeadChannel>>> found;
     std::vector<std::vector<DeadChannel>> dead(runs_.size());
     parallel_for(runs_.size(),
-                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals, dataset_.robot); });
+                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals(), dataset_.robot); });
     for (std::size_t r = 0; r < runs_.size(); ++r)
       for (const DeadChannel& channel : dead[r]) found[channel.columns].emplace_back(r, channel);
     for (const auto& [columns, where] : found) {
@@ -147,7 +150,7 @@ class DataCheckSearch {
       for (const auto& [r, channel] : where) which.push_back(r);
       check.evidence = "shows " + percent(std::abs(where.front().second.followed)) +
                        " of the change that the other channels ask for (" +
-                       dataset_.runs[runs_[which.front()].index].name + ")";
+                       dataset_.runs[runs_[which.front()].index()].name + ")";
       for (std::size_t r : which) {
         if (needed)
           runs_[r].lost = true;
@@ -241,7 +244,7 @@ class DataCheckSearch {
             .kind = found->fault.kind,
             .evidence = before[most]->law + ": " + percent(before[most]->unexplained) +
                         " unexplained as logged, " + percent(after[most]->unexplained) +
-                        " with the repair (" + dataset_.runs[runs_[shown].index].name + ")",
+                        " with the repair (" + dataset_.runs[runs_[shown].index()].name + ")",
             .columns = found->fault.columns},
            found->which);
     return true;

@@ -36,9 +36,10 @@ double greatest(const std::vector<double>& values) {
 using Findings = std::vector<Implausible>;
 
 void check_time(const Trajectory& log, Findings& findings) {
+  const auto is_long = [](double before_s, double after_s) { return after_s - before_s > kLongestStep_s; };
+  if (std::ranges::adjacent_find(log.time_s, is_long) == log.time_s.end()) return;
   std::vector<double> steps;
   for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
-  if (steps.empty()) return;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   if (*middle > kLongestStep_s)

@@ -25,7 +25,6 @@ CsvTable table_of(const std::string& name, const std::map<std::string, Numbers>&
   for (const auto& [header, values] : columns) {
     table.header.push_back(header);
     table.columns.push_back(vector_of(values));
-    table.line_of_row.assign(values.size(), 0);
   }
   return table;
 }

@@ -1,12 +1,14 @@
 #include "python/bindings/plan.hpp"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
@@ -138,11 +140,13 @@ void bind_plan(nb::module_& module) {
          const std::string& solver, std::size_t nodes, double accuracy) {
         const MissionSource source{
             .file = "path", .robot_at_hand = true, .payload_kg = payload_kg, .duration_s = time_s};
-        return planned([&] { return mission_along(source, path.path); }, &robot,
-                       plan_options(solver, nodes, 1, accuracy, false));
+        auto plan = planned([&] { return mission_along(source, path.path); }, &robot,
+                            plan_options(solver, nodes, 1, accuracy, false));
+        const bool driven = plan->results.valid;
+        return std::pair(std::move(plan), driven);
       },
       nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(), nb::arg("solver"),
-      nb::arg("nodes"), nb::arg("accuracy"));
+      nb::arg("nodes"), nb::arg("accuracy"), "The plan, and whether it can be driven.");
   module.def(
       "plan_file",
       [](const std::string& file, const std::string& robot_file, const RobotValue* robot,

@@ -51,6 +51,11 @@ struct ExportFormat {
 [[nodiscard]] Export export_vda5050(const ExportInput& input);
 [[nodiscard]] Export export_speed_mask(const ExportInput& input);
 
+/// A run log as a bag (MCAP): Path, Odometry, and every column of the log as JSON. Its clock is that of the
+/// log, so that the bag of a plan and that of its run lie on each other; one that begins below 0 begins at 0.
+/// Throws ConfigError for times that no stamp holds.
+[[nodiscard]] std::string log_bag(const Trajectory& log, const Geometry& geometry);
+
 /// `loss` of controller.json, and the extra file beside exports that cannot contain it (schema
 /// joulepath/loss/1).
 [[nodiscard]] std::string loss_json_text(const ControllerLoss& loss, const std::string& what);
