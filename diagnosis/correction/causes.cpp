@@ -33,7 +33,7 @@ Causes report_causes(const Examination& x, const Names& names, const Validation&
     const ActiveEffect& effect = v.state.effects[e];
     const std::string label = effect.candidate.label();
     Cause cause{.effect = setting_of(effect.candidate, effect.amplitude, x.dataset.robot),
-                .probability = (1 - v.energy_left_share) * probability_of(x, names, effect),
+                .probability = (1 - v.energy_left_share) * probability_of(names, effect),
                 .parameters = found_parameters(v.fitted, e, x.dataset.robot),
                 .energy_share = impact_sum > 0 ? impacts[e] / impact_sum : 0.0,
                 .shrink_fraction_alone = shrink_alone(x, effect, gap.before_J)};

@@ -17,6 +17,21 @@ std::multiset<std::string> labels_of(const Equations& equations, const std::vect
   return labels;
 }
 
+/// Normalized weights of the sets of effects; shapes of one effect count once.
+std::map<std::multiset<std::string>, double> weights_of_sets(const Equations& equations,
+                                                             const std::vector<Explanation>& explanations) {
+  std::map<std::multiset<std::string>, double> sets;  // scores, then weights
+  for (const Explanation& e : explanations) {
+    const auto [at, fresh] = sets.try_emplace(labels_of(equations, e.candidates), e.score);
+    if (!fresh) at->second = std::max(at->second, e.score);
+  }
+  const double top = explanations.empty() ? 0.0 : explanations.front().score;
+  double total = 0;
+  for (auto& [labels, value] : sets) total += value = std::exp(kScoreFlattening * (value - top));
+  for (auto& [labels, value] : sets) value /= total;
+  return sets;
+}
+
 /// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
 /// alone say.
 double loss_of_laws(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
@@ -55,21 +70,20 @@ void for_each_rival(const Equations& equations, const std::vector<Explanation>& 
 
 std::map<std::string, double> effect_probabilities(const Equations& equations,
                                                    const std::vector<Explanation>& explanations) {
-  std::map<std::multiset<std::string>, double> best_of_set;  // shapes of one effect count once
-  for (const Explanation& e : explanations) {
-    const auto [at, fresh] = best_of_set.try_emplace(labels_of(equations, e.candidates), e.score);
-    if (!fresh) at->second = std::max(at->second, e.score);
-  }
-  const double top = explanations.empty() ? 0.0 : explanations.front().score;
-  double total = 0;
-  std::map<std::string, double> weight;
-  for (const auto& [labels, score] : best_of_set) {
-    const double w = std::exp(kScoreFlattening * (score - top));
-    total += w;
-    for (const std::string& label : std::set<std::string>(labels.begin(), labels.end())) weight[label] += w;
-  }
-  for (auto& [label, value] : weight) value /= total;
-  return weight;
+  std::map<std::string, double> probability;
+  for (const auto& [labels, weight] : weights_of_sets(equations, explanations))
+    for (const std::string& label : std::set<std::string>(labels.begin(), labels.end()))
+      probability[label] += weight;
+  return probability;
+}
+
+double probability_of_any(const Equations& equations, const std::vector<Explanation>& explanations,
+                          const std::set<std::string>& labels) {
+  double sum = 0;
+  for (const auto& [members, weight] : weights_of_sets(equations, explanations))
+    if (std::ranges::any_of(members, [&](const std::string& label) { return labels.contains(label); }))
+      sum += weight;
+  return sum;
 }
 
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace joulepath {
 /// explanations, flattened as calibrated on development cases.
 [[nodiscard]] std::map<std::string, double> effect_probabilities(
     const Equations& equations, const std::vector<Explanation>& explanations);
+
+/// Probability that at least one of some effects (labels) is among the causes: the weight of all sets that
+/// contain any of them, each set counted once.
+[[nodiscard]] double probability_of_any(const Equations& equations,
+                                        const std::vector<Explanation>& explanations,
+                                        const std::set<std::string>& labels);
 
 /// An effect that could stand in for a named one, the rest kept.
 struct StandIn {

@@ -34,23 +34,25 @@ bool may_be_form_error(const Examination& x, std::size_t e) {
   return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kMinorGain;
 }
 
-/// Effects that the data cannot separate share their probability by their likelihood, not by their typical
-/// size.
+/// Effects that the data cannot separate share the probability that one of them is there by their likelihood,
+/// not by their typical size.
 void share_probabilities(const Identification& id, Names& names) {
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
     const std::vector<StandIn> others =
         stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion);
-    double weight = 1, sum = names.probabilities[label];
+    double weight = 1;
+    std::set<std::string> group{label};
     for (const StandIn& other : others) {
       names.stand_ins[label].push_back(other.label);
-      sum += names.probabilities[other.label];
+      group.insert(other.label);
       weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
     }
     if (others.empty()) continue;
-    names.probabilities[label] = sum / weight;
+    const double share = probability_of_any(id.equations, id.explanations, group) / weight;
+    names.probabilities[label] = share;
     for (const StandIn& other : others)
-      names.probabilities[other.label] = sum / weight * std::exp(-0.5 * kScoreFlattening * other.loss_more);
+      names.probabilities[other.label] = share * std::exp(-0.5 * kScoreFlattening * other.loss_more);
   }
 }
 
@@ -68,16 +70,16 @@ double gain_share_of(const Examination& x, const std::string& label) {
   return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
 }
 
-double probability_of(const Examination& x, const Names& names, const ActiveEffect& effect) {
+double probability_of(const Names& names, const ActiveEffect& effect) {
   const auto found = names.probabilities.find(effect.candidate.label());
-  const double surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
-  return found == names.probabilities.end() ? 0.0 : std::min(surest, found->second);
+  return found == names.probabilities.end() ? 0.0 : std::min(names.surest, found->second);
 }
 
 Names choose_names(const Examination& x) {
   const std::vector<ActiveEffect>& best = x.id.state.effects;
   Names names{.probabilities = effect_probabilities(x.id.equations, x.id.explanations)};
   share_probabilities(x.id, names);
+  names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   std::vector<std::string> doubted;
   for (std::size_t e = 0; e < best.size(); ++e) {
     const std::string label = best[e].candidate.label();
@@ -101,7 +103,7 @@ Names choose_names(const Examination& x) {
   return names;
 }
 
-std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities) {
+std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities, double surest) {
   std::vector<RankedEffect> ranking;
   for (const auto& [label, probability] : probabilities)
     if (probability > kLeastProbabilityRanked) ranking.push_back({label, probability});
@@ -109,6 +111,7 @@ std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& prob
     return a.probability > b.probability;
   });
   if (ranking.size() > kLongestRanking) ranking.resize(kLongestRanking);
+  for (RankedEffect& entry : ranking) entry.probability = std::min(surest, entry.probability);
   return ranking;
 }
 

@@ -8,7 +8,8 @@ namespace joulepath {
 /// The effects with sufficient evidence, before any test of them.
 struct Names {
   std::vector<ActiveEffect> named{};
-  std::map<std::string, double> probabilities{};                ///< of effects by label
+  std::map<std::string, double> probabilities{};  ///< of effects by label
+  double surest{1.0};  ///< share of sure names that were right on development cases: none is stated surer
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
   std::vector<std::string> notes{};
 };
@@ -17,11 +18,10 @@ struct Names {
 [[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
-[[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities);
+[[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities,
+                                                     double surest = 1.0);
 
-/// Probability of a named effect, bounded by the share of correct sure names on development cases.
-[[nodiscard]] double probability_of(const Examination& examination, const Names& names,
-                                    const ActiveEffect& effect);
+[[nodiscard]] double probability_of(const Names& names, const ActiveEffect& effect);
 
 /// Share of the best set's gain in loss that is lost when one of its effects is left out.
 [[nodiscard]] double gain_share_of(const Examination& examination, const std::string& label);

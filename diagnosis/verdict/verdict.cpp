@@ -32,7 +32,7 @@ Judgment judge_leftover(const Examination& x, const Names& names) {
 Judgment judge(const Examination& x, const Names& names) {
   Judgment judgment = judge_forms(x, judge_leftover(x, names));
   const bool sure = std::ranges::any_of(judgment.named, [&](const ActiveEffect& effect) {
-    return probability_of(x, names, effect) >= kSureEnough;
+    return probability_of(names, effect) >= kSureEnough;
   });
   if (!judgment.named.empty() && !sure && judgment.verdict == Verdict::explained)
     judgment.verdict = Verdict::ambiguous;
