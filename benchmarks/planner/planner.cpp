@@ -227,6 +227,6 @@ int run(const char* file, int count, const char* provenance) {
 }  // namespace joulepath
 
 int main(int argc, char** argv) {
-  if (argc != 4) return std::fputs("usage: bench_profiles FILE PROBLEMS PROVENANCE\n", stderr), 2;
+  if (argc != 4) return std::fputs("usage: bench_planner FILE PROBLEMS PROVENANCE\n", stderr), 2;
   return joulepath::run(argv[1], std::atoi(argv[2]), argv[3]);
 }
