@@ -267,7 +267,8 @@ def main():
                     page.settle()
                     for check in checks:
                         check(page)
-                        assert not page.messages(), f"after {check.__name__}: {page.messages()}"
+                        told = page.messages()
+                        assert not told, f"after {check.__name__}: {told}"
                         print("ok:", check.__name__.replace("<lambda>", "check_diagnosis"))
                 finally:
                     served.close()

@@ -102,7 +102,8 @@ class StudioPage(Browser):
         return name
 
     def messages(self):
-        return self.console() + self.run("return joulepath.errors")
+        """Errors of the page; not Chromium's note that a test left a page with unsaved changes."""
+        return [told for told in self.console() if "beforeunload" not in told] + self.run("return joulepath.errors")
 
 
 __all__ = ["Served", "StudioPage", "chromium", "write_mission", "random", "SOURCE", "MISSION"]
