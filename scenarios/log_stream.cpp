@@ -69,6 +69,7 @@ constexpr Twist<double> kNoTwist{kAbsent, kAbsent};
 }  // namespace
 
 std::optional<MonitorRow> LogLines::row(std::string_view line) {
+  ++line_;
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   const std::string_view text = trimmed_cell(line);
   if (text.empty() || text.front() == '#') return std::nullopt;
@@ -86,6 +87,16 @@ void LogLines::read_header(std::string_view line) {
     if (line.find(candidate) != std::string_view::npos) separator_ = candidate;
   for_each_cell(line, separator_,
                 [&](std::size_t, std::string_view name) { column_.push_back(stream_column(name)); });
+  const auto has = [&](const char* name) { return std::ranges::count(column_, stream_column(name)) > 0; };
+  const bool has_wheels = has("wheel_speed_left_rad_s") && has("wheel_speed_right_rad_s");
+  if (has("time_s") && (has_wheels || (has("linear_speed_m_s") && has("angular_speed_rad_s")))) return;
+  throw ConfigError(
+      {{file_, line_, 1},
+       "",
+       "a header without the columns of a log",
+       "time_s with wheel_speed_left_rad_s and wheel_speed_right_rad_s, or with linear_speed_m_s "
+       "and angular_speed_rad_s; or a JSON object per line with these keys",
+       ""});
 }
 
 MonitorRow LogLines::csv_row(std::string_view line) const {

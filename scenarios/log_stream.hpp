@@ -12,13 +12,16 @@
 namespace joulepath {
 
 /// Rows of a log that arrives line by line: CSV with a header, or one JSON object per line. Columns have the
-/// names of the run log format; others are ignored. Nothing in a line is an error: a cell without a number is
-/// absent, a line without any known column gives a row without a time.
+/// names of the run log format; others are ignored. A header without a time or without speeds is an error.
+/// Nothing in a later line is: a cell without a number is absent, a line without any known column gives a row
+/// without a time.
 class LogLines {
  public:
-  explicit LogLines(const Geometry& geometry) : geometry_(geometry) {}
+  /// `file`: the name of the log in errors.
+  LogLines(const Geometry& geometry, std::string file) : geometry_(geometry), file_(std::move(file)) {}
 
-  /// The row of a line; nothing for a header, a comment or an empty line.
+  /// The row of a line; nothing for a header, a comment or an empty line. Throws ConfigError for a header
+  /// that no row can be used with.
   [[nodiscard]] std::optional<MonitorRow> row(std::string_view line);
 
  private:
@@ -28,6 +31,8 @@ class LogLines {
   [[nodiscard]] MonitorRow finished(MonitorRow row, const Twist<double>& body) const;
 
   Geometry geometry_;
+  std::string file_;
+  int line_{};
   char separator_{};
   std::vector<std::size_t> column_{};  ///< of the known columns, per column of the file
 };

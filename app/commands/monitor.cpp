@@ -54,13 +54,18 @@ class MonitorCommand : public Command {
       if (!file) throw ConfigError({{log_, 0, 0}, "", "no such file", "a log, or - for standard input", ""});
       follow(monitor, robot, file);
     }
+    if (monitor.status().rows.used == 0)
+      throw ConfigError(
+          {{log_name(), 0, 0}, "", "no row with a time and speeds", "a log of the plan's drive", ""});
     tell({monitor.last_leg(), monitor.status()});
     return other_cause_ ? kInfeasibleOrFailed : kDone;
   }
 
  private:
+  std::string log_name() const { return log_ == "-" ? "standard input" : log_; }
+
   void follow(Monitor& monitor, const Robot& robot, std::istream& stream) {
-    LogLines lines(robot.geometry);
+    LogLines lines(robot.geometry, log_name());
     for (std::string line; std::getline(stream, line);)
       if (const auto row = lines.row(line)) tell(monitor.add(*row));
   }

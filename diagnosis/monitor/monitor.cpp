@@ -11,6 +11,8 @@ constexpr double kSecondsPerHour = 3600;
 constexpr double kShrink = 0.05;        ///< share of the plan that the first joules count for
 constexpr double kLegTolerance = 0.03;  ///< of a leg's energy
 constexpr double kSmoothing = 0.02;
+constexpr double kClockJump_s = 60;     ///< a longer step has to be confirmed by the next row
+constexpr double kLongestGap_s = 3600;  ///< a longer step is another clock, not time that passed
 
 std::array<double, 2> interval_95(double value, double sigma) {
   return {value - kNormal95 * sigma, value + kNormal95 * sigma};
@@ -25,6 +27,18 @@ Monitor::Monitor(const Robot& robot, PlannedCourse course, const MonitorOptions&
       progress_(course_),
       meter_(robot.power),
       watch_(robot, options.hours_per_false_alarm) {}
+
+/// Whether the log's clock goes on from the last row. A step that is too long counts when a second row
+/// follows.
+bool Monitor::is_on_the_clock(double time_s) {
+  const double step_s = time_s - clock_shift_s_ - last_s_;
+  if (!(std::abs(step_s) > kClockJump_s)) return true;
+  const double confirmed_s = time_s - doubtful_s_;
+  doubtful_s_ = time_s;
+  if (!(confirmed_s > 0 && confirmed_s <= kClockJump_s)) return false;
+  if (step_s < 0 || step_s > kLongestGap_s) clock_shift_s_ = time_s - last_s_ - confirmed_s;
+  return true;
+}
 
 bool Monitor::is_usable(const MonitorRow& row) {
   if (!std::isfinite(row.time_s) || !std::isfinite(row.wheel_speed_rad_s.left) ||
@@ -45,9 +59,15 @@ bool Monitor::is_usable(const MonitorRow& row) {
   return true;
 }
 
-const std::vector<MonitorEvent>& Monitor::add(const MonitorRow& row) {
+const std::vector<MonitorEvent>& Monitor::add(const MonitorRow& logged) {
   events_.clear();
   const double before_s = last_s_;
+  if (std::isfinite(logged.time_s) && !is_on_the_clock(logged.time_s)) {
+    ++rows_.late;
+    return events_;
+  }
+  MonitorRow row = logged;
+  row.time_s -= clock_shift_s_;
   if (!is_usable(row)) return events_;
   last_s_ = row.time_s;
   if (std::isnan(next_status_s_)) next_status_s_ = row.time_s + options_.status_every_s;

@@ -19,7 +19,7 @@ struct MonitorOptions {
 /// Rows of a log that a monitor could not use as they are.
 struct RowCounts {
   std::uint64_t used{};
-  std::uint64_t late{};     ///< not later than one before: doubled, or out of order
+  std::uint64_t late{};     ///< not later than one before (doubled, out of order), or alone on another clock
   std::uint64_t broken{};   ///< without a time or a wheel speed
   std::uint64_t missing{};  ///< that a gap of the clock left out
 };
@@ -70,20 +70,22 @@ struct LegExecuted {
 
 using MonitorEvent = std::variant<MonitorStatus, PayloadChanged, NotPayload, LegExecuted>;
 
-/// Compares a log with its plan while it grows. Constant memory; no row stops it.
+/// Compares a log with its plan while it grows. Constant memory; no row stops it. One row on another clock is
+/// left out. Where the next rows follow it, the clock was set anew: times go on on the first clock.
 class Monitor {
  public:
   Monitor(const Robot& robot, PlannedCourse course, const MonitorOptions& options);
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// What the row completes; valid until the next call.
-  [[nodiscard]] const std::vector<MonitorEvent>& add(const MonitorRow& row);
+  /// What the row of the log completes; valid until the next call.
+  [[nodiscard]] const std::vector<MonitorEvent>& add(const MonitorRow& logged);
   [[nodiscard]] MonitorStatus status() const;
   [[nodiscard]] LegExecuted last_leg() const;
 
  private:
   [[nodiscard]] bool is_usable(const MonitorRow& row);
+  [[nodiscard]] bool is_on_the_clock(double time_s);
   [[nodiscard]] MonitorEvent told(const CauseChange& change, double stated_kg) const;
   void finish_legs();
   [[nodiscard]] LegExecuted leg_executed() const;
@@ -96,6 +98,8 @@ class Monitor {
   CauseWatch watch_;
   std::vector<MonitorEvent> events_{};
   RowCounts rows_{};
+  double clock_shift_s_{};      ///< of the log's clock against the first one
+  double doubtful_s_{kAbsent};  ///< log time of the last row that was on another clock
   double last_s_{kAbsent}, last_rim_m_s_{}, next_status_s_{kAbsent}, period_s_{kAbsent}, stated_kg_{};
   std::size_t leg_{};
   double leg_begin_J_{}, leg_planned_begin_J_{};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/config_error.hpp"
 #include "scenarios/monitored_plan.hpp"
 
 namespace joulepath {
@@ -12,7 +13,7 @@ namespace {
 const Geometry kGeometry{.wheel_radius_m = {0.1, 0.1}, .half_track_m = 0.2};
 
 TEST(LogLines, CsvAndJsonGiveTheSameRow) {
-  LogLines csv(kGeometry), json(kGeometry);
+  LogLines csv(kGeometry, "a.csv"), json(kGeometry, "a.jsonl");
   EXPECT_FALSE(
       csv.row("time_s;motor_current_left_A;\"wheel_speed_left_rad_s\";wheel_speed_right_rad_s;else"));
   EXPECT_FALSE(csv.row("# a comment"));
@@ -31,7 +32,7 @@ TEST(LogLines, CsvAndJsonGiveTheSameRow) {
 }
 
 TEST(LogLines, BodySpeedsGiveWheelSpeeds) {
-  LogLines lines(kGeometry);
+  LogLines lines(kGeometry, "a.jsonl");
   const auto row = lines.row(R"({"time_s": 0, "linear_speed_m_s": 0.5, "angular_speed_rad_s": 1})");
   ASSERT_TRUE(row);
   EXPECT_NEAR(row->wheel_speed_rad_s.left, 3, 1e-12);
@@ -40,13 +41,29 @@ TEST(LogLines, BodySpeedsGiveWheelSpeeds) {
 
 /// Cut lines, text, missing and surplus cells, broken JSON: a row with what is left, never an error.
 TEST(LogLines, NothingInALineIsAnError) {
-  LogLines csv(kGeometry), json(kGeometry);
+  LogLines csv(kGeometry, "a.csv"), json(kGeometry, "a.jsonl");
   (void)csv.row("time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s");
   for (const char* line : {"1", "1,2", "nan,inf,x", ",,,,,,", "1,2,3,4,5", "x", "1e999,0,0", "\xff\xfe\x00"})
     EXPECT_TRUE(csv.row(line)) << line;
   for (const char* line :
        {"{", "{}", R"({"time_s": "1"})", R"({"time_s": null})", R"({"time_s": 1e999})", "{]"})
     EXPECT_TRUE(json.row(line)) << line;
+}
+
+TEST(LogLines, AHeaderWithoutTimesOrSpeedsIsAnError) {
+  for (const char* header :
+       {"t,v", "time_s,motor_current_left_A", "wheel_speed_left_rad_s,wheel_speed_right_rad_s",
+        "time_s,wheel_speed_left_rad_s", "\x01\x02garbage"}) {
+    LogLines lines(kGeometry, "a.csv");
+    EXPECT_FALSE(lines.row("# a comment"));
+    try {
+      (void)lines.row(header);
+      ADD_FAILURE() << header;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().mark.file, "a.csv");
+      EXPECT_EQ(error.detail().mark.line, 2);
+    }
+  }
 }
 
 TEST(MonitorJson, IsOneLineWithItsSchemaWhateverTheNumbers) {

@@ -197,6 +197,43 @@ TEST(Monitor, NoRowStopsIt) {
   EXPECT_GT(rows.missing, 0u);
 }
 
+/// Single rows on another clock, and a clock that is set anew: the same energy at the same place.
+TEST(Monitor, AnotherClockMovesNothing) {
+  const Day quiet = day(6);
+  const Trajectory log = drive(quiet, {}).log;
+  Monitor steady(nomad(), course_of(quiet), {}), disturbed(nomad(), course_of(quiet), {});
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    MonitorRow row = row_of(log, k, quiet.payload_kg);
+    (void)steady.add(row);
+    for (const double wild_s : {1e9, -1e9, row.time_s + 600, row.time_s - 600}) {
+      MonitorRow wild = row;
+      wild.time_s = wild_s;
+      if (k % 400 == 100) (void)disturbed.add(wild);
+    }
+    if (2 * k > log.size()) row.time_s += 1.7e9;
+    (void)disturbed.add(row);
+    ASSERT_LT(disturbed.status().time_s, log.time_s.back() + 1) << k;
+  }
+  EXPECT_NEAR(disturbed.status().executed_J, steady.status().executed_J, 2e-3 * steady.status().executed_J);
+  EXPECT_NEAR(disturbed.status().planned_J, steady.status().planned_J, 2e-3 * steady.status().planned_J);
+  EXPECT_GT(disturbed.status().rows.late, 4u);
+}
+
+/// The robot waits for ten minutes without a log.
+TEST(Monitor, ALongGapIsTimeThatPassed) {
+  const Day quiet = day(2);
+  const Trajectory log = drive(quiet, {}).log;
+  Monitor monitor(nomad(), course_of(quiet), {});
+  (void)monitor.add(row_of(log, 0, quiet.payload_kg));
+  for (const double time_s : {600.0, 600.1}) {
+    MonitorRow row = row_of(log, 0, quiet.payload_kg);
+    row.time_s = time_s;
+    (void)monitor.add(row);
+  }
+  EXPECT_EQ(monitor.status().time_s, 600.1);
+  EXPECT_GT(monitor.status().bridged_s, 590);
+}
+
 TEST(Monitor, MemoryIsConstant) {
   const Day quiet = day(4);
   const Trajectory log = drive(quiet, {}).log;
