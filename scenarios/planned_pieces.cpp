@@ -32,11 +32,14 @@ struct Samples {
     }
     leg = table.find("leg");
     energy_J = table.find("energy_J");
+    heading_rad = *columns[5];
+    for (std::size_t i = 1; i < heading_rad.size(); ++i)
+      heading_rad[i] = heading_rad[i - 1] + wrapped_angle_rad(heading_rad[i] - heading_rad[i - 1]);
   }
   double time_s(std::size_t i) const { return (*columns[0])[i]; }
   double speed(std::size_t i) const { return (*columns[1])[i]; }
   double yaw_rate(std::size_t i) const { return (*columns[2])[i]; }
-  Pose pose(std::size_t i) const { return {(*columns[3])[i], (*columns[4])[i], (*columns[5])[i]}; }
+  Pose pose(std::size_t i) const { return {(*columns[3])[i], (*columns[4])[i], heading_rad[i]}; }
   double payload_kg(std::size_t i) const { return (*columns[6])[i]; }
   double arc_m(std::size_t i) const { return (*columns[7])[i]; }
   double curvature(std::size_t i) const { return (*columns[8])[i]; }
@@ -46,6 +49,7 @@ struct Samples {
   std::array<const std::vector<double>*, kColumns.size()> columns{};
   const std::vector<double>* leg{};
   const std::vector<double>* energy_J{};
+  std::vector<double> heading_rad{};  ///< without the jumps of a full turn
 };
 
 /// What happens between sample i and the next: 0 rest, +-1 a curve, +-2 a turn in place.
@@ -56,9 +60,11 @@ int kind_of(const Samples& t, std::size_t i) {
   return 0;
 }
 
-/// Whether the robot stands between two curves at sample i.
-bool stops_at(const Samples& t, std::size_t i) {
+/// Whether the robot stands at sample i between two motions of one kind.
+bool stops_at(const Samples& t, std::size_t i, int kind) {
   const bool new_leg = t.leg_of(i) != t.leg_of(i - 1);
+  if (kind == 0) return false;
+  if (std::abs(kind) == 2) return new_leg || std::abs(t.yaw_rate(i)) < kNoTurn_rad;
   return std::abs(t.speed(i)) < (new_leg ? kSlow_m_s : 1e-9);
 }
 
@@ -144,7 +150,7 @@ PlannedDrives read_planned_drives(const std::string& directory, const Robot& rob
   for (std::size_t i = 0; i + 1 < t.size();) {
     const int kind = kind_of(t, i);
     first = i++;
-    while (i + 1 < t.size() && kind_of(t, i) == kind && !(kind != 0 && stops_at(t, i))) ++i;
+    while (i + 1 < t.size() && kind_of(t, i) == kind && !stops_at(t, i, kind)) ++i;
     const bool longer = kind != 0 && i - first >= 2;
     if (longer) plan.drives.push_back(drive_of(t, first, i, kind, robot));
   }
