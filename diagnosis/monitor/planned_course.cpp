@@ -52,7 +52,9 @@ void CourseProgress::advance(double step_s, double rim_speed_m_s) {
   since_stop_m_ += step_s * rim_speed_m_s;
   if (rim_speed_m_s > kRest_m_s) {
     standing_s_ = rest_clock_s_ = 0;
-    while (index_ + 1 < travel.size() && travel[index_ + 1] <= travel_m_) ++index_;
+    // A stop is passed when the robot is surely beyond it: its odometry may read more than the plan's travel.
+    while (index_ + 1 < travel.size() && travel[index_ + 1] + (waits() ? stop_within_m() : 0.0) <= travel_m_)
+      ++index_;
     return;
   }
   const bool new_stop = standing_s_ < kStanding_s && standing_s_ + step_s >= kStanding_s;
@@ -63,21 +65,26 @@ void CourseProgress::advance(double step_s, double rim_speed_m_s) {
 
 /// While the robot stands the plan's clock runs through its own stop, and waits at the stop's end.
 void CourseProgress::wait_with_the_plan(double step_s) {
-  const std::vector<double>&travel = course_->travel_m, &time_s = course_->time_s;
+  const std::vector<double>& time_s = course_->time_s;
   rest_clock_s_ += step_s;
-  while (index_ + 1 < travel.size() && travel[index_ + 1] - travel[index_] <= kNoTravel_m &&
-         time_s[index_ + 1] - time_s[index_] <= rest_clock_s_) {
+  while (waits() && time_s[index_ + 1] - time_s[index_] <= rest_clock_s_) {
     rest_clock_s_ -= time_s[index_ + 1] - time_s[index_];
     ++index_;
   }
 }
 
+bool CourseProgress::waits() const {
+  const std::vector<double>& travel = course_->travel_m;
+  return index_ + 1 < travel.size() && travel[index_ + 1] - travel[index_] <= kNoTravel_m;
+}
+
+double CourseProgress::stop_within_m() const { return std::max(kStopWithin_m, kStopWithin * since_stop_m_); }
+
 void CourseProgress::snap_to_stop() {
-  const double within_m = std::max(kStopWithin_m, kStopWithin * since_stop_m_);
   const std::size_t* nearest = nullptr;
   const auto off_m = [&](std::size_t stop) { return std::abs(course_->travel_m[stop] - travel_m_); };
   for (const std::size_t& stop : stops_)
-    if (off_m(stop) <= within_m && (!nearest || off_m(stop) < off_m(*nearest))) nearest = &stop;
+    if (off_m(stop) <= stop_within_m() && (!nearest || off_m(stop) < off_m(*nearest))) nearest = &stop;
   if (!nearest || since_stop_m_ <= kStopWithin_m * kStopWithin) return;
   index_ = std::max(index_, *nearest);
   travel_m_ = course_->travel_m[index_];

@@ -50,6 +50,8 @@ class CourseProgress {
 
  private:
   [[nodiscard]] double at(const std::vector<double>& values) const;
+  [[nodiscard]] bool waits() const;            ///< the plan stands from the present sample to the next
+  [[nodiscard]] double stop_within_m() const;  ///< error of the odometry since the last stop, at most
   void snap_to_stop();
   void wait_with_the_plan(double step_s);
 

@@ -152,6 +152,27 @@ PlannedCourse course_of(const Day& planned) {
   return planned_course(nomad().geometry, ideal.executed);
 }
 
+/// 10 m at 1 m/s, 20 s at rest, 10 m; 10 W. Odometry that reads too much passes no stop before it was made.
+TEST(CourseProgress, AStopIsWaitedForWhateverTheOdometry) {
+  PlannedCourse course;
+  for (int k = 0; k <= 400; ++k) {
+    const double time_s = 0.1 * k;
+    course.time_s.push_back(time_s);
+    course.travel_m.push_back(time_s <= 10 ? time_s : time_s <= 30 ? 10 : time_s - 20);
+    course.energy_J.push_back(10 * time_s);
+    course.payload_kg.push_back(0);
+    course.leg.push_back(time_s <= 30 ? 0 : 1);
+  }
+  for (const double scale : {0.97, 1.0, 1.002, 1.03}) {
+    CourseProgress progress(course);
+    for (int k = 1; k <= 400; ++k) {
+      const double time_s = 0.1 * k;
+      progress.advance(0.1, time_s < 10.05 || time_s > 30.05 ? scale : 0);
+      EXPECT_NEAR(progress.energy_J(), 10 * time_s, 12) << scale << " at " << time_s;
+    }
+  }
+}
+
 TEST(Monitor, ExecutedIsPlannedWhereNothingIsHidden) {
   const Day quiet = day(10);
   Monitor monitor(nomad(), course_of(quiet), {});
