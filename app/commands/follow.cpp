@@ -30,7 +30,7 @@ struct Preset {
 constexpr double kPartOfPlan = 0.3;  ///< at which a disturbance begins
 const Preset kPresets[] = {
     {"push", "N along the heading", {Kind::push, 0, 1.0, -40.0}},
-    {"slip", "m by which the wheels turn in vain", {Kind::slip, 0, 0.0, 0.1}},
+    {"slip", "wheel travel lost to slip, m", {Kind::slip, 0, 0.0, 0.1}},
     {"late_start", "s", {Kind::late_start, 0, 0.0, 2.0}},
     {"payload", "times the stated payload, known for_s later", {Kind::payload, 0, 1.0, 1.3}},
     {"obstacle", "m ahead, for for_s", {Kind::obstacle, 0, 4.0, 1.5}},
@@ -100,10 +100,14 @@ class FollowPlanCommand : public Command {
     line.option("--out", out_, "directory for executed.csv and follow.json").required();
     line.option("--disturb", disturbances_, "NAME or NAME:at_s=..,for_s=..,size=.. (repeatable)")
         .repeatable();
-    line.option("--effect", effects_, "effect that nobody knows, as NAME:PARAMETER=VALUE,... (repeatable)")
+    line.option("--effect", effects_,
+                "effect of the simulated robot that neither planner nor follower models, as "
+                "NAME:PARAMETER=VALUE,... (repeatable)")
         .repeatable();
-    line.option("--period-s", settings_.period_s, "between two commands").between(0.005, 0.5).shows_default();
-    line.option("--latency-s", settings_.latency_s, "from a pose to its command's effect")
+    line.option("--period-s", settings_.period_s, "time between two commands, s")
+        .between(0.005, 0.5)
+        .shows_default();
+    line.option("--latency-s", settings_.latency_s, "time from a pose to its command's effect, s")
         .between(0.0, 0.5)
         .shows_default();
     add_common_flags(line, common_, "qjf");

@@ -18,12 +18,11 @@ namespace {
 class MonitorCommand : public Command {
  public:
   MonitorCommand()
-      : Command(
-            {.name = "monitor",
-             .says = "compare a drive with its plan while it goes on: energy, payload, battery",
-             .examples =
-                 "  joulepath monitor out/warehouse_pick day.csv --robot robot.yaml\n"
-                 "  ros2-to-jsonl | joulepath monitor out/warehouse_pick - --robot robot.yaml --json\n"}) {}
+      : Command({.name = "monitor",
+                 .says = "compare a drive with its plan while it goes on: energy, payload, battery",
+                 .examples = "  joulepath monitor out/warehouse_pick day.csv --robot robot.yaml\n"
+                             "  tail -f run.jsonl | joulepath monitor out/warehouse_pick - --robot "
+                             "robot.yaml --json\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("plan", directory_, "directory of a plan (trajectory.csv, plan.json)").required();
@@ -31,7 +30,7 @@ class MonitorCommand : public Command {
         .required();
     line.option("--robot", robot_, "robot file").required();
     line.option("--false-alarm-hours", options_.hours_per_false_alarm,
-                "expected hours to a false alarm, at least")
+                "mean time between false alarms in hours, at least")
         .between(0.1, 1e6)
         .shows_default();
     line.option("--status-s", options_.status_every_s, "seconds between two lines of status")

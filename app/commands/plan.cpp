@@ -47,7 +47,7 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn on the spot there), refinement; or baselines (several: with commas)")
+                "shortest), stops (turn in place there), refinement; or baselines (several: with commas)")
         .comma_separated()
         .one_of({"corners", "routes", "stops", "refinement", "baselines"});
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
