@@ -53,10 +53,12 @@ void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
     leg.stretches.push_back(std::move(stretch));
   }
   const double wait_s = std::max(0.0, duration_s - leg.duration_s);
-  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
-    leg.stretches.back().profile.wait_s += wait_s;
+  if (wait_s > kNoWait * duration_s) {
     leg.duration_s += wait_s;
     leg.energy.standby_J += plant.robot.power.standby_W * wait_s;
+  }
+  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
+    leg.stretches.back().profile.wait_s += wait_s;
     leg.stretches.back().energy.standby_J += plant.robot.power.standby_W * wait_s;
     leg.stretches.back().replay.energy_J += plant.robot.power.standby_W * wait_s;
   }
@@ -181,7 +183,9 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   const UncertainPlant uncertain_plant = uncertain(plant);
   for_each_index(legs.size(), options.threads, [&](std::size_t k) {
     legs[k].start_s = k == 0 ? 0.0 : split.arrival_s[k - 1] + legs[k - 1].dwell_s;
-    settle_leg(legs[k], timing[k], results[k], split.price_W[k], split.duration_s[k], uncertain_plant,
+    // A robot that arrives before the stop's window opens waits there: the wait is part of the leg.
+    const double duration_s = std::max(split.duration_s[k], split.arrival_s[k] - legs[k].start_s);
+    settle_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
                options.answers);
     if (options.baselines) add_baselines(legs[k]);
   });

@@ -83,6 +83,26 @@ TEST(VisitOrder, AWindowTurnsTheOrderRound) {
 
 /// A window that the most economical drive misses and a faster one meets, compared with the same stops as
 /// legs.
+/// The robot is early and waits for the window: duration and standby energy count the wait.
+TEST(VisitOrder, TheWaitForAWindowIsPartOfThePlan) {
+  MissionRequest mission = round_trip();
+  mission.visit[1].window_s = {600, 900};
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  const Plan plan = visit_plan(mission, robot);
+  ASSERT_EQ(plan.status <= SolveStatus::feasible, true) << plan.message;
+  EXPECT_GT(plan.duration_s, 600);
+  EXPECT_NEAR(plan.energy.standby_J, 10 * plan.duration_s, 1e-6 * plan.energy.standby_J);
+  double time_s = 0, sum_J = 0;
+  for (const LegPlan& leg : plan.legs) {
+    EXPECT_NEAR(leg.start_s, time_s, 1e-6);
+    time_s += leg.duration_s + leg.dwell_s;
+    sum_J += leg.energy.total_J();
+  }
+  EXPECT_NEAR(time_s, plan.duration_s, 1e-6);
+  EXPECT_NEAR(sum_J, plan.energy.total_J(), 1e-6 * sum_J);
+}
+
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;
