@@ -66,7 +66,8 @@ void OnlineProblem::take_limits(const Situation& situation) {
 /// The situation's place, the table's nodes behind it, and the borders of the caps.
 void OnlineProblem::place_nodes(const Situation& situation) {
   const double length = motion_.length(), shortest = kShortest * length;
-  const double end = std::clamp(situation.stop_at, situation.s + shortest, length);
+  const double begin = std::clamp(situation.s, 0.0, length - 2 * shortest);  // one segment is left at the end, too
+  const double end = std::clamp(situation.stop_at, begin + 2 * shortest, length);
   borders_.clear();
   for (std::size_t i = 0; i < std::min(situation.speed_caps.size(), kMostCaps); ++i) {
     borders_.push_back(situation.speed_caps[i].from_m);
@@ -74,7 +75,7 @@ void OnlineProblem::place_nodes(const Situation& situation) {
   }
   borders_.push_back(end);
   std::sort(borders_.begin(), borders_.end());
-  problem_.s.assign(1, std::min(situation.s, length - shortest));
+  problem_.s.assign(1, begin);
   problem_.segments.clear();
   problem_.cap.clear();
   const std::vector<double>& s = table_.s();

@@ -120,6 +120,24 @@ TEST(Replanner, AllocatesNothingAfterConstruction) {
   }
 }
 
+/// At the end, beyond it and just before it: a profile of the rest, at rest or braking, never a crash.
+TEST(Replanner, TheEndOfThePieceIsASituation) {
+  for (const PlannedPiece& piece : pieces(15, 8)) {
+    Replanner replanner(piece.request, piece.plan);
+    const PathMotion motion = path_motion(piece.request);
+    const double length = replanner.length();
+    for (const double s :
+         {length, length * (1 + 1e-9), length + 0.01, length * (1 - 1e-7), length - 1e-6, -0.01})
+      for (const double rate : {0.0, 1e-3})
+        for (const double stop_at : {kNoLimit, length, s + 1e-9}) {
+          const Replan& replan = replanner.replan(
+              {.s = s, .rate = rate, .payload_kg = motion.payload_kg(length), .stop_at = stop_at});
+          ASSERT_GE(replan.profile->s.size(), 2u);
+          EXPECT_TRUE(std::isfinite(replan.duration_s)) << s << " " << rate << " " << stop_at;
+        }
+  }
+}
+
 TEST(Replanner, FromTheStartItIsThePlan) {
   for (const PlannedPiece& piece : pieces(12, 8)) {
     Replanner replanner(piece.request, piece.plan);
