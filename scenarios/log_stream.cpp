@@ -74,6 +74,7 @@ std::optional<MonitorRow> LogLines::row(std::string_view line) {
   const std::string_view text = trimmed_cell(line);
   if (text.empty() || text.front() == '#') return std::nullopt;
   if (text.front() == '{') return json_row(text);
+  if (column_.empty() && has_json_) return MonitorRow{};
   if (column_.empty()) {
     read_header(line);
     return std::nullopt;
@@ -109,9 +110,10 @@ MonitorRow LogLines::csv_row(std::string_view line) const {
   return finished(row, body);
 }
 
-MonitorRow LogLines::json_row(std::string_view line) const {
+MonitorRow LogLines::json_row(std::string_view line) {
   MonitorRow row;
   Twist<double> body = kNoTwist;
+  has_json_ = true;
   const auto json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) return row;
   for (const StreamColumn& column : kStreamColumns)

@@ -27,12 +27,13 @@ class LogLines {
  private:
   void read_header(std::string_view line);
   [[nodiscard]] MonitorRow csv_row(std::string_view line) const;
-  [[nodiscard]] MonitorRow json_row(std::string_view line) const;
+  [[nodiscard]] MonitorRow json_row(std::string_view line);
   [[nodiscard]] MonitorRow finished(MonitorRow row, const Twist<double>& body) const;
 
   Geometry geometry_;
   std::string file_;
   int line_{};
+  bool has_json_{};  ///< rows are JSON: another line is a broken row, not a header
   char separator_{};
   std::vector<std::size_t> column_{};  ///< of the known columns, per column of the file
 };

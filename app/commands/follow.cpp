@@ -133,7 +133,7 @@ class FollowPlanCommand : public Command {
       std::cout << report.dump(2) << '\n';
     else if (!common_.quiet)
       print(report);
-    return result.off_path ? kInfeasibleOrFailed : kDone;
+    return result.finished == request.pieces.size() ? kDone : kInfeasibleOrFailed;
   }
 
  private:

@@ -11,8 +11,20 @@ constexpr double kSecondsPerHour = 3600;
 constexpr double kShrink = 0.05;        ///< share of the plan that the first joules count for
 constexpr double kLegTolerance = 0.03;  ///< of a leg's energy
 constexpr double kSmoothing = 0.02;
-constexpr double kClockJump_s = 60;     ///< a longer step has to be confirmed by the next row
-constexpr double kLongestGap_s = 3600;  ///< a longer step is another clock, not time that passed
+constexpr double kMostOfAnything = 1e6;  ///< in the units of a row
+constexpr double kClockJump_s = 60;      ///< a longer step has to be confirmed by the next row
+constexpr double kLongestGap_s = 3600;   ///< a longer step is another clock, not time that passed
+
+/// A number that no robot has: one such row would decide all sums.
+bool is_absurd(const MonitorRow& row) {
+  const auto beyond = [](double value) { return std::abs(value) > kMostOfAnything; };
+  return std::ranges::any_of(
+      std::array{row.wheel_speed_rad_s.left, row.wheel_speed_rad_s.right, row.motor_voltage_V.left,
+                 row.motor_voltage_V.right, row.motor_current_A.left, row.motor_current_A.right,
+                 row.motor_power_W.left, row.motor_power_W.right, row.battery_voltage_V,
+                 row.battery_current_A, row.heading_rad, row.payload_kg},
+      beyond);
+}
 
 std::array<double, 2> interval_95(double value, double sigma) {
   return {value - kNormal95 * sigma, value + kNormal95 * sigma};
@@ -42,7 +54,7 @@ bool Monitor::is_on_the_clock(double time_s) {
 
 bool Monitor::is_usable(const MonitorRow& row) {
   if (!std::isfinite(row.time_s) || !std::isfinite(row.wheel_speed_rad_s.left) ||
-      !std::isfinite(row.wheel_speed_rad_s.right)) {
+      !std::isfinite(row.wheel_speed_rad_s.right) || is_absurd(row)) {
     ++rows_.broken;
     return false;
   }

@@ -20,7 +20,7 @@ struct MonitorOptions {
 struct RowCounts {
   std::uint64_t used{};
   std::uint64_t late{};     ///< not later than one before (doubled, out of order), or alone on another clock
-  std::uint64_t broken{};   ///< without a time or a wheel speed
+  std::uint64_t broken{};   ///< without a time or a wheel speed, or with a number above 1e6
   std::uint64_t missing{};  ///< that a gap of the clock left out
 };
 

@@ -50,6 +50,16 @@ TEST(LogLines, NothingInALineIsAnError) {
     EXPECT_TRUE(json.row(line)) << line;
 }
 
+TEST(LogLines, AmongJsonRowsAnotherLineIsABrokenRow) {
+  LogLines lines(kGeometry, "a.jsonl");
+  (void)lines.row(R"({"time_s": 1})");
+  for (const char* line : {"[]", "[[[", "time_s", "null"}) {
+    const auto row = lines.row(line);
+    ASSERT_TRUE(row) << line;
+    EXPECT_TRUE(std::isnan(row->time_s)) << line;
+  }
+}
+
 TEST(LogLines, AHeaderWithoutTimesOrSpeedsIsAnError) {
   for (const char* header :
        {"t,v", "time_s,motor_current_left_A", "wheel_speed_left_rad_s,wheel_speed_right_rad_s",

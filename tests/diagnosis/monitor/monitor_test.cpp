@@ -210,6 +210,9 @@ TEST(Monitor, NoRowStopsIt) {
     if (what == 4) give(row);
     if (what == 5 && k > 10) give(row_of(log, k - 7, quiet.payload_kg));
     if (what == 6) give({});
+    MonitorRow absurd = row;
+    absurd.battery_current_A = absurd.motor_current_A.left = 1e300;
+    if (what == 7) give(absurd);
   }
   EXPECT_EQ(payload, 1);
   const RowCounts& rows = monitor.status().rows;
