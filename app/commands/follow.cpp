@@ -43,24 +43,16 @@ const Preset kPresets[] = {
 
 /// `NAME[:at_s=..,for_s=..,size=..]`.
 Disturbance parse_disturbance(const std::string& text, double plan_s) {
-  const std::size_t colon = text.find(':');
-  const std::string name = text.substr(0, colon);
-  const auto* preset =
-      std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return name == p.name; });
+  const NamedSettings named = split_settings(text);
+  const auto* preset = std::find_if(std::begin(kPresets), std::end(kPresets),
+                                    [&](const Preset& p) { return named.name == p.name; });
   if (preset == std::end(kPresets))
-    refuse_disturbance("'" + name + "'", "push, slip, late_start, payload, obstacle or speed_limit");
+    refuse_disturbance("'" + named.name + "'", "push, slip, late_start, payload, obstacle or speed_limit");
   Disturbance disturbance = preset->usual;
   disturbance.at_s = kPartOfPlan * plan_s;
-  std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    const std::string pair = rest.substr(0, comma);
-    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
-    const std::size_t equals = pair.find('=');
-    const std::string key = pair.substr(0, equals);
-    const std::optional<double> value =
-        parse_number(equals == std::string::npos ? "" : pair.substr(equals + 1));
-    if (!value) refuse_disturbance("'" + pair + "'", "KEY=NUMBER");
+  for (const auto& [key, text_of] : named.settings) {
+    const std::optional<double> value = parse_number(text_of);
+    if (!value) refuse_disturbance("'" + key + (text_of.empty() ? "" : "=" + text_of) + "'", "KEY=NUMBER");
     if (key == "at_s")
       disturbance.at_s = *value;
     else if (key == "for_s")

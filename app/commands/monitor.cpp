@@ -56,7 +56,7 @@ class MonitorCommand : public Command {
     if (monitor.status().rows.used == 0)
       throw ConfigError(
           {{log_name(), 0, 0}, "", "no row with a time and speeds", "a log of the plan's drive", ""});
-    tell({monitor.last_leg(), monitor.status()});
+    tell({monitor.leg_executed(), monitor.status()});
     return other_cause_ ? kInfeasibleOrFailed : kDone;
   }
 
