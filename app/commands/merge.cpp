@@ -3,7 +3,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/jobs/finish.hpp"
+#include "app/jobs/job_results.hpp"
 
 namespace joulepath {
 namespace {

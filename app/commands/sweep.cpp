@@ -5,7 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/jobs/finish.hpp"
+#include "app/jobs/job_results.hpp"
 #include "app/jobs/sweep_jobs.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/output_directory.hpp"

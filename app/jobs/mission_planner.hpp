@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cache_choice.hpp"
 #include "app/jobs/run_jobs.hpp"
-#include "app/kept_answers.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/document.hpp"
 
