@@ -9,10 +9,11 @@ import numpy as np
 import floors
 import plans
 from common import package, spread, table
-from mujoco_peer import PERIOD_S, execute, last_motion, wheels_alone
+from mujoco_peer import PERIOD_S, RESPONSE_PERIODS, execute, last_motion, wheels_alone
 
 ROBOTS = ("nomad_super_scout", "amr_150kg")
 COMMAND_PERIODS, LATENCY_S = 5, 0.05
+EFFECT_S = LATENCY_S + RESPONSE_PERIODS * PERIOD_S  # until the wheels turn as told
 OVERTIME_S = 12.0
 PUSH_N_KG, SLIPPERY, OBSTACLE_AHEAD_M = -1.0, 0.03, 1.0
 TOLD_LATE_S = 1.0  # until a payload is known
@@ -41,7 +42,7 @@ class Following:
     def command(self, t, pose, twist):
         piece = self.pieces[0]
         if self.follower is None:
-            self.follower, self.place = package("joulepath").Follower(piece, period_s=COMMAND_PERIODS * PERIOD_S, latency_s=LATENCY_S), 0.0
+            self.follower, self.place = package("joulepath").Follower(piece, period_s=COMMAND_PERIODS * PERIOD_S, latency_s=EFFECT_S), 0.0
         known = self.payload_factor if t >= TOLD_LATE_S else 1.0
         command = self.follower.command(t - piece.start_s, pose, *twist, payload_kg=known * piece.payload_kg, stop_at_m=self.stop_at(t, piece))
         self.pending.append((t + LATENCY_S, command))
@@ -148,7 +149,8 @@ def run(size):
     text = (
         "Missions between poses of the public set on two maps, planned for half of the greatest payload, driven by `joulepath.Follower` "
         "with the simulator's pose and the encoders' speeds. Ideal tracking: the same wheel loops get the plan's own wheel speeds, without "
-        "pose, period or latency. Joules are those of the motors until arrival, and standby. Late: the last centimetre, against the "
+        "pose, period or latency. The follower is told the time until a command has an effect: the latency and the 80 ms of the wheels' "
+        "loops. Joules are those of the motors until arrival, and standby. Late: the last centimetre, against the "
         "plan's. The payload is known one second after the start. Disturbances begin at 30 % of the plan; an obstacle stands 1 m ahead.\n\n"
     )
     return {"text": text + table(HEADER, rows) + f"\n{short}\n", "summary": {}, "short": short}
