@@ -211,4 +211,6 @@ std::string plan_json_text(const Plan& plan) {
   return json.dump(1) + "\n";
 }
 
+std::string cause_json_text(const EnergyByCause& energy) { return cause_json(energy).dump(); }
+
 }  // namespace joulepath

@@ -9,4 +9,7 @@ namespace joulepath {
 /// `plan.json` of a plan (schema joulepath/plan/1): keys in a fixed order, the same bytes for the same plan.
 [[nodiscard]] std::string plan_json_text(const Plan& plan);
 
+/// `energy_by_cause_J` of a plan.json.
+[[nodiscard]] std::string cause_json_text(const EnergyByCause& energy);
+
 }  // namespace joulepath
