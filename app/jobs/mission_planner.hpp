@@ -46,7 +46,8 @@ class MissionVariant {
 /// answers about equal legs are shared as well. Safe to call from several threads, except fingerprint().
 class MissionPlanner {
  public:
-  MissionPlanner(PlanOptions options, ReadOptions reading, const CacheChoice& cache = {.none = true})
+  MissionPlanner(const PlanOptions& options, const ReadOptions& reading,
+                 const CacheChoice& cache = {.none = true})
       : options_(options), reading_(reading), answers_(answer_cache(cache)) {}
 
   /// The result line: `line` with the plan's figures, or the reason why there is none.
@@ -82,7 +83,7 @@ class MissionPlanner {
 /// The missions of a batch.
 class MissionJobs : public JobList {
  public:
-  MissionJobs(std::vector<MissionItem> items, PlanOptions options, ReadOptions reading,
+  MissionJobs(std::vector<MissionItem> items, const PlanOptions& options, const ReadOptions& reading,
               const CacheChoice& cache = {.none = true})
       : items_(std::move(items)), planner_(options, reading, cache) {}
 

@@ -39,7 +39,8 @@ Json json_value(const std::string& text) {
 
 }  // namespace
 
-SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions reading, const CacheChoice& cache)
+SweepJobs::SweepJobs(const Study& study, const PlanOptions& options, const ReadOptions& reading,
+                     const CacheChoice& cache)
     : study_(study),
       study_text_(read_text_file(study.file)),
       reading_(reading),

@@ -15,7 +15,7 @@ class SweepJobs : public JobList {
  public:
   /// Throws ConfigError where the first or the last design cannot be read, so that a mistake in a parameter's
   /// key is reported once and not per design.
-  SweepJobs(const Study& study, PlanOptions options, ReadOptions reading,
+  SweepJobs(const Study& study, const PlanOptions& options, const ReadOptions& reading,
             const CacheChoice& cache = {.none = true});
 
   [[nodiscard]] std::size_t size() const override { return study_.designs.size() * missions_.size(); }
