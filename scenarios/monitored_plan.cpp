@@ -7,6 +7,7 @@
 
 #include "scenarios/csv_table.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/plan_robot.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
@@ -136,9 +137,11 @@ std::string event_text(const LegExecuted& c) {
 
 }  // namespace
 
-PlannedCourse read_planned_course(const std::string& directory, const Geometry& geometry) {
+PlannedCourse read_planned_course(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
   const std::filesystem::path folder = directory;
-  PlannedCourse course = planned_course(geometry, read_trajectory((folder / "trajectory.csv").string()));
+  PlannedCourse course =
+      planned_course(robot.geometry, read_trajectory((folder / "trajectory.csv").string()));
   const std::string file = (folder / "plan.json").string();
   if (!std::filesystem::exists(file)) return course;
   const Json plan = Json::parse(read_text_file(file), nullptr, false);

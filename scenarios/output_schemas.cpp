@@ -105,6 +105,11 @@ Schema cause_schema() {
 Schema plan_schema() {
   return open(
       map({required("schema", text()), required("status", plan_status()),
+           optional("robot",
+                    open(map({required("name", text()),
+                              required("fingerprint", text(),
+                                       "of the robot file's values but its name and its uncertainty")})),
+                    "that the plan is for"),
            optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),

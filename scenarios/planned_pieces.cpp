@@ -8,6 +8,7 @@
 
 #include "model/limit_table.hpp"
 #include "scenarios/csv_table.hpp"
+#include "scenarios/plan_robot.hpp"
 
 namespace joulepath {
 namespace {
@@ -136,6 +137,7 @@ PlannedDrive drive_of(const Samples& t, std::size_t first, std::size_t last, int
 }  // namespace
 
 PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
   const std::string file = (std::filesystem::path(directory) / "trajectory.csv").string();
   const CsvTable table = read_csv(file, [](const std::string& name) {
     return name == "leg" || name == "energy_J" ||

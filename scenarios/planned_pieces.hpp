@@ -26,7 +26,8 @@ struct PlannedDrives {
 };
 
 /// Reads trajectory.csv of a plan's directory: curves as lines of linear curvature through its samples, turns
-/// in place, and rest between them. Limits and effects are the robot's. Throws ConfigError.
+/// in place, and rest between them. Limits and effects are the robot's. Throws ConfigError,
+/// also for a plan of another robot.
 [[nodiscard]] PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot);
 
 }  // namespace joulepath
