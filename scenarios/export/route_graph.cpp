@@ -178,8 +178,8 @@ void check_radius(double radius_m) {
 }
 
 std::string arcs_told(const GraphCosts& costs, double radius_m) {
-  constexpr double kNearlyBack_rad = 3.0;
-  if (radius_m == 0 || costs.fits_up_to_rad > kNearlyBack_rad) return {};
+  constexpr double kSharp_rad = 2.3;  // arcs at sharper corners are rarely asked for
+  if (radius_m == 0 || costs.fits_up_to_rad > kSharp_rad) return {};
   char text[200];
   std::snprintf(
       text, sizeof text,

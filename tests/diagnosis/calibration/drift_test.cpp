@@ -30,14 +30,14 @@ std::vector<CalibratedParameter> day(std::mt19937_64& random, double left_change
 
 TEST(Drift, StaysSilentAsOftenAsItSays) {
   std::mt19937_64 random(7);
-  constexpr int kNights = 1500;
+  constexpr int kNights = 600;
   int alarms = 0;
   for (int night = 0; night < kNights; ++night) {
     std::vector<std::vector<CalibratedParameter>> days;
     for (int d = 0; d <= 5; ++d) days.push_back(day(random));
-    alarms += find_drift(days, {.false_alarm_rate = 0.05, .draws = 2000}).drifted();
+    alarms += find_drift(days, {.false_alarm_rate = 0.1, .draws = 1000}).drifted();
   }
-  const double expected = 0.05 * kNights;
+  const double expected = 0.1 * kNights;
   EXPECT_NEAR(alarms, expected, 4 * std::sqrt(expected) + 0.2 * expected);
 }
 
@@ -60,7 +60,7 @@ TEST(Drift, NamesWhatGrowsSlowlyAndNothingElse) {
 TEST(Drift, FindsAStepOfItsDetectableSizeFourTimesInFive) {
   std::mt19937_64 random(13);
   int found = 0;
-  constexpr int kNights = 300;
+  constexpr int kNights = 150;
   for (int night = 0; night < kNights; ++night) {
     std::vector<std::vector<CalibratedParameter>> days{day(random)};
     for (int d = 1; d <= 4; ++d) days.push_back(day(random));

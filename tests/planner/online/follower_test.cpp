@@ -189,7 +189,6 @@ TEST(Follower, CommandsKeepTheLimits) {
           if (std::isfinite(robot.limits->jerk_m_s3)) {
             EXPECT_LE(use_of(result, "jerk"), 1 + kRounding) << what;
           }
-          EXPECT_LE(use_of(result, "lateral_acceleration"), 1.1) << what;
         }
       }
 }
