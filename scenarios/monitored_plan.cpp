@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/document.hpp"
+#include "scenarios/plan_robot.hpp"
 #include "scenarios/planned_trajectory.hpp"
 #include "scenarios/significant.hpp"
 
@@ -119,11 +120,12 @@ std::string event_text(const LegExecuted& c) {
 
 }  // namespace
 
-PlannedCourse read_planned_course(const std::string& directory, const Geometry& geometry) {
+PlannedCourse read_planned_course(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
   const std::filesystem::path folder = directory;
   PlannedCourse course = planned_course(
-      geometry, read_planned_trajectory(
-                    directory, {"time_s", "wheel_speed_left_rad_s", "wheel_speed_right_rad_s", "energy_J"}));
+      robot.geometry, read_planned_trajectory(directory, {"time_s", "wheel_speed_left_rad_s",
+                                                          "wheel_speed_right_rad_s", "energy_J"}));
   const std::string file = (folder / "plan.json").string();
   if (!std::filesystem::exists(file)) return course;
   const Json plan = Json::parse(read_text_file(file), nullptr, false);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/limit_table.hpp"
+#include "scenarios/plan_robot.hpp"
 #include "scenarios/planned_trajectory.hpp"
 
 namespace joulepath {
@@ -140,6 +141,7 @@ PlannedDrives planned_drives(const Trajectory& planned, const Robot& robot) {
 }
 
 PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
   return planned_drives(read_planned_trajectory(directory, kPieceColumns), robot);
 }
 

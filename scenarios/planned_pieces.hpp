@@ -29,7 +29,7 @@ struct PlannedDrives {
 /// The pieces of a planned trajectory: curves as lines of linear curvature through its samples, turns in
 /// place, and rest between them. Limits and effects are the robot's.
 [[nodiscard]] PlannedDrives planned_drives(const Trajectory& planned, const Robot& robot);
-/// Those of trajectory.csv in a plan's directory. Throws ConfigError.
+/// Those of trajectory.csv in a plan's directory. Throws ConfigError, also for a plan of another robot.
 [[nodiscard]] PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot);
 
 }  // namespace joulepath

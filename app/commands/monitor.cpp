@@ -41,7 +41,7 @@ class MonitorCommand : public Command {
 
   int run() override {
     const Robot robot = read_robot(robot_);
-    Monitor monitor(robot, read_planned_course(directory_, robot.geometry), options_);
+    Monitor monitor(robot, read_planned_course(directory_, robot), options_);
     if (log_ == "-") {
       follow(monitor, robot, std::cin);
     } else if (is_bag(log_)) {
