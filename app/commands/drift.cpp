@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double percent(double part, double whole) { return 100 * part / std::abs(whole); }
+double percent_of(double part, double whole) { return 100 * part / std::abs(whole); }
 
 class DriftCommand : public Command {
  public:
@@ -65,13 +65,13 @@ class DriftCommand : public Command {
                                     {"unit", p.unit},
                                     {"reference", p.reference},
                                     {"value", p.value},
-                                    {"change_percent", percent(p.value - p.reference, p.reference)},
-                                    {"standard_error_percent", percent(p.standard_error, p.reference)},
+                                    {"change_percent", percent_of(p.value - p.reference, p.reference)},
+                                    {"standard_error_percent", percent_of(p.standard_error, p.reference)},
                                     {"since", days_[p.since]},
                                     {"days", p.days},
                                     {"statistic", p.statistic},
                                     {"threshold", p.threshold},
-                                    {"detectable_percent", percent(p.detectable, p.reference)},
+                                    {"detectable_percent", percent_of(p.detectable, p.reference)},
                                     {"drifted", p.drifted}});
     }
     return json;
@@ -81,9 +81,9 @@ class DriftCommand : public Command {
     Table table({"constant", "calibrated", "now", "change", "", "would be found", "unit"});
     for (const ParameterDrift& p : result.parameters)
       table.row({p.name, figure(p.reference), figure(p.value),
-                 figure(percent(p.value - p.reference, p.reference), 3) + " %",
+                 figure(percent_of(p.value - p.reference, p.reference), 3) + " %",
                  p.drifted ? "DRIFTED, most since " + days_[p.since] : "",
-                 figure(percent(p.detectable, p.reference), 2) + " %", p.unit});
+                 figure(percent_of(p.detectable, p.reference), 2) + " %", p.unit});
     table.print(std::cout);
     std::cout << (result.drifted() ? "drifted" : "no drift found")
               << "; a night without drift is reported with " << figure(100 * settings_.false_alarm_rate, 3)

@@ -19,7 +19,7 @@ constexpr double kCoefficient = 0.02, kFrom_m = 3.0, kTo_m = 5.0;
 
 /// A lane of 9 m at y, at 0.5 m/s with a swing; between two places the floor resists with this coefficient
 /// times the load on each wheel.
-RunSignals lane(double y_m, double coefficient) {
+RunSignals straight_lane(double y_m, double coefficient) {
   const Robot robot = nomad();
   Run run = testing::synthetic_run(robot, "lane", 18, 0, testing::swinging(0.5, 0.1, 1.3));
   const double torque_Nm =
@@ -40,7 +40,7 @@ RunSignals lane(double y_m, double coefficient) {
 }
 
 TEST(RegionSearch, FindsTheEdgesOfARoughPatch) {
-  const std::vector<RunSignals> runs{lane(0.0, kCoefficient), lane(1.0, 0.0)};
+  const std::vector<RunSignals> runs{straight_lane(0.0, kCoefficient), straight_lane(1.0, 0.0)};
   bool found = false;
   for (const Candidate& candidate : region_candidates(runs, nomad(), {}, {})) {
     if (candidate.shape.name != "floor_patch") continue;
@@ -53,7 +53,7 @@ TEST(RegionSearch, FindsTheEdgesOfARoughPatch) {
 }
 
 TEST(RegionSearch, NeedsPlacesAndWhatIsInTheCatalog) {
-  std::vector<RunSignals> runs{lane(0.0, kCoefficient)};
+  std::vector<RunSignals> runs{straight_lane(0.0, kCoefficient)};
   for (const Candidate& candidate : region_candidates(runs, nomad(), {}, {}, {"floor_patch"}))
     EXPECT_NE(candidate.shape.name, "floor_patch");
   runs[0].x_m.resize(0);
@@ -62,7 +62,7 @@ TEST(RegionSearch, NeedsPlacesAndWhatIsInTheCatalog) {
 
 /// Impact of a patch on 2 of 9 m: its work over the motors' work.
 TEST(Materiality, OfAPatchIsItsShareOfTheEnergy) {
-  const RunSignals run = lane(0.0, 0.0);
+  const RunSignals run = straight_lane(0.0, 0.0);
   const ModelPoint nominal{.robot = nomad()};
   const EffectSetting patch{.name = "floor_patch",
                             .parameters = {{"coefficient", kCoefficient},
