@@ -228,17 +228,8 @@ TEST_F(Shards, SweepsMergeToo) {
         << file;
 }
 
-/// The planner's floors are shared by missions: no line may depend on the missions before it.
+/// Maps and masks are shared by missions: no line may depend on the missions before it.
 TEST_F(Shards, ALineDoesNotDependOnTheLinesBefore) {
-  scratch.write(
-      "floor.pgm", "P2\n160 80\n255\n" + [] {
-        std::string cells;
-        for (int k = 0; k < 160 * 80; ++k) cells += "255 ";
-        return cells;
-      }());
-  scratch.write("floor.yaml",
-                "image: floor.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
-                "free_thresh: 0.2\n");
   scratch.write("half.pgm", "P2\n2 1\n255\n128 128\n");
   scratch.write("half.yaml",
                 "image: half.pgm\nmode: scale\nresolution: 10\norigin: [0, -5, 0]\nnegate: 0\n"
