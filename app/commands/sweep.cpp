@@ -106,7 +106,10 @@ class SweepCommand : public Command {
           const DesignTotal total = total_of(fractions);
           return DesignValue{total.planned, total.objectives[0], total.excess};
         });
-    return lines_of(jobs.plan_design(design_at(found.best), study.designs.size()));
+    // The start is rounded on its way through fractions: a plan with other ways may take more.
+    const bool is_better =
+        found.value.planned && found.value.excess <= 0.0 && found.value.objective < best->objectives[0];
+    return lines_of(jobs.plan_design(is_better ? design_at(found.best) : best->values, study.designs.size()));
   }
 
   std::string source_{};

@@ -62,6 +62,17 @@ TEST_F(Sweep, OptimizedGearRatioIsThatOfTheClosedForm) {
   EXPECT_NE(text_of(scratch.at("out/sweep.json")).find("motor's shaft"), std::string::npos);
 }
 
+TEST_F(Sweep, ASearchWithoutABetterDesignKeepsTheBestOne) {
+  ASSERT_EQ(
+      sweep("missions: mission.yaml\nhold_friction: motor\nsampling: {method: latin_hypercube, designs: 9}\n"
+            "parameters: {gear: {key: robot.motor.gear_ratio, from: 7, to: 61, scale: log}}\n",
+            "--optimize 1")
+          .code,
+      0);
+  EXPECT_EQ(result()["optimized"]["parameters"], result()["best"]["parameters"]);
+  EXPECT_EQ(result()["optimized"]["energy_J"], result()["best"]["energy_J"]);
+}
+
 /// With friction held at the wheel, only the copper heat of acceleration depends on the ratio, as 1/n².
 TEST_F(Sweep, FrictionHeldAtTheWheelLeavesTheHeatOfAcceleration) {
   ASSERT_EQ(
