@@ -173,7 +173,8 @@ Schema shard_schema() {
                    required("title", text()),
                    required("list", text(), "digest of the missions or designs and the options"),
                    required("files", dictionary(text()), "digest of each file that was read"),
-                   optional("study_file", text()), optional("study_text", text())}));
+                   required("results", text(), "digest of results.jsonl"), optional("study_file", text()),
+                   optional("study_text", text())}));
 }
 
 Schema drift_schema() {

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/jobs/content_hash.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
@@ -82,7 +83,9 @@ void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<Jo
   about.jobs = jobs.size();
   about.list_digest = jobs.digest();
   about.files = jobs.files_read();
-  out.write("results.jsonl", joined(lines_of(results)));
+  const std::string lines = joined(lines_of(results));
+  about.results_digest = ContentHash().mix(lines).text();
+  out.write("results.jsonl", lines);
   add_timings(out, results);
   out.write("shard.json", manifest_text(about));
   out.commit();

@@ -55,8 +55,7 @@ class MissionPlanner {
                                const MissionVariant* variant = nullptr);
 
   /// Identifies a mission and everything on which its result depends; empty when a file cannot be read.
-  /// `extra_file`: read in addition to those that the mission names.
-  [[nodiscard]] std::string fingerprint(const MissionItem& item, const std::string& extra_file = {});
+  [[nodiscard]] std::string fingerprint(const MissionItem& item, const MissionVariant* variant = nullptr);
 
   [[nodiscard]] const std::map<std::string, std::string>& files_read() const { return digests_; }
   /// Digest of missions, without the files that they name, and of the options.
@@ -68,6 +67,7 @@ class MissionPlanner {
     std::optional<RouteSpace> space{};
     ContentKey floor{};
   };
+  [[nodiscard]] MissionRequest mission_of(const MissionItem& item, const MissionVariant* variant) const;
   const Place& place_of(const MissionRequest& mission);
   [[nodiscard]] Plan plan_of(const MissionRequest& mission, const MissionVariant* variant);
   [[nodiscard]] const std::string& content_digest(const std::string& file);
