@@ -10,8 +10,8 @@ namespace {
 
 using Kind = BezierFinding::Kind;
 
-// |B'| below this share of the control polygon's length counts as vanishing: the curve's radius there is about
-// the square of it.
+// |B'| below this share of the control polygon's length counts as vanishing: the curve's radius there is
+// about the square of it.
 constexpr double kVanishing = 1e-3;
 constexpr int kSamples = 128;
 
