@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStill = 1e-9;  ///< m/s or rad/s
 constexpr int kHalvings = 12;
+constexpr double kDrives = 1.1;  ///< of the drives' limits: a plan uses them whole, and corrections need more
 
 double going_on(double value, double slope, double elapsed_s) {
   const double then = value + slope * elapsed_s;
@@ -72,7 +73,7 @@ bool CommandShaper::drives_keep(const Limits& limits, double payload_kg, double 
   const LimitState state = limit_state(plant_, motion, site, now_.acceleration_m_s2, 0.0);
   bool keeps = true;
   for_each_limit(state, limits, [&](const Limit& row, double value, double limit) {
-    keeps = keeps && (!is_of_drives(row) || limit_fraction(value, limit) <= 1);
+    keeps = keeps && (!is_of_drives(row) || limit_fraction(value, limit) <= kDrives);
   });
   return keeps;
 }

@@ -12,6 +12,9 @@ constexpr double kSamePayload_kg = 0.05;
 constexpr double kArrived = 0.01;    ///< m or rad
 constexpr double kPatience_s = 0.4;  ///< after the profile's end
 constexpr double kAtRest = 0.02;     ///< m/s or rad/s
+/// Commands may use so much of the limits of acceleration: a plan uses them whole, and corrections of place
+/// and course need the rest.
+constexpr double kForCorrections = 1.15;
 
 double sinc(double x) { return std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x; }
 
@@ -100,17 +103,16 @@ bool Follower::has_to_replan(const Measurement& measured) const {
 void Follower::replan(const Measurement& measured, FollowCommand& command) {
   const ProfileState due = profile_->at_time(std::clamp(profile_time_s_, 0.0, profile_->time_s.back()));
   const double measured_rate = rate_of(measured);
-  // Small differences are the drives' business: the profile goes on from what they are told now.
+  // Small differences are the drives' business: the profile goes on from what is due.
   const bool off = std::abs(due.rate - measured_rate) > off_rate();
-  const double rate = off ? measured_rate : commanded_rate();
+  const double rate = off ? measured_rate : due.rate, s = off ? command.s : due.s;
   const SpeedCap cap{0, replanner_.length(), measured.speed_limit_m_s.value_or(0)};
-  Situation situation{.s = command.s,
+  Situation situation{.s = s,
                       .rate = rate,
                       .acceleration = due.acceleration,
                       .payload_kg = measured.payload_kg,
                       .time_left_s = deadline_s_ - measured.time_s};
-  if (measured.stop_at_m)
-    situation.stop_at = std::max(command.s, *measured.stop_at_m - lost_to_jerk(measured, rate));
+  if (measured.stop_at_m) situation.stop_at = std::max(s, *measured.stop_at_m - lost_to_jerk(measured, rate));
   if (measured.speed_limit_m_s) situation.speed_caps = {&cap, 1};
   const Replan& fresh = replanner_.replan(situation, settings_.budget);
   profile_ = fresh.profile;
@@ -123,15 +125,6 @@ void Follower::replan(const Measurement& measured, FollowCommand& command) {
   command.replanned = true;
 }
 
-/// In effect now: the next command continues it after the latency.
-double Follower::commanded_rate() const {
-  const CommandedMotion& next = shaper_.now();
-  return is_turn(request_.piece)
-             ? std::max(0.0, turn_sign(request_.piece) *
-                                 (next.yaw_rate_rad_s - settings_.latency_s * next.yaw_acceleration_rad_s2))
-             : std::max(0.0, next.rate - settings_.latency_s * next.acceleration_m_s2);
-}
-
 /// Way (m) by which a stop at the limit of deceleration is longer while the deceleration grows at the limit
 /// of jerk: v d/(2 j).
 double Follower::lost_to_jerk(const Measurement& measured, double rate) const {
@@ -141,7 +134,11 @@ double Follower::lost_to_jerk(const Measurement& measured, double rate) const {
 }
 
 Limits Follower::limits_for(const Measurement& measured) const {
-  return limits_.between(measured.payload_kg, measured.payload_kg);
+  Limits limits = limits_.between(measured.payload_kg, measured.payload_kg);
+  for (double* limit : {&limits.acceleration_m_s2, &limits.deceleration_m_s2, &limits.jerk_m_s3,
+                        &limits.yaw_acceleration_rad_s2})
+    *limit *= kForCorrections;
+  return limits;
 }
 
 /// The profile has led to the end: what is left is standing.

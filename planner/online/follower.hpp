@@ -82,7 +82,6 @@ class Follower {
   [[nodiscard]] double yaw_per_meter(const FollowCommand& command) const;
   void hand_over(const Measurement& measured, FollowCommand& command);
   [[nodiscard]] Limits limits_for(const Measurement& measured) const;
-  [[nodiscard]] double commanded_rate() const;
   [[nodiscard]] double lost_to_jerk(const Measurement& measured, double rate) const;
   [[nodiscard]] double rate_of(const Measurement& measured) const;
   [[nodiscard]] double off_rate() const;
