@@ -149,17 +149,19 @@ bool Follower::ends(const FollowCommand& command) const {
   return to_end && request_.end_rate == 0 && over_s >= (there ? -1e-9 : kPatience_s - 1e-9);
 }
 
+/// On the profile when the coming command ends.
+double Follower::ahead_s() const { return profile_time_s_ + settings_.latency_s + settings_.period_s; }
+
 /// Rates that are due at the end of the coming period and, under a jerk limit, thereafter.
 std::span<const double> Follower::wanted_rates(const Measurement& measured, const FollowCommand& command,
                                                double spacing_s) {
   const Profile& now = *profile_;
   const double end_s = now.time_s.back();
-  const double ahead_s = profile_time_s_ + settings_.latency_s + settings_.period_s;
   const double due = now.at_time(std::clamp(profile_time_s_, 0.0, end_s)).s;
   const bool to_stand = command.state == FollowState::off_path || ends(command);
   const std::size_t count = spacing_s > 0 ? wanted_.size() : 1;
   for (std::size_t m = 0; m < count; ++m) {
-    const double at_s = ahead_s + static_cast<double>(m) * spacing_s;
+    const double at_s = ahead_s() + static_cast<double>(m) * spacing_s;
     const double rate = now.at_time(std::min(at_s, end_s)).rate;
     wanted_[m] = to_stand ? 0.0 : std::max(0.0, rate + kPlaceGain_per_s * (due - command.s));
     if (measured.speed_limit_m_s && !is_turn(request_.piece) && rate <= *measured.speed_limit_m_s)
@@ -172,8 +174,7 @@ std::span<const double> Follower::wanted_rates(const Measurement& measured, cons
 ///   omega/|v| = kappa cos h/(1 - kappa e) -+ e sinc(h)/l^2 - 2 h/l,
 /// for which e^2/l^2 + h^2 never grows.                    [Samson 1993, path following of a unicycle]
 double Follower::yaw_per_meter(const FollowCommand& command) const {
-  const double ahead_s = profile_time_s_ + settings_.latency_s + settings_.period_s;
-  const ProfileState next = profile_->at_time(std::clamp(ahead_s, 0.0, profile_->time_s.back()));
+  const ProfileState next = profile_->at_time(std::clamp(ahead_s(), 0.0, profile_->time_s.back()));
   const double kappa = piece_point(request_.piece, next.s).curvature_per_m;
   const double e = command.lateral_m, h = command.heading_error_rad, l = settings_.convergence_m;
   const int sign = travel_sign(request_.piece);
