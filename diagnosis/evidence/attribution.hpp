@@ -13,10 +13,10 @@ namespace joulepath {
 /// One set of effects as an explanation, with its evidence.
 struct Explanation {
   std::vector<int> candidates{};  ///< of the equations, in order of index
+  std::vector<int> unknowns{};    ///< unknown terms of the equations, in order of index
   std::vector<int> columns{};
   Eigen::VectorXd mean{};  ///< of `columns`, calibration projected out
-  Eigen::MatrixXd covariance{};
-  double score{};  ///< log evidence and log prior, relative to "nothing"
+  double score{};          ///< log evidence and log prior, relative to "nothing"
   double loss{};
   std::vector<double> size{};  ///< of each candidate, in just material amplitudes
   bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
@@ -24,8 +24,9 @@ struct Explanation {
 
 struct SearchOptions {
   int most_effects{kMostEffects};
+  std::vector<int> allowed{};      ///< candidates that may enter; empty = all
+  int most_members{kMostMembers};  ///< effects and unknown terms
   double dispersion{1.0};
-  std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
   /// Log evidence needed to name an effect below the materiality floor. Infinite: such effects are
   /// skipped.
@@ -40,11 +41,17 @@ struct SearchOptions {
 [[nodiscard]] double ghost_share(const LinearProblem& problem, const Equations& equations,
                                  const Explanation& explanation, int candidate);
 
-/// Forward beam search over sets of candidates with the calibration projected out; every set met is
-/// kept once, best first. The empty set is among them with score 0.
+/// Search over sets of candidates and unknown terms with the calibration projected out: every pair, then
+/// forward from the best sets of each size. Every set met is kept once, best first. The empty set is among
+/// them with score 0.
 [[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
                                                            const Equations& equations,
                                                            const SearchOptions& options);
+
+/// Gives each unknown term the prior width at which it explains most beside the given columns: nobody knows
+/// how large an unknown cause is.
+void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vector<int>& known,
+                    double dispersion);
 
 /// The problem of some runs with the background's columns projected out; the other columns keep their
 /// places.

@@ -1,6 +1,7 @@
 #include "diagnosis/evidence/equations.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -34,6 +35,37 @@ std::vector<Candidate> candidates_about(const Robot& robot, const ModelState& st
     for (const Candidate& candidate : catalog_candidates(robot, options.without)) add(candidate);
   for (const Candidate& candidate : extra) add(candidate);
   return list;
+}
+
+std::string label_of(const DictionaryEntry& entry) { return entry.family + " (" + entry.channel + ")"; }
+
+/// Places of the dictionary's entries that take part.
+std::vector<std::size_t> chosen_entries(const std::vector<DictionaryEntry>& entries,
+                                        const EquationOptions& options) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (options.dictionary || options.unknowns.contains(label_of(entries[k]))) chosen.push_back(k);
+  return chosen;
+}
+
+/// Errors of time stamps or of a winding's inductance correlate voltage with acceleration: no finding.
+constexpr const char* kOfTheLogger = "acceleration (voltage)";
+
+/// Entries of one family and channel are one unknown term.
+std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
+                                       const std::vector<DictionaryEntry>& dictionary) {
+  std::vector<UnknownTerm> terms;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].kind != Column::Kind::dictionary) continue;
+    const std::string label = label_of(dictionary[static_cast<std::size_t>(columns[k].owner)]);
+    if (label == kOfTheLogger) continue;
+    const auto known = std::ranges::find(terms, label, &UnknownTerm::label);
+    if (known == terms.end())
+      terms.push_back({label, {static_cast<int>(k)}});
+    else
+      known->columns.push_back(static_cast<int>(k));
+  }
+  return terms;
 }
 
 /// Parameters are absolute: the part that the state already explains is added.
@@ -164,9 +196,12 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
                           const std::vector<Candidate>& extra, const EquationOptions& options) {
   Equations equations{.candidates = candidates_about(robot, state, extra, options)};
   const DictionaryLayout layout = lay_out(signals, robot);
-  if (options.dictionary) equations.dictionary = dictionary_entries(layout);
+  const std::vector<DictionaryEntry> entries = dictionary_entries(layout);
+  const std::vector<std::size_t> chosen = chosen_entries(entries, options);
+  for (std::size_t k : chosen) equations.dictionary.push_back(entries[k]);
   equations.columns = list_columns(robot, nuisances, state, equations.candidates, equations.dictionary.size(),
                                    options.whole_catalog);
+  equations.unknowns = unknown_terms(equations.columns, equations.dictionary);
 
   std::vector<RunRows> rows(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
@@ -175,9 +210,10 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     rows[r].residual = residual_rows(signals[r], point, base);
     rows[r].columns =
         signatures(signals[r], robot, nuisances, state, equations.candidates, equations.columns, base);
-    if (options.dictionary)
-      for (Eigen::MatrixXd& entry : dictionary_rows(layout, signals[r], robot, base))
-        rows[r].columns.push_back(std::move(entry));
+    if (!chosen.empty()) {
+      std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals[r], robot, base);
+      for (std::size_t k : chosen) rows[r].columns.push_back(std::move(all[k]));
+    }
     rows[r].own = run_signatures(signals[r], robot, base);
     make_absolute(equations.columns, rows[r]);
   });

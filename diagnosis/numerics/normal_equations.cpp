@@ -24,7 +24,7 @@ Eigen::VectorXd pick(const Eigen::VectorXd& vector, const std::vector<int>& rows
 }
 
 double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  return 2 * factor.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  return 2 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
 /// (Z'Z + D^-1)^-1 written with D^(1/2) outside, so that a variance of zero is allowed.
@@ -82,7 +82,8 @@ LinearProblem sum_runs(const std::vector<RunEquations>& runs, const std::vector<
   return problem;
 }
 
-Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, double dispersion) {
+Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, double dispersion,
+                bool with_covariance) {
   Posterior posterior{.columns = columns};
   const auto k = static_cast<Eigen::Index>(columns.size());
   posterior.loss = problem.residual_square / dispersion;
@@ -96,7 +97,8 @@ Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, d
   const Eigen::LLT<Eigen::MatrixXd> factor(precision);
   const Eigen::VectorXd scaled = factor.solve(right);
   posterior.mean = sd.cwiseProduct(scaled);
-  posterior.covariance = sd.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(k, k)) * sd.asDiagonal();
+  if (with_covariance)
+    posterior.covariance = sd.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(k, k)) * sd.asDiagonal();
   posterior.loss -= right.dot(scaled);
   posterior.log_evidence = -0.5 * posterior.loss - 0.5 * log_determinant(factor);
   return posterior;

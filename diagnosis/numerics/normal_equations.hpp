@@ -51,7 +51,7 @@ struct Posterior {
 
 /// Fits the given columns. `dispersion` multiplies the noise variance.
 [[nodiscard]] Posterior solve(const LinearProblem& problem, const std::vector<int>& columns,
-                              double dispersion = 1.0);
+                              double dispersion = 1.0, bool with_covariance = true);
 
 /// The problem with some columns fitted away: what is left is the same problem in fewer columns
 /// (`kept`), and `log_evidence` differs by a constant only.

@@ -5,25 +5,21 @@
 
 namespace joulepath {
 
-/// The effects with sufficient evidence, before any test of them.
+/// Outcome of the race between the catalog's laws and unknown terms.
 struct Names {
   std::vector<ActiveEffect> named{};
-  std::map<std::string, double> probabilities{};                ///< of effects by label
+  std::vector<UnknownCause> unknowns{};  ///< the greatest share first
+  /// Of effects by label, at most the share of sure names that were right on development cases.
+  std::map<std::string, double> probabilities{};
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
-  std::vector<std::string> notes{};
 };
 
-/// The best set's effects, without those that may only compensate the inexact form of a greater one.
+/// The best set's effects and unknown terms, without those that the other sets do without.
 [[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
 [[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities);
 
-/// Probability of a named effect, bounded by the share of correct sure names on development cases.
-[[nodiscard]] double probability_of(const Examination& examination, const Names& names,
-                                    const ActiveEffect& effect);
-
-/// Share of the best set's gain in loss that is lost when one of its effects is left out.
-[[nodiscard]] double gain_share_of(const Examination& examination, const std::string& label);
+[[nodiscard]] double probability_of(const Names& names, const ActiveEffect& effect);
 
 }  // namespace joulepath

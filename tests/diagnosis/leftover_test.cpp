@@ -1,53 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 #include <vector>
 
-#include "diagnosis/evidence/left_out_gain.hpp"
+#include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr int kRows = 200, kLeftoverRuns = 8;
-
-/// Runs with one nuisance and two families of a dictionary: "steady" is one entry that has the same part in
-/// every run's gap; "private" has an entry for each run that makes up its gap and is nothing in the others.
-Identification two_families() {
-  Identification id;
-  id.nuisances = {{"resistance_ohm", std::nullopt, 0.05}};
-  id.equations.columns = {{Column::Kind::nuisance, 0, 0, 0.05, 0.0},
-                          {Column::Kind::dictionary, 0, 0, 10.0, 0.0}};
-  id.equations.dictionary = {{"steady", "current"}};
-  for (int run = 0; run < kLeftoverRuns; ++run) {
-    id.equations.dictionary.push_back({"private", "current"});
-    id.equations.columns.push_back({Column::Kind::dictionary, run + 1, 0, 10.0, 0.0});
-  }
-  id.equations.prior_sd = Eigen::VectorXd::Constant(kLeftoverRuns + 2, 10.0);
-  id.equations.prior_sd[0] = 0.05;
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  for (int run = 0; run < kLeftoverRuns; ++run) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kRows, kLeftoverRuns + 3);
-    for (int column : {0, 1, run + 2, kLeftoverRuns + 2})
-      rows.col(column) = Eigen::VectorXd::NullaryExpr(kRows, [&] { return normal(random); });
-    rows.col(kLeftoverRuns + 2) += 0.5 * rows.col(1) + 0.5 * rows.col(run + 2);
-    id.equations.runs.push_back({rows.transpose() * rows});
-  }
-  return id;
-}
-
-TEST(LeftOutGain, CountsWhatRepeatsItselfFromRunToRunOnly) {
-  const Identification id = two_families();
-  const auto gains = left_out_gains(id, {}, dictionary_families(id.equations));
-  const LeftOutGain steady = gains.at("steady (current)"), own = gains.at("private (current)");
-  const double expected = kLeftoverRuns * kRows * 0.25;
-  EXPECT_NEAR(steady.gain, expected, 0.3 * expected);
-  EXPECT_GT(steady.over_scatter, 5);
-  EXPECT_NEAR(own.gain, 0.0, 0.05 * expected);
-}
 
 /// Two candidates, one column each, whose signatures have this cosine.
 Equations pair_with_cosine(double cosine, LinearProblem& problem) {
