@@ -112,8 +112,6 @@ inline constexpr double kRunGyroBias_rad_s = 1e-3;
 inline constexpr double kRunStandby_W = 0.05;
 /// Samples from which a channel's memory or a pair's correlation is estimated. Chosen.
 inline constexpr double kLeastPairs = 30;
-/// The fit of everything absorbs noise of few runs: their variance times this. Chosen (0043).
-inline constexpr double kFewRunsDispersion = 2.0;
 
 // Weighing sets of effects, in log units of evidence.
 
@@ -172,7 +170,7 @@ inline constexpr double kMaterialDelay_samples = 0.6;
 
 // Unknown terms.
 
-/// A smaller share of what is explained is not reported as a cause. Declared.
+/// A smaller share of what is explained is not reported as a cause, nor preferred to a law. Declared.
 inline constexpr double kLeastUnknownShare = 0.05;
 /// Cosine of a calibration constant's signature with an effect's, to be that effect. Derived: numbers of one
 /// law differ by the curvature of the model alone.
@@ -191,10 +189,8 @@ inline constexpr double kStandInLoss = 6.0;
 inline constexpr std::size_t kMostRivals = 100;
 /// Prior widths that leave an amplitude to the data. Chosen.
 inline constexpr double kFreeAmplitude = 30.0;
-/// A less likely effect is not named. Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
+/// A less likely effect or unknown term is not named. Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
 inline constexpr double kLeastProbabilityNamed = 0.7;
-/// The same of unknown terms. Chosen (benchmarks/diagnosis_race: a null of 12 rough runs reaches 0.77).
-inline constexpr double kLeastProbabilityOfUnknown = 0.9;
 /// A less likely effect is not listed. Declared.
 inline constexpr double kLeastProbabilityRanked = 1e-4;
 /// Effects listed. Declared.

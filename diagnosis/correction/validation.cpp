@@ -44,6 +44,7 @@ Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
 /// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range.
 void fit_what_can_be_told(const Examination& x, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
+  const bool any_named = !named.empty();
   v.fitted = fit_names(x, named);
   for (std::size_t e = named.size(); e-- > 0;) {
     if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
@@ -53,7 +54,7 @@ void fit_what_can_be_told(const Examination& x, Validation& v) {
     named.erase(named.begin() + static_cast<std::ptrdiff_t>(e));
     v.fitted = fit_names(x, named);
   }
-  if (!named.empty() || v.judgment.verdict == Verdict::too_little_data) return;
+  if (!any_named || !named.empty()) return;  // the verdict stays what the race says
   v.judgment.verdict = v.judgment.unknowns.empty() ? Verdict::no_gap : Verdict::unexplained;
 }
 

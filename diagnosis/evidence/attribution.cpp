@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -62,11 +63,14 @@ bool parts_hold(const LinearProblem& problem, const Equations& equations, const 
   return true;
 }
 
-/// Log prior odds against a set: what it takes to add a law or an unknown term.
-double cost_of(const Explanation& explanation) {
+/// Log odds against a set, of which the data explain this log evidence: what it takes to add a law or an
+/// unknown term. Laws are inexact: a term that adds less than the least share that is reported draws a law's
+/// form.
+double cost_of(const Explanation& explanation, double explained) {
   const auto laws = static_cast<double>(explanation.candidates.size()),
              unknowns = static_cast<double>(explanation.unknowns.size());
-  return (laws > 0 ? kEffectCost + (laws - 1) * kFurtherEffectCost : 0.0) + unknowns * kUnknownCost;
+  return (laws > 0 ? kEffectCost + (laws - 1) * kFurtherEffectCost : 0.0) +
+         unknowns * (kUnknownCost + kLeastUnknownShare * explained);
 }
 
 Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
@@ -77,7 +81,8 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
   for (int u : explanation.unknowns)
     for (int k : equations.unknowns[static_cast<std::size_t>(u)].columns) explanation.columns.push_back(k);
   Posterior posterior = solve(problem, explanation.columns, options.dispersion, false);
-  const double cost = cost_of(explanation);
+  const double explained = problem.residual_square - options.dispersion * posterior.loss;
+  const double cost = cost_of(explanation, 0.5 * explained / options.dispersion);
   explanation.score = posterior.log_evidence - empty_evidence - cost;
   explanation.loss = posterior.loss;
   if (!options.least_amplitude.empty()) {
@@ -85,7 +90,6 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
     explanation.material =
         std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
   }
-  const double explained = problem.residual_square - options.dispersion * posterior.loss;
   if (!sizes_hold(equations, explanation.columns, posterior.mean) ||
       !parts_hold(problem, equations, explanation, posterior.mean, explained))
     explanation.score = -1e300;
@@ -239,24 +243,29 @@ void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vec
   }
 }
 
-double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters) {
-  double ratio_sum = 0, count = 0;
+double run_dispersion(const Equations& equations, const std::vector<int>& fitted) {
+  Eigen::MatrixXd covariance;
+  const std::vector<std::size_t> runs = every(equations.runs.size());
+  const Eigen::VectorXd parameters = fit_parameters(equations, runs, fitted, 1.0, &covariance);
+  std::vector<int> columns = equations.columns_of(Column::Kind::nuisance);
+  columns.insert(columns.end(), fitted.begin(), fitted.end());
   const Eigen::Index p = parameters.size();
-  for (std::size_t k = 0; k < equations.columns.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    if (equations.columns[k].kind == Column::Kind::dictionary) continue;
-    double square = 0, expected = 0, sum = 0;
-    for (const RunEquations& run : equations.runs) {
-      const double score = run.gram(i, p) - run.gram.row(i).head(p).dot(parameters);
-      square += score * score;
-      sum += score;
-      expected += run.gram(i, i);
-    }
-    if (expected <= 0) continue;
-    ratio_sum += (square - sum * sum / static_cast<double>(equations.runs.size())) / expected;
-    count += 1;
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(p), expected = square, scale = square;
+  for (const RunEquations& run : equations.runs) {
+    const auto gram = run.gram.topLeftCorner(p, p);
+    const Eigen::MatrixXd some = gram(Eigen::all, columns);
+    square += (run.gram.topRightCorner(p, 1) - gram * parameters).cwiseAbs2();
+    scale += gram.diagonal();
+    expected += gram.diagonal() - (some * covariance).cwiseProduct(some).rowwise().sum();
   }
-  return count > 0 ? std::max(1.0, ratio_sum / count) : 1.0;
+  double found = 0, due = 0;
+  for (Eigen::Index k = 0; k < p; ++k) {
+    if (equations.columns[static_cast<std::size_t>(k)].kind == Column::Kind::dictionary || scale[k] <= 0)
+      continue;
+    found += square[k] / scale[k];
+    due += std::max(0.0, expected[k]) / scale[k];
+  }
+  return due > 0 ? std::max(1.0, found / due) : 1.0;
 }
 
 Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,

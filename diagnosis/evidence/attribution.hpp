@@ -59,9 +59,11 @@ void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vec
                                                 const std::vector<std::size_t>& runs,
                                                 double dispersion = 1.0);
 
-/// How much more runs scatter about the fit than the noise model says (>= 1): the variance of run-wise
-/// scores over its expectation, over all candidates.
-[[nodiscard]] double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters);
+/// How much more runs scatter about the fit of some columns than the noise model says (>= 1): squares of
+/// run-wise scores over their expectation, over all columns but the dictionary's. Of a run with Gram matrix
+/// G the scores about the fit have the covariance G - G S G, S being the fit's covariance: what the fit
+/// absorbs of few runs' noise is not expected to be left.
+[[nodiscard]] double run_dispersion(const Equations& equations, const std::vector<int>& fitted);
 
 /// All parameters of a problem, those of the given columns fitted and the others zero.
 [[nodiscard]] Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,

@@ -119,11 +119,12 @@ std::vector<RunEquations> marginalize_all(const std::vector<RawRunEquations>& ra
 }
 
 /// The fit of everything at once: its residual counts as noise.
-Eigen::VectorXd rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
+ColumnEstimate rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
   const LinearProblem problem = sum_runs(runs, every(runs.size()), prior_sd);
   std::vector<int> columns(static_cast<std::size_t>(prior_sd.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = static_cast<int>(k);
-  return solve(problem, columns).mean;
+  Posterior posterior = solve(problem, columns);
+  return {std::move(posterior.mean), std::move(posterior.covariance)};
 }
 
 std::vector<ResidualRows> leftover_rows(const std::vector<RunRows>& rows, const Eigen::VectorXd& estimate,
@@ -235,11 +236,11 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     for (int pass = options.first_noise ? 1 : 0; pass < 3; ++pass) {
       raw = compress_all(rows, equations.noise);
       set_dictionary_prior(raw, equations.columns);
-      const Eigen::VectorXd estimate =
+      const ColumnEstimate estimate =
           rich_estimate(marginalize_all(raw, equations.run_variance), prior_sd_of(equations.columns));
       equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
       if (pass == 2) break;
-      left = leftover_rows(rows, estimate, raw, equations.run_variance);
+      left = leftover_rows(rows, estimate.mean, raw, equations.run_variance);
       equations.noise = estimate_noise(left, floor);
     }
   }

@@ -15,12 +15,12 @@
 namespace joulepath {
 namespace {
 
-/// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
-Eigen::VectorXd rich_parameters(const Equations& equations) {
+/// Columns of the fit of everything: its scatter from run to run measures what the noise model lacks.
+std::vector<int> rich_columns(const Equations& equations) {
   std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
   const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
   columns.insert(columns.end(), dictionary.begin(), dictionary.end());
-  return fit_parameters(equations, every(equations.runs.size()), columns, 1.0);
+  return columns;
 }
 
 std::vector<std::string> labels_of(const Equations& equations, const Explanation& explanation) {
@@ -97,8 +97,7 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
     result.equations = build_equations(result.signals, robot, result.nuisances, result.state, regions,
                                        {.first_noise = round > 0 ? &noise : nullptr, .without = without});
     noise = result.equations.noise;
-    result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
-                        (few ? kFewRunsDispersion : 1.0);
+    result.dispersion = run_dispersion(result.equations, rich_columns(result.equations));
     result.problem = without_calibration(result.equations, runs, result.dispersion);
     scale_unknowns(result.equations, result.problem, columns_of(result.equations, result.state),
                    result.dispersion);

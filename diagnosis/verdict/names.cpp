@@ -6,6 +6,7 @@
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/evidence/groups.hpp"
+#include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -57,6 +58,18 @@ std::set<std::string> of_same_channel(const Equations& equations, const std::str
   return labels;
 }
 
+/// Size of an unknown term of the best set over the materiality floor.
+double size_of(const Examination& x, const UnknownTerm& term) {
+  std::vector<int> entries;
+  Eigen::VectorXd strength(std::ssize(term.columns));
+  for (int k : term.columns) {
+    const auto at = std::ranges::find(x.best().columns, k) - x.best().columns.begin();
+    strength[std::ssize(entries)] = x.best().mean[at];
+    entries.push_back(x.id.equations.columns[static_cast<std::size_t>(k)].owner);
+  }
+  return materiality(impact_of_term(x.id.signals, x.point_of(x.id.state), entries, strength));
+}
+
 std::vector<UnknownCause> unknown_causes(const Examination& x, const Inclusion& inclusion) {
   const BoxedFit nothing = fit_within_calibration(x.id);
   std::vector<UnknownCause> causes;
@@ -64,7 +77,7 @@ std::vector<UnknownCause> unknown_causes(const Examination& x, const Inclusion& 
     const UnknownTerm& term = x.id.equations.unknowns[static_cast<std::size_t>(u)];
     const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
                  share = share_lost(x, nothing, term.columns);
-    if (probability >= kLeastProbabilityOfUnknown && share >= kLeastUnknownShare)
+    if (probability >= kLeastProbabilityNamed && share >= kLeastUnknownShare && size_of(x, term) >= 1)
       causes.push_back({.depends_on = term.label,
                         .probability = std::min(surest_probability(x), probability),
                         .share = share});

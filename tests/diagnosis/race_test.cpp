@@ -8,6 +8,7 @@
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/evidence/groups.hpp"
+#include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/signals/runs_by_use.hpp"
 #include "tests/support/nomad.hpp"
@@ -92,6 +93,13 @@ TEST(Race, NoiseAloneNamesNothing) {
   EXPECT_TRUE(best.unknowns.empty());
 }
 
+/// A law's form is inexact: what an unknown term adds is small beside the law, although the evidence is not.
+TEST(Race, ATermThatRefinesALawIsNoCauseBesideIt) {
+  const Explanation best = raced(drawn({.law = 10.0, .term = 0.4})).front();
+  EXPECT_EQ(best.candidates, std::vector<int>{0});
+  EXPECT_TRUE(best.unknowns.empty());
+}
+
 /// A law of five hundred times its size that a term takes back fits the gap, and explains nothing.
 TEST(Race, ALawAndATermThatCancelEachOtherAreNoExplanation) {
   Equations equations = drawn({.difference = 0.5});
@@ -113,6 +121,30 @@ TEST(Inclusion, IsAProbabilityWhateverTheGroup) {
   EXPECT_LE(inclusion.of_any({"viscous_friction", "quadratic_drag"}), 1.0);
 }
 
+TEST(RunDispersion, OfFewRunsUnderAWideFitIsThatOfTheNoise) {
+  std::mt19937 engine(21);
+  std::normal_distribution<double> normal;
+  constexpr int kFew = 6, kWide = 24;
+  constexpr double kScatter = 2.0;
+  double sum = 0;
+  constexpr int kDraws = 40;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Equations equations;
+    equations.prior_sd = Eigen::VectorXd::Constant(kWide, 100.0);
+    std::vector<int> fitted;
+    for (int k = 0; k < kWide; ++k) equations.columns.push_back({Column::Kind::amplitude, k, 0, 100.0, 0.0});
+    for (int k = 0; k < kWide; ++k) fitted.push_back(k);
+    for (int r = 0; r < kFew; ++r) {
+      Eigen::MatrixXd rows(kWide / 3, kWide + 1);  // 48 rows for 24 columns
+      for (double& x : rows.reshaped()) x = normal(engine);
+      rows.col(kWide) *= std::sqrt(kScatter);
+      equations.runs.push_back({.gram = rows.transpose() * rows});
+    }
+    sum += run_dispersion(equations, fitted);
+  }
+  EXPECT_NEAR(sum / kDraws, kScatter, 0.2);
+}
+
 /// Fifteen straight runs of five payloads and five spins that share one of these payloads.
 Dataset straight_runs_and_five_spins() {
   Dataset dataset{.robot = testing::nomad()};
@@ -124,6 +156,44 @@ Dataset straight_runs_and_five_spins() {
                                                   static_cast<unsigned>(k)));
   }
   return dataset;
+}
+
+/// Places in the dictionary of a family and channel.
+std::vector<int> entries_of(const DictionaryLayout& layout, const std::string& family,
+                            const std::string& channel) {
+  std::vector<int> found;
+  const std::vector<DictionaryEntry> entries = dictionary_entries(layout);
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (entries[k].family == family && entries[k].channel == channel) found.push_back(static_cast<int>(k));
+  return found;
+}
+
+TEST(Materiality, OfATermIsThatOfTheLawThatItDraws) {
+  const Dataset dataset = straight_runs_and_five_spins();
+  const std::vector<RunSignals> signals = sort_runs(dataset).signals;
+  constexpr double kTorque_Nm = 0.05;
+  Robot harder = dataset.robot;
+  for (Side side : kSides) harder.motor[side].friction_torque_Nm += kTorque_Nm;
+  const Impact law = impact_between(signals, {.robot = harder}, {.robot = dataset.robot});
+  // Hats over the wheel speed sum to 1; the entry of the left less the right wheel stays 0.
+  const std::vector<int> hats = entries_of(lay_out(signals, dataset.robot), "wheel speed", "current");
+  Eigen::VectorXd torque_Nm = Eigen::VectorXd::Constant(std::ssize(hats), kTorque_Nm);
+  torque_Nm[1] = 0;
+  const Impact term = impact_of_term(signals, {.robot = dataset.robot}, hats, torque_Nm);
+  ASSERT_GT(law.motor_power, 0.005);
+  EXPECT_NEAR(term.motor_power, law.motor_power, 0.1 * law.motor_power);
+  EXPECT_EQ(term.heading_rad, 0.0);
+}
+
+TEST(Materiality, OfATermOfTheMotionIsWhereTheRunsEnd) {
+  const Dataset dataset = straight_runs_and_five_spins();
+  const std::vector<RunSignals> signals = sort_runs(dataset).signals;
+  const std::vector<int> speed = entries_of(lay_out(signals, dataset.robot), "speed", "motion");
+  Eigen::VectorXd strength = Eigen::VectorXd::Zero(std::ssize(speed));
+  strength[0] = 0.01;
+  const Impact impact = impact_of_term(signals, {.robot = dataset.robot}, speed, strength);
+  EXPECT_NEAR(impact.position, 0.01, 0.001);
+  EXPECT_EQ(impact.motor_power, 0.0);
 }
 
 TEST(Folds, SpreadARareManoeuvreBeforeThePayload) {
