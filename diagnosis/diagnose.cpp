@@ -55,6 +55,14 @@ std::string method_of(const RunsByUse& runs) {
   return "cross-fitted, " + std::to_string(fold_count(runs)) + " folds";
 }
 
+/// Laws and unknown terms with evidence below the materiality floor.
+std::vector<SmallEffect> below_materiality(const Examination& x, const Names& names) {
+  if (x.runs.few) return {};
+  std::vector<SmallEffect> small = x.id.below_materiality;
+  small.insert(small.end(), names.small_unknowns.begin(), names.small_unknowns.end());
+  return small;
+}
+
 /// Share of the unknown terms in what is explained; without a name, they are all that is.
 double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
   if (verdict == Verdict::unexplained) return 1.0;
@@ -88,7 +96,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
           .causes = causes.causes,
           .ranking = ranking,
           .unknowns = unknowns,
-          .below_materiality = runs.few ? std::vector<SmallEffect>{} : id.below_materiality,
+          .below_materiality = below_materiality(x, names),
           .leftover_significant = !depends_on.empty(),
           .leftover_share = share_of(unknowns, verdict),
           .leftover_description = depends_on,

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -63,14 +64,25 @@ bool parts_hold(const LinearProblem& problem, const Equations& equations, const 
   return true;
 }
 
-/// Log odds against a set, of which the data explain this log evidence: what it takes to add a law or an
-/// unknown term. Laws are inexact: a term that adds less than the least share that is reported draws a law's
-/// form.
-double cost_of(const Explanation& explanation, double explained) {
-  const auto laws = static_cast<double>(explanation.candidates.size()),
-             unknowns = static_cast<double>(explanation.unknowns.size());
-  return (laws > 0 ? kEffectCost + (laws - 1) * kFurtherEffectCost : 0.0) +
-         unknowns * (kUnknownCost + kLeastUnknownShare * explained);
+/// Log odds against a set: what it takes to add a law or an unknown term.
+double cost_of(const Explanation& explanation, const std::vector<double>& cost_of_unknown) {
+  const auto laws = static_cast<double>(explanation.candidates.size());
+  double cost = laws > 0 ? kEffectCost + (laws - 1) * kFurtherEffectCost : 0.0;
+  for (int u : explanation.unknowns) cost += cost_of_unknown[static_cast<std::size_t>(u)];
+  return cost;
+}
+
+/// Laws are inexact, and where a law acts a smooth curve always fits a little better. Each unknown term costs
+/// the least share that is reported of the log evidence that it brings alone: to replace or refine a law it
+/// must add more than that, and where no law acts it loses that share.
+std::vector<double> costs_of_unknowns(const LinearProblem& problem, const Equations& equations,
+                                      double dispersion) {
+  std::vector<double> costs;
+  for (const UnknownTerm& term : equations.unknowns) {
+    const double loss = solve(problem, term.columns, dispersion, false).loss;
+    costs.push_back(kUnknownCost + kLeastUnknownShare * 0.5 * (problem.residual_square / dispersion - loss));
+  }
+  return costs;
 }
 
 Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
@@ -82,7 +94,7 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
     for (int k : equations.unknowns[static_cast<std::size_t>(u)].columns) explanation.columns.push_back(k);
   Posterior posterior = solve(problem, explanation.columns, options.dispersion, false);
   const double explained = problem.residual_square - options.dispersion * posterior.loss;
-  const double cost = cost_of(explanation, 0.5 * explained / options.dispersion);
+  const double cost = cost_of(explanation, options.cost_of_unknown);
   explanation.score = posterior.log_evidence - empty_evidence - cost;
   explanation.loss = posterior.loss;
   if (!options.least_amplitude.empty()) {
@@ -193,7 +205,9 @@ LinearProblem without_calibration(const Equations& equations, const std::vector<
 }
 
 std::vector<Explanation> search_explanations(const LinearProblem& problem, const Equations& equations,
-                                             const SearchOptions& options) {
+                                             const SearchOptions& asked) {
+  SearchOptions options = asked;
+  options.cost_of_unknown = costs_of_unknowns(problem, equations, options.dispersion);
   const double empty_evidence = solve(problem, {}, options.dispersion, false).log_evidence;
   std::vector<Explanation> met{evaluate(problem, equations, {}, {}, options, empty_evidence)};
   std::vector<Explanation> beam = met;
@@ -245,25 +259,30 @@ void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vec
 
 double run_dispersion(const Equations& equations, const std::vector<int>& fitted) {
   Eigen::MatrixXd covariance;
-  const std::vector<std::size_t> runs = every(equations.runs.size());
-  const Eigen::VectorXd parameters = fit_parameters(equations, runs, fitted, 1.0, &covariance);
-  std::vector<int> columns = equations.columns_of(Column::Kind::nuisance);
+  const Eigen::VectorXd parameters =
+      fit_parameters(equations, every(equations.runs.size()), fitted, 1.0, &covariance);
+  std::vector<int> columns = equations.columns_of(Column::Kind::nuisance), judged;
   columns.insert(columns.end(), fitted.begin(), fitted.end());
+  for (std::size_t k = 0; k < equations.columns.size(); ++k)
+    if (equations.columns[k].kind != Column::Kind::dictionary) judged.push_back(static_cast<int>(k));
   const Eigen::Index p = parameters.size();
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(p), expected = square, scale = square;
-  for (const RunEquations& run : equations.runs) {
-    const auto gram = run.gram.topLeftCorner(p, p);
-    const Eigen::MatrixXd some = gram(Eigen::all, columns);
-    square += (run.gram.topRightCorner(p, 1) - gram * parameters).cwiseAbs2();
-    scale += gram.diagonal();
-    expected += gram.diagonal() - (some * covariance).cwiseProduct(some).rowwise().sum();
-  }
+  std::vector<Eigen::MatrixX3d> scores(equations.runs.size());  // square, expectation, the noise's own
+  parallel_for(scores.size(), [&](std::size_t r) {
+    const Eigen::MatrixXd& gram = equations.runs[r].gram;
+    const Eigen::MatrixXd some = gram(judged, columns);
+    scores[r].resize(std::ssize(judged), 3);
+    const Eigen::VectorXd score = gram.col(p).head(p) - gram.topLeftCorner(p, p) * parameters;
+    scores[r].col(0) = score(judged).cwiseAbs2();
+    scores[r].col(2) = gram.diagonal()(judged);
+    scores[r].col(1) = scores[r].col(2) - (some * covariance).cwiseProduct(some).rowwise().sum();
+  });
+  Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(std::ssize(judged), 3);
+  for (const Eigen::MatrixX3d& of_run : scores) sum += of_run;
   double found = 0, due = 0;
-  for (Eigen::Index k = 0; k < p; ++k) {
-    if (equations.columns[static_cast<std::size_t>(k)].kind == Column::Kind::dictionary || scale[k] <= 0)
-      continue;
-    found += square[k] / scale[k];
-    due += std::max(0.0, expected[k]) / scale[k];
+  for (const auto& column : sum.rowwise()) {
+    if (column[2] <= 0) continue;
+    found += column[0] / column[2];
+    due += std::max(0.0, column[1]) / column[2];
   }
   return due > 0 ? std::max(1.0, found / due) : 1.0;
 }

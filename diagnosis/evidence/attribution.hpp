@@ -33,6 +33,7 @@ struct SearchOptions {
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
   /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
+  std::vector<double> cost_of_unknown{};  ///< log odds against each; the search sets them
 };
 
 /// How far an effect of an explanation may be the others' inexact form, 0 to 1: the part of its

@@ -70,20 +70,33 @@ double size_of(const Examination& x, const UnknownTerm& term) {
   return materiality(impact_of_term(x.id.signals, x.point_of(x.id.state), entries, strength));
 }
 
-std::vector<UnknownCause> unknown_causes(const Examination& x, const Inclusion& inclusion) {
+/// What the best set's log evidence loses without a term.
+double evidence_of(const Examination& x, const UnknownTerm& term) {
+  std::vector<int> kept;
+  std::ranges::copy_if(x.best().columns, std::back_inserter(kept),
+                       [&](int k) { return std::ranges::count(term.columns, k) == 0; });
+  const auto evidence = [&](const std::vector<int>& columns) {
+    return solve(x.id.problem, columns, x.id.dispersion, false).log_evidence;
+  };
+  return evidence(x.best().columns) - evidence(kept);
+}
+
+/// The unknown terms of the best set that are sure enough: causes, or small effects below the materiality
+/// floor.
+void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& names) {
   const BoxedFit nothing = fit_within_calibration(x.id);
-  std::vector<UnknownCause> causes;
   for (int u : x.best().unknowns) {
     const UnknownTerm& term = x.id.equations.unknowns[static_cast<std::size_t>(u)];
     const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
-                 share = share_lost(x, nothing, term.columns);
-    if (probability >= kLeastProbabilityNamed && share >= kLeastUnknownShare && size_of(x, term) >= 1)
-      causes.push_back({.depends_on = term.label,
-                        .probability = std::min(surest_probability(x), probability),
-                        .share = share});
+                 share = share_lost(x, nothing, term.columns), size = size_of(x, term);
+    if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
+    const double stated = std::min(surest_probability(x), probability);
+    if (size >= 1)
+      names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
+    else
+      names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence_of(x, term), size});
   }
-  std::ranges::stable_sort(causes, std::ranges::greater{}, &UnknownCause::share);
-  return causes;
+  std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }
 
 /// Marginal probabilities, averaged over the folds' choices: each is made by all runs but those of a fold.
@@ -115,7 +128,8 @@ double probability_of(const Names& names, const ActiveEffect& effect) {
 
 Names choose_names(const Examination& x) {
   const Inclusion inclusion = inclusion_of(x);
-  Names names{.unknowns = unknown_causes(x, inclusion), .probabilities = inclusion.of_each()};
+  Names names{.probabilities = inclusion.of_each()};
+  name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
   share_probabilities(x.id, inclusion, names);
   for (auto& [label, probability] : names.probabilities)

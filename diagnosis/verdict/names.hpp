@@ -8,7 +8,8 @@ namespace joulepath {
 /// Outcome of the race between the catalog's laws and unknown terms.
 struct Names {
   std::vector<ActiveEffect> named{};
-  std::vector<UnknownCause> unknowns{};  ///< the greatest share first
+  std::vector<UnknownCause> unknowns{};       ///< the greatest share first
+  std::vector<SmallEffect> small_unknowns{};  ///< below the materiality floor
   /// Of effects by label, at most the share of sure names that were right on development cases.
   std::map<std::string, double> probabilities{};
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
