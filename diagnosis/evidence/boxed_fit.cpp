@@ -31,6 +31,15 @@ BoxedFit fit_within_calibration(const Identification& id) {
   }
 }
 
+double score_of_constant(const Identification& id, int column) {
+  const Equations& equations = id.equations;
+  const std::vector<int> nuisances = equations.columns_of(Column::Kind::nuisance);
+  LinearProblem problem = sum_runs(equations.runs, every(equations.runs.size()), equations.prior_sd);
+  const double held = solve(problem, nuisances, id.dispersion, false).log_evidence;
+  problem.prior_sd[column] *= kFreeAmplitude;
+  return solve(problem, nuisances, id.dispersion, false).log_evidence - held - kEffectCost;
+}
+
 int effect_of_constant(const Identification& id, int column) {
   const Equations& equations = id.equations;
   const LinearProblem problem = sum_runs(equations.runs, every(equations.runs.size()), equations.prior_sd);

@@ -16,6 +16,10 @@ struct BoxedFit {
 /// its signature seem small.
 [[nodiscard]] BoxedFit fit_within_calibration(const Identification& identification);
 
+/// Score of a calibration constant (its column) that is free to leave its uncertainty, as of an explanation
+/// with one law.
+[[nodiscard]] double score_of_constant(const Identification& identification, int column);
+
 /// The effect of the catalog that changes the same number as a calibration constant (its column); none: -1.
 [[nodiscard]] int effect_of_constant(const Identification& identification, int column);
 

@@ -16,18 +16,27 @@ std::string in_words(const std::vector<UnknownCause>& unknowns) {
   return text;
 }
 
-/// Where nothing won, a calibration constant may still be further from its value than its uncertainty allows:
-/// it is the effect that changes the same number, or unexplained where the catalog has none.
-void judge_constants(const Examination& x, Judgment& judgment) {
-  judgment.verdict = Verdict::no_gap;
+/// The calibration constant (its column) that is furthest beyond its uncertainty, where nothing else won, or
+/// where no law of the catalog changes it and it explains more than the best set does; none: -1.
+int constant_that_wins(const Examination& x, bool nothing_won) {
   const BoxedFit nothing = fit_within_calibration(x.id);
   const double loss = solve(x.id.problem, {}, x.id.dispersion).loss;
-  if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return;
-  const int candidate = effect_of_constant(x.id, nothing.held.front());
+  if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return -1;
+  const int column = nothing.held.front();
+  if (nothing_won) return column;
+  return effect_of_constant(x.id, column) < 0 && score_of_constant(x.id, column) > x.best().score ? column
+                                                                                                  : -1;
+}
+
+/// A constant further from its value than its uncertainty allows is the effect that changes the same number,
+/// or unexplained where the catalog has none.
+void judge_constant(const Examination& x, int column, Judgment& judgment) {
+  judgment = {};
+  const int candidate = effect_of_constant(x.id, column);
   if (candidate < 0) {
     judgment.verdict = Verdict::unexplained;
-    judgment.depends_on = "goes with " + calibration_name(x.id, nothing.held.front()) +
-                          ", further from its value than calibration errors";
+    judgment.depends_on =
+        "goes with " + calibration_name(x.id, column) + ", further from its value than calibration errors";
     return;
   }
   judgment.verdict = Verdict::explained;
@@ -44,8 +53,13 @@ Judgment judge(const Examination& x, const Names& names) {
                              " runs: candidates only; add runs with two payloads, both directions and turns");
     return judgment;
   }
-  if (names.named.empty() && names.unknowns.empty()) {
-    judge_constants(x, judgment);
+  const bool nothing_won = names.named.empty() && names.unknowns.empty();
+  if (const int column = constant_that_wins(x, nothing_won); column >= 0) {
+    judge_constant(x, column, judgment);
+    return judgment;
+  }
+  if (nothing_won) {
+    judgment.verdict = Verdict::no_gap;
     return judgment;
   }
   const bool sure = std::ranges::any_of(judgment.named, [&](const ActiveEffect& effect) {
