@@ -19,19 +19,19 @@ enum ExitCode : int {
   kInterrupted = 130
 };
 
-/// The disk, a permission, the memory: neither the user's input nor our mistake.
+/// A failure of the environment (disk, permission, memory), not of the input or of the program.
 class EnvironmentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A mistake in the command line that the parser cannot see.
+/// A mistake in the command line that the parser cannot detect.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the help says about a command.
+/// Help text of a command.
 struct CommandText {
   std::string name{};
   std::string says{};      ///< one line for the list of commands
@@ -39,8 +39,8 @@ struct CommandText {
 };
 
 /// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
-/// options bound to its members; `run` reads, calculates, prints results on stdout and talk on stderr, and
-/// gives the exit code; errors are thrown (program.cpp reports them).
+/// options bound to its members. `run` reads, calculates, prints results on stdout and messages on stderr,
+/// and returns the exit code. Errors are thrown; program.cpp reports them.
 class Command {
  public:
   explicit Command(CommandText text) : text_(std::move(text)) {}

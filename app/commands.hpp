@@ -16,6 +16,8 @@ namespace joulepath {
   COMMAND(merge)                    \
   COMMAND(export)                   \
   COMMAND(simulate)                 \
+  COMMAND(follow)                   \
+  COMMAND(monitor)                  \
   COMMAND(estimate)                 \
   COMMAND(diagnose)                 \
   COMMAND(experiment)               \

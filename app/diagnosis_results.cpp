@@ -1,5 +1,7 @@
 #include "app/diagnosis_results.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "app/report/diagnosis_report.hpp"
 #include "scenarios/decision_cost.hpp"
 #include "scenarios/repaired_dataset.hpp"
@@ -25,5 +27,11 @@ DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& optio
 }
 
 std::string DiagnosisResults::report() const { return report::diagnosis_report(diagnosis, json, dataset); }
+
+std::string DiagnosisResults::json_with_signals() const {
+  nlohmann::ordered_json with = nlohmann::ordered_json::parse(json);
+  with["signals"] = report::runs_json(report::run_comparisons(diagnosis, dataset));
+  return with.dump(2) + "\n";
+}
 
 }  // namespace joulepath

@@ -14,10 +14,12 @@ struct DiagnosisResults {
   std::string json{};  ///< diagnosis.json
 
   [[nodiscard]] std::string report() const;  ///< report.html
+  /// diagnosis.json with `signals`: what every run measured, and what the model says of it.
+  [[nodiscard]] std::string json_with_signals() const;
 };
 
-/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is what the
-/// dataset was read from; null: its file.
+/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is the source of
+/// the dataset; null: its file.
 [[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
                                                  const Document* document = nullptr);
 

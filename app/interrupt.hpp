@@ -15,7 +15,7 @@ class Interrupted : public std::exception {
 /// program.
 void install_interrupt_handler();
 
-/// During its lifetime the command itself checks for Ctrl-C.
+/// During its lifetime the command checks for Ctrl-C.
 class PoliteInterrupt {
  public:
   PoliteInterrupt();

@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// The running program's file: another build keeps answers of its own.
+/// Key of the running program's file: answers of another build are not used.
 const ContentKey& program_key() {
   static const ContentKey key = [] {
     std::ostringstream content;
@@ -36,10 +36,10 @@ void add(ByteWriter& writer, const RouteGraph& graph) {
 }  // namespace
 
 void add_cache_options(CommandLine& line, CacheChoice& choice) {
-  line.option(
-      "--cache", choice.folder,
-      "directory of answers kept for later runs; default: $XDG_CACHE_HOME/joulepath, 512 MiB at most");
-  line.flag("--no-cache", choice.none, "keep nothing on disk");
+  line.option("--cache", choice.folder,
+              "directory in which results about legs are cached for later runs; default: "
+              "$XDG_CACHE_HOME/joulepath, at most 512 MiB");
+  line.flag("--no-cache", choice.none, "no cache on disk");
 }
 
 std::string default_cache_folder() {

@@ -10,7 +10,7 @@ namespace joulepath {
 
 class CommandLine;
 
-/// Where a command keeps answers between runs.
+/// Where a command caches answers between runs.
 struct CacheChoice {
   std::string folder{};  ///< empty: the default
   bool none{};           ///< nothing on disk
@@ -26,7 +26,7 @@ void add_cache_options(CommandLine& line, CacheChoice& choice);
 /// Identifies a floor: the content of all maps and graphs, and the clearance.
 [[nodiscard]] ContentKey floor_key(const MissionRequest& mission, const MissionWorld& world);
 
-/// The world of missions on that floor with this robot, the program's own content included.
+/// The world of missions on that floor with this robot, including the program's content.
 [[nodiscard]] ContentKey world_key(const ContentKey& floor, const Robot& robot);
 
 }  // namespace joulepath

@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kTellingLength = 4;  ///< of a word that two names share
+constexpr std::size_t kTellingLength = 4;  ///< least length of a word shared by two names
 
 /// The name of which this one is probably a misspelling, then the names that share a word with it.
 std::vector<std::string> names_near(const std::string& name) {

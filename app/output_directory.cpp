@@ -89,7 +89,7 @@ fs::path without_trailing_slash(const std::string& directory) {
 
 }  // namespace
 
-OutputDirectory::OutputDirectory(std::string directory, std::vector<std::string> names, bool force)
+OutputDirectory::OutputDirectory(const std::string& directory, std::vector<std::string> names, bool force)
     : directory_(without_trailing_slash(directory).string()), names_(std::move(names)) {
   if (directory_.empty()) throw UsageError("--out needs a directory");
   std::error_code error;

@@ -12,7 +12,7 @@ class OutputDirectory {
  public:
   /// `names`: every file that the command may write. Throws ConfigError if one of them exists and `force` is
   /// not given; with it, commit() removes those that the new results do not have (a stale trajectory.csv).
-  OutputDirectory(std::string directory, std::vector<std::string> names, bool force);
+  OutputDirectory(const std::string& directory, std::vector<std::string> names, bool force);
 
   /// Adds one file; its name must be one of `names`.
   void write(const std::string& name, std::string content);

@@ -50,7 +50,7 @@ Waiting::Waiting(std::string what, bool quiet) : what_(std::move(what)) {
   if (quiet || isatty(STDERR_FILENO) != 1) return;
   try {
     teller_ = std::thread([this] { tell(); });
-  } catch (const std::system_error&) {  // what is waited for needs no teller
+  } catch (const std::system_error&) {  // the computation goes on without a progress line
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace joulepath {
 
-/// Progress on stderr, silent for the first second: a line with rate and time left that renews itself on
-/// a terminal, a plain line every ten seconds elsewhere. Never a part of any result.
+/// Progress on stderr, silent for the first second: a line with rate and remaining time that is updated on a
+/// terminal, a plain line every ten seconds elsewhere. It is never part of a result.
 class Progress {
  public:
   Progress(std::string what, std::size_t total, bool quiet);
@@ -33,8 +33,8 @@ class Progress {
   Clock::time_point last_{start_};
 };
 
-/// Tells on a terminal (stderr) what is waited for and for how many seconds already, from the first second
-/// on, as long as it exists; silent elsewhere.
+/// Prints on a terminal (stderr) the present computation and its seconds so far, during its lifetime and from
+/// the first second on; silent elsewhere.
 class Waiting {
  public:
   Waiting(std::string what, bool quiet);
@@ -49,7 +49,7 @@ class Waiting {
   std::mutex mutex_{};
   std::condition_variable ended_{};
   bool done_{};
-  std::thread teller_{};  ///< none off a terminal, or where the system gives no thread
+  std::thread teller_{};  ///< absent without a terminal, or where the system gives no thread
 };
 
 }  // namespace joulepath

@@ -27,4 +27,23 @@ function(joulepath_embed target out)
     DEPENDS ${files} ${JOULEPATH_EMBED_SCRIPT} VERBATIM
     COMMENT "Embedding text files into ${target}")
   target_sources(${target} PRIVATE ${out})
+  set_source_files_properties(${out} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings) # Clang counts them
+endfunction()
+
+# joulepath_modules(OUT_ENTRIES HEADER TABLE PREFIX FOLDER module...): JavaScript modules PREFIX/module.js of FOLDER for
+# joulepath_embed, and a header with a table of them (app/report/page_text.hpp).
+set(JOULEPATH_MODULES_TEMPLATE ${CMAKE_CURRENT_LIST_DIR}/modules.hpp.in)
+function(joulepath_modules out header table prefix folder)
+  set(entries "")
+  set(MODULE_TABLE ${table})
+  set(MODULE_DECLARATIONS "")
+  set(MODULE_ROWS "")
+  file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR} ${folder})
+  foreach(module IN LISTS ARGN)
+    list(APPEND entries ${prefix}_module_${module}=${folder}/${module}.js)
+    string(APPEND MODULE_DECLARATIONS "extern const std::string_view ${prefix}_module_${module};\n")
+    string(APPEND MODULE_ROWS "    {\"${prefix}/${module}.js\", \"${place}/${module}.js\", embedded::${prefix}_module_${module}},\n")
+  endforeach()
+  configure_file(${JOULEPATH_MODULES_TEMPLATE} ${PROJECT_BINARY_DIR}/generated/${header} @ONLY)
+  set(${out} ${entries} PARENT_SCOPE)
 endfunction()

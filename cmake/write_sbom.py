@@ -3,7 +3,7 @@
 """CycloneDX 1.5 list of what a Debian package of joulepath contains and needs.
 
 usage: write_sbom.py PACKAGE.deb OUTPUT.json
-Components: the program, the libraries that are compiled in (headers, dygraphs), and the shared libraries that the
+Components: the program, the libraries that are compiled in (headers), and the shared libraries that the
 package depends on, each with the version of the distribution's package. Without times, so that it repeats: docs/decisions/0240-packages-repeat.md.
 """
 import hashlib
@@ -12,8 +12,7 @@ import re
 import subprocess
 import sys
 
-COMPILED_IN = {"libeigen3-dev": "MPL-2.0", "libboost-dev": "BSL-1.0", "nlohmann-json3-dev": "MIT", "libcli11-dev": "BSD-3-Clause",
-               "libjs-dygraphs": "MIT"}
+COMPILED_IN = {"libeigen3-dev": "MPL-2.0", "libboost-dev": "BSL-1.0", "nlohmann-json3-dev": "MIT", "libcli11-dev": "BSD-3-Clause"}
 
 
 def output(*command):

@@ -80,7 +80,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   const std::vector<WhereCell> where =
       localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
   const Names names = choose_names(x);
-  const std::vector<RankedEffect> ranking = rank_effects(names.probabilities);
+  const std::vector<RankedEffect> ranking = rank_effects(names.probabilities, names.surest);
   const Validation validation = validate(x, judge(x, names));
   const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
   const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);

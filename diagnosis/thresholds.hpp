@@ -27,8 +27,7 @@ inline constexpr std::size_t kRunsForSmallEffects = 8;
 inline constexpr std::size_t kLeastSamples = 40;
 /// Of all runs together; longer logs are thinned out more. Declared: bounds memory and time.
 inline constexpr double kMostRows = 12000.0;
-/// Between rows, at most; longer logs have more rows. Derived: a delay is a difference over three rows
-/// on each side, and rows farther apart do not resolve it.
+/// Between rows, at most; longer logs have more rows. Derived: a delay spans three rows on each side.
 inline constexpr double kCoarsestPeriod_s = 0.4;
 /// Of the Gaussian that smooths every channel. Chosen.
 inline constexpr double kKernelSigma_s = 0.06;
@@ -97,8 +96,7 @@ inline constexpr double kResolution = 5e-4;
 inline constexpr double kVoltageResolution = 2e-4;
 /// Creep of a rubber tire times the mass that it carries, 1-sigma. Physical scale.
 inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
-/// Error of time stamps over the log's period, 1-sigma. Chosen (0045: development nulls have 3.4 %
-/// median).
+/// Error of time stamps over the log's period, 1-sigma. Chosen (0045: nulls have 3.4 %, median).
 inline constexpr double kStampFraction = 0.06;
 /// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
 inline constexpr double kCalibrationBox = 3.0;
@@ -121,8 +119,8 @@ inline constexpr double kEffectCost = 6.0;
 inline constexpr double kFurtherEffectCost = 14.0;
 /// Against an unknown term: the catalog holds what usually happens. Chosen.
 inline constexpr double kUnknownCost = 16.0;
-/// Sum of squares of a law beside unknown terms over what its set explains. Chosen: parts that overlap, not ones
-/// that cancel.
+/// Sum of squares of a law beside unknown terms over what its set explains. Chosen: parts that overlap, not
+/// ones that cancel.
 inline constexpr double kLargestPart = 2.0;
 /// Effects of a set. Chosen.
 inline constexpr int kMostEffects = 4;
@@ -219,12 +217,8 @@ inline constexpr double kToleratedWorsening_percent = 0.05;
 inline constexpr double kFloorsLeft = 2.0;
 /// A smaller held-out gap is not examined further. Chosen (0042).
 inline constexpr double kMaterialGap_percent = 2.0;
-/// Both of these with fewer than kFewHeldOut runs. Chosen.
+/// On both where nothing is named, and from fewer than kFewHeldOut runs: their scatter is known less. Chosen.
 inline constexpr double kCautionFactor = 2.0;
-/// kFloorsLeft where nothing is named: few rough runs' scatter is not well known. Chosen.
-inline constexpr double kFloorsUnnamed = 4.0;
-/// kMaterialGap_percent where nothing is named. Chosen.
-inline constexpr double kGapUnnamed_percent = 4.0;
 /// The noise floor is at most so many times the scatter between runs. Chosen (0042).
 inline constexpr double kScatterFactor = 2.0;
 /// Noise floors by which another day's scatter moves what is left. Chosen (0045).

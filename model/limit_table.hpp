@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// A robot in motion, as the rows of the table of limits see it.
+/// The state of a moving robot, as input of the table of limits.
 struct LimitState {
   using Motor = joulepath::Motor;
 

@@ -20,36 +20,49 @@ struct WheelState {
   Real power_W{};  ///< V i at the driver's output, negative where the drive returns power
 };
 
-/// |x|, exact for numbers; for automatic differentiation rounded over `width` about 0, which keeps the
-/// derivative continuous: sqrt(x^2 + width^2).
+/// How kinks of loads are rounded for automatic differentiation: |x| becomes sqrt(x^2 + width^2), in Nm or A.
+/// A solver may begin with a large width and narrow it. Its second derivative then takes the slope of |x|
+/// from the width before:  (1 - x^2/(size size_before))/size.  It is exact where both widths are equal.
+/// Otherwise a Newton step follows a load that stays within its kink while the kink becomes narrower. [T.
+/// Chan, G. Golub, P. Mulet: A nonlinear primal-dual method for total variation-based image restoration, SIAM
+/// J. Sci. Comput. 20 (1999)]
+struct KinkRounding {
+  double width{0.01};
+  double width_before{0.01};
+};
+
+/// |x|: exact for numbers, rounded for automatic differentiation.
 template <class Real>
-Real magnitude(const Real& x, double width) {
+Real magnitude(const Real& x, const KinkRounding& rounding) {
   if constexpr (std::is_same_v<Real, double>) {
     return std::abs(x);
   } else {
-    using std::sqrt;
-    return sqrt(x * x + width * width);
+    const double size = std::hypot(x.value, rounding.width);
+    const double before = std::hypot(x.value, rounding.width_before);
+    return x.through(size, x.value / size, (1 - x.value * x.value / (size * before)) / size);
   }
 }
 
-/// The sign of x, for automatic differentiation rounded like magnitude().
+/// The sign of x: exact for numbers, for automatic differentiation x/size with its exact derivatives.
 template <class Real>
-Real direction_of(const Real& x, double width) {
+Real direction_of(const Real& x, const KinkRounding& rounding) {
   if constexpr (std::is_same_v<Real, double>) {
     return sign_of(x);
   } else {
-    return x / magnitude(x, width);
+    const double size = std::hypot(x.value, rounding.width), square = rounding.width * rounding.width;
+    const double slope = square / (size * size * size);
+    return x.through(x.value / size, slope, -3 * x.value * slope / (size * size));
   }
 }
 
 /// Motor torque that leaves `load` after a gear that loses a fraction of what it transmits:
 ///   x = load + loss |x| direction  =  (load + loss |load| direction)/(1 - loss^2)
 template <class Real>
-Real torque_before_gear_Nm(const Real& load_Nm, double loss_fraction, double direction) {
-  constexpr double kRounding_Nm = 0.01;
+Real torque_before_gear_Nm(const Real& load_Nm, double loss_fraction, double direction,
+                           const KinkRounding& rounding = {}) {
   const double loss = loss_fraction * direction;
   if (loss == 0.0) return load_Nm;
-  return (load_Nm + loss * magnitude(load_Nm, kRounding_Nm)) / (1.0 - loss * loss);
+  return (load_Nm + loss * magnitude(load_Nm, rounding)) / (1.0 - loss * loss);
 }
 
 /// Sum of the body loads of all effects.
@@ -100,8 +113,8 @@ Real shaft_friction_Nm(const Plant& plant, const MassProperties& mass, Side side
 ///
 /// With creep at the contact, r q' exceeds the contact point's speed by f/stiffness.
 template <class Real>
-Sided<WheelState<Real>> operating_point(const Plant& plant, const BodyMotion<Real>& motion,
-                                        const Site& site) {
+Sided<WheelState<Real>> operating_point(const Plant& plant, const BodyMotion<Real>& motion, const Site& site,
+                                        const KinkRounding& rounding = {}) {
   const Robot& robot = plant.robot;
   const MassProperties mass = mass_properties(robot, plant.payload_kg(site.payload_kg));
   const BodyLoad<Real> load = effect_load(plant, mass, motion.speed_m_s, motion.yaw_rate_rad_s, site);
@@ -125,13 +138,15 @@ Sided<WheelState<Real>> operating_point(const Plant& plant, const BodyMotion<Rea
     const Real load_Nm = radius_m * force_N[side] +
                          robot.inertia.wheel_axle_inertia_kg_m2 * acceleration[side] +
                          shaft_friction_Nm(plant, mass, side, wheel.speed_rad_s, site);
-    wheel.torque_Nm = torque_before_gear_Nm(load_Nm, plant.torque_loss_fraction, direction);
+    wheel.torque_Nm = torque_before_gear_Nm(load_Nm, plant.torque_loss_fraction, direction, rounding);
     wheel.current_A = motor_current_A(motor, wheel.torque_Nm);
     wheel.voltage_V = resistance_factor * motor.resistance_ohm * wheel.current_A +
                       motor.volts_per_speed_V_s_rad() * wheel.speed_rad_s;
-    if (plant.driver_voltage_drop_V != 0.0)
-      wheel.voltage_V += plant.driver_voltage_drop_V * direction_of(wheel.current_A, 0.01);
-    wheel.power_W = wheel.voltage_V * wheel.current_A;
+    const double drop_V = plant.driver_voltage_drop_V;
+    if constexpr (!std::is_same_v<Real, double>)
+      wheel.power_W = wheel.voltage_V * wheel.current_A + drop_V * magnitude(wheel.current_A, rounding);
+    if (drop_V != 0.0) wheel.voltage_V += drop_V * direction_of(wheel.current_A, rounding);
+    if constexpr (std::is_same_v<Real, double>) wheel.power_W = wheel.voltage_V * wheel.current_A;
   }
   return wheels;
 }

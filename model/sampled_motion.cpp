@@ -38,6 +38,10 @@ SampledState sampled_state(const Trajectory& trajectory, double time_s) {
           .curvature_per_m = between(trajectory.curvature_per_m)};
 }
 
+Pose end_pose(const Trajectory& trajectory) {
+  return sampled_state(trajectory, trajectory.time_s.back()).pose;
+}
+
 bool clear_standing(const Geometry& geometry, const BodyMotion<double>& motion, double standing_rad_s,
                     Site& site) {
   const Sided<double> wheels = wheel_speeds_rad_s(geometry, motion.speed_m_s, motion.yaw_rate_rad_s);

@@ -16,6 +16,9 @@ struct SampledState {
 };
 [[nodiscard]] SampledState sampled_state(const Trajectory& trajectory, double time_s);
 
+/// Pose at the last sample of a trajectory that has samples.
+[[nodiscard]] Pose end_pose(const Trajectory& trajectory);
+
 /// Start of a sampled motion, and values that its channels do not contain.
 struct SampledStart {
   double time_of_day_s{};       ///< at the first sample

@@ -26,7 +26,7 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-/// One note for each kind and channel, for all runs together.
+/// One note for each kind and channel, over all runs.
 std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
   std::vector<std::string> notes;
   std::vector<std::pair<const LogArtifact*, std::size_t>> groups;
@@ -145,7 +145,7 @@ FileSummary summary_of_bag(const std::string& file) {
     summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
                             topic.channel.type + (topic.readable ? "" : ", cannot be read"));
   }
-  if (survey.damage.truncated) summary.notes.push_back("the bag ends in the middle");
+  if (survey.damage.truncated) summary.notes.push_back("the bag is truncated");
   if (survey.damage.broken_chunks > 0)
     summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
   char duration[32];

@@ -8,17 +8,17 @@
 
 namespace joulepath {
 
-/// What a file holds, in a few words.
+/// Summary of a file's content.
 struct FileSummary {
   std::string kind{};
   std::string text{};
   std::vector<std::string> notes{};
   std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
-  std::string proposal{};                ///< a file to begin with: the dataset of a bag
+  std::string proposal{};                ///< a proposed file: the dataset of a bag
 };
 
-/// Reads a file of any kind, with the files that it names, to see whether it is right. The kind is told by
-/// `kind`, the `schema:` line, the file's extension or its keys. Throws ConfigError.
+/// Reads a file of any kind, with the files that it names, to check it. `kind`, the `schema:` line, the
+/// file's extension or its keys determine the kind. Throws ConfigError.
 [[nodiscard]] FileSummary read_any_file(const std::string& file, const std::string& kind = {},
                                         const ReadOptions& options = {});
 

@@ -10,7 +10,7 @@ namespace {
 
 using Field = std::optional<double> ControllerFile::*;
 
-/// A parameter of one number. Its sign does not count: decelerations are written as negative numbers.
+/// A scalar parameter. Its sign is ignored, because decelerations are written as negative numbers.
 struct Parameter {
   const char* key;
   Field field;
@@ -71,7 +71,7 @@ class ControllerReader {
  private:
   void take_least(Field field, const Node& value) {
     const double size = std::abs(value.number());
-    if (!(size > 0)) return;  // 0 means no limit of its own
+    if (!(size > 0)) return;  // 0 means no limit
     std::optional<double>& known = settings_.*field;
     known = std::min(known.value_or(size), size);
     settings_.read.push_back(value.path());

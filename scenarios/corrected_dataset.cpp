@@ -1,5 +1,7 @@
 #include "scenarios/corrected_dataset.hpp"
 
+#include <algorithm>
+
 #include "model/effects/catalog.hpp"
 #include "scenarios/dataset_text.hpp"
 #include "scenarios/document.hpp"
@@ -9,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// What the instruments did to a current and its time stamps.
+/// Distortion of a current and of its time stamps by the instruments.
 struct Distortion {
   double gain{1.0};
   double offset_A{};
@@ -30,7 +32,8 @@ Distortion distortion_of(const std::vector<EffectSetting>& instruments, Side sid
   return distortion;
 }
 
-/// A column's mapping with the distortion undone: value = ((scale x + offset) - offset_A) / gain, read later.
+/// A column's mapping with the distortion removed: value = ((scale x + offset) - offset_A) / gain, read
+/// later.
 ColumnSource undone(ColumnSource source, const Distortion& distortion, bool is_current) {
   if (is_current) {
     source.scale /= distortion.gain;
@@ -42,11 +45,8 @@ ColumnSource undone(ColumnSource source, const Distortion& distortion, bool is_c
 
 bool is_logged(const Dataset& dataset, const std::string& column) {
   const LogColumn* known = find_log_column(column);
-  for (const Run& run : dataset.runs) {
-    Trajectory log = run.log;
-    if (known && !known->channel(log).empty()) return true;
-  }
-  return false;
+  return known != nullptr &&
+         std::ranges::any_of(dataset.runs, [&](const Run& run) { return !known->of(run.log).empty(); });
 }
 
 ColumnSources corrected_sources(const Dataset& dataset, ColumnSources sources,

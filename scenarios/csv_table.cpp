@@ -146,6 +146,12 @@ class CsvParser {
 
 }  // namespace
 
+std::size_t CsvTable::rows() const {
+  std::size_t count = line_of_row.size();
+  for (const std::vector<double>& column : columns) count = std::max(count, column.size());
+  return count;
+}
+
 const std::vector<double>* CsvTable::find(std::string_view name) const {
   for (std::size_t i = 0; i < header.size(); ++i)
     if (header[i] == name) return &columns[i];

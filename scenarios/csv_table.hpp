@@ -14,10 +14,12 @@ struct CsvTable {
   std::string file{};
   std::vector<std::string> header{};           ///< all names, in the file's order
   std::vector<std::vector<double>> columns{};  ///< one per name; empty if it was not requested
-  std::vector<int> line_of_row{};
+  std::vector<int> line_of_row{};              ///< empty for a table that is no file of lines
 
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
-  [[nodiscard]] std::size_t rows() const { return line_of_row.size(); }
+  [[nodiscard]] std::size_t rows() const;
+  /// The line of a row, 0 without lines.
+  [[nodiscard]] int line(std::size_t row) const { return line_of_row.empty() ? 0 : line_of_row[row]; }
 };
 
 /// Reads a CSV file: a header row, then one row per sample; comma, semicolon or tab (as in the header),

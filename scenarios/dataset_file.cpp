@@ -133,7 +133,7 @@ class RunReader {
     return found == memory_.logs->end() ? nullptr : &found->second;
   }
 
-  /// The same log twice would count twice as evidence, and be held out from itself.
+  /// A log that is listed twice would count twice as evidence, and could be its own held-out run.
   void refuse_repeated(const std::string& name, const Node& named_by) const {
     for (std::size_t r = 0; r < dataset_.runs.size(); ++r)
       if (dataset_.runs[r].name == name)
@@ -141,7 +141,7 @@ class RunReader {
                             "a log that no other run has", "remove one of them");
   }
 
-  /// Two names of one file, by a link or by a copy.
+  /// Detects two names of one file (a link or a copy).
   void refuse_same_samples(const Run& run, const Node& named_by) const {
     for (std::size_t r = 0; r < dataset_.runs.size(); ++r) {
       const Trajectory &one = dataset_.runs[r].log, &other = run.log;
@@ -154,7 +154,8 @@ class RunReader {
     }
   }
 
-  /// Another simulator writes the format's own names (then `columns:` is not for it), or the log's.
+  /// Reads another simulator's log, with the format's own names (`columns:` does not apply then) or with the
+  /// names of the run's log.
   void read_predicted(const Node& node, const ColumnSources& sources, Run& run) {
     const std::string file = resolve_file(node, options_);
     const auto header = read_csv(

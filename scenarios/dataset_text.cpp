@@ -1,8 +1,8 @@
 #include "scenarios/dataset_text.hpp"
 
-#include <charconv>
 #include <filesystem>
 
+#include "model/number_text.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/quoted.hpp"
@@ -33,7 +33,7 @@ std::string flow_text(const Value& value) {
   return text;
 }
 
-/// Names of files, relative to the dataset's folder, become relative to another one.
+/// Converts file names relative to the dataset's folder to names relative to another folder.
 class Relocation {
  public:
   Relocation(const std::string& dataset_file, const std::string& directory)
@@ -51,12 +51,6 @@ class Relocation {
   fs::path from_, to_;
 };
 
-/// Shortest text that reads back as the same number: a scale is not to be rounded.
-std::string exact_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 std::string source_text(const std::string& column, const ColumnSource& source) {
   std::string text;
   const auto add = [&](const std::string& key, const std::string& value) {
@@ -67,12 +61,12 @@ std::string source_text(const std::string& column, const ColumnSource& source) {
   if (source.from.size() > 1) add("from", "[" + names + "]");
   if (source.from.size() == 1 && source.from.front() != column) add("from", names);
   if (source.is_absent) add("absent", "true");
-  if (source.scale != 1) add("scale", exact_text(source.scale));
-  if (source.offset != 0) add("offset", exact_text(source.offset));
+  if (source.scale != 1) add("scale", number_text(source.scale));
+  if (source.offset != 0) add("offset", number_text(source.offset));
   if (source.is_unsigned) add("unsigned", "true");
-  if (source.wraps_at) add("wraps_at", exact_text(*source.wraps_at));
+  if (source.wraps_at) add("wraps_at", number_text(*source.wraps_at));
   if (source.derivative) add("derivative", "true");
-  if (source.delay_s != 0) add("delay_s", exact_text(source.delay_s));
+  if (source.delay_s != 0) add("delay_s", number_text(source.delay_s));
   return "{" + text + "}";
 }
 

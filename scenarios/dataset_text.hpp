@@ -10,7 +10,7 @@
 
 namespace joulepath {
 
-/// What differs from a dataset's file when it is written again.
+/// Changes to a dataset's file that is written again.
 struct DatasetEdit {
   std::string comment{};  ///< after the schema line
   ColumnSources columns{};
@@ -24,8 +24,8 @@ struct DatasetEdit {
 /// A `columns:` map in YAML's flow style, with exact numbers.
 [[nodiscard]] std::string columns_text(const ColumnSources& sources);
 
-/// The dataset's file with an edit, names of files as seen from `directory`, the one that it will be written
-/// to. Throws ConfigError where the file can no longer be read.
+/// The dataset's file after an edit, with file names relative to `directory`, the target folder. Throws
+/// ConfigError where the file can no longer be read.
 [[nodiscard]] std::string dataset_text(const Dataset& dataset, const DatasetEdit& edit,
                                        const std::string& directory);
 

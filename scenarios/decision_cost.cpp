@@ -20,8 +20,8 @@ Robot with_limits(Robot robot) {
   if (!robot.limits)
     robot.limits = Limits{
         .speed_m_s = 1.0, .acceleration_m_s2 = 0.5, .deceleration_m_s2 = 0.5, .yaw_acceleration_rad_s2 = 1.0};
-  robot.battery.capacity_Wh = kNoLimit;  // the comparison is about energy, not range
-  robot.uncertainty.clear();             // and not about its uncertainty
+  robot.battery.capacity_Wh = kNoLimit;  // compare energy, not range
+  robot.uncertainty.clear();             // uncertainty does not enter the comparison
   return robot;
 }
 
@@ -55,7 +55,8 @@ DecisionCost decision_cost(const Robot& nominal, const Robot& corrected, const R
   const std::vector<MissionRequest> missions{
       mission_along(kStraight, 0.0), mission_along(kStraight, half_load_kg), mission_along(kQuarterTurn, 0.0),
       mission_along(kQuarterTurn, half_load_kg)};
-  // Even entries plan with the nominal robot, odd ones with the corrected; joules on the driven plant.
+  // Even entries: plans of the nominal robot; odd entries: of the corrected robot. Joules on the driven
+  // plant.
   std::vector<double> energy_J(2 * missions.size());
   parallel_for(energy_J.size(), [&](std::size_t k) {
     const Robot& robot = k % 2 == 0 ? nominal : corrected;

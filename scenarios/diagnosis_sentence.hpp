@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The answer of a diagnosis in one line: verdict, causes with their sizes, and what becomes of the gap.
+/// The result of a diagnosis in one sentence: verdict, causes with their sizes, and the change of the gap.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);
 
 }  // namespace joulepath

@@ -18,7 +18,7 @@ struct Value {
 
   Kind kind{Kind::null};
   std::string text{};  ///< of a scalar
-  bool quoted{};       ///< of a scalar: it is a string whatever it looks like
+  bool quoted{};       ///< of a scalar: it is a string in any case
   int line{};
   int column{};
   std::vector<Value> items;
@@ -37,8 +37,8 @@ enum class PathStyle { dotted, pointer };
 [[nodiscard]] std::string path_of_key(const std::string& path, std::string_view key, PathStyle style);
 [[nodiscard]] std::string path_of_item(const std::string& path, std::size_t index, PathStyle style);
 
-/// A value seen from a reader: typed access whose errors name file, line, column and path.
-/// It points into a Document, which must outlive it.
+/// A value with typed access. Its errors name file, line, column and path. It refers to a Document, which
+/// must outlive it.
 class Node {
  public:
   Node(const Value& value, std::string_view file, std::string path, PathStyle style)
@@ -79,7 +79,7 @@ class Node {
   PathStyle style_;
 };
 
-/// The place where a file is named, for errors about its absence or its content; empty: on the command line.
+/// The place where a file is named, for errors about the file; empty: on the command line.
 struct NamedBy {
   SourceMark mark{};
   std::string key{};  ///< dotted
@@ -88,16 +88,16 @@ struct NamedBy {
   NamedBy(SourceMark mark_, std::string key_) : mark(std::move(mark_)), key(std::move(key_)) {}
   explicit NamedBy(const Node& node) : mark(node.mark()), key(node.path()) {}
 
-  /// An error about `file`: at the place that names it, or at the file itself.
+  /// An error about `file`, reported at the place that names it, or at the file itself.
   [[nodiscard]] ConfigError error(const std::string& file, std::string found, std::string accepted,
                                   std::string hint = {}) const;
 };
 
 /// Options for files that name other files.
 struct ReadOptions {
-  bool untrusted{};           ///< names in the input may not be absolute or leave the input's folder
-  bool cut_long_logs{};       ///< long logs become several runs, cut at standstill
-  bool accept_implausible{};  ///< logs with numbers that no robot has are read: the caller reports them
+  bool untrusted{};           ///< file names in the input must be relative and stay in the input's folder
+  bool cut_long_logs{};       ///< long logs are cut at standstill into several runs
+  bool accept_implausible{};  ///< accept logs with numbers that no robot has; the caller reports them
 };
 
 /// A text that replaces a value of a document. Path: keys and items as in `legs[2].payload_kg`; `[*]` means
@@ -138,7 +138,7 @@ class Document {
 /// A finite number in decimal notation as YAML 1.2 defines it; empty for any other text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The candidate nearest to a mistyped word, empty when none is near.
+/// The candidate nearest to a mistyped word; empty when none is near.
 [[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace joulepath

@@ -10,7 +10,7 @@ namespace joulepath {
 /// `effects:` of a robot file: a list of one-key maps, `- rolling_resistance: {coefficient: 0.015}`.
 [[nodiscard]] Schema effect_list_schema();
 
-/// Reads a checked list; the catalog judges every entry. Throws ConfigError at the entry that it refuses.
+/// Reads a checked list; the catalog validates every entry. Throws ConfigError at the invalid entry.
 [[nodiscard]] std::vector<EffectSetting> read_effect_list(const Node& node);
 
 }  // namespace joulepath

@@ -21,7 +21,7 @@ const std::vector<FileKind>& file_kinds() {
       {"plan", plan_schema, "result of plan: plan.json"},
       {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
       {"sweep", sweep_schema, "result of sweep: sweep.json"},
-      {"shard", shard_schema, "shard.json: what merge must know of one part of a batch or a sweep"},
+      {"shard", shard_schema, "shard.json: data of one part of a batch or a sweep for merge"},
       {"controller", controller_schema, "result of export --to controller"},
       {"edges", edges_schema, "result of export --to edges as JSON"},
       {"loss", loss_schema, "energy lost by the settings of an export"},

@@ -5,14 +5,14 @@ namespace joulepath {
 Schema column_sources_schema() {
   const Schema source = map({
       optional("from", any_of({text(), list(text(), 1)}),
-               "the log's own name; of a list the first that the file has"),
+               "name in the log; of a list the first name that the file has"),
       optional("scale", number(), "value = scale * x + offset"),
       optional("offset", number()),
-      optional("unsigned", boolean(), "the sign is taken from the wheel's motion"),
-      optional("wraps_at", number(kPositive), "a counter that starts again at 0 there, in the log's unit"),
-      optional("derivative", boolean(), "the change per second of what is logged (encoder ticks)"),
-      optional("delay_s", number({-10, 10}), "the channel shows what was so long ago"),
-      optional("absent", boolean(), "the column is not read: a channel that is dead"),
+      optional("unsigned", boolean(), "the sign comes from the wheel's motion"),
+      optional("wraps_at", number(kPositive), "value at which a counter restarts at 0, in the log's unit"),
+      optional("derivative", boolean(), "use the change per second of the logged value (encoder ticks)"),
+      optional("delay_s", number({-10, 10}), "delay of the channel's readings"),
+      optional("absent", boolean(), "ignore the column (a dead channel)"),
   });
   std::vector<Schema::Key> keys;
   for (const auto& column : log_columns())

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Whether a column of a file is a channel of its run.
+/// True if a column of a file is a channel of its run.
 bool wanted(const std::string& header, const ColumnSources& sources) {
   const auto names = [&](const std::string& column) {
     const auto in_file = names_in_file(column, sources);
@@ -37,7 +37,9 @@ class LogFileReader {
       if (column.measured && column.name != "time_s") read_channel(column.name);
     for (const char* name_of : kOrientationColumns) read_channel(name_of);
     if (used_orientation()) heading_from_orientation();
+    for (const char* name_of : kOrientationColumns) file_.channels.erase(name_of);
     file_.table.columns = {};  // their values are in the channels
+    file_.table.line_of_row = std::vector<int>();
   }
 
   LogFile take() { return std::move(file_); }
@@ -50,7 +52,8 @@ class LogFileReader {
     return nullptr;
   }
 
-  /// How many channels read each column: the last one takes it, so that a long log is not in memory twice.
+  /// Counts the channels that read each column, so that the last one can move it; a long log is then not in
+  /// memory twice.
   void count_uses() {
     for (const auto& column : log_columns())
       if (column.measured) ++uses_[raw(column.name)];
@@ -68,7 +71,7 @@ class LogFileReader {
 
   [[noreturn]] void fail_time(std::size_t row, std::string found, std::string accepted,
                               std::string hint = {}) const {
-    throw ConfigError({{file_.table.file, file_.table.line_of_row[row], 1},
+    throw ConfigError({{file_.table.file, file_.table.line(row), 1},
                        names_in_file("time_s", sources_).front(),
                        std::move(found),
                        std::move(accepted),
@@ -94,7 +97,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(file_.times, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, "time_s", "the clock starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, "time_s", "the clock restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& time_s : file_.times) time_s = mapping.scale * time_s + mapping.offset;
     for (std::size_t i = 1; i < file_.times.size(); ++i)
       if (file_.times[i] <= file_.times[i - 1]) fail_backward(i, mapping);
@@ -107,7 +110,7 @@ class LogFileReader {
                          file_.times[i - 1] - file_.times[i] > 0.5 * (file_.times[i - 1] - file_.times[0]) &&
                          file_.times[i] >= 0.0 && i > 2;
     fail_time(i, found, "times that increase strictly",
-              wrapped ? "if the clock starts again at 0, set columns: time_s: {wraps_at: ...}" : "");
+              wrapped ? "if the clock restarts at 0, set columns: time_s: {wraps_at: ...}" : "");
   }
 
   void read_channel(const std::string& name) {
@@ -124,7 +127,7 @@ class LogFileReader {
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
         file_.artifacts.push_back(
-            {"wrapped", run_, name, "the counter starts again at 0 and was unwrapped", wraps, 0.0});
+            {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
     for (double& value : channel) value = mapping.scale * value + mapping.offset;
     if (mapping.derivative) channel = change_per_second(file_.times, channel);
     if (mapping.delay_s != 0.0) {
@@ -140,25 +143,25 @@ class LogFileReader {
            file_.channels.contains("orientation_z");
   }
 
-  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one-argument one.
+  /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one with one argument.
   void heading_from_orientation() {
-    const auto part = [&](const char* name) {
-      return file_.channels.contains(name) ? file_.channels[name]
-                                           : std::vector<double>(file_.times.size(), 0.0);
+    const auto channel = [&](const char* name) {
+      const auto found = file_.channels.find(name);
+      return found == file_.channels.end() ? nullptr : &found->second;
     };
-    const auto w = part("orientation_w"), x = part("orientation_x"), y = part("orientation_y"),
-               z = part("orientation_z");
+    const auto *w_of = channel("orientation_w"), *x_of = channel("orientation_x"),
+               *y_of = channel("orientation_y"), *z_of = channel("orientation_z");
     std::vector<double> heading_rad(file_.times.size());
     for (std::size_t i = 0; i < file_.times.size(); ++i) {
-      const double norm = w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      const double w = (*w_of)[i], x = x_of ? (*x_of)[i] : 0.0, y = y_of ? (*y_of)[i] : 0.0, z = (*z_of)[i];
+      const double norm = w * w + x * x + y * y + z * z;
       if (norm < 0.25 || norm > 4.0)
-        throw ConfigError({{file_.table.file, file_.table.line_of_row[i], 1},
+        throw ConfigError({{file_.table.file, file_.table.line(i), 1},
                            "orientation_w",
                            "a quaternion of length " + std::to_string(std::sqrt(norm)),
                            "a unit quaternion",
                            ""});
-      heading_rad[i] = std::atan2(2.0 * (w[i] * z[i] + x[i] * y[i]),
-                                  w[i] * w[i] + x[i] * x[i] - y[i] * y[i] - z[i] * z[i]);
+      heading_rad[i] = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
     }
     unwrap_angle(heading_rad);
     file_.channels["heading_rad"] = std::move(heading_rad);

@@ -17,7 +17,7 @@ struct LogFileName {
   const CsvTable* table{};  ///< its content, if it is already in memory
 };
 
-/// One file of a run: its columns in the format's names and units, on its own times.
+/// One file of a run: its columns in the format's names and units, at its own times.
 struct LogFile {
   CsvTable table{};  ///< as read, without its columns
   std::vector<double> times{};

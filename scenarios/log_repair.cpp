@@ -1,8 +1,13 @@
 #include "scenarios/log_repair.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include "scenarios/log_columns.hpp"
 // Design: docs/decisions/0011-odd-logs-are-data.md
@@ -12,11 +17,23 @@ namespace {
 constexpr double kGapFactor = 4.0;        // a step longer than this many usual ones is a gap
 constexpr std::size_t kHeldSamples = 10;  // equal values in a row that are reported
 
+/// The median step of ascending times. The bits of positive numbers are in the order of the numbers: 16 of
+/// them at a time are selected by counts, to spare a copy of a long log.
 double median_step(const std::vector<double>& times) {
-  std::vector<double> steps(times.size() - 1);
-  for (std::size_t i = 0; i + 1 < times.size(); ++i) steps[i] = times[i + 1] - times[i];
-  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
+  constexpr std::size_t kDigits = 1u << 16;
+  std::size_t rank = (times.size() - 1) / 2;
+  std::uint64_t found = 0;
+  for (int shift = 48; shift >= 0; shift -= 16) {
+    std::vector<std::size_t> count(kDigits);
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+      const auto digits = std::bit_cast<std::uint64_t>(times[i + 1] - times[i]) >> shift;
+      if (digits / kDigits == found) ++count[digits % kDigits];
+    }
+    std::uint64_t digit = 0;
+    while (rank >= count[digit]) rank -= count[digit++];
+    found = found * kDigits + digit;
+  }
+  return std::bit_cast<double>(found);
 }
 
 std::string seconds(double value) {
@@ -41,10 +58,21 @@ void find_gaps(const Trajectory& log, const std::string& run, std::vector<LogArt
   artifacts.push_back(gap);
 }
 
-/// Number of different values of a channel.
-std::size_t distinct(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+/// Number of different values of a channel; a part of them at a time, to spare a copy of a long log.
+std::size_t distinct(const std::vector<double>& values) {
+  constexpr std::uint64_t kParts = 16, kMixing = 0x9E3779B97F4A7C15;
+  const auto part_of = [](double value) {  // 0 and -0 are one value
+    return (std::bit_cast<std::uint64_t>(value + 0.0) * kMixing >> 32) % kParts;
+  };
+  std::size_t count = 0;
+  std::vector<double> part;
+  for (std::uint64_t k = 0; k < kParts; ++k) {
+    part.clear();
+    std::ranges::copy_if(values, std::back_inserter(part), [&](double value) { return part_of(value) == k; });
+    std::ranges::sort(part);
+    count += static_cast<std::size_t>(std::unique(part.begin(), part.end()) - part.begin());
+  }
+  return count;
 }
 
 /// A sensor with coarse steps repeats values regularly; one with fine steps rarely does.
@@ -58,14 +86,36 @@ struct Hold {
   std::size_t length{};
 };
 
-std::vector<Hold> holds_of(const std::vector<double>& values) {
-  std::vector<Hold> holds;
-  std::size_t start = 0;
+/// The holds of a channel. A log of a day has millions of them: the short ones are only counted.
+struct Holds {
+  std::size_t count{};
+  std::map<std::size_t, std::size_t> count_of_length{};
+  std::vector<Hold> of_reported_length{};
+
+  [[nodiscard]] std::size_t median_length() const {
+    std::size_t below = 0;
+    for (const auto& [length, number] : count_of_length)
+      if ((below += number) > count / 2) return length;
+    return 0;
+  }
+};
+
+Holds holds_of(const std::vector<double>& values) {
+  Holds holds;
+  std::size_t start = 0, singles = 0;
   for (std::size_t i = 1; i <= values.size(); ++i) {
     if (i < values.size() && values[i] == values[start]) continue;
-    if (values[start] != 0.0) holds.push_back({start, i - start});
+    const Hold hold{start, i - start};
     start = i;
+    if (values[hold.start] == 0.0) continue;
+    ++holds.count;
+    if (hold.length == 1)
+      ++singles;
+    else
+      ++holds.count_of_length[hold.length];
+    if (hold.length >= kHeldSamples) holds.of_reported_length.push_back(hold);
   }
+  if (singles > 0) holds.count_of_length[1] = singles;
   return holds;
 }
 
@@ -78,37 +128,34 @@ bool changes_during(const std::vector<double>& witness, const Hold& hold) {
 }
 
 /// A value that stays exactly the same while a wheel's speed changes.
-void find_held(const Trajectory& log, const LogArtifact& of, const std::vector<Hold>& holds,
-               const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
+std::optional<LogArtifact> held_values(const Trajectory& log, const LogArtifact& of, const Holds& holds,
+                                       const std::vector<double>& witness) {
   LogArtifact held = of;
   std::size_t longest = 0;
-  for (const Hold& hold : holds) {
-    if (hold.length < kHeldSamples || !changes_during(witness, hold)) continue;
+  for (const Hold& hold : holds.of_reported_length) {
+    if (!changes_during(witness, hold)) continue;
     if (held.count == 0) held.first_time_s = log.time_s[hold.start];
     held.count += hold.length;
     longest = std::max(longest, hold.length);
   }
-  if (held.count == 0) return;
+  if (held.count == 0) return {};
   held.kind = "held_value";
   held.description =
       "the same value " + std::to_string(longest) +
       " samples in a row while the robot's speed changed: the sensor or the logger may have stopped";
-  artifacts.push_back(held);
+  return held;
 }
 
 /// A channel that repeats every value in several rows: its sensor is slower than the log.
-void find_slow(const LogArtifact& of, std::vector<Hold> holds, std::vector<LogArtifact>& artifacts) {
-  if (holds.size() < 30) return;
-  const auto middle = holds.begin() + static_cast<long>(holds.size() / 2);
-  std::nth_element(holds.begin(), middle, holds.end(),
-                   [](const Hold& a, const Hold& b) { return a.length < b.length; });
-  if (middle->length < 2) return;
+std::optional<LogArtifact> slow_channel(const LogArtifact& of, const Holds& holds) {
+  const std::size_t rows = holds.median_length();
+  if (holds.count < 30 || rows < 2) return {};
   LogArtifact slow = of;
   slow.kind = "slow_channel";
-  slow.count = holds.size();
-  slow.description = "a new value only at every " + std::to_string(middle->length) +
-                     ". row: the channel is slower than the log";
-  artifacts.push_back(slow);
+  slow.count = holds.count;
+  slow.description =
+      "a new value only at every " + std::to_string(rows) + ". row: the channel is slower than the log";
+  return slow;
 }
 
 /// The position as one channel: 0 while the robot stands, else a new number for every new place.
@@ -131,10 +178,11 @@ std::vector<double> places(const Trajectory& log) {
 
 void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<double>& values,
                 const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
-  const std::vector<Hold> holds = holds_of(values);
-  if (!has_fine_steps(values, holds.size())) return;
-  find_held(log, of, holds, witness, artifacts);
-  find_slow(of, holds, artifacts);
+  const Holds holds = holds_of(values);
+  const auto held = held_values(log, of, holds, witness), slow = slow_channel(of, holds);
+  if ((!held && !slow) || !has_fine_steps(values, holds.count)) return;
+  if (held) artifacts.push_back(*held);
+  if (slow) artifacts.push_back(*slow);
 }
 
 /// Heading, temperature, payload and commands may stay constant for long; other measured channels may not.

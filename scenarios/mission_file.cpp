@@ -21,7 +21,7 @@ std::map<std::string, Station> read_stations(const Node& node) {
   return stations;
 }
 
-/// A station's name, checked against those that the mission knows.
+/// A station's name, which must be one of the mission's stations.
 std::string station_named(const Node& node, const std::map<std::string, Station>& stations) {
   const std::string& name = node.text();
   if (stations.contains(name)) return name;
@@ -159,11 +159,11 @@ std::map<std::string, double> figures_by_name(const Node& root, const char* key)
   return figures;
 }
 
-/// What must hold between the parts of a mission.
+/// Checks that relate several parts of a mission.
 void check_consistency(const Node& root, const MissionRequest& mission) {
   const int ways = int(root.has("legs")) + int(root.has("visit")) + int(root.has("order"));
   const bool empty = mission.legs.empty() && mission.visit.empty() && mission.order_file.empty();
-  if (empty) root.fail_found("a mission with nothing to do", "legs, visit or order with at least one entry");
+  if (empty) root.fail_found("a mission without stops", "legs, visit or order with at least one entry");
   if (ways > 1 && !(root.has("legs") && mission.legs.empty()) &&
       !(root.has("visit") && mission.visit.empty()))
     root.fail_found("more than one of legs, visit, order", "one of them");

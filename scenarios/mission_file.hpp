@@ -25,7 +25,7 @@ namespace joulepath {
 [[nodiscard]] std::vector<std::string> files_read_by(const MissionRequest& request,
                                                      const ReadOptions& options = {});
 
-/// The places of a map of the file and of its keys.
+/// The marks of a map in the file and of its keys.
 [[nodiscard]] ItemMarks marks_of(const Node& node);
 
 /// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).

@@ -65,8 +65,9 @@ Schema speed_mask_schema() {
 }
 
 Schema charging_schema() {
-  return map({optional("stations", list(text(), 1), "where to charge; default: all with charger_W"),
-              optional("to_fraction", number(kFraction), "state of charge to leave with; default 0.8")});
+  return map(
+      {optional("stations", list(text(), 1), "stations for charging; default: all with charger_W"),
+       optional("to_fraction", number(kFraction), "state of charge at which the robot leaves; default 0.8")});
 }
 
 Schema objective_schema() {

@@ -14,7 +14,7 @@ struct MissionSource {
   std::string file{};
   std::string robot_file{};            ///< replaces the mission's; orders and paths name none
   std::string map_file{};              ///< replaces the mission's
-  bool robot_at_hand{};                ///< the caller has the robot: no file needs to name one
+  bool robot_at_hand{};                ///< the caller provides the robot: no file needs to name one
   std::optional<double> payload_kg{};  ///< paths only
   std::optional<double> duration_s{};  ///< paths only; absent: the time of least energy
 };

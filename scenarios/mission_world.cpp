@@ -25,7 +25,7 @@ void check_payloads(const MissionRequest& request, const Robot& robot) {
   for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
 }
 
-/// Without an outline nothing can be held against a map.
+/// Without an outline, nothing can be checked against a map.
 void check_footprint(const MissionRequest& request, const Robot& robot) {
   if (has_footprint(robot) || request.map_file.empty()) return;
   throw ConfigError({{request.robot_file, 1, 1},

@@ -1,3 +1,5 @@
+#include "model/number_text.hpp"
+
 #include <charconv>
 #include <cmath>
 
@@ -19,10 +21,6 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::string significant_text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, six_digits(value)).ptr;
-  return {buffer, end};
-}
+std::string significant_text(double value) { return number_text(six_digits(value)); }
 
 }  // namespace joulepath

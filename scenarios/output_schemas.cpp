@@ -44,14 +44,15 @@ Schema leg_result_schema() {
       map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("lower_bound_J", result(), kBoundMeans),
-           optional("optimality_gap_percent", result(), "of its energy; in the least time, of its time"),
+           optional("optimality_gap_percent", result(),
+                    "relative to the energy; for least time, relative to the time"),
            optional("charged_J", result(), "at the charger of an inserted stop"),
            required("duration_s", result(), "without dwell"), required("distance_m", result()),
            required("payload_kg",
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
            required("price_of_time_W", result(), "-dE/dT: the energy that one more second would save"),
            required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
-           optional("alternatives", alternatives_schema(), "ways that were looked at, turns included"),
+           optional("alternatives", alternatives_schema(), "candidate ways, turns included"),
            optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));
 }
 
@@ -144,6 +145,12 @@ Schema diagnosis_schema() {
                                required("evidence", text()), required("repair", text())}))),
                 "channels that contradict physics; with any of them the verdict is data_suspect"),
        optional("artifacts", list(any_of({text(), open(map({}))}))),
+       optional(
+           "signals",
+           list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
+                          required("columns", dictionary(list(number())),
+                                   "time_s, and measured_X, predicted_X, corrected_X for each signal X")}))),
+           "with --signals: measured against predicted, before and after the correction"),
        optional("missing_channels", list(text())), optional("decisions", open(map({}))),
        optional("validation", open(map({required("runs", list(text())), required("method", text())})))}));
 }
@@ -153,14 +160,14 @@ Schema sweep_schema() {
   const Schema effects = open(map({required("main", list(open(map({required("parameter", text())})))),
                                    required("interactions", list(open(map({})))),
                                    required("unexplained", result(), "share of the variance")}));
-  return open(
-      map({required("schema", text()), required("designs", integer(kNotNegative)),
-           required("rows", integer(kNotNegative)),
-           required("planned", integer(kNotNegative), "designs with a plan for every mission"),
-           required("within_constraints", integer(kNotNegative)),
-           required("held_constant", list(text()), "what the comparison of designs takes as unchanged"),
-           optional("best", design), optional("optimized", design), required("pareto", list(design)),
-           required("effects", dictionary(effects), "by result: share of the variance of each parameter")}));
+  return open(map(
+      {required("schema", text()), required("designs", integer(kNotNegative)),
+       required("rows", integer(kNotNegative)),
+       required("planned", integer(kNotNegative), "designs with a plan for every mission"),
+       required("within_constraints", integer(kNotNegative)),
+       required("held_constant", list(text()), "quantities that are constant in the comparison of designs"),
+       optional("best", design), optional("optimized", design), required("pareto", list(design)),
+       required("effects", dictionary(effects), "by result: share of the variance of each parameter")}));
 }
 
 Schema shard_schema() {

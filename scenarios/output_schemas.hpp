@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// What the program writes. Results may hold more keys than these in later versions.
+/// Schemas of the program's outputs. Results may have further keys in later versions.
 [[nodiscard]] Schema plan_schema();
 [[nodiscard]] Schema diagnosis_schema();
 [[nodiscard]] Schema sweep_schema();

@@ -14,7 +14,8 @@
 namespace joulepath {
 namespace {
 
-/// The robot at the first control point, looking along the first curve (p1, or p2 or p3 where p1 is p0).
+/// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
+/// is p0).
 Pose start_of(const std::vector<BezierPoints>& curves_m) {
   const BezierPoints& p = curves_m.front();
   Pose start{p[0][0], p[0][1], 0.0};

@@ -6,10 +6,9 @@
 
 namespace joulepath {
 
-/// The schema of an input with physical bounds on every number: by the unit at the end of its key's name, or
-/// by the name itself. The bounds are wide; a value beyond them is a slip of the unit or of a digit, and
-/// would fail later in the numerics, far from its cause. Keys of `effects` and `uncertainty` keep their own
-/// bounds.
+/// The schema of an input with physical bounds on every number, by the unit at the end of its key or by the
+/// key itself. The bounds are wide. A value beyond them has a wrong unit or digit and would otherwise fail
+/// later in the numerics. Keys of `effects` and `uncertainty` keep their own bounds.
 [[nodiscard]] Schema with_physical_bounds(Schema schema);
 
 /// The greatest size that a number may have when its key ends like this; infinity without such a bound.

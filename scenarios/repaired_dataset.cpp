@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// The mappings of each of the file's entries, on their way through the repairs.
+/// The mappings of each entry of the file while repairs are applied.
 class Repairs {
  public:
   Repairs(const Dataset& dataset, const Document& document) {
@@ -27,7 +27,7 @@ class Repairs {
           entry_of_run_.push_back(e);
   }
 
-  /// Applies one check's repair and says what it changes.
+  /// Applies the repair of one check and returns a description of the change.
   std::string apply(const DataCheck& check) {
     std::set<std::size_t> entries;
     for (std::size_t r : check.runs) entries.insert(entry_of_run_[r]);
@@ -108,7 +108,7 @@ std::string repaired_dataset_text(const Dataset& dataset, const std::vector<Data
                        "runs",
                        "no run that a repair makes usable",
                        "a dataset with a run that can be repaired",
-                       "see what check says of each channel"});
+                       "joulepath check lists the findings"});
   DatasetEdit edit = repairs.edit();
   edit.comment = "# Channels repaired by `joulepath check --repair`:\n";
   for (const DataCheck& check : checks)

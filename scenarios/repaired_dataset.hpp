@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// Fills `repair` of every check: the line of the dataset's file that makes the channel right, on top of what
-/// the file maps already. Throws ConfigError where the file can no longer be read.
+/// Sets `repair` of every check: the line of the dataset's file that corrects the channel, in addition to the
+/// existing mapping. Throws ConfigError where the file can no longer be read.
 void describe_repairs(const Dataset& dataset, std::vector<DataCheck>& checks);
 
 /// The same for a dataset that was read from `document`.
@@ -19,7 +19,7 @@ void describe_repairs(const Dataset& dataset, const Document& document, std::vec
 /// A check as a sentence.
 [[nodiscard]] std::string data_check_text(const DataCheck& check);
 
-/// The dataset's file with all repairs, names of files as seen from `directory`.
+/// The dataset's file with all repairs, file names relative to `directory`.
 [[nodiscard]] std::string repaired_dataset_text(const Dataset& dataset, const std::vector<DataCheck>& checks,
                                                 const std::string& directory);
 

@@ -69,7 +69,7 @@ Schema power_schema() {
               optional("regeneration_efficiency", number(kFraction),
                        "recovered share of negative motor power; default 0"),
               optional("sharing", choice({"wheel", "bus"}),
-                       "wheel: each wheel's power is clipped alone; bus: their sum is")});
+                       "wheel: the power of each wheel is clipped; bus: the sum is clipped")});
 }
 
 Schema battery_schema() {

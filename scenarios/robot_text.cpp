@@ -1,23 +1,17 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "model/limit_table.hpp"
+#include "model/number_text.hpp"
 #include "scenarios/quoted.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
 namespace {
 
-std::string text_of(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
 std::string sided_text(const Sided<double>& value) {
-  if (value.left == value.right) return text_of(value.left);
-  return "{left: " + text_of(value.left) + ", right: " + text_of(value.right) + "}";
+  if (value.left == value.right) return number_text(value.left);
+  return "{left: " + number_text(value.left) + ", right: " + number_text(value.right) + "}";
 }
 
 /// A flow map `name: {key: value, ...}`; infinite values are absent limits.
@@ -25,7 +19,7 @@ class Section {
  public:
   explicit Section(std::string name) : name_(std::move(name)) {}
   Section& number(std::string_view key, double value) {
-    return std::isfinite(value) ? raw(key, text_of(value)) : *this;
+    return std::isfinite(value) ? raw(key, number_text(value)) : *this;
   }
   Section& raw(std::string_view key, const std::string& value) {
     body_ += (body_.empty() ? "" : ", ") + std::string(key) + ": " + value;
@@ -64,8 +58,8 @@ std::string limits_line(const Robot& robot) {
     if (limit.field != nullptr) section.number(limit.key, (*robot.limits).*limit.field);
   std::string rows;
   for (const auto& row : robot.limits_by_payload) {
-    rows += (rows.empty() ? "{payload_kg: " : ", {payload_kg: ") + text_of(row.payload_kg);
-    for (const auto& [key, value] : row.limit_by_key) rows += ", " + key + ": " + text_of(value);
+    rows += (rows.empty() ? "{payload_kg: " : ", {payload_kg: ") + number_text(row.payload_kg);
+    for (const auto& [key, value] : row.limit_by_key) rows += ", " + key + ": " + number_text(value);
     rows += "}";
   }
   if (!rows.empty()) section.raw("by_payload", "[" + rows + "]");
@@ -78,7 +72,7 @@ std::string footprint_line(const Footprint& footprint) {
     return footprint.radius_m > 0 ? Section("footprint").number("radius_m", footprint.radius_m).line() : "";
   std::string corners;
   for (const auto& corner : footprint.polygon_m)
-    corners += (corners.empty() ? "[" : ", [") + text_of(corner[0]) + ", " + text_of(corner[1]) + "]";
+    corners += (corners.empty() ? "[" : ", [") + number_text(corner[0]) + ", " + number_text(corner[1]) + "]";
   return Section("footprint").raw("polygon_m", "[" + corners + "]").line();
 }
 
@@ -88,8 +82,8 @@ std::string effect_line(const EffectSetting& effect) {
   for (const auto& [key, value] : effect.parameters) section.number(key, value);
   std::string cells;
   for (const auto& cell : effect.cells)
-    cells += (cells.empty() ? "[" : ", [") + text_of(cell[0]) + ", " + text_of(cell[1]) + ", " +
-             text_of(cell[2]) + ", " + text_of(cell[3]) + "]";
+    cells += (cells.empty() ? "[" : ", [") + number_text(cell[0]) + ", " + number_text(cell[1]) + ", " +
+             number_text(cell[2]) + ", " + number_text(cell[3]) + "]";
   if (!cells.empty()) section.raw("cells", "[" + cells + "]");
   return section.line();
 }
@@ -114,7 +108,7 @@ std::string robot_text(const Robot& robot) {
               .number("wheel_diameter_inertia_kg_m2", in.wheel_diameter_inertia_kg_m2)
               .line();
   text += motor_line(robot.motor);
-  if (robot.payload_offset_m) text += "payload_offset_m: " + text_of(*robot.payload_offset_m) + "\n";
+  if (robot.payload_offset_m) text += "payload_offset_m: " + number_text(*robot.payload_offset_m) + "\n";
   text += limits_line(robot);
   text += Section("power")
               .number("standby_W", robot.power.standby_W)

@@ -1,26 +1,28 @@
 #include "scenarios/run_log.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "model/kinematics.hpp"
+#include "model/number_text.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
+// Design: docs/decisions/0365-a-long-log-is-in-memory-once.md
 
 namespace joulepath {
 namespace {
 
-constexpr double kEpochClock_s = 1e6;  // a clock that begins later than this counts from no start of a run
+constexpr double kEpochClock_s = 1e6;  // a clock with a later start does not count from the start of the run
 
 bool is_orientation(const std::string& name) {
   return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns),
                      [&](const char* q) { return name == q; });
 }
 
-/// Takes the channels of all files to the times of the first, where all overlap.
+/// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
+/// one by one: a long log is in memory once.
 void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   double begin_s = files.front().times.front(), end_s = files.front().times.back();
   for (const auto& file : files) {
@@ -36,23 +38,28 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                        "times that do not overlap with those of " + files.front().table.file,
                        "files of one run on one clock",
                        "map time_s so that all files use the same clock"});
-  log.trajectory.time_s.assign(first, last);
-  const auto skip = static_cast<std::size_t>(first - base.begin()),
-             rows = static_cast<std::size_t>(last - first);
-  for (std::size_t f = 0; f < files.size(); ++f)
-    for (auto& [name, values] : files[f].channels) {
+  const long skip = first - base.begin(), end = last - base.begin();
+  const auto taken = [&](std::vector<double>& values) {
+    values.erase(values.begin() + end, values.end());
+    values.erase(values.begin(), values.begin() + skip);
+    return std::move(values);
+  };
+  log.trajectory.time_s = taken(files.front().times);
+  for (LogFile& file : files) {
+    for (auto& [name, values] : file.channels) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
-      if (f == 0) {
-        values.erase(values.begin() + static_cast<long>(skip + rows), values.end());
-        values.erase(values.begin(), values.begin() + static_cast<long>(skip));
-        column->channel(log.trajectory) = std::move(values);
+      if (&file == &files.front()) {
+        column->channel(log.trajectory) = taken(values);
         continue;
       }
       if (name == "heading_rad") unwrap_angle(values);
-      column->channel(log.trajectory) = interpolated(files[f].times, values, log.trajectory.time_s);
-      values = std::vector<double>();
+      column->channel(log.trajectory) = interpolated(file.times, values, log.trajectory.time_s);
+      values = std::vector<double>();  // `= {}` would keep the memory
     }
+    file.times = std::vector<double>();
+    file.channels.clear();
+  }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
                              "several files or topics, interpolated linearly to the times of the first",
@@ -92,8 +99,8 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
   }
 }
 
-/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from pose where nothing else is
-/// there. True where the wheels' speeds come from the body's.
+/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from the pose where there are no
+/// others. True where the wheels' speeds come from the body's.
 bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
                    std::vector<LogArtifact>& artifacts) {
   const auto have_wheels = [&] {
@@ -215,10 +222,9 @@ std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraCo
     channels.push_back(column.values);
   }
   text += '\n';
-  char buffer[32];
   for (std::size_t row = 0; row < trajectory.size(); ++row)
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, (*channels[i])[row]).ptr);
+      append_number(text, (*channels[i])[row]);
       text += i + 1 < channels.size() ? ',' : '\n';
     }
   return text;

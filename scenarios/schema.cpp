@@ -8,7 +8,7 @@
 namespace joulepath {
 namespace {
 
-std::string number_text(double value) {
+std::string bound_text(double value) {
   std::ostringstream stream;
   stream << value;
   return stream.str();
@@ -18,11 +18,11 @@ std::string range_text(const Range& range) {
   const bool low = range.min > -std::numeric_limits<double>::infinity();
   const bool high = range.max < std::numeric_limits<double>::infinity();
   if (low && high)
-    return (range.above_min ? " > " + number_text(range.min) + " and <= "
-                            : " from " + number_text(range.min) + " to ") +
-           number_text(range.max);
-  if (low) return (range.above_min ? " > " : " >= ") + number_text(range.min);
-  if (high) return " <= " + number_text(range.max);
+    return (range.above_min ? " > " + bound_text(range.min) + " and <= "
+                            : " from " + bound_text(range.min) + " to ") +
+           bound_text(range.max);
+  if (low) return (range.above_min ? " > " : " >= ") + bound_text(range.min);
+  if (high) return " <= " + bound_text(range.max);
   return "";
 }
 
@@ -51,7 +51,7 @@ void check_number(const Node& node, const Schema& schema) {
   if (value < range.min || value > range.max || (range.above_min && value <= range.min))
     node.fail(accepted_by(schema), range.why == nullptr ? "" : range.why);
   if (value != 0.0 && std::abs(value) < range.least_size)
-    node.fail("0, or a size of at least " + number_text(range.least_size),
+    node.fail("0, or a size of at least " + bound_text(range.least_size),
               range.why == nullptr ? "" : range.why);
 }
 
@@ -122,7 +122,7 @@ void check_map(const Node& node, const Schema& schema) {
     if (const auto* key = key_named(schema, name)) check_value(child, key->schema);
 }
 
-/// Alternatives differ by their shape; where two have the same, the last one reports the error.
+/// Alternatives differ by their shape; where two have the same shape, the error is that of the last one.
 void check_any_of(const Node& node, const Schema& schema) {
   std::vector<const Schema*> fitting;
   for (const auto& alternative : schema.parts)

@@ -22,7 +22,7 @@ inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), t
 inline constexpr Range kNotNegative{0.0};
 inline constexpr Range kFraction{0.0, 1.0};
 
-/// The accepted values of a key: the only description, used by readers, JSON Schemas and error messages.
+/// The accepted values of a key; readers, JSON Schemas and error messages all use this description.
 struct Schema {
   enum class Kind { number, integer, boolean, text, choice, list, map, dictionary, any_of };
   struct Key;
@@ -32,12 +32,12 @@ struct Schema {
   std::vector<std::string> choices{};  ///< choice
   std::vector<Schema>
       parts{};              ///< list, dictionary: the item; any_of: alternatives, each of a different shape
-  std::size_t min_items{};  ///< list; map: how many keys at least
+  std::size_t min_items{};  ///< list: least number of items; map: least number of keys
   std::size_t max_items{std::numeric_limits<std::size_t>::max()};
   std::vector<Key> keys;  ///< map
-  bool open{};            ///< map: keys that are not named are accepted (results, which grow)
+  bool open{};            ///< map: unnamed keys are accepted (results may get further keys)
   bool nullable{};        ///< null is accepted (results: a number that is not finite)
-  std::vector<std::vector<std::string>> exactly_one{};  ///< map: of each group one key must be there
+  std::vector<std::vector<std::string>> exactly_one{};  ///< map: exactly one key of each group is required
 
   Schema with_exactly_one(std::vector<std::string> group) &&;
 };

@@ -70,7 +70,7 @@ SimulationInput from_motions(const MissionRequest& mission, const MissionWorld& 
     }
     Trajectory& all = input.reference;
     const Trajectory& t = timed.trajectory;
-    const std::size_t skip = all.size() > 0 ? 1 : 0;  // the joint is there already
+    const std::size_t skip = all.size() > 0 ? 1 : 0;  // the joint is already contained
     const auto join = [&](std::vector<double>& to, const std::vector<double>& from) {
       to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(skip), from.end());
     };

@@ -22,7 +22,7 @@ struct SimulationInput {
   Pose start{};
   double planned_energy_J{};  ///< at the battery's terminals, standby included
   double planned_duration_s{};
-  std::string infeasible{};  ///< why the mission has no plan; empty: it has one
+  std::string infeasible{};  ///< reason why the mission has no plan; empty: it has one
 };
 
 /// Reads the input at `path`. A mission with only prescribed motions is driven as prescribed; any other is

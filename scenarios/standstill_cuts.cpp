@@ -9,11 +9,11 @@
 namespace joulepath {
 namespace {
 
-constexpr double kLongLog_s = 180.0;      ///< a shorter log is one manoeuvre of a test day
-constexpr double kShortestPart_s = 20.0;  ///< of a cut log
-constexpr double kMostParts = 200.0;      ///< of all logs together, about
+constexpr double kLongLog_s = 180.0;      ///< a shorter log counts as one manoeuvre of a test day
+constexpr double kShortestPart_s = 20.0;  ///< of the parts of a cut log
+constexpr double kMostParts = 200.0;      ///< approximate bound for all logs together
 constexpr double kShortestStop_s = 0.8;   ///< both parts need a margin for smoothing
-constexpr double kStill_rad_s = 0.1;      ///< a wheel that turns slower stands, beside its noise
+constexpr double kStill_rad_s = 0.1;      ///< a wheel stands below this speed plus its noise
 
 double duration_s(const Run& run) {
   return run.log.size() < 2 ? 0.0 : run.log.time_s.back() - run.log.time_s.front();
@@ -25,7 +25,7 @@ bool is_cut(const Run& run) {
          run.log.wheel_speed_rad_s.right.size() == run.log.size();
 }
 
-/// Where a stop is cut: where the payload changes, else in its middle.
+/// The cut in a stop: where the payload changes, else in its middle.
 std::size_t cut_of_stop(const Trajectory& log, std::size_t begin, std::size_t end) {
   if (log.payload_kg.size() == log.size())
     for (std::size_t i = end; i > begin; --i)

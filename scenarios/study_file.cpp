@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/number_text.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 
@@ -204,7 +205,7 @@ Robot robot_of_design(const Study& study, const Document& robot, const std::vect
   }();
   if (study.friction == FrictionHeld::wheel || !study.changes_gear()) return changed;
   const Robot base = robot_from(robot);
-  // Torque at the wheel is the motor's times n, speed at the motor the wheel's times n.
+  // Torque at the wheel is n times that of the motor, speed at the motor n times that of the wheel.
   for (const Side side : kSides) {
     const double ratio = changed.motor[side].gear_ratio / base.motor[side].gear_ratio;
     changed.motor[side].friction_torque_Nm *= ratio;

@@ -114,7 +114,8 @@ Value read_yaml_text(const std::string& text, std::string_view file, int first_l
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
-    // A stray comma makes yaml-cpp return documents without end: reading stops at the second one.
+    // A stray comma makes yaml-cpp return an endless sequence of documents, so reading stops at the second
+    // one.
     while (parser.HandleNextDocument(events)) {
     }
   } catch (const YAML::Exception& error) {

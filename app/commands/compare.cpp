@@ -4,6 +4,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/loss_table.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_summary.hpp"
 #include "app/profile_columns.hpp"
@@ -63,8 +64,9 @@ class CompareCommand : public Command {
 
   void declare(CommandLine& line) override {
     add_study_options(line, study_, kResult);
-    line.option("--controller", controller_,
-                "parameter file of Nav2 or ros2_control (YAML): what its speeds and accelerations cost");
+    line.option(
+        "--controller", controller_,
+        "parameter file of Nav2 or ros2_control (YAML): compares the energy of its speeds and accelerations");
     add_plan_options(line, study_.plan);
   }
 
@@ -103,17 +105,7 @@ class CompareCommand : public Command {
       out.commit();
     }
     if (!study_prints(study_, result)) return kDone;
-    Table table({"", "s", "J", "optimum J", "lost J", "lost"});
-    const auto row = [&](const std::string& name, const LossAtTime& at) {
-      table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
-                 figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
-    };
-    table.row({"plan", figure(plan.duration_s), figure(plan.energy.total_J(), 6), "", "", ""});
-    row("controller, its own time", loss.own_time);
-    if (loss.plan_time) row("controller, the plan's time", *loss.plan_time);
-    table.print(std::cout);
-    if (!loss.plan_time) std::cout << "later than the plan\n";
-    if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
+    print_loss(std::cout, plan, loss);
     return kDone;
   }
 

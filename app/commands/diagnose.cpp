@@ -125,6 +125,8 @@ class Diagnose : public Command {
     line.option("--without", without_,
                 "remove an effect from the catalog (several: comma-separated, or repeat the option)")
         .comma_separated();
+    line.flag("--signals", signals_,
+              "write measured and predicted signals of every run into diagnosis.json, for the studio");
     line.flag("--fail-on-gap", fail_on_gap_, "exit code 1 unless the verdict is no_gap");
     add_common_flags(line, common_, "qjfu");
   }
@@ -140,7 +142,7 @@ class Diagnose : public Command {
             robot_),
         {.without = without});
     const Diagnosis& diagnosis = results.diagnosis;
-    out.write("diagnosis.json", results.json);
+    out.write("diagnosis.json", signals_ ? results.json_with_signals() : results.json);
     out.write("report.html", results.report());
     if (diagnosis.corrected_robot) out.write("robot_corrected.yaml", robot_text(*diagnosis.corrected_robot));
     if (!diagnosis.corrected_instruments.empty())
@@ -157,7 +159,7 @@ class Diagnose : public Command {
  private:
   std::string dataset_{}, out_{}, robot_{};
   std::vector<std::string> without_{};
-  bool fail_on_gap_{};
+  bool signals_{}, fail_on_gap_{};
   CommonOptions common_{};
 };
 

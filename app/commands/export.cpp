@@ -4,30 +4,20 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/loss_table.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/terminal.hpp"
 #include "planner/mission/mission.hpp"
+#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/export/exports.hpp"
 #include "scenarios/export/route_graph.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
 // Design: docs/decisions/0091-exports-plan-again.md
 namespace joulepath {
 namespace {
-
-void print_loss(const ControllerLoss& loss) {
-  Table table({"", "s", "J", "optimum J", "lost J", "lost"});
-  const auto row = [&](const std::string& name, const LossAtTime& at) {
-    table.row({name, figure(at.duration_s), figure(at.energy_J, 6), figure(at.optimum_J, 6),
-               figure(at.lost_J(), 3), figure(100 * at.lost_J() / at.optimum_J, 3) + " %"});
-  };
-  row("at its own time", loss.own_time);
-  if (loss.plan_time) row("at the plan's time", *loss.plan_time);
-  table.print(std::cout);
-  if (!loss.plan_time) std::cout << "later than the plan: no comparison at the plan's time\n";
-  if (!loss.broken_limit.empty()) std::cout << "exceeds a limit: " << loss.broken_limit << "\n";
-}
 
 const ExportFormat& format_named(const std::string& name) {
   for (const ExportFormat& format : export_formats())
@@ -41,6 +31,7 @@ std::string examples() {
       "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n"
       "  joulepath export mission.yaml --to controller --out controller.json\n"
       "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n"
+      "  joulepath export logs/run_01.csv --robot robot.yaml --to bag --out log.mcap\n"
       "  joulepath export graph.geojson --robot robot.yaml --payload 5 --to route_graph --out "
       "energy.geojson\n\nFormats:\n";
   const auto line = [&](const std::string& name, const std::string& says) {
@@ -55,7 +46,7 @@ class ExportCommand : public Command {
  public:
   ExportCommand()
       : Command({.name = "export",
-                 .says = "plan a mission and write it in the format of another program",
+                 .says = "plan a mission, or take a log, and write it in the format of another program",
                  .examples = examples()}) {}
 
   void declare(CommandLine& line) override {
@@ -79,12 +70,13 @@ class ExportCommand : public Command {
   int run() override {
     const ReadOptions reading{.untrusted = common_.untrusted};
     if (format_ == kRouteGraphFormat) return write_route_graph();
+    if (format_ == "bag" && is_run_log(source_.file)) return write_log_bag();
     const ExportFormat& format = format_named(format_);
     check_extension();
     const MissionRequest mission = read_mission_source(source_, reading);
     const MissionWorld world = read_world(mission, reading);
     options_.solver = SolverChoice::fast;
-    options_.baselines = false;  // nothing here reads the plan's own
+    options_.baselines = false;  // exports do not use the plan's own baselines
     const Plan plan = plan_mission(mission, world, options_);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to export: " << solve_status_name(plan.status) << ": " << plan.message << "\n";
@@ -96,7 +88,7 @@ class ExportCommand : public Command {
     if (common_.json && result.loss)
       std::cout << loss_json_text(*result.loss, format_);
     else if (!common_.quiet)
-      tell(result);
+      tell(plan, result);
     return kDone;
   }
 
@@ -118,13 +110,27 @@ class ExportCommand : public Command {
     for (const ExportFile& file : files) write_output_file(file.name, file.content, common_.force);
   }
 
-  int write_route_graph() const {
+  void need_robot(const char* input) const {
     if (source_.robot_file.empty())
       throw ConfigError({{source_.file, 0, 0},
                          "",
-                         "a route graph, which names no robot",
+                         std::string(input) + ", which names no robot",
                          "--robot with the name of a robot file",
                          ""});
+  }
+
+  int write_log_bag() const {
+    need_robot("a log");
+    const Geometry geometry = read_robot(source_.robot_file).geometry;
+    const std::vector<ExportFile> files{
+        {out_, log_bag(read_run_log(source_.file, geometry).trajectory, geometry)}};
+    write_files(files);
+    if (!common_.quiet) tell_names(files);
+    return kDone;
+  }
+
+  int write_route_graph() const {
+    need_robot("a route graph");
     const RouteGraphExport result = export_route_graph(
         {source_.file, out_, source_.payload_kg.value_or(0.0), corner_radius_m_, expand_turns_},
         read_robot(source_.robot_file));
@@ -140,8 +146,8 @@ class ExportCommand : public Command {
     return kDone;
   }
 
-  static void tell(const Export& result) {
-    if (result.loss) print_loss(*result.loss);
+  static void tell(const Plan& plan, const Export& result) {
+    if (result.loss) print_loss(std::cout, plan, *result.loss);
     tell_names(result.files);
   }
 

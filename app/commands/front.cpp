@@ -77,13 +77,13 @@ class FrontCommand : public Command {
   }
 
  private:
-  /// The classic profiles beside one point of the front.
+  /// The classic profiles compared with one point of the front.
   struct Beside {
     std::size_t point{};
     std::vector<BaselineTotal> baselines{};
   };
 
-  /// So many of the front's points, evenly spaced, the most economical one among them.
+  /// Indices of so many of the front's points, evenly spaced, including the most economical one.
   static std::vector<std::size_t> chosen(std::size_t points, std::size_t count) {
     std::vector<std::size_t> indices;
     for (std::size_t i = std::min(points, count); i-- > 0;)

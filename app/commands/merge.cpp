@@ -38,11 +38,10 @@ class MergeCommand : public Command {
   MergeCommand()
       : Command({.name = "merge",
                  .says = "join the shards of a batch or a sweep",
-                 .examples = "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
-                             "The results have the same bytes as those of one run. Shards of other inputs, "
-                             "of another version "
-                             "of\n"
-                             "the program, or with a gap are refused.\n"}) {}
+                 .examples =
+                     "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
+                     "The results have the same bytes as those of one run. Shards of other inputs or of "
+                     "another version of the\nprogram are rejected, and so is an incomplete set.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directories_, "directories written with --shard").required().existing_path();

@@ -47,15 +47,14 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn on the spot there), refinement; or baselines (several: with commas)")
+                "shortest), stops (turn in place there), refinement; or baselines (several: with commas)")
         .comma_separated()
         .one_of({"corners", "routes", "stops", "refinement", "baselines"});
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
-    line.option(
-        "--cache", cache_,
-        "directory of answers kept for later runs, as batch and sweep keep them; default: nothing is kept");
+    line.option("--cache", cache_,
+                "directory in which results about legs are cached for later runs; default: no cache on disk");
     add_common_flags(line, common_, "qjfu");
   }
 
@@ -70,7 +69,7 @@ class PlanCommand : public Command {
     for (const std::string& step : without_) leave_out(step);
     options_.solver = solver_ == "fast" ? SolverChoice::fast : SolverChoice::ipopt;
     const std::unique_ptr<AnswerCache> answers = answer_cache({cache_, cache_.empty()});
-    // In memory nothing but this mission is kept, so that there is one world.
+    // The cache holds this mission only, so that there is one world.
     options_.answers.cache = answers.get();
     if (!cache_.empty()) options_.answers.world = world_key(floor_key(mission, world), world.robot);
     Plan plan = [&] {

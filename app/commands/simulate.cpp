@@ -105,7 +105,8 @@ class SimulateCommand : public Command {
         .required();
     line.option("--robot", robot_, "robot file; replaces a mission's");
     line.option("--effect", effects_,
-                "effect that the controller does not know, as NAME:PARAMETER=VALUE,... (repeatable)")
+                "effect of the simulated robot that the controller does not model, as "
+                "NAME:PARAMETER=VALUE,... (repeatable)")
         .repeatable();
     line.option("--repeat", repeat_, "number of runs of each input, each with its own noise")
         .between(1, 1000);

@@ -10,6 +10,7 @@
 #include "app/jobs/sweep_result.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
+#include "model/number_text.hpp"
 #include "planner/sweep/design_search.hpp"
 
 namespace joulepath {
@@ -45,7 +46,7 @@ class SweepCommand : public Command {
     const Study study = study_from(Document::load(source_), {.untrusted = options_.common.untrusted});
     const JobRun run = job_run(options_, "designs");
     if (evaluations_ > 0 && !run.shard.is_whole())
-      throw UsageError("--optimize: found together with --shard, accepted: with a whole sweep");
+      throw UsageError("--optimize: found together with --shard, accepted: a sweep without shards");
     OutputDirectory out = job_output(options_, run.shard, kSweepFiles);
     plan_.solver = SolverChoice::fast;
     SweepJobs jobs(study, plan_, {.untrusted = options_.common.untrusted}, options_.cache);

@@ -63,8 +63,9 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   line.option("--shard", options.shard,
               "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
   line.option("--quarantine", options.quarantine,
-              "JSON lines {index, reason}: not planned, because they killed their process");
-  line.flag("--resume", options.resume, "continue an interrupted run: finished and unchanged plans are kept");
+              "file of JSON lines {index, reason}: jobs to skip, because they killed their process");
+  line.flag("--resume", options.resume,
+            "continue an interrupted run; finished plans with unchanged inputs are not repeated");
   add_cache_options(line, options.cache);
   add_common_flags(line, options.common, "qjfu");
 }

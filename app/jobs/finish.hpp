@@ -44,7 +44,8 @@ void add_timings(OutputDirectory& out, const std::vector<JobResult>& results);
 void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,
                  ShardManifest about);
 
-/// Write the results of a whole run and print its summary: the same bytes from a run and from its shards.
+/// Write the results of a whole run and print its summary: a run and the merge of its shards give the same
+/// bytes.
 void finish_batch(OutputDirectory& out, const std::string& title, const std::vector<std::string>& lines,
                   const CommonOptions& common);
 void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<std::string>& lines,

@@ -45,7 +45,7 @@ JobJournal::~JobJournal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-/// A kill may have cut off the last line; a line break after it keeps the next line whole.
+/// A kill may have cut off the last line; a line break after it separates it from the next line.
 void JobJournal::read() {
   std::ifstream in(file_);
   std::string line;

@@ -16,19 +16,19 @@ class JobJournal {
   enum class Use { anew, resume };
 
   /// With `resume`, the results of an earlier run are read. With `anew`, an earlier journal is deleted; the
-  /// caller has checked that this is allowed. Throws EnvironmentError.
+  /// caller must check that this is allowed. Throws EnvironmentError.
   JobJournal(std::string file, Use use);
   ~JobJournal();
   JobJournal(const JobJournal&) = delete;
   JobJournal& operator=(const JobJournal&) = delete;
 
-  /// Throws EnvironmentError when the line cannot be written whole.
+  /// Throws EnvironmentError when the line cannot be written completely.
   void add(const JobResult& result, const std::string& fingerprint);
 
   /// The earlier result of a mission if its fingerprint is the same and not empty.
   [[nodiscard]] const JobResult* find(std::size_t index, const std::string& fingerprint) const;
 
-  /// Deletes the file: all results are in their place.
+  /// Deletes the journal after the results were written.
   void remove();
 
  private:

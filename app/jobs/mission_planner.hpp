@@ -14,7 +14,7 @@
 
 namespace joulepath {
 
-/// One mission of many, not yet parsed: a broken one must not stop the others.
+/// One mission of many, not yet parsed, so that a broken one does not stop the others.
 struct MissionItem {
   std::string name{};
   std::string file{};
@@ -42,8 +42,8 @@ class MissionVariant {
   [[nodiscard]] virtual Robot robot(const std::string& robot_file) const = 0;
 };
 
-/// Plans many missions; maps, keep-out masks and the floors prepared from them are made once and shared, and
-/// so are answers about equal legs. Safe to call from several threads, but for fingerprint().
+/// Plans many missions. Maps, keep-out masks and the floors prepared from them are built once and shared;
+/// answers about equal legs are shared as well. Safe to call from several threads, except fingerprint().
 class MissionPlanner {
  public:
   MissionPlanner(PlanOptions options, ReadOptions reading, const CacheChoice& cache = {.none = true})
@@ -53,12 +53,12 @@ class MissionPlanner {
   [[nodiscard]] JobResult plan(const MissionItem& item, std::size_t index, nlohmann::ordered_json line,
                                const MissionVariant* variant = nullptr);
 
-  /// Identifies a mission and all that its result depends on; empty when a file cannot be read. `extra_file`:
-  /// read beside those that the mission names.
+  /// Identifies a mission and everything on which its result depends; empty when a file cannot be read.
+  /// `extra_file`: read in addition to those that the mission names.
   [[nodiscard]] std::string fingerprint(const MissionItem& item, const std::string& extra_file = {});
 
   [[nodiscard]] const std::map<std::string, std::string>& files_read() const { return digests_; }
-  /// Of missions without the files that they name, and of the options.
+  /// Digest of missions, without the files that they name, and of the options.
   [[nodiscard]] std::string digest_of(const std::vector<MissionItem>& items) const;
 
  private:

@@ -1,8 +1,6 @@
 #include "app/jobs/run_jobs.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
@@ -81,28 +79,13 @@ void remove_journal(const std::string& directory) { std::filesystem::remove(jour
 void run_jobs(const std::vector<std::size_t>& indices, unsigned threads,
               const std::function<JobResult(std::size_t)>& work,
               const std::function<void(const JobResult&)>& done, const std::function<bool()>& stop) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> failed{false};
-  std::exception_ptr error;
   std::mutex mutex;
-  const auto loop = [&] {
-    try {
-      for (std::size_t k = next++; k < indices.size() && !failed && !stop(); k = next++) {
-        const JobResult result = work(indices[k]);
-        const std::lock_guard lock(mutex);
-        done(result);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failed.exchange(true)) error = std::current_exception();
-    }
-  };
-  {
-    const std::size_t useful = std::min<std::size_t>(threads, indices.size());
-    const Workers beside(useful > 1 ? useful - 1 : 0, loop);
-    loop();
-  }
-  if (error) std::rethrow_exception(error);
+  for_each_index(indices.size(), threads, [&](std::size_t k) {
+    if (stop()) return;
+    const JobResult result = work(indices[k]);
+    const std::lock_guard lock(mutex);
+    done(result);
+  });
 }
 
 }  // namespace joulepath

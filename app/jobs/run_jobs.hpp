@@ -32,21 +32,21 @@ class JobList {
 
   [[nodiscard]] virtual std::size_t size() const = 0;
 
-  /// A result depends on its job alone. Calls from several threads are safe; every mistake in a job's input
-  /// is reported in its line.
+  /// The result of a job depends on this job only. Safe to call from several threads; every mistake in a
+  /// job's input is reported in its line.
   [[nodiscard]] virtual JobResult plan(std::size_t index) = 0;
 
-  /// The begin of a job's line: what names it.
+  /// The beginning of a job's line, which identifies the job.
   [[nodiscard]] virtual std::string name_line(std::size_t index) const = 0;
 
-  /// Identifies a job and all that its result depends on: the content of every file that it reads, the
-  /// options and the program's version. Empty when a file cannot be read. Not for several threads.
+  /// Identifies a job and everything on which its result depends: the content of every file that it reads,
+  /// the options and the program's version. Empty when a file cannot be read. Not safe for several threads.
   [[nodiscard]] virtual std::string fingerprint(std::size_t index) = 0;
 
   /// Identifies the list: every job without the files that it names, and the options.
   [[nodiscard]] virtual std::string digest() const = 0;
 
-  /// Files and the digests of their content, of all jobs whose fingerprint was asked for.
+  /// Files and the digests of their content, for all jobs whose fingerprint was computed.
   [[nodiscard]] virtual std::map<std::string, std::string> files_read() const = 0;
 };
 
@@ -67,7 +67,7 @@ struct JobRun {
 /// overwritten, EnvironmentError.
 [[nodiscard]] std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run);
 
-/// Deletes the journal of a run whose results are in their place.
+/// Deletes the journal of a run whose results were written.
 void remove_journal(const std::string& directory);
 
 /// Runs `work(k)` for the given indices on `threads` threads and passes each result to `done` (one call at a

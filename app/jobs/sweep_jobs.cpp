@@ -31,7 +31,7 @@ class DesignVariant : public MissionVariant {
   ReadOptions reading_;
 };
 
-/// A number stays a number, a word a word.
+/// Numbers become JSON numbers, other texts JSON strings.
 Json json_value(const std::string& text) {
   const auto number = parse_number(text);
   return number ? Json(*number) : Json(text);

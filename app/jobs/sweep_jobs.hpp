@@ -13,8 +13,8 @@ namespace joulepath {
 /// number, the mission's name, the parameters, and the plan's figures.
 class SweepJobs : public JobList {
  public:
-  /// Throws ConfigError where the first or the last design cannot be read: a mistake in a parameter's key is
-  /// then told at once, not once per design.
+  /// Throws ConfigError where the first or the last design cannot be read, so that a mistake in a parameter's
+  /// key is reported once and not per design.
   SweepJobs(const Study& study, PlanOptions options, ReadOptions reading,
             const CacheChoice& cache = {.none = true});
 

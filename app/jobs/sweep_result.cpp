@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "model/number_text.hpp"
 #include "planner/sweep/sweep_analysis.hpp"
 
 namespace joulepath {

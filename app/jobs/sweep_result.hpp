@@ -25,20 +25,21 @@ struct DesignTotal {
 [[nodiscard]] std::vector<DesignTotal> design_totals(const Study& study,
                                                      const std::vector<std::string>& lines);
 
-/// Why a result line's design does not count: no plan, or a constraint with what was found; empty: it counts.
+/// The reason why a result line's design does not count: no plan, or a violated constraint with its value;
+/// empty: it counts.
 [[nodiscard]] std::string reason_of(const Study& study, const nlohmann::ordered_json& line);
 
 /// sweep.csv: a row per design and mission.
 [[nodiscard]] std::string sweep_csv(const Study& study, const std::vector<std::string>& lines);
 
-/// sweep.json (joulepath/sweep/1): what was held constant, main effects and interactions of each result,
-/// Pareto front, best design, and how many designs fail for which reason. `totals`: of the lines.
-/// `optimized`: result lines of the design that --optimize found; empty: none.
+/// sweep.json (joulepath/sweep/1): constant quantities, main effects and interactions of each result, Pareto
+/// front, best design, and the number of failed designs per reason. `totals`: of the lines. `optimized`:
+/// result lines of the design found by --optimize; empty: none.
 [[nodiscard]] nlohmann::ordered_json sweep_json(const Study& study, const std::vector<std::string>& lines,
                                                 const std::vector<DesignTotal>& totals,
                                                 const std::vector<std::string>& optimized);
 
-/// What a reader must know about the parameters that were not changed.
+/// Notes for the reader on parameters that the study does not change.
 [[nodiscard]] std::vector<std::string> held_constant(const Study& study);
 
 }  // namespace joulepath

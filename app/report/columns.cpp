@@ -90,7 +90,7 @@ Columns thinned(const Columns& columns, std::size_t most_rows) {
   if (rows <= most_rows || most_rows < 8) return columns;
   std::vector<const std::vector<double>*> watched;
   for (const char* name :
-       {"linear_speed_m_s", "linear_acceleration_m_s2", "battery_power_W", "measured_power_W"})
+       {"linear_speed_m_s", "linear_acceleration_m_s2", "battery_power_W", "measured_motor_power_W"})
     if (const auto found = columns.find(name); found != columns.end()) watched.push_back(&found->second);
   const std::size_t kept_per_bucket = 1 + 2 * watched.size();
   const std::size_t bucket = (rows * kept_per_bucket + most_rows - 1) / most_rows;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
-#include "app/report/report.hpp"
 #include "diagnosis/prediction/prediction.hpp"
 
 namespace joulepath::report {
@@ -16,42 +17,97 @@ std::vector<double> values_of(const Eigen::VectorXd& vector) {
   return {vector.data(), vector.data() + vector.size()};
 }
 
-std::vector<double> both_wheels(const Sided<Eigen::VectorXd>& power_W) {
-  const Eigen::VectorXd sum = power_W.left + power_W.right;
-  return values_of(sum);
-}
+/// Measured and predicted columns of one run, signal by signal.
+class Comparison {
+ public:
+  Comparison(const RunSignals& signals, Prediction predicted, std::optional<Prediction> corrected)
+      : signals_(signals), predicted_(std::move(predicted)), corrected_(std::move(corrected)) {
+    columns_["time_s"] = values_of(signals.time_s);
+  }
 
-RunComparison compared(const RunSignals& signals, const ModelPoint& nominal, const ModelPoint& corrected,
-                       bool is_validation, bool is_corrected) {
-  return {.name = signals.name,
-          .use = is_validation ? "validation" : "diagnosis",
-          .time_s = values_of(signals.time_s),
-          .measured_power_W = both_wheels(signals.motor_power_W),
-          .predicted_power_W = both_wheels(predict(signals, nominal).power_W),
-          .corrected_power_W =
-              is_corrected ? both_wheels(predict(signals, corrected).power_W) : std::vector<double>{}};
+  /// `of(prediction)` is what a model says of a signal.
+  template <class Of>
+  void add(const std::string& name, const Eigen::VectorXd& measured, const Of& of) {
+    if (measured.size() != signals_.size()) return;
+    columns_["measured_" + name] = values_of(measured);
+    columns_["predicted_" + name] = values_of(of(predicted_));
+    if (corrected_) columns_["corrected_" + name] = values_of(of(*corrected_));
+  }
+
+  /// Changes since the start of the run: where it began is no business of the model.
+  void add_change(const std::string& name, const Eigen::VectorXd& measured,
+                  Eigen::VectorXd Prediction::*predicted) {
+    if (measured.size() == 0) return;
+    const auto since_start = [](const Eigen::VectorXd& v) { return Eigen::VectorXd(v.array() - v[0]); };
+    add(name, since_start(measured), [&](const Prediction& p) { return since_start(p.*predicted); });
+  }
+
+  [[nodiscard]] Columns columns() && { return std::move(columns_); }
+
+ private:
+  const RunSignals& signals_;
+  Prediction predicted_;
+  std::optional<Prediction> corrected_;
+  Columns columns_{};
+};
+
+Columns compared(const RunSignals& run, const ModelPoint& nominal,
+                 const std::optional<ModelPoint>& corrected) {
+  std::optional<Prediction> after;
+  if (corrected) after = predict(run, *corrected);
+  Comparison all(run, predict(run, nominal), std::move(after));
+  if (run.motor_power_W.left.size() > 0 && run.motor_power_W.right.size() > 0)
+    all.add("motor_power_W", Eigen::VectorXd(run.motor_power_W.left + run.motor_power_W.right),
+            [](const Prediction& p) { return Eigen::VectorXd(p.power_W.left + p.power_W.right); });
+  for (const Side side : kSides) {
+    const std::string wheel = std::string("_") + side_name(side);
+    all.add("motor_current" + wheel + "_A", run.motor_current_A[side],
+            [&](const Prediction& p) { return p.current_A[side]; });
+    all.add("motor_voltage" + wheel + "_V", run.motor_voltage_V[side],
+            [&](const Prediction& p) { return p.voltage_V[side]; });
+  }
+  const auto member = [](Eigen::VectorXd Prediction::*field) {
+    return [field](const Prediction& p) { return p.*field; };
+  };
+  all.add("battery_power_W", run.battery_power_W, member(&Prediction::battery_power_W));
+  if (run.battery_current_A.size() > 0)
+    all.add("battery_voltage_V", run.battery_voltage_V, member(&Prediction::battery_voltage_V));
+  all.add("yaw_rate_rad_s", run.gyro_yaw_rate_rad_s, member(&Prediction::yaw_rate_rad_s));
+  if (run.heading_measured)
+    all.add_change("change_of_heading_rad", run.heading_rad, &Prediction::heading_rad);
+  all.add_change("change_of_x_m", run.x_m, &Prediction::x_m);
+  all.add_change("change_of_y_m", run.y_m, &Prediction::y_m);
+  return std::move(all).columns();
 }
 
 }  // namespace
 
-std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diagnosis_json,
-                             const Dataset& dataset) {
+std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dataset& dataset) {
   const ModelPoint nominal{.robot = dataset.robot};
-  const ModelPoint corrected{.robot = diagnosis.corrected_robot.value_or(dataset.robot),
-                             .effects = diagnosis.corrected_instruments};
-  const bool is_corrected = diagnosis.corrected_robot || !diagnosis.corrected_instruments.empty();
-  DiagnosisExtras extras;
-  extras.title = std::filesystem::path(dataset.file).filename().string();
-  for (std::size_t k = 0; k < dataset.runs.size() && extras.runs.size() < kMostRuns; ++k) {
+  std::optional<ModelPoint> corrected;
+  if (diagnosis.corrected_robot || !diagnosis.corrected_instruments.empty())
+    corrected = ModelPoint{.robot = diagnosis.corrected_robot.value_or(dataset.robot),
+                           .effects = diagnosis.corrected_instruments};
+  std::vector<RunComparison> runs;
+  for (std::size_t k = 0; k < dataset.runs.size() && runs.size() < kMostRuns; ++k) {
     if (!has_usable_log(dataset.runs[k])) continue;
     const RunSignals signals = make_run_signals(dataset.runs[k], k, dataset.robot);
-    if (signals.motor_power_W.left.size() == 0 || signals.motor_power_W.right.size() == 0) continue;
     const bool is_validation = std::ranges::count(diagnosis.validation_runs, signals.name) > 0;
-    extras.runs.push_back(compared(signals, nominal, corrected, is_validation, is_corrected));
+    Columns columns = compared(signals, nominal, corrected);
+    if (columns.size() > 1)
+      runs.push_back({signals.name, is_validation ? "validation" : "diagnosis", std::move(columns)});
   }
   // Held-out runs come first.
-  std::ranges::stable_partition(extras.runs,
-                                [](const RunComparison& run) { return run.use == "validation"; });
+  std::stable_partition(runs.begin(), runs.end(),
+                        [](const RunComparison& run) { return run.use == "validation"; });
+  return runs;
+}
+
+std::string diagnosis_report(const Diagnosis& diagnosis, const std::string& diagnosis_json,
+                             const Dataset& dataset) {
+  DiagnosisExtras extras;
+  extras.title = std::filesystem::path(dataset.file).filename().string();
+  extras.runs = run_comparisons(diagnosis, dataset);
   return diagnosis_report_html(nlohmann::json::parse(diagnosis_json), extras);
 }
 

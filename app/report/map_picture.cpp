@@ -12,7 +12,7 @@ MapPicture::Cell class_of(int percent) {
   return percent >= kOccupiedFrom_percent ? MapPicture::occupied : MapPicture::free;
 }
 
-/// The class of a block of cells: an occupied cell always decides.
+/// The class of a block of cells: occupied if one of its cells is occupied.
 MapPicture::Cell block_class(const OccupancyGrid& grid, int column, int row, int factor) {
   bool is_free = false;
   for (int r = row; r < std::min(grid.height, row + factor); ++r) {

@@ -19,8 +19,8 @@ struct MapPicture {
   std::vector<std::pair<Cell, int>> runs{};
 };
 
-/// A grid, with the cells that a keep-out mask forbids, coarsened (occupied cells decide) to at most
-/// `most_cells` cells.
+/// A grid with the cells forbidden by a keep-out mask, coarsened to at most `most_cells` cells; a block with
+/// an occupied cell is occupied.
 [[nodiscard]] MapPicture map_picture(const OccupancyGrid& grid, const OccupancyGrid* keep_out = nullptr,
                                      std::size_t most_cells = 600'000);
 

@@ -1,8 +1,24 @@
 #include "app/report/page_text.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "report/page_modules.hpp"
+
+namespace joulepath::embedded {
+extern const std::string_view page_style, page_boot;
+}  // namespace joulepath::embedded
+
 namespace joulepath::report {
+namespace {
+
+std::string read_whole(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
 
 std::string script_safe(const nlohmann::json& data) {
   std::string text;
@@ -50,5 +66,26 @@ std::string filled(std::string_view page,
   }
   return out;
 }
+
+std::string shielded(std::string_view text) {
+  std::string out(text);
+  for (std::size_t at = 0; (at = out.find("</script", at)) != std::string::npos; at += 9)
+    out.replace(at, 8, "<\\/script");
+  return out;
+}
+
+std::string module_scripts(std::span<const Module> modules, const std::string& tree) {
+  std::string text;
+  for (const Module& module : modules)
+    text += "<script type=\"text/x-module\" data-name=\"" + std::string(module.name) + "\">\n" +
+            shielded(tree.empty() ? std::string(module.text)
+                                  : read_whole(tree + "/" + std::string(module.file))) +
+            "</script>\n";
+  return text;
+}
+
+std::span<const Module> shared_modules() { return kPageModules; }
+std::string shared_style() { return std::string(embedded::page_style); }
+std::string boot_script() { return std::string(embedded::page_boot); }
 
 }  // namespace joulepath::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,15 +9,33 @@
 
 namespace joulepath::report {
 
-/// JSON that may stand inside of a script element: no "<" can close it or open a comment.
+/// JSON for a script element: no "<" in it can close the element or open a comment.
 [[nodiscard]] std::string script_safe(const nlohmann::json& data);
 
 /// Text of an HTML element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// One pass over a page: a name between @ signs is replaced where it is known, and nothing that is put in is
-/// looked at again.
+/// Replaces every known name between @ signs in one pass; inserted text is not searched again.
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::vector<std::pair<std::string_view, std::string>>& values);
+
+/// A JavaScript module of a page: imported by its name; `file` is where it lies in the source tree.
+struct Module {
+  std::string_view name{}, file{}, text{};
+};
+
+/// The modules that every page shares (app/report/page/).
+[[nodiscard]] std::span<const Module> shared_modules();
+
+/// Script elements that hold modules until the page's boot script names them. `tree`: the source tree to read
+/// them from; empty: as built in.
+[[nodiscard]] std::string module_scripts(std::span<const Module> modules, const std::string& tree = {});
+
+/// Style and boot script that every page shares.
+[[nodiscard]] std::string shared_style();
+[[nodiscard]] std::string boot_script();
+
+/// Text inside of a script element that no browser runs: nothing in it can end the element.
+[[nodiscard]] std::string shielded(std::string_view text);
 
 }  // namespace joulepath::report

@@ -5,12 +5,13 @@
 
 #include "app/report/report.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
+#include "planner/motion/motion_energy.hpp"
 
 namespace joulepath::report {
 namespace {
 
-/// The plan with every stretch driven by its baseline number `index` instead; absent where one of them does
-/// not keep the plan's time, or none was asked for.
+/// The plan with every stretch driven by its baseline number `index`; absent where one of them does not keep
+/// the plan's time, or where baselines were not requested.
 std::optional<Plan> driven_by(const Plan& plan, std::size_t index) {
   constexpr double kSameTime = 1e-9;
   Plan other = plan;
@@ -35,6 +36,40 @@ std::vector<NamedColumns> baseline_motions(const Plan& plan, const Plant& plant)
   return motions;
 }
 
+/// Joules by cause with the names of plan.json, effects beside the others.
+std::map<std::string, double> named(const EnergyByCause& energy) {
+  std::map<std::string, double> causes{{"copper", energy.copper_J},
+                                       {"coulomb_friction", energy.coulomb_friction_J},
+                                       {"viscous_friction", energy.viscous_friction_J},
+                                       {"kinetic", energy.kinetic_J},
+                                       {"not_recovered", energy.not_recovered_J},
+                                       {"standby", energy.standby_J}};
+  for (const auto& [name, joules] : energy.effects_J) causes[name] += joules;
+  return causes;
+}
+
+/// What the plan saves against every baseline that keeps its times.
+std::vector<Saving> savings_of(const Plan& plan) {
+  std::vector<Saving> list;
+  for (std::size_t index = 0; index < plan.baselines.size(); ++index) {
+    const auto other = driven_by(plan, index);
+    if (!other) continue;
+    Saving saving{plan.baselines[index].name, 0.0, {}};
+    const auto add = [&](const StretchPlan& stretch, const Profile& profile, double sign) {
+      const EnergyByCause energy = energy_by_cause(path_motion(stretch.request), profile);
+      saving.saved_J += sign * energy.total_J();
+      for (const auto& [name, joules] : named(energy)) saving.by_cause_J[name] += sign * joules;
+    };
+    for (std::size_t leg = 0; leg < plan.legs.size(); ++leg)
+      for (std::size_t k = 0; k < plan.legs[leg].stretches.size(); ++k) {
+        add(other->legs[leg].stretches[k], other->legs[leg].stretches[k].profile, 1.0);
+        add(plan.legs[leg].stretches[k], plan.legs[leg].stretches[k].profile, -1.0);
+      }
+    list.push_back(std::move(saving));
+  }
+  return list;
+}
+
 std::string file_name(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
 }  // namespace
@@ -49,6 +84,7 @@ std::string plan_report(const Plan& plan, const std::string& plan_json, const Tr
   Columns columns = columns_of(trajectory);
   if (!columns.empty()) {
     columns.merge(limit_columns(world.robot, columns));
+    extras.savings = savings_of(plan);
     extras.overlays = baseline_motions(plan, make_plant(world.robot));
   }
   return plan_report_html(nlohmann::json::parse(plan_json), columns, extras);

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "app/report/page_text.hpp"
+#include "app/report/plain_tables.hpp"
 #include "model/limit_table.hpp"
+#include "report/report_modules.hpp"
 
 namespace joulepath::embedded {
-extern const std::string_view page, style, notice, library, library_css, script_core, script_plots,
-    script_map, script_bars, script_plan, script_diagnosis, script_compare, script_batch, script_sweep,
-    script_main;
+extern const std::string_view page, style;
 }  // namespace joulepath::embedded
 
 namespace joulepath::report {
@@ -75,8 +75,8 @@ double number_at(const json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : 0.0;
 }
 
-/// What a report of thousands of missions needs: counts, the numbers that are spread over all of them, and
-/// the missions themselves only where a table names them (no plan, or the most joules per meter).
+/// Content of a report of thousands of missions: counts, the distributions of their numbers, and the missions
+/// only where a table names them (no plan, or the most joules per meter).
 json compact_batch(const json& batch) {
   constexpr std::size_t kMostNamed = 200, kMostNumbers = 20'000;
   json status = json::object(), columns = json::object(), unsolved = json::array();
@@ -114,22 +114,18 @@ json compact_batch(const json& batch) {
 }
 
 std::string page_of(const std::string& kind, const std::string& title, const json& data) {
-  using namespace embedded;
-  std::string script;
-  for (const auto part : {script_core, script_plots, script_map, script_bars, script_plan, script_diagnosis,
-                          script_compare, script_batch, script_sweep, script_main})
-    script += part;
   json versioned = data;
   versioned["version"] = JOULEPATH_VERSION;
-  return filled(page, {{"@KIND@", kind},
-                       {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
-                       {"@NOTICE@", std::string(notice)},
-                       {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
-                       {"@LIBRARY_CSS@", std::string(library_css)},
-                       {"@STYLE@", std::string(style)},
-                       {"@DATA@", script_safe(versioned)},
-                       {"@LIBRARY@", std::string(library)},
-                       {"@SCRIPT@", script}});
+  return filled(embedded::page,
+                {{"@KIND@", kind},
+                 {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
+                 {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
+                 {"@TABLES@", plain_tables(data.at(kind))},
+                 {"@PAGE_STYLE@", shared_style()},
+                 {"@STYLE@", std::string(embedded::style)},
+                 {"@DATA@", script_safe(versioned)},
+                 {"@MODULES@", module_scripts(shared_modules()) + module_scripts(kReportModules)},
+                 {"@BOOT@", boot_script()}});
 }
 
 }  // namespace
@@ -140,22 +136,27 @@ std::string plan_report_html(const json& plan, const Columns& trajectory, const 
   if (extras.map) data["map"] = json_of(*extras.map);
   if (extras.limits) data["limits"] = json_of(*extras.limits);
   data["overlays"] = json_of(extras.overlays);
+  for (const Saving& saving : extras.savings)
+    data["savings"].push_back(
+        {{"name", saving.name}, {"saved_J", saving.saved_J}, {"by_cause", saving.by_cause_J}});
   return page_of("plan", extras.title, data);
 }
 
+json runs_json(const std::vector<RunComparison>& runs, std::size_t most_numbers) {
+  std::size_t columns = 0;
+  for (const RunComparison& run : runs) columns += run.columns.size();
+  const std::size_t rows =
+      std::clamp<std::size_t>(most_numbers / std::max<std::size_t>(columns, 1), 100, kMostOverlayRows);
+  json list = json::array();
+  for (const RunComparison& run : runs)
+    list.push_back({{"name", run.name}, {"use", run.use}, {"columns", json_of(run.columns, rows)}});
+  return list;
+}
+
 std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& extras) {
-  json data{{"diagnosis", diagnosis}, {"title", extras.title}, {"runs", json::array()}};
+  json data{{"diagnosis", diagnosis}, {"title", extras.title}};
   if (extras.map) data["map"] = json_of(*extras.map);
-  for (const auto& run : extras.runs) {
-    Columns columns{{"time_s", run.time_s},
-                    {"measured_power_W", run.measured_power_W},
-                    {"predicted_power_W", run.predicted_power_W}};
-    if (!run.corrected_power_W.empty()) columns["corrected_power_W"] = run.corrected_power_W;
-    json entry = json_of(columns, kMostOverlayRows);
-    entry["name"] = run.name;
-    entry["use"] = run.use;
-    data["runs"].push_back(entry);
-  }
+  data["runs"] = runs_json(extras.runs);
   return page_of("diagnosis", extras.title, data);
 }
 

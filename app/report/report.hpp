@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,13 @@ struct NamedColumns {
   Columns columns{};
 };
 
+/// What a plan saves against a baseline and by which causes.
+struct Saving {
+  std::string name{};
+  double saved_J{};
+  std::map<std::string, double> by_cause_J{};  ///< the baseline's less the plan's
+};
+
 /// Further content of a plan report besides plan.json and the trajectory; each part may be absent.
 struct PlanExtras {
   std::string title{};     ///< the mission's name
@@ -22,16 +30,15 @@ struct PlanExtras {
   std::optional<MapPicture> map{};
   std::optional<Limits> limits{};        ///< drawn if the trajectory has no limit_... columns
   std::vector<NamedColumns> overlays{};  ///< baselines' motions, by their names in plan.json
+  std::vector<Saving> savings{};
 };
 
-/// One run of a diagnosis: motor power of both wheels together, W. `corrected_power_W` may be empty.
+/// One run of a diagnosis: `time_s`, and for each signal X that the run measured `measured_X`, `predicted_X`
+/// and, after a correction, `corrected_X`.
 struct RunComparison {
   std::string name{};
   std::string use{};  ///< diagnosis | validation
-  std::vector<double> time_s{};
-  std::vector<double> measured_power_W{};
-  std::vector<double> predicted_power_W{};
-  std::vector<double> corrected_power_W{};
+  Columns columns{};
 };
 
 struct DiagnosisExtras {
@@ -40,15 +47,20 @@ struct DiagnosisExtras {
   std::vector<RunComparison> runs{};
 };
 
-/// Each function returns one self-contained HTML file: data as JSON, style, scripts and the plotting library
-/// inside. The same input gives the same bytes. An infeasible plan has no trajectory: pass {}.
+/// [{name, use, columns}] with at most `most_numbers` numbers altogether: long runs are thinned.
+[[nodiscard]] nlohmann::json runs_json(const std::vector<RunComparison>& runs,
+                                       std::size_t most_numbers = 200'000);
+
+/// Each function returns one self-contained HTML file: data as JSON, style and scripts inside; without
+/// JavaScript the data stand there as tables. The same input gives the same bytes. An infeasible plan has no
+/// trajectory: pass {}.
 [[nodiscard]] std::string plan_report_html(const nlohmann::json& plan, const Columns& trajectory,
                                            const PlanExtras& extras = {});
 [[nodiscard]] std::string diagnosis_report_html(const nlohmann::json& diagnosis,
                                                 const DiagnosisExtras& extras = {});
 
 /// `compare`: {"profiles": [{name, feasible, reason, energy_J, motion_energy_J, duration_s, parameters}]},
-/// the plan first; `profiles` the motions behind them.
+/// the plan first; `profiles`: their motions.
 [[nodiscard]] std::string compare_report_html(const nlohmann::json& compare,
                                               const std::vector<NamedColumns>& profiles,
                                               const std::string& title = {});

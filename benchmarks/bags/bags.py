@@ -49,7 +49,7 @@ def prepare(program, folder, hours):
     subprocess.run([program, "plan", "path.csv", "--robot", "robot.yaml", "--out", "plan", "--force", "--quiet"], cwd=folder, check=True)
     subprocess.run([program, "simulate", "plan", "--robot", "robot.yaml", "--out", "logs", "--force", "--quiet", "--sample-rate-Hz",
                     "100", "--effect", "rolling_resistance:coefficient=0.01"], cwd=folder, check=True)
-    log = next((folder / "logs").glob("*.csv"))
+    log = next((folder / "logs").glob("run_*.csv"))
     made = subprocess.run([sys.executable, HERE / "day.py", log, hours, folder / "day.mcap"], check=True, stdout=subprocess.PIPE)
     return int(made.stdout)
 

@@ -1,6 +1,7 @@
 """Writes a day's bag: odometry and joint states at 100 Hz, battery at 10 Hz, MCAP with zstd chunks of one second.
 
-usage: day.py LOG.csv HOURS BAG.mcap      LOG.csv: a run log at 100 Hz from rest to rest, which the day repeats with noise
+usage: day.py LOG.csv HOURS BAG.mcap
+LOG.csv: a run log at 100 Hz from rest to rest. The day repeats it with noise, and the robot stands for STOP_S after each.
 """
 import csv
 import struct
@@ -10,6 +11,7 @@ import numpy as np
 import zstandard
 
 RATE, START_NS = 100, 1_700_000_000_000_000_000
+STOP_S = 3
 MAGIC = b"\x89MCAP0\r\n"
 HALF_TRACK_M, WHEEL_RADIUS_M = 0.165, 0.0825
 TYPES = {"/odom": "nav_msgs/msg/Odometry", "/joint_states": "sensor_msgs/msg/JointState",
@@ -81,6 +83,7 @@ class Day:
     def __init__(self, file):
         with open(file, newline="") as stream:
             rows = list(csv.DictReader(stream))
+        rows += STOP_S * RATE * [rows[-1]]
         self.of = {name: np.array([float(row[name]) for row in rows]) for name in rows[0] if rows[0][name] != ""}
         self.rows = len(rows)
         self.random = np.random.default_rng(5)

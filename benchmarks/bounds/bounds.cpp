@@ -24,7 +24,7 @@ constexpr std::size_t kCoarseNodes = 60;
 constexpr double kStrict = 1e-9;         ///< relative violation that a profile within the limits may have
 constexpr std::size_t kJerkNodes = 400;  ///< of finer profiles with a jerk limit
 
-/// A straight line whose braking is all recovered, without a limit that holds: its optimum has a closed form.
+/// A straight line with full recovery of braking energy and no binding limit: its optimum has a closed form.
 void make_closed_form(Problem& problem) {
   ProfileRequest& request = problem.request;
   Robot robot = request.plant.robot;
@@ -70,13 +70,13 @@ Json plan_json(const ProfileRequest& request, const ProfileResult& result) {
   return json;
 }
 
-/// A profile on a finer grid within limits that are as much smaller as keeps the limits as asked.
+/// A profile on a finer grid within reduced limits, so that it keeps the original limits.
 Json finer_json(const ProfileRequest& request, std::size_t nodes) {
   Json json;
   for (const double room : kRooms) {
     ProfileRequest finer = testing::with_room(request, room);
     finer.nodes = nodes;
-    finer.draft = !std::isfinite(request.limits.jerk_m_s3);  // limits are judged afterwards
+    finer.draft = !std::isfinite(request.limits.jerk_m_s3);  // limits are checked afterwards
     const ProfileResult result = solve_profile(finer);
     if (!result.profile) return {{"message", result.summary.message}};
     json = profile_json(request, *result.profile);

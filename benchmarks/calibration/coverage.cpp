@@ -1,5 +1,5 @@
-// How often the calibration's 95 % intervals cover the truth, and how far its values are from it, over
-// simulated calibrations by a plant that shares no code with the product.
+// Coverage of the calibration's 95 % intervals, and errors of its values, over simulated calibrations with a
+// plant that shares no code with the product.
 //   bench_calibration PLANT_PROGRAM SCRATCH_FOLDER SETS_PER_LEVEL FIRST_SEED
 // Prints Markdown tables.
 #include <cmath>

@@ -3,7 +3,7 @@
 usage: least_time.py --note TEXT [--problems N]
 
 Paths and limits vary those of the public problem set; limits that toppra cannot state (current, voltage) are left out. The
-reference is the closed form on straight lines, else toppra's time on 2,000 grid points. toppra looks at its grid points
+reference is the closed form on straight lines and turns in place, else toppra's time on 2,000 grid points. toppra looks at its grid points
 alone: its profile is slowed down until the judge finds every limit kept everywhere.
 """
 
@@ -30,7 +30,8 @@ def random_problems(count):
         problem = dict(base[random.integers(len(base))], id=f"t{index:03}", time={"mode": "least"})
         size = random.uniform(0.75, 1.3) if problem["kind"] != "straight" else random.uniform(0.1, 1)
         path = problem["path"]
-        problem["path"] = {"s_m": [s * size for s in path["s_m"]], "curvature_per_m": [k / size for k in path["curvature_per_m"]]}
+        bend = 1 if problem["kind"] == "turn" else size  # a turn's path is its angle, with the sense +-1 for the curvature
+        problem["path"] = {"s_m": [s * size for s in path["s_m"]], "curvature_per_m": [k / bend for k in path["curvature_per_m"]]}
         problem["limits"] = {
             key: limit * random.uniform(0.6, 1.1) for key, limit in problem["limits"].items() if key in OF_SPEED + OF_ITS_SQUARE
         }
@@ -38,16 +39,18 @@ def random_problems(count):
 
 
 def closed_form_s(problem):
-    """Trapezoid or triangle; a traction limit that holds has no part in it."""
-    limits, length_m = problem["limits"], problem["path"]["s_m"][-1]
-    slope = 1 / limits["acceleration_m_s2"] + 1 / limits["deceleration_m_s2"]
-    v = min(limits["speed_m_s"], (2 * length_m / slope) ** 0.5)
-    return length_m / v + v * slope / 2
+    """Trapezoid or triangle, of a straight line or of a turn in place; a traction limit that holds has no part in it."""
+    limits, length = problem["limits"], problem["path"]["s_m"][-1]
+    keys = ("yaw_rate_rad_s", *["yaw_acceleration_rad_s2"] * 2) if problem["kind"] == "turn" else ("speed_m_s", "acceleration_m_s2", "deceleration_m_s2")
+    fastest, up, down = (limits[key] for key in keys)
+    slope = 1 / up + 1 / down
+    v = min(fastest, (2 * length / slope) ** 0.5)
+    return length / v + v * slope / 2
 
 
 def reference(problem):
     """The time to be met, and how much toppra's own time is below it."""
-    if problem["kind"] == "straight":
+    if problem["kind"] in ("straight", "turn"):
         return closed_form_s(problem), 0.0
     answer = toppra_peer.run(problem, POINTS)["solution"]
     if answer is None:
@@ -126,7 +129,7 @@ def report(rows, plans, note):
         "# Least times and deadlines\n",
         note + "\n",
         f"Seeded random problems: paths and limits vary those of the public problem set (speed, acceleration, lateral, yaw and traction limits; three robots). "
-        f"The reference is the closed form on straight lines, else toppra's profile on {POINTS:,} grid points, slowed down until `benchmarks/problems/check.py` finds no limit exceeded. "
+        f"The reference is the closed form on straight lines and turns in place, else toppra's profile on {POINTS:,} grid points, slowed down until `benchmarks/problems/check.py` finds no limit exceeded. "
         f"Deadlines are the reference times (1 + {SLACK:g}), and the proven bound times (1 - {SLACK:g}). Relative figures: median (least to greatest).\n",
         table(header, cells),
         f"Not as claimed: {len(wrong)}.\n",

@@ -100,7 +100,7 @@ void table_6(PaperReport& report, const Plant& plant, const Hypothesis& best) {
       good, sure_good, sure, printed_good);
 }
 
-/// The reason why no protocol can give the printed effect of the payload.
+/// Shows that no protocol can give the printed effect of the payload.
 void payload_bound(PaperReport& report, const Plant& plant) {
   const Track track = paper_curve(-1);
   double floor_J = 1e300;

@@ -45,7 +45,9 @@ def instants(nodes, places):
         middle = (low + high) / 2
         early = states(nodes, middle)[0] < places
         low, high = np.where(early, middle, low), np.where(early, high, middle)
-    return np.unique(np.concatenate([nodes[0], high]))
+    t = nodes[0]
+    after = np.clip(np.searchsorted(t, high), 1, len(t) - 1)  # a place that only rounding parts from a node is that node's
+    return np.unique(np.concatenate([t, high[np.minimum(abs(t[after] - high), abs(high - t[after - 1])) > INSTANT * t[-1]]]))
 
 
 def evaluate(problem, robot, solution):

@@ -7,7 +7,7 @@
 namespace joulepath::problems {
 namespace {
 
-/// Rounded, so that a file needs few digits and reads back as the same problem.
+/// Rounds, so that a file needs few digits and parses back to the same problem.
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace

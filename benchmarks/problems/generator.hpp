@@ -8,11 +8,11 @@ namespace joulepath::problems {
 
 inline constexpr const char* kKinds[] = {"straight", "bend", "corners", "tight_corners"};
 
-/// What a stream of problems holds.
+/// The kinds of problems of a stream.
 enum class Part { paths, turns, jerk };
 
-/// Seeded random problems; a problem depends on the seed and the problems before it alone. The time goal is
-/// least time: what a deadline may be is known after the solve.
+/// Seeded random problems; a problem depends on the seed and on the problems before it only. The time goal is
+/// least time: deadlines are set after the solve.
 class Generator {
  public:
   Generator(unsigned seed, std::vector<Robot> robots) : random_(seed), robots_(std::move(robots)) {}
@@ -25,7 +25,7 @@ class Generator {
 
  private:
   PathPiece turn();
-  /// Robots of more than a metre across turn less tightly: lengths grow with the track.
+  /// Wide robots turn less tightly, so lengths grow with the track.
   Knots straight();
   Knots bend(double scale);
   Knots corners(double radius_m);

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kAccuracy = 1e-4;
 
-/// The problems of one part come from a stream of their own, so that a part can grow without a change of the
-/// others.
+/// Each part of the set has its own stream, so that a part can grow without a change of the others.
 struct Stream {
   Part part{};
   std::size_t count{};
@@ -60,7 +59,7 @@ void write_lines(std::ofstream& out, const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) out << lines[i] << (i + 1 < lines.size() ? ",\n" : "\n");
 }
 
-/// What a set's files are made of.
+/// Contents of the set's files.
 struct Lines {
   std::vector<std::string> problems{}, solutions{};
 };

@@ -58,7 +58,7 @@ TimeGoal time_from_json(const Json& json) {
   throw std::runtime_error("unknown mode " + json["mode"].get<std::string>());
 }
 
-/// Of a turn in place: the angle (rad) stands for the arc length, the sense (+-1) for the curvature.
+/// A turn in place has the angle (rad) as arc length and the sense (+-1) as curvature.
 PathPiece piece_from_json(const Json& json) {
   const Knots knots{json["path"]["s_m"], json["path"]["curvature_per_m"]};
   if (json["kind"] == kTurn) return TurnInPlace{{}, knots.s_m.back() * knots.curvature_per_m.back()};

@@ -17,7 +17,7 @@ inline constexpr const char* kTurn = "turn";  ///< the kind of a turn in place
 struct Problem {
   std::string id{};
   std::string kind{};        ///< of path
-  std::string robot_name{};  ///< its robot in the set, without the problem's own values
+  std::string robot_name{};  ///< robot in the set, without the values of the problem
   ProfileRequest request;
 };
 

@@ -1,5 +1,6 @@
 // Routes of a Dijkstra search with the semantics of Nav2's route planner (costs of edges in single precision,
-// no cost sees the edge before) on exported graphs: joules of the routes, planned in full from stop to stop.
+// independent of the edge before) on exported graphs. The joules of the routes are those of full plans from
+// stop to stop.
 #include "scenarios/export/route_graph.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr unsigned kSeed = 7;
-constexpr double kDrivenOn_rad = 0.13;  ///< kinks up to 7.5 degrees: nobody stops there
+constexpr double kDrivenOn_rad = 0.13;  ///< kinks up to 7.5 degrees: the robot does not stop there
 
 struct GraphNode {
   long id{};

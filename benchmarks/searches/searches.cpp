@@ -1,4 +1,4 @@
-// Compares search planners: taut length against the shortest any of them found, CPU time, failures.
+// Compares search planners: taut length relative to the shortest one found, CPU time, failures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -93,7 +93,7 @@ void print_row(const char* name, const Row& row, const std::vector<double>& best
               quantile(row.time_ms, 1));
 }
 
-/// Pools of routes between the same ends: without OMPL against with it.
+/// Pools of routes between the same ends, without and with OMPL.
 void pool_section(const RouteSpace& space, const std::vector<Pair>& pairs) {
   const PoolOptions choices[] = {{}, {.searches = 1}, {.searches = 0}};
   const char* const names[] = {"lattice and BIT* twice", "lattice and BIT* once", "lattice"};

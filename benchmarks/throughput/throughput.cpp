@@ -1,4 +1,4 @@
-// How fast missions are planned: CPU time, with the built-in solver unless said otherwise.
+// Throughput of planning: CPU time, with the built-in solver unless stated otherwise.
 // usage: bench_throughput MISSIONS HEADER
 #include <sys/resource.h>
 
@@ -40,7 +40,7 @@ void row(const char* what, const char* measured, const char* aim, bool met) {
   std::printf("| %s | %s | %s | %s |\n", what, measured, aim, met ? "yes" : "**no**");
 }
 
-/// A row whose figure must not be above its aim.
+/// A row whose figure should be at most its target.
 void at_most(const char* what, const char* format, double value, double aim) {
   char measured[64], target[64];
   std::snprintf(measured, sizeof measured, format, value);

@@ -11,7 +11,7 @@ namespace joulepath::ways {
 namespace {
 
 constexpr std::size_t kMostSpans = 4;
-constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are judged on a fine grid
+constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are evaluated on a fine grid
 constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
 
 /// Variables: logarithms of the handles, a free goal heading, coordinates of the knots in units of the reach.

@@ -8,24 +8,25 @@
 
 namespace joulepath::ways {
 
-/// How much is tried, per number of spans.
+/// Size of the search, per number of spans.
 struct SearchSize {
-  int samples{150};      ///< random splines, each judged once
-  int descents{4};       ///< of the cheapest of them by CMA-ES
+  int samples{150};      ///< random splines, each evaluated once
+  int descents{4};       ///< descents by CMA-ES from the cheapest of them
   int evaluations{400};  ///< of each descent
-  int refinements{300};  ///< of each descent's end by Nelder-Mead
+  int refinements{300};  ///< of Nelder-Mead at the end of each descent
 };
 
-/// The cheapest spline found, and what driving it takes on a fine grid; infinite: none was free.
+/// The cheapest spline found and its energy on a fine grid; infinite: no free spline.
 struct BestSpline {
   FreeSpline spline{};
   double energy_J{};
   int evaluations{};
 };
 
-/// A search of its own for the cheapest path without a turn in place: C2 cubic splines of one to four spans
-/// with random knots, handles and goal headings; CMA-ES from the best, then Nelder-Mead. Shares the planner's
-/// spline, collision check and profile solver (the evaluator), none of its guesses.
+/// Independent search for the cheapest path without a turn in place: C2 cubic splines of one to four spans
+/// with random knots, handles and goal headings; CMA-ES from the best, then Nelder-Mead. It shares the
+/// spline, the collision check and the profile solver (the evaluator) with the planner, but none of its
+/// guesses.
 [[nodiscard]] BestSpline brute_force(const World& world, const Problem& problem, std::mt19937& random,
                                      const SearchSize& size);
 

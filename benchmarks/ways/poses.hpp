@@ -27,13 +27,13 @@ struct World {
 /// `empty` (30 x 30 m) or a map of scenarios/maps.
 [[nodiscard]] World make_world(const std::string& name);
 
-/// Problem `index` of a floor: 1 to 10 m apart, log-uniform; every second goal names a heading. Depends on
-/// nothing but its arguments.
+/// Problem `index` of a floor: 1 to 10 m apart, log-uniform; every second goal names a heading. It depends on
+/// its arguments only.
 [[nodiscard]] Problem random_problem(const World& world, unsigned seed, unsigned index);
 
 [[nodiscard]] MissionRequest mission_of(const Problem& problem);
 
-/// Energy (standby included) of the planner's answer, and whether it turns in place; infinite: none.
+/// Energy (standby included) of the planner's path, and whether it turns in place; infinite: no path.
 struct Answer {
   double energy_J{};
   bool turns{};
@@ -43,7 +43,7 @@ struct Answer {
 /// Energy of a path, driven by the planner's profile solver, time free.
 [[nodiscard]] double driven_J(const World& world, const Problem& problem, const Path& path);
 
-/// Turn, line, turn: what a plain controller does; infinite where the line is not free.
+/// Turn, line, turn: the motion of a plain controller; infinite where the line is not free.
 [[nodiscard]] double plain_J(const World& world, const Problem& problem);
 
 }  // namespace joulepath::ways

@@ -101,8 +101,7 @@ class Worlds {
   std::map<std::string, World> worlds_{};
 };
 
-/// Poses of the public set with the least energy that is known: the file's, the planner's or that of a
-/// search.
+/// Poses of the public set with their least known energy: that of the file, of the planner or of a search.
 void poses(const char* file) {
   Worlds worlds;
   std::puts("floor,start_x_m,start_y_m,start_heading_rad,goal_x_m,goal_y_m,goal_heading_rad,best_J");
@@ -140,7 +139,7 @@ void judge(const World& world, const Reference& reference, Row& row) {
   row.not_searched += std::isinf(best_J);
   row.failed += std::isinf(ours.energy_J);
   if (std::isinf(ours.energy_J)) return;
-  // Where the search itself found nothing better, the planner's path is the best known.
+  // Where the search found nothing better, the planner's path is the best known one.
   const double excess = ours.energy_J / std::min(best_J, ours.energy_J) - 1;
   row.excess_percent.push_back(100 * excess);
   row.better += ours.energy_J < best_J * (1 - kSame);

@@ -16,7 +16,7 @@ using namespace calibration;
 
 constexpr std::size_t kFewestRuns = 6, kFewestUnits = 4;
 constexpr double kBlock_s = 10;
-constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow after the fitted values
+constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia, listed after the fitted values
 
 [[noreturn]] void refuse(const Dataset& dataset, std::string found, std::string accepted, std::string hint) {
   throw ConfigError({.mark = {.file = dataset.file},
@@ -26,7 +26,7 @@ constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow afte
                      .hint = std::move(hint)});
 }
 
-/// Says which channel every run lacks.
+/// Throws the error that names the channels that every run lacks.
 [[noreturn]] void refuse_channels(const Dataset& dataset) {
   bool speeds = false, currents = false, logs = false;
   for (const Run& run : dataset.runs) {
@@ -45,7 +45,7 @@ constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia follow afte
   refuse(dataset, "no run has both wheel speeds and motor currents over 20 samples", accepted, {});
 }
 
-/// J may not fall below what the masses of the robot file alone make up.
+/// Lower bounds: J is at least the part that the masses of the robot file make up.
 FitValues lower_bounds(const Robot& robot) {
   FitValues lower{};
   const double r = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right);
@@ -57,14 +57,15 @@ FitValues lower_bounds(const Robot& robot) {
   return lower;
 }
 
-/// Bounds for resampling: an estimate held by its bound would not scatter, though the data do.
+/// Bounds for resampling: a bound would hide the scatter of the estimates.
 FitValues without_bounds(FitValues lower) {
   for (int p : {kFrictionLeft, kFrictionRight, kViscous, kStraightInertia, kTurningInertia})
     lower[static_cast<std::size_t>(p)] = -1e6;
   return lower;
 }
 
-/// For each parameter the number of units that carry its information: (sum h)^2 / sum h^2, h the unit's part.
+/// Effective number of units for each parameter: (sum h)^2 / sum h^2, where h is a unit's part of the
+/// information.
 std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& units, const FitSums& all,
                                                    const FitWeights& weights, const FitValues& values,
                                                    const FreeParameters& free) {
@@ -84,7 +85,7 @@ std::array<double, kFitParameters> effective_units(const std::vector<FitSums>& u
   return count;
 }
 
-/// The fitted parameter that a reported value rests on.
+/// The fitted parameter from which a reported value is derived.
 std::size_t source_of(std::size_t p) {
   if (p < kFitParameters) return p;
   return p == kFitParameters ? std::size_t{kStraightInertia} : std::size_t{kTurningInertia};
@@ -97,8 +98,9 @@ std::vector<double> reported(const Robot& robot, const FitValues& values) {
   return all;
 }
 
-/// The jackknife weighs runs that carry much of a parameter's information too heavily, by about 1/(1 -
-/// share): with the effective number of runs this is the mean of that factor, 1 for equal runs.
+/// Correction of the jackknife, which weighs runs with a large share of a parameter's information too
+/// heavily, by about 1/(1 - share). The result is the mean of that factor for the effective number of runs;
+/// it is 1 for equal runs.
 double leverage_correction(double effective, std::size_t units) {
   const auto n = static_cast<double>(units);
   return std::sqrt(std::max(0.0, 1 - 1 / std::max(effective, 1.5)) * n / (n - 1));

@@ -10,30 +10,30 @@
 namespace joulepath {
 
 enum class CalibrationMethod {
-  steady,  ///< the paper's: stretches of constant speed, [P1, Eq. (30)]; friction alone
-  full     ///< whole runs, voltages and currents: friction, R, Kt n, inertias
+  steady,  ///< method of the paper: stretches of constant speed, [P1, Eq. (30)]; friction only
+  full     ///< whole runs with voltages and currents: friction, R, Kt n, inertias
 };
 
-/// How well the data determine a parameter, before any prior knowledge.
+/// How well the data determine a parameter without prior knowledge.
 enum class Visibility {
   seen,
   weak,   ///< the interval is wider than half of the value
-  unseen  ///< the data do not determine it alone: the robot file's value was kept
+  unseen  ///< the data do not determine the parameter; the value of the robot file is kept
 };
 
 struct CalibratedParameter {
   std::string name{};  ///< friction_torque_left_Nm, viscous_friction_Nm_s_rad, resistance_ohm, ...
   std::string unit{};
-  double nominal{};                     ///< the robot file's
-  double value{};                       ///< calibrated; nominal where unseen
+  double nominal{};                     ///< value of the robot file
+  double value{};                       ///< calibrated value; nominal where unseen
   double standard_deviation{};          ///< from run-level resampling; 0 where unseen
   std::array<double, 2> interval_95{};  ///< value +/- Student's t times the deviation
-  double effective_runs{};              ///< how many runs carry the information
+  double effective_runs{};              ///< effective number of runs that carry the information
   Visibility visibility{Visibility::unseen};
-  std::string note{};  ///< why unseen, or what the value rests on
+  std::string note{};  ///< why the parameter is unseen, or what its value depends on
 };
 
-/// A fit of [P1, Eq. (30)] to one motor: i = b1 + b2 q', V = c1 + c2 q' (all signs of a forward motion).
+/// Fit of [P1, Eq. (30)] to one motor: i = b1 + b2 q', V = c1 + c2 q' (signs of forward motion).
 struct SteadyLine {
   double b1_A{}, b2_A_s_rad{}, c1_V{}, c2_V_s_rad{};
   bool has_voltage{};
@@ -45,7 +45,7 @@ struct SteadySegment {
   double duration_s{};
   Sided<double> speed_rad_s{};
   Sided<double> current_A{};
-  Sided<double> voltage_V{};  ///< NaN where the log has none
+  Sided<double> voltage_V{};  ///< NaN where the log has no voltage
 };
 
 struct CalibrationResult {
@@ -62,17 +62,18 @@ struct CalibrationResult {
   std::vector<std::string> notes{};
 };
 
-/// Calibrates the dataset's robot with its runs.
+/// Calibrates the dataset's robot from its runs.
 ///
 /// The full method is a bounded nonlinear least squares fit of
 ///   Kt n i = J q''_mean +/- D q''_half_difference + nu q' + T_m sign(q') + payload and d terms,
 ///   V = R i + Kv n q'                                                [P1, Eqs. (14), (15), (17)]
-/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). J = m r^2/2 + I_w + I_s
-/// and D = I r^2/(2 l^2) + I_w + I_s without payload are what wheels can see; I_w + I_s and I_c follow with
-/// the masses and lengths of the robot file. Kt and Kv keep their ratio, the gear ratio its value.
+/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). The wheels determine J = m
+/// r^2/2 + I_w + I_s and D = I r^2/(2 l^2) + I_w + I_s without payload; I_w + I_s and I_c follow from the
+/// masses and lengths of the robot file. The ratio of Kt to Kv and the gear ratio keep the values of the
+/// robot file.
 ///
-/// Throws ConfigError when the data cannot be used, saying what is missing. A robot with `effects:` is
-/// refused: they would be calibrated away.
+/// Throws ConfigError with the missing data where the data cannot be used. A robot with `effects:` is
+/// rejected, because the fit would absorb the effects.
 [[nodiscard]] CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method);
 
 }  // namespace joulepath

@@ -14,9 +14,9 @@ namespace joulepath::calibration {
 namespace {
 
 using Columns = Eigen::Matrix<double, FitSums::kTorqueColumns, 1>;
-constexpr int kFactors = 6;  ///< of the torque equation: kFrictionLeft .. kPayloadFactor
+constexpr int kFactors = 6;  ///< unknown factors of the torque equation: kFrictionLeft .. kPayloadFactor
 
-/// Residual of the current equation as a combination of its columns: e = (T, nu, J, D, p, 1) x / K - i.
+/// Residual of the current equation as coefficients of its columns: e = (T, nu, J, D, p, 1) x / K - i.
 Columns current_residual(const FitValues& values) {
   Columns c;
   for (int j = 0; j < kFactors; ++j) c[j] = values[static_cast<std::size_t>(j)] / values[kTorquePerAmpere];
@@ -25,7 +25,7 @@ Columns current_residual(const FitValues& values) {
   return c;
 }
 
-/// Its derivative by a parameter.
+/// Derivative of current_residual() by a parameter.
 Columns current_residual_slope(const FitValues& values, int parameter) {
   Columns c = Columns::Zero();
   const double K = values[kTorquePerAmpere];
@@ -37,7 +37,7 @@ Columns current_residual_slope(const FitValues& values, int parameter) {
   return c;
 }
 
-/// Residual of the voltage equation by (i, q', V): e = R i + K q' - V.
+/// Coefficients of the voltage equation's residual e = R i + K q' - V on (i, q', V).
 Eigen::Vector3d voltage_residual(const FitValues& values) {
   return {values[kResistance], values[kTorquePerAmpere], -1.0};
 }
@@ -46,10 +46,10 @@ Eigen::Vector3d voltage_residual_slope(int parameter) {
   return {parameter == kResistance ? 1.0 : 0.0, parameter == kTorquePerAmpere ? 1.0 : 0.0, 0.0};
 }
 
-/// The voltage sums of Y = (i, q', V) seen through instruments Z: Y^T Z (Z^T Z)^-1 Z^T Y, without the part
-/// that di/dt explains. Noise in the measured current, white or not, is in Y but not in Z (signs, speeds,
-/// accelerations, di/dt, with which stationary noise does not correlate): it brings no bias to R. An
-/// inductance, which the model neglects, would bias R by what braking and accelerating currents differ.
+/// Voltage sums of Y = (i, q', V) projected on the instruments Z: Y^T Z (Z^T Z)^-1 Z^T Y, without the part
+/// that di/dt explains. The instruments are signs, speeds, accelerations and di/dt. Stationary noise of the
+/// measured current does not correlate with them, so it does not bias R. The model neglects the inductance;
+/// without the di/dt column, the inductance would bias R where braking and accelerating currents differ.
 Eigen::Matrix3d instrumented(const FitSums& sums) {
   const Eigen::Matrix<double, 6, 6> ZZ = sums.voltage.topLeftCorner<6, 6>();
   const Eigen::Matrix<double, 6, 1> scale =
@@ -94,7 +94,8 @@ double objective(unsigned count, const double* x, double* gradient, void* data) 
   return share * (problem.weights.torque * c.dot(Gc) + problem.weights.voltage * e.dot(Ge));
 }
 
-/// Least squares of `target` on the free columns of a matrix of sums, the other columns with given factors.
+/// Least squares of `target` on the free columns of a matrix of sums; the other columns keep their given
+/// factors.
 Eigen::VectorXd solve_free(const Eigen::MatrixXd& sums, const std::vector<int>& columns,
                            const Eigen::VectorXd& rest) {
   const auto n = static_cast<Eigen::Index>(columns.size());
@@ -111,7 +112,7 @@ Eigen::VectorXd solve_free(const Eigen::MatrixXd& sums, const std::vector<int>& 
   return scale.asDiagonal() * scaled.colPivHouseholderQr().solve(scale.asDiagonal() * b);
 }
 
-/// Where the voltage equation, then the current equation alone lead.
+/// Start of the nonlinear fit: the voltage equation alone, then the current equation alone.
 FitValues linear_fit(const FitSums& sums, const FitValues& start, const FreeParameters& free) {
   FitValues values = start;
   std::vector<int> columns;
@@ -152,7 +153,7 @@ double voltage_mean_square_V2(const FitSums& sums, const FitValues& values) {
 
 FitWeights fit_weights(const FitSums& sums, const FitValues& start, const FreeParameters& free) {
   const FitValues values = linear_fit(sums, start, free);
-  // Data without noise leave nothing: a part in 1e7 of the signal keeps the weights finite.
+  // For data without noise the residual is zero; a floor of 1e-7 of the signal keeps the weights finite.
   const double current_floor = 1e-14 * sums.torque(7, 7) / std::max(1.0, sums.torque_count);
   const double voltage_floor = 1e-14 * sums.voltage(8, 8) / std::max(1.0, sums.voltage_count);
   FitWeights weights{1 / std::max(current_mean_square_A2(sums, values), current_floor), 0.0};
@@ -187,7 +188,8 @@ FitResult fit_full(const FitSums& sums, const FitWeights& weights, const FitValu
   const double before = objective(count, x.data(), nullptr, &problem);
   std::vector<double> best = x;
   const nlopt_result status = nlopt_optimize(solver.get(), best.data(), &least);
-  // The sums are differences of large numbers: a gain below their rounding is none, and the start stands.
+  // The sums are differences of large numbers: a gain below their rounding does not count, and the fit keeps
+  // the start.
   const double rounding = 1e-14 *
                           (weights.torque * sums.torque(7, 7) + weights.voltage * sums.voltage(8, 8)) /
                           std::max(1.0, sums.torque_count + sums.voltage_count);

@@ -6,7 +6,7 @@
 namespace joulepath::calibration {
 namespace {
 
-constexpr double kLeastExcitation = 3;  ///< accelerations against their own noise, in squares
+constexpr double kLeastExcitation = 3;  ///< least ratio of acceleration to its noise, both squared
 constexpr double kWidestDirection = 0.5, kWidestPayloadFactor = 0.05;
 
 /// Indices of the free parameters.

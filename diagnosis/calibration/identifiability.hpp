@@ -6,18 +6,19 @@
 
 namespace joulepath::calibration {
 
-/// Which parameters the data can separate.
+/// The parameters that the data can separate.
 struct Identifiability {
   FreeParameters free{};                          ///< to be fitted
-  std::array<std::string, kFitParameters> why{};  ///< for those that are not: what is missing
+  std::array<std::string, kFitParameters> why{};  ///< for each parameter that is held: the missing data
 };
 
-/// Names of the parameters as results show them.
+/// Name of a parameter in results.
 [[nodiscard]] const char* fit_parameter_name(int parameter);
 
-/// Frees every parameter, then holds one after the other: while some direction in parameter space (scaled by
-/// the robot file's values) has a standard deviation above a half by the data alone, the parameter that has
-/// the largest part in it is held at the robot file's value; the payload factor already above 5 %.
+/// Starts with every parameter free and holds one after the other at the value of the robot file: while a
+/// direction in parameter space (scaled by the robot file's values) has a standard deviation above one half
+/// from the data alone, the parameter with the largest part in that direction is held. For the payload factor
+/// the threshold is 5 %.
 [[nodiscard]] Identifiability identifiable(const FitSums& sums, const FitValues& nominal);
 
 }  // namespace joulepath::calibration

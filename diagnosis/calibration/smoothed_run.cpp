@@ -11,11 +11,11 @@ namespace joulepath::calibration {
 namespace {
 
 constexpr double kKernelDeviation_s = 0.15;
-constexpr double kTurningSpeed_rad_s = 0.3;  ///< slower, and the sign of friction is in doubt
+constexpr double kTurningSpeed_rad_s = 0.3;  ///< below this speed the sign of friction is uncertain
 constexpr double kBraking_rad_s2 = 0.3;
 constexpr double kLongestGap_periods = 2.5;
 
-/// The channels that calibration needs, on even time steps without gaps.
+/// The channels that calibration needs, at even time steps without gaps.
 struct Stretch {
   double start_s{};
   double period_s{};
@@ -44,7 +44,7 @@ double median_period_s(const std::vector<double>& time_s) {
   return *middle;
 }
 
-/// Samples [first, last) of a channel on even steps; as they are where they are even already.
+/// Samples [first, last) of a channel at even steps, unchanged where the log's steps are even.
 std::vector<double> on_even_steps(const std::vector<double>& time_s, const std::vector<double>& values,
                                   std::size_t first, std::size_t last, double period_s, std::size_t count) {
   std::vector<double> even;
@@ -91,7 +91,7 @@ bool turns_one_way(const std::vector<double>& speed, std::size_t center, std::si
   return true;
 }
 
-/// Where a wheel brakes: there an unsigned current may have had the other sign.
+/// Where a wheel brakes; an unsigned current may have the opposite sign there.
 struct Braking {
   std::vector<bool> at{};
 

@@ -27,7 +27,7 @@ double sum_of_squares(const std::vector<double>& weights) {
 
 SplineKernel make_spline_kernel(double sample_period_s, double deviation_s) {
   JOULEPATH_ASSERT(sample_period_s > 0, "a sample period is positive");
-  // The B-spline of knot distance h has the variance h^2/3.
+  // A B-spline of knot distance h has the variance h^2/3.
   const double knot = std::sqrt(3.0) * std::max(deviation_s / sample_period_s, 1.5);
   const int reach = static_cast<int>(std::ceil(2 * knot)) - 1;
   SplineKernel kernel;

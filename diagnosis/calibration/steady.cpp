@@ -47,7 +47,7 @@ std::array<double, 2> line(const std::vector<SteadySegment>& segments, Side side
   return {(qq * sy - sq * qy) / determinant, (ss * qy - sq * sy) / determinant};
 }
 
-/// Fastest and slowest |speed| among segments.
+/// Lowest and highest |speed| of the segments.
 std::array<double, 2> speed_range_rad_s(const std::vector<SteadySegment>& segments) {
   std::array<double, 2> range{1e300, 0};
   for (const SteadySegment& segment : segments) {
@@ -159,7 +159,7 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   else
     result.notes.push_back("fewer than 4 steady segments: no intervals");
 
-  // T_m and nu scale with the robot file's Kt: its uncertainty is theirs.
+  // T_m and nu are proportional to the robot file's Kt and inherit its relative uncertainty.
   const auto of_constant = dataset.robot.uncertainty.find("torque_constant_Nm_A");
   if (of_constant != dataset.robot.uncertainty.end())
     for (std::size_t k = 0; k < values.size(); ++k)

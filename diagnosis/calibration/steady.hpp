@@ -5,15 +5,15 @@
 
 namespace joulepath::calibration {
 
-/// Finds stretches of at least one second on a straight line in which no wheel accelerates beyond what the
-/// noise of the smoothed speed explains (at least 0.1 rad/s^2), and takes their means.
+/// Means of the channels over stretches of straight motion of at least one second in which no wheel
+/// accelerates by more than the noise of the smoothed speed explains (at least 0.1 rad/s^2).
 [[nodiscard]] std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs);
 
-/// Least squares of [P1, Eq. (30)] over segments, each weighing with its duration: i = b1 sign + b2 q',
-/// V = c1 sign + c2 q'.
+/// Least squares of [P1, Eq. (30)] over segments, weighted by duration: i = b1 sign + b2 q', V = c1 sign + c2
+/// q'.
 [[nodiscard]] SteadyLine fit_steady_line(const std::vector<SteadySegment>& segments, Side side);
 
-/// The paper's procedure: T_m = b1 Kt n and nu = b2 Kt n per motor.
+/// Procedure of the paper: T_m = b1 Kt n and nu = b2 Kt n per motor.
 [[nodiscard]] CalibrationResult calibrate_steady(const Dataset& dataset,
                                                  const std::vector<SmoothedRun>& runs);
 

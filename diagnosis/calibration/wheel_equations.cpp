@@ -17,7 +17,7 @@ double ratio_to_mean(double value, double other) {
   return value + other > 0 ? 2 * value / (value + other) : 1.0;
 }
 
-/// What a payload of 1 kg adds to J and D, with the geometry of the robot file.
+/// Contribution of 1 kg of payload to J and D, with the geometry of the robot file.
 struct PayloadInertia {
   double straight_m2{}, turning_m2{};
 };
@@ -28,8 +28,8 @@ PayloadInertia payload_inertia(const Robot& robot) {
   return {r * r / 2, (robot.inertia.payload_yaw_inertia_m2 + d_p * d_p) * r * r / (2 * l * l)};
 }
 
-/// Torque of a center of mass ahead of the axle at constant speeds: r/2 (-mu w^2) +/- r/(2 l) mu v
-/// w.
+/// Wheel torque at constant speeds caused by a center of mass ahead of the axle: r/2 (-mu w^2) +/- r/(2 l) mu
+/// v w.
 Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) {
   const double r = mean_radius_m(robot.geometry), l = robot.geometry.half_track_m;
   const double v = 0.5 * r * (sample.speed_rad_s.left + sample.speed_rad_s.right);
@@ -54,7 +54,7 @@ void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample
       heavy * mean + wide * apart, known_torque_Nm(robot, sample)[side], ratio.torque_per_ampere * i;
   sums.torque += x * x.transpose();
 
-  // Noise of the wheel speeds in q', in the mean and in half the difference of q'' (independent wheels).
+  // Noise of the wheel speeds in q', and in the mean and half the difference of q'' (independent wheels).
   const double speed_variance = run.speed_noise_rad_s * run.speed_noise_rad_s;
   const double slow = run.kernel.value_gain * speed_variance;
   const double fast = 0.5 * run.kernel.derivative_gain * speed_variance;

@@ -9,7 +9,7 @@
 
 namespace joulepath::calibration {
 
-/// What the full method fits, in this order.
+/// Parameters of the full method, in the order of FitValues.
 enum FitParameter : int {
   kFrictionLeft,  ///< T_m, N m
   kFrictionRight,
@@ -23,11 +23,11 @@ enum FitParameter : int {
 };
 using FitValues = std::array<double, kFitParameters>;
 
-/// Sums of products of one run (or of a block of one), all that least squares needs of it. With
+/// Sums of products over one run (or over a block of one); least squares needs nothing else. With
 ///   Kt n i = T_m sign(q') + nu q' + J q''_mean + D (q'' - q''_mean) + p x_payload + x_known,
-/// torque = sum of (x, i)(x, i)^T over both wheels' samples, and voltage the same of
-/// (sign left, sign right, q', q''_mean, q'' - q''_mean | di/dt, i, q', V): instruments, then the voltage
-/// equation's own columns. The share of white noise in smoothed speeds is taken out.
+/// torque = sum of (x, i)(x, i)^T over both wheels' samples. Likewise voltage = sum over (sign left, sign
+/// right, q', q''_mean, q'' - q''_mean | di/dt, i, q', V): the instruments, then the columns of the voltage
+/// equation. The share of white noise in the smoothed speeds is subtracted.
 struct FitSums {
   static constexpr int kVoltageColumns = 9;
   static constexpr int kTorqueColumns = 8;  ///< six factors, the known torque, the current
@@ -35,24 +35,25 @@ struct FitSums {
       Eigen::Matrix<double, kTorqueColumns, kTorqueColumns>::Zero();
   Eigen::Matrix<double, kVoltageColumns, kVoltageColumns> voltage =
       Eigen::Matrix<double, kVoltageColumns, kVoltageColumns>::Zero();
-  double acceleration_noise{};  ///< what was taken out of (q''_mean)^2, and as much of the other
+  double acceleration_noise{};  ///< noise subtracted from (q''_mean)^2, and the same amount from the other
+                                ///< square
   double torque_count{};
   double voltage_count{};
-  double independent_share{};  ///< samples that are independent after smoothing / samples
+  double independent_share{};  ///< ratio of independent samples after smoothing to all samples
   std::size_t samples{};
 
   FitSums& operator+=(const FitSums& other);
   FitSums& operator-=(const FitSums& other);
 };
 
-/// The parameters as the robot file has them, payload factor 1. R, Kt n are the mean of both sides.
+/// Parameter values of the robot file, with payload factor 1. R and Kt n are means of both sides.
 [[nodiscard]] FitValues nominal_values(const Robot& robot);
 
-/// Sums for each run; where there are fewer than `fewest_runs`, for blocks of `block_s` of each run.
+/// Sums of each run; with fewer than `fewest_runs` runs, sums of blocks of `block_s`.
 [[nodiscard]] std::vector<FitSums> fit_sums(const Robot& robot, const std::vector<SmoothedRun>& runs,
                                             std::size_t fewest_runs, double block_s);
 
-/// A side's R, Kt n and nu relative to the mean of both sides: kept as in the robot file.
+/// R, Kt n and nu of each side relative to the mean of both sides, as in the robot file.
 struct SideRatios {
   double resistance{1}, torque_per_ampere{1}, viscous{1};
   double voltage_over_torque_constant{1};

@@ -19,16 +19,19 @@ namespace {
 
 using Relations = std::vector<std::optional<Relation>>;
 
-/// Below it a relation is exact.
+/// A relation with a smaller unexplained share is exact.
 constexpr double kExact = 1e-5;
 
-/// A run on its way: as logged, or with the repairs that were found so far.
+/// A run with the repairs found so far.
 struct Examined {
-  std::size_t index{};          ///< of the dataset
+  const RunSignals* logged{};
   std::optional<Run> mended{};  ///< absent: as logged
-  RunSignals signals{};
+  std::optional<RunSignals> mended_signals{};
   Relations relations{};
   bool lost{};  ///< a channel without which nothing can be told is dead
+
+  [[nodiscard]] std::size_t index() const { return logged->run_index; }
+  [[nodiscard]] const RunSignals& signals() const { return mended_signals ? *mended_signals : *logged; }
 };
 
 bool is_beyond_doubt(const Relations& relations) {
@@ -37,16 +40,16 @@ bool is_beyond_doubt(const Relations& relations) {
   });
 }
 
-/// What a repair does to a run's relations.
+/// Effect of a repair on the relations of a run.
 struct Effectiveness {
-  double nats{};       ///< sum of the logarithms of what is less unexplained
-  bool repairs{};      ///< a relation becomes whole, and none is harmed
-  bool contradicts{};  ///< a relation that was whole breaks
-  std::size_t most{};  ///< the relation that gains most
+  double nats{};       ///< sum over the relations of log(unexplained share before / after)
+  bool repairs{};      ///< the repair makes a relation sound and harms none
+  bool contradicts{};  ///< the repair breaks a sound relation
+  std::size_t most{};  ///< relation with the greatest gain
 };
 
-/// `by_factor`: a factor that is no unit is sure only where a measured channel shows it: resistances of the
-/// floor may ask for several times the torque.
+/// With `by_factor` (a factor that is not a unit conversion), relations that predict torques do not count:
+/// resistances of the floor may multiply the torque several times.
 Effectiveness compare(const Relations& before, const Relations& after, bool by_factor = false) {
   Effectiveness result;
   double greatest = 0;
@@ -82,14 +85,14 @@ std::string percent(double share) {
 class DataCheckSearch {
  public:
   DataCheckSearch(const Dataset& dataset, const RunsByUse& runs) : dataset_(dataset), options_(runs.options) {
-    for (const RunSignals& signals : runs.signals)
-      runs_.push_back({.index = signals.run_index, .signals = signals});
-    parallel_for(runs_.size(),
-                 [&](std::size_t r) { runs_[r].relations = relations_of(runs_[r].signals, dataset_.robot); });
+    for (const RunSignals& signals : runs.signals) runs_.push_back({.logged = &signals});
+    parallel_for(runs_.size(), [&](std::size_t r) {
+      runs_[r].relations = relations_of(runs_[r].signals(), dataset_.robot);
+    });
   }
 
-  /// Sides, signs and units first: a swapped or tiny channel follows its own quantity as little as a dead
-  /// one. A factor that is no unit comes last, as it might stand in for a dead channel.
+  /// Order of the search: sides, signs and units, then dead channels, then other factors. A swapped or tiny
+  /// channel follows its quantity as little as a dead one, and a factor could imitate a dead channel.
   std::vector<DataCheck> find() {
     find_faults(false);
     find_dead();
@@ -99,27 +102,27 @@ class DataCheckSearch {
 
  private:
   const Run& run_of(const Examined& examined) const {
-    return examined.mended ? *examined.mended : dataset_.runs[examined.index];
+    return examined.mended ? *examined.mended : dataset_.runs[examined.index()];
   }
 
   Relations relations_with(const Examined& examined, const std::vector<ColumnRepair>& columns,
                            double freedom = 1.0) const {
     const Run run = repaired(run_of(examined), columns, dataset_.robot.geometry);
-    return relations_of(make_run_signals(run, examined.index, dataset_.robot, options_), dataset_.robot,
+    return relations_of(make_run_signals(run, examined.index(), dataset_.robot, options_), dataset_.robot,
                         freedom);
   }
 
   void mend(Examined& examined, const std::vector<ColumnRepair>& columns) {
     examined.mended = repaired(run_of(examined), columns, dataset_.robot.geometry);
-    examined.signals = make_run_signals(*examined.mended, examined.index, dataset_.robot, options_);
-    examined.relations = relations_of(examined.signals, dataset_.robot);
+    examined.mended_signals = make_run_signals(*examined.mended, examined.index(), dataset_.robot, options_);
+    examined.relations = relations_of(examined.signals(), dataset_.robot);
   }
 
   void report(DataCheck check, const std::vector<std::size_t>& which) {
     for (std::size_t r : which) {
-      check.runs.push_back(runs_[r].index);
+      check.runs.push_back(runs_[r].index());
       if (which.size() < runs_.size())
-        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index].name;
+        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index()].name;
     }
     checks_.push_back(std::move(check));
   }
@@ -133,7 +136,7 @@ class DataCheckSearch {
     std::map<std::vector<std::string>, std::vector<std::pair<std::size_t, DeadChannel>>> found;
     std::vector<std::vector<DeadChannel>> dead(runs_.size());
     parallel_for(runs_.size(),
-                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals, dataset_.robot); });
+                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals(), dataset_.robot); });
     for (std::size_t r = 0; r < runs_.size(); ++r)
       for (const DeadChannel& channel : dead[r]) found[channel.columns].emplace_back(r, channel);
     for (const auto& [columns, where] : found) {
@@ -147,7 +150,7 @@ class DataCheckSearch {
       for (const auto& [r, channel] : where) which.push_back(r);
       check.evidence = "shows " + percent(std::abs(where.front().second.followed)) +
                        " of the change that the other channels ask for (" +
-                       dataset_.runs[runs_[which.front()].index].name + ")";
+                       dataset_.runs[runs_[which.front()].index()].name + ")";
       for (std::size_t r : which) {
         if (needed)
           runs_[r].lost = true;
@@ -164,7 +167,7 @@ class DataCheckSearch {
     double nats{};
   };
 
-  /// The fault that explains most, over the runs that it mends.
+  /// The fault whose repair explains most, summed over the runs that it repairs.
   std::optional<Found> best_fault(const std::vector<std::size_t>& broken, bool with_factors) const {
     std::optional<Found> best;
     for (const Fault& fault : possible_faults(run_of(runs_[broken.front()]))) {
@@ -183,7 +186,7 @@ class DataCheckSearch {
     return best;
   }
 
-  /// A fault of all runs that can tell is a fault of all runs.
+  /// Extends a fault to all runs with its columns, unless it contradicts one of them.
   void widen(Found& found) const {
     std::vector<char> against(runs_.size(), 0);
     parallel_for(runs_.size(), [&](std::size_t r) {
@@ -203,7 +206,8 @@ class DataCheckSearch {
     return std::ranges::any_of(possible, [&](const Fault& other) { return other.channel == fault.channel; });
   }
 
-  /// A factor that is no unit, to within the calibration: where relations with fixed factors fit best.
+  /// Refines a factor that is not a unit conversion: the factor at which relations with fixed coefficients
+  /// fit best.
   void refine(Found& found) const {
     const Examined& examined = runs_[found.which.front()];
     const double first = found.fault.columns.front().scale;
@@ -240,7 +244,7 @@ class DataCheckSearch {
             .kind = found->fault.kind,
             .evidence = before[most]->law + ": " + percent(before[most]->unexplained) +
                         " unexplained as logged, " + percent(after[most]->unexplained) +
-                        " with the repair (" + dataset_.runs[runs_[shown].index].name + ")",
+                        " with the repair (" + dataset_.runs[runs_[shown].index()].name + ")",
             .columns = found->fault.columns},
            found->which);
     return true;
@@ -252,7 +256,7 @@ class DataCheckSearch {
   std::vector<DataCheck> checks_{};
 };
 
-/// What no robot has, and no repair above explains.
+/// Adds values that no robot has and that no repair above explains.
 void add_implausible(const Dataset& dataset, std::vector<DataCheck>& checks) {
   const auto covered = [&](std::size_t run, const std::string& channel) {
     return std::ranges::any_of(checks, [&](const DataCheck& check) {

@@ -7,10 +7,10 @@
 
 namespace joulepath {
 
-/// What in the logs contradicts physics and is surely no effect: dead, inverted, swapped or scaled channels,
-/// channels and clocks in another unit. A fault is sure where its repair makes relations between channels
-/// hold that nothing inside calibration errors and the catalog's range explains without it. `runs` holds the
-/// signals of the usable runs.
+/// Finds log errors that contradict physics and cannot be an effect: dead, inverted, swapped or scaled
+/// channels, and channels or clocks in another unit. A fault is reported where its repair restores relations
+/// between channels that no calibration error and no effect of the catalog explains without it. `runs` holds
+/// the signals of the usable runs.
 [[nodiscard]] std::vector<DataCheck> check_data(const Dataset& dataset, const RunsByUse& runs);
 
 }  // namespace joulepath

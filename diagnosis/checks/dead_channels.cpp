@@ -6,6 +6,7 @@
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/rms.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/kinematics.hpp"
 
 namespace joulepath {
 namespace {
@@ -19,8 +20,8 @@ VectorXd differences(const VectorXd& values) {
   return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
 }
 
-/// Part of an expected change that a channel shows, and the size of the channel's own change over it: a
-/// channel that follows something else is not dead.
+/// Share of an expected change that a channel shows, and the ratio of the channel's own change to the
+/// expected change. A channel with a large change of another shape is not dead.
 struct Following {
   double share{1.0};
   double size{1.0};
@@ -39,9 +40,7 @@ class Search {
 
   std::vector<DeadChannel> list() {
     for (Side side : kSides) wheel(side);
-    const Sided<double>& r = robot_.geometry.wheel_radius_m;
-    const VectorXd yaw = (r.right * run_.wheel_speed_rad_s.right - r.left * run_.wheel_speed_rad_s.left) /
-                         (2 * robot_.geometry.half_track_m);
+    const VectorXd yaw = body_twist(robot_.geometry, run_.wheel_speed_rad_s).yaw_rate_rad_s;
     compare(run_.gyro_yaw_rate_rad_s, yaw, 0.1, {"gyro_yaw_rate_rad_s"});
     if (run_.heading_measured)
       compare(differences(run_.heading_rad), differences(integral(yaw)), 0.1 * run_.period_s,
@@ -64,7 +63,7 @@ class Search {
     if (follows.is_dead()) dead_.push_back({std::move(columns), follows.share, needed});
   }
 
-  /// A motor's channels against its wheel's motion; the wheel's speed against its voltage.
+  /// Compares a motor's channels with its wheel's motion, and the wheel's speed with its voltage.
   void wheel(Side side) {
     const std::string suffix = std::string("_") + side_name(side);
     const Motor& motor = robot_.motor[side];
@@ -87,11 +86,8 @@ class Search {
     if (run_.x_m.size() != run_.size() || run_.y_m.size() != run_.size()) return;
     const VectorXd dx = differences(run_.x_m), dy = differences(run_.y_m);
     const VectorXd moved = (dx.array().square() + dy.array().square()).sqrt();
-    const Sided<double>& r = robot_.geometry.wheel_radius_m;
-    const VectorXd rolled =
-        0.5 *
-        differences(r.right * run_.wheel_angle_rad.right + r.left * run_.wheel_angle_rad.left).cwiseAbs();
-    compare(moved, rolled, 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
+    const VectorXd distance_m = body_twist(robot_.geometry, run_.wheel_angle_rad).speed_m_s;
+    compare(moved, differences(distance_m).cwiseAbs(), 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
   }
 
   void supply() {

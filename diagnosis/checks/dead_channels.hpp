@@ -7,11 +7,11 @@
 
 namespace joulepath {
 
-/// A channel that does not follow what the others ask of it.
+/// A channel that does not follow the change that the other channels imply.
 struct DeadChannel {
   std::vector<std::string> columns{};
-  double followed{};  ///< part of the expected change that it shows; 1 = all
-  bool needed{};      ///< without it the run says nothing: a wheel's speed
+  double followed{};  ///< share of the expected change that the channel shows; 1 = all
+  bool needed{};      ///< the run cannot be used without this channel (a wheel's speed)
 };
 
 [[nodiscard]] std::vector<DeadChannel> dead_channels(const RunSignals& run, const Robot& robot);

@@ -12,20 +12,20 @@ namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
 constexpr double kRadSPerRpm = std::numbers::pi / 30;
-/// Loggers of robots are slower.
+/// Loggers of robots have longer sample periods.
 constexpr double kShortestPeriod_s = 5e-4;
-/// Factors that are no unit, on both sides of what may be an effect (0.67 to 1.5).
+/// Factors that are not unit conversions, outside the range that an effect may cause (0.67 to 1.5).
 constexpr double kFactors[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 2.0, 2.5, 3.3, 5.0, 10.0, 20.0, 50.0};
 
-std::vector<double>& channel_of(Trajectory& log, const std::string& column) {
-  const LogColumn* known = find_log_column(column);
+const LogColumn& log_column(const std::string& name) {
+  const LogColumn* known = find_log_column(name);
   JOULEPATH_ASSERT(known, "a fault of a column that no log has");
-  return known->channel(log);
+  return *known;
 }
 
 using Names = std::vector<std::string>;
 
-/// Columns of one quantity, both sides where it has two.
+/// Columns of one quantity; two where it has a left and a right side.
 struct Quantity {
   Names columns{};
   std::vector<double> units{};
@@ -70,9 +70,9 @@ class Faults {
   }
 
  private:
-  bool logged(const Names& columns) {
+  bool logged(const Names& columns) const {
     for (const std::string& column : columns)
-      if (channel_of(log_, column).empty()) return false;
+      if (log_column(column).of(log_).empty()) return false;
     return true;
   }
 
@@ -99,7 +99,7 @@ class Faults {
     if (quantity.may_be_inverted) scale("inverted", quantity, -1.0);
   }
 
-  /// Each column alone, and both together.
+  /// Scales each column separately, and both together.
   void scale(const char* kind, const Quantity& quantity, double factor) {
     Fault both{.kind = kind};
     for (const std::string& column : quantity.columns) {
@@ -112,7 +112,7 @@ class Faults {
     if (both.columns.size() > 1) add(std::move(both));
   }
 
-  Trajectory log_;
+  const Trajectory& log_;
   bool derived_{};
   std::vector<Fault> faults_{};
 };
@@ -138,13 +138,13 @@ Run repaired(Run run, const std::vector<ColumnRepair>& columns, const Geometry& 
   std::vector<std::vector<double>> channels;
   bool body_speed = false;
   for (const ColumnRepair& repair : columns) {
-    channels.push_back(channel_of(run.log, repair.from.empty() ? repair.column : repair.from));
+    channels.push_back(log_column(repair.from.empty() ? repair.column : repair.from).of(run.log));
     for (double& value : channels.back()) value *= repair.scale;
     if (repair.absent) channels.back().clear();
     body_speed |= repair.column == "linear_speed_m_s" || repair.column == "angular_speed_rad_s";
   }
   for (std::size_t k = 0; k < columns.size(); ++k)
-    channel_of(run.log, columns[k].column) = std::move(channels[k]);
+    log_column(columns[k].column).channel(run.log) = std::move(channels[k]);
   if (body_speed && run.wheels_from_body_speeds) derive_wheels(run.log, geometry);
   return run;
 }

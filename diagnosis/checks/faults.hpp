@@ -8,21 +8,21 @@
 
 namespace joulepath {
 
-/// One way in which the channels of a log are often wrong, and the repair.
+/// A common error of log channels, and its repair.
 struct Fault {
   std::string kind{};  ///< inverted | swapped | unit | scaled | clock
   std::string channel{};
   std::vector<ColumnRepair> columns{};
 };
 
-/// The faults that the channels of a run can have: sides swapped, signs inverted, other units, the clock in
-/// other units; at last, factors that are no unit.
+/// The faults that the channels of a run can have: swapped sides, inverted signs, other units, a clock in
+/// other units; then factors that are not unit conversions.
 [[nodiscard]] std::vector<Fault> possible_faults(const Run& run);
 
-/// The same with another factor.
+/// The same fault with another factor.
 [[nodiscard]] Fault with_factor(Fault fault, double factor);
 
-/// The run as it is with the repair.
+/// The run after the repair.
 [[nodiscard]] Run repaired(Run run, const std::vector<ColumnRepair>& columns, const Geometry& geometry);
 
 }  // namespace joulepath

@@ -12,7 +12,7 @@ namespace {
 
 struct Bound {
   const char* column;
-  double most;  ///< of the absolute value
+  double most;  ///< greatest plausible absolute value
   const char* hint;
 };
 constexpr Bound kColumnBounds[] = {
@@ -22,10 +22,10 @@ constexpr Bound kColumnBounds[] = {
     {"battery_voltage_V", 1000, "millivolts?"},         {"battery_current_A", 2000, "milliamperes?"},
     {"gyro_yaw_rate_rad_s", 30, "degrees per second?"}, {"payload_kg", 1e4, "grams?"},
 };
-constexpr double kFastest_m_s = 20.0;    ///< of a wheel's rim
-constexpr double kLongestStep_s = 60.0;  ///< between samples, median
-constexpr double kOddRatio = 2.0;        ///< between a body's speed and its wheels'
-constexpr double kMoving_m_s = 0.05;     ///< mean speed below which speeds are not compared
+constexpr double kFastest_m_s = 20.0;    ///< speed of a wheel's rim
+constexpr double kLongestStep_s = 60.0;  ///< median time between samples
+constexpr double kOddRatio = 2.0;        ///< ratio of the body's speed to that of its wheels
+constexpr double kMoving_m_s = 0.05;     ///< speeds are not compared below this mean speed
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -36,9 +36,10 @@ double greatest(const std::vector<double>& values) {
 using Findings = std::vector<Implausible>;
 
 void check_time(const Trajectory& log, Findings& findings) {
+  const auto is_long = [](double before_s, double after_s) { return after_s - before_s > kLongestStep_s; };
+  if (std::ranges::adjacent_find(log.time_s, is_long) == log.time_s.end()) return;
   std::vector<double> steps;
   for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
-  if (steps.empty()) return;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   if (*middle > kLongestStep_s)
@@ -60,7 +61,8 @@ void check_wheels(const Trajectory& log, const Geometry& geometry, Findings& fin
   }
 }
 
-/// Mean size of the body's speed as logged (or from the pose), and as computed from this robot's wheels.
+/// Compares the mean speed of the body as logged (or from the pose) with the speed computed from this robot's
+/// wheels.
 void check_robot(const Trajectory& log, const Geometry& geometry, Findings& findings) {
   const std::size_t n = log.size();
   if (log.linear_speed_m_s.size() != n || log.wheel_speed_rad_s.left.size() != n || n == 0) return;

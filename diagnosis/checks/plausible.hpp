@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// A channel whose numbers no robot of this kind can have: a unit that is not the column's (mA for A, rpm or
-/// degrees for rad/s, ms for s), or wheel and body speeds that do not fit the robot's wheels.
+/// A channel with values that no robot of this kind can have: a unit other than the column's (mA for A, rpm
+/// or degrees for rad/s, ms for s), or wheel and body speeds that do not fit the robot's wheels.
 struct Implausible {
   std::string channel{};
   std::string found{};

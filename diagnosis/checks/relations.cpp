@@ -18,15 +18,15 @@ namespace {
 using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Speeds below which a direction is blurred.
+/// Below these speeds the direction of motion is uncertain.
 constexpr double kBlurredWheel_rad_s = 0.2;
-/// Rows over which a pose must have moved: increments of single rows drown in its noise.
+/// Rows over which changes of a pose are taken: increments of single rows disappear in the noise.
 constexpr Eigen::Index kIncrementRows = 6;
-/// A run that turns or travels less says nothing about a gyro or a pose.
+/// Runs that turn or travel less do not test a gyro or a pose.
 constexpr double kLeastYawRate_rad_s = 0.06, kLeastSpeed_m_s = 0.04;
-/// Readings that are late: the change of a speed within this time looks like an offset.
+/// Longest delay of readings: a speed that changes within this time looks like an offset.
 constexpr double kLongestDelay_s = 0.15;
-/// Offset of a current sensor over the current that friction takes.
+/// Greatest offset of a current sensor, relative to the current that friction takes.
 constexpr double kGreatestOffset = 0.7;
 
 bool has(const RunSignals& run, const VectorXd& channel) {
@@ -42,24 +42,18 @@ VectorXd increments(const VectorXd& values) {
   return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
 }
 
+/// Distance (m) and angle (rad) of the body over the increments of the wheels' angles.
+Twist<VectorXd> rolled(const Geometry& geometry, const Sided<VectorXd>& angle_rad) {
+  return body_twist(geometry, Sided<VectorXd>{increments(angle_rad.left), increments(angle_rad.right)});
+}
+
 VectorXd stacked(const VectorXd& a, const VectorXd& b) {
   VectorXd both(a.size() + b.size());
   both << a, b;
   return both;
 }
 
-VectorXd yaw_rate_of_wheels(const RunSignals& run, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  return (r.right * run.wheel_speed_rad_s.right - r.left * run.wheel_speed_rad_s.left) /
-         (2 * geometry.half_track_m);
-}
-
-VectorXd speed_of_wheels(const RunSignals& run, const Geometry& geometry) {
-  const Sided<double>& r = geometry.wheel_radius_m;
-  return 0.5 * (r.right * run.wheel_speed_rad_s.right + r.left * run.wheel_speed_rad_s.left);
-}
-
-/// A factor that is 1 where the robot file is right.
+/// A coefficient that is 1 where the robot file is right.
 BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
   return {std::move(value), std::pow(least, freedom), std::pow(most, freedom)};
 }
@@ -70,8 +64,8 @@ std::optional<Relation> relation(std::string law, double sound, const VectorXd& 
   return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
 }
 
-/// V = R i + Kv n q'. A constant stands for an offset of the sensor, the sign for a driver's drop, the
-/// acceleration for readings that are late.
+/// V = R i + Kv n q'. The constant term models a sensor offset, the sign term a driver's voltage drop, the
+/// acceleration term delayed readings.
 std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 Side side, double freedom) {
   const VectorXd& voltage = run.motor_voltage_V[side];
@@ -93,15 +87,15 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
        {emf * run.wheel_acceleration_rad_s2[side], -kLongestDelay_s, kLongestDelay_s}});
 }
 
-/// Current against what friction and inertia ask for. Resistances and loads may be several times those of the
-/// robot file; their signs are certain.
+/// Measured current against the current that friction and inertia require. Resistances and loads may be
+/// several times those of the robot file; their signs are certain.
 std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                   Side side, double freedom) {
   const VectorXd& current = run.motor_current_A[side];
   if (!has(run, current) || rms(run.wheel_speed_rad_s[side]) < kBlurredWheel_rad_s) return {};
   const Motor& motor = robot.motor[side];
   const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
-  const VectorXd yaw = yaw_rate_of_wheels(run, robot.geometry);
+  const VectorXd yaw = body_twist(robot.geometry, run.wheel_speed_rad_s).yaw_rate_rad_s;
   const double load_A = robot.geometry.wheel_radius_m[side] * kGravity_m_s2 * robot.total_mass_kg(0) / 2 /
                         motor.torque_per_ampere_Nm_A();
   std::vector<BoxedTerm> terms{
@@ -120,27 +114,26 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
 
 std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!has(run, run.gyro_yaw_rate_rad_s)) return {};
-  const VectorXd yaw = yaw_rate_of_wheels(run, geometry);
+  const Twist<VectorXd> wheels = body_twist(geometry, run.wheel_speed_rad_s);
+  const VectorXd& yaw = wheels.yaw_rate_rad_s;
   if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
   const double mismatch = 0.08 / (2 * geometry.half_track_m);
   return relation("gyro = yaw rate of the wheels", kSoundTurn, run.gyro_yaw_rate_rad_s,
                   {factor(yaw, 0.55, 1.6, freedom),
-                   {speed_of_wheels(run, geometry), -mismatch, mismatch},
+                   {wheels.speed_m_s, -mismatch, mismatch},
                    {VectorXd::Ones(run.size()), -0.1, 0.1}});
 }
 
 std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!run.heading_measured || !has(run, run.heading_rad)) return {};
-  const Sided<double>& r = geometry.wheel_radius_m;
-  const VectorXd right = increments(run.wheel_angle_rad.right), left = increments(run.wheel_angle_rad.left);
-  const VectorXd turned = (r.right * right - r.left * left) / (2 * geometry.half_track_m);
+  const Twist<VectorXd> wheels = rolled(geometry, run.wheel_angle_rad);
+  const VectorXd& turned = wheels.yaw_rate_rad_s;
   const VectorXd heading = increments(run.heading_rad);
   const double least = kLeastYawRate_rad_s * run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
   const double mismatch = 0.08 / (2 * geometry.half_track_m);
-  return relation(
-      "heading = angle turned by the wheels", kSoundTurn, heading,
-      {factor(turned, 0.55, 1.6, freedom), {0.5 * (r.right * right + r.left * left), -mismatch, mismatch}});
+  return relation("heading = angle turned by the wheels", kSoundTurn, heading,
+                  {factor(turned, 0.55, 1.6, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
 }
 
 std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) {
@@ -156,28 +149,26 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
       {factor(turned, 0.7, 1.4, freedom), {VectorXd::Constant(turned.size(), span_s), -0.1, 0.1}});
 }
 
-/// Along the measured heading; without one the distances alone can be compared.
+/// Compares motion along the measured heading; without a heading, distances only.
 std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
   if (!has(run, run.x_m) || !has(run, run.y_m)) return {};
-  const Sided<double>& r = geometry.wheel_radius_m;
   const VectorXd dx = increments(run.x_m), dy = increments(run.y_m);
   const double least_m = kLeastSpeed_m_s * run.period_s * kIncrementRows;
   if (dx.size() == 0) return {};
-  const auto rolled = [&](const Sided<VectorXd>& angle) {
-    return VectorXd(0.5 * (r.right * increments(angle.right) + r.left * increments(angle.left)));
-  };
-  if (rms(rolled(run.wheel_angle_rad)) < least_m && rms(stacked(dx, dy)) < least_m) return {};
+  const VectorXd distance = rolled(geometry, run.wheel_angle_rad).speed_m_s;
+  if (rms(distance) < least_m && rms(stacked(dx, dy)) < least_m) return {};
   if (!run.heading_measured)
     return relation("distance = path of the wheels", kSoundPosition,
                     (dx.array().square() + dy.array().square()).sqrt().matrix(),
-                    {factor(rolled(run.wheel_angle_rad).cwiseAbs(), 0.55, 1.6, freedom)});
-  const VectorXd x = rolled(run.wheel_along_x_rad), y = rolled(run.wheel_along_y_rad);
+                    {factor(distance.cwiseAbs(), 0.55, 1.6, freedom)});
+  const VectorXd x = rolled(geometry, run.wheel_along_x_rad).speed_m_s;
+  const VectorXd y = rolled(geometry, run.wheel_along_y_rad).speed_m_s;
   return relation("position = path of the wheels along the heading", kSoundPosition, stacked(dx, dy),
                   {factor(stacked(x, y), 0.55, 1.6, freedom), {stacked(-y, x), -0.4, 0.4}});
 }
 
-/// Battery power = what the motors take + standby. Without measured motors: several times what the robot file
-/// asks for.
+/// Battery power = motor power + standby. Without measured motors, the factor of the predicted motor power
+/// may be large.
 std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 double freedom) {
   if (!has(run, run.battery_power_W)) return {};

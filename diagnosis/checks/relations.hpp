@@ -8,17 +8,18 @@
 
 namespace joulepath {
 
-/// A law that ties channels of one run together, with coefficients that calibration errors and every
-/// effect of the catalog leave inside a box.
+/// A law that relates channels of one run. Its coefficients stay inside a box for every calibration error and
+/// every effect of the catalog.
 struct Relation {
   std::string law{};
-  double unexplained{};  ///< share of the sum of squares that no coefficient inside the box explains
-  double sound{};        ///< what a sound log leaves at most
-  /// Where it leaves more, a side or a sign may be wrong; `sound` where noise may leave as much.
+  double unexplained{};  ///< share of the sum of squares that no coefficients inside the box explain
+  double sound{};        ///< greatest unexplained share of a sound log
+  /// Above this unexplained share a side or a sign may be wrong; equal to `sound` where noise may leave as
+  /// much.
   double doubtful{};
 };
 
-/// What the nominal robot's motors would have to do for the measured motion.
+/// Currents and voltages that the nominal robot's motors need for the measured motion.
 struct ExpectedMotors {
   Sided<Eigen::VectorXd> friction_A{}, viscous_A{}, inertia_A{};
   Eigen::VectorXd current_A(Side side) const { return friction_A[side] + viscous_A[side] + inertia_A[side]; }
@@ -26,9 +27,9 @@ struct ExpectedMotors {
 
 [[nodiscard]] ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot);
 
-/// The relations that the run's channels and its motion allow, always in the same order; empty where
-/// a channel is absent or the run does not move. `freedom` 1: a factor may be anywhere inside its box;
-/// 0: factors are those of the robot file.
+/// The relations that the run's channels and motion allow, always in the same order; empty where a channel is
+/// absent or the run does not move. With `freedom` 1 a factor may take any value inside its box; with 0 it
+/// has the value of the robot file.
 [[nodiscard]] std::vector<std::optional<Relation>> relations_of(const RunSignals& run, const Robot& robot,
                                                                 double freedom = 1.0);
 

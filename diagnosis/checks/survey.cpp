@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// Share of the runs in which a channel is there.
+/// Share of the runs that have a channel.
 template <class Has>
 double share_of(const std::vector<RunSignals>& signals, Has&& has) {
   double count = 0;
@@ -19,7 +19,7 @@ double share_of(const std::vector<RunSignals>& signals, Has&& has) {
   return signals.empty() ? 0.0 : count / static_cast<double>(signals.size());
 }
 
-/// Who a finding is about: up to three runs by name, more by their number.
+/// The runs that a finding concerns: up to three names, or their number.
 std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
   constexpr std::size_t kMostNames = 3;
   if (runs.size() > kMostNames)
@@ -30,7 +30,7 @@ std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
   return text.empty() ? text : text + ": ";
 }
 
-/// The effects of the catalog that need something to be seen, as a sentence that it is missing.
+/// A sentence that lists the effects that cannot be seen without a channel or motion.
 std::string hidden_without(bool Needs::*need) {
   std::string text;
   for (const EffectDescription& effect : effect_catalog())
@@ -98,8 +98,8 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
 }
 
 std::vector<std::string> artifact_texts(const Dataset& dataset) {
-  std::vector<std::string> findings;                          // in the order in which they came
-  std::map<std::string, std::vector<std::string>> runs_with;  // by what was found
+  std::vector<std::string> findings;                          // in the order of their first run
+  std::map<std::string, std::vector<std::string>> runs_with;  // key: the finding
   for (const LogArtifact& artifact : dataset.artifacts) {
     const std::string finding = artifact.kind + (artifact.channel.empty() ? "" : " in " + artifact.channel) +
                                 (artifact.description.empty() ? "" : ": " + artifact.description);

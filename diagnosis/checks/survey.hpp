@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// What a dataset lacks, and what it therefore cannot show: said before anything else.
+/// Channels and motions that a dataset lacks, and the effects that it therefore cannot show. Reported first.
 struct Survey {
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};

@@ -11,19 +11,20 @@
 namespace joulepath {
 namespace {
 
-constexpr double kAnySize_percent = 1000;  ///< of the energy
+constexpr double kAnySize_percent = 1000;  ///< in percent of the energy
 
 bool energies_were_measured(const Examination& x) {
   return std::ranges::any_of(x.runs.signals, [](const RunSignals& run) { return measures_energy(run); });
 }
 
-/// An effect that changes the energy: how far its evidence stands above the noise at a gap of 1 %.
+/// Visibility of an effect that changes the energy: its expected evidence in units of the noise at a gap of 1
+/// %.
 struct Visibility {
   double sigmas_per_percent{};
-  double prior_sigmas_per_percent{};  ///< of the search's prior width
+  double prior_sigmas_per_percent{};  ///< in units of the search's prior width
 };
 
-/// Share of the energy that an amplitude of the candidate changes, per unit.
+/// Share of the energy that one unit of the candidate's amplitude changes.
 double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
   ModelState with_it = x.id.state;
   std::vector<double> amplitude(candidate.amplitude.size(), 0.0);
@@ -50,8 +51,9 @@ std::vector<Visibility> visibilities(const Examination& x) {
   return effects;
 }
 
-/// Probability that the search takes the effect up at a gap of this size: its gain 1/2 z^2 in log evidence, z
-/// being normal about its expectation with unit deviation, must pay for the effect and its width.
+/// Probability that the search accepts the effect at a gap of this size. The gain in log evidence is 1/2 z^2,
+/// where z is normal about its expectation with unit deviation; it must exceed the cost of the effect and of
+/// its width.
 double probability_seen(const Visibility& effect, double gap_percent) {
   const double expected = effect.sigmas_per_percent * gap_percent;
   const double width = effect.prior_sigmas_per_percent * effect.sigmas_per_percent;

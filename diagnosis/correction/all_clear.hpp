@@ -7,12 +7,12 @@
 
 namespace joulepath {
 
-/// A verdict that says that all is well, or all is explained, after the question what the runs could have
-/// shown.
+/// The verdict after a check of the power of the runs: `no_gap` and full explanations need runs that could
+/// have shown a gap.
 struct AllClear {
   Verdict verdict{};
-  /// A gap of this size (% of the energy), made by an effect of the catalog, is seen in 90 % of such
-  /// datasets; 0: not asked, as the verdict is no all-clear.
+  /// Gap (% of the energy) caused by an effect of the catalog that is detected in 90 % of such datasets. 0
+  /// where the verdict does not need it.
   double detectable_percent{};
   std::string note{};
 };

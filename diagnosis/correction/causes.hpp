@@ -4,14 +4,14 @@
 
 namespace joulepath {
 
-/// The named effects as they are reported, the one with the greatest share of the energy first.
+/// The named effects as reported, in decreasing order of their share of the energy.
 struct Causes {
   std::vector<Cause> causes{};
   std::string pinned_combination{};
 };
 
-/// Each named effect with its probability, parameters, share of the energy, the gap that it closes by
-/// itself, and what these runs cannot tell it from.
+/// Reports each named effect with its probability, parameters, share of the energy, the gap that it closes
+/// alone, and the effects that these runs cannot separate from it.
 [[nodiscard]] Causes report_causes(const Examination& examination, const Names& names,
                                    const Validation& validation, const EnergyGap& gap);
 

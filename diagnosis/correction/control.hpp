@@ -4,14 +4,14 @@
 
 namespace joulepath {
 
-/// A wrong candidate fitted the same way, to compare the shrink with.
+/// A wrong candidate fitted in the same way, as a control of the gap's reduction.
 struct Control {
   std::string effect{};
   double shrink_fraction{};
 };
 
 /// The best explanation by one effect that is neither named nor indistinguishable from a named one; empty
-/// where nothing is named.
+/// where no effect is named.
 [[nodiscard]] Control wrong_candidate(const Examination& examination, const std::vector<ActiveEffect>& named,
                                       const std::vector<Cause>& causes, const EnergyGap& gap);
 

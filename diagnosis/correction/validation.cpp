@@ -133,8 +133,8 @@ void judge_what_is_left(const Examination& x, Validation& v) {
   const bool named = !v.judgment.named.empty();
   const double before = nominal_gap_percent(x), floor = noise_floor_percent(x, v.fitted),
                after = gap_percent(x, named ? v.model : within_calibration(x, v.model));
-  const double least = named ? caution(x) * std::max(kFloorsLeft * floor, kMaterialGap_percent)
-                             : std::max(kFloorsUnnamed * floor, kGapUnnamed_percent);
+  const double least =
+      (named ? caution(x) : kCautionFactor) * std::max(kFloorsLeft * floor, kMaterialGap_percent);
   if (after <= least) return;
   if (!named && v.judgment.verdict == Verdict::no_gap) {
     v.judgment.verdict = Verdict::unexplained;

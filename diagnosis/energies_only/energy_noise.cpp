@@ -11,9 +11,9 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSmoothPriorSd = 0.2;  ///< of the smooth function's coefficients
+constexpr double kSmoothPriorSd = 0.2;  ///< of the coefficients of the smooth function
 
-/// What a smooth error may depend on; payload and acceleration scaled to about one.
+/// Variables of a smooth error; payload and acceleration are scaled to about one.
 Eigen::VectorXd features_of(const EnergyRun& run) {
   const double load = run.payload_kg / 10.0, haste = run.acceleration_m_s2 / 0.2 - 1;
   const double left = run.path == "curve to the left", right = run.path == "curve to the right",
@@ -23,10 +23,10 @@ Eigen::VectorXd features_of(const EnergyRun& run) {
   return features;
 }
 
-/// Ridge regression of a relative error on the runs' circumstances.
+/// Ridge regression of a relative error on the variables of the runs.
 struct SmoothFit {
   Eigen::VectorXd coefficient{};
-  double left_square{};  ///< mean square of what is left, degrees of freedom taken off
+  double left_square{};  ///< mean square of the residual, corrected for degrees of freedom
   double freedom{};
 };
 
@@ -45,7 +45,7 @@ SmoothFit fit_smoothly(const std::vector<EnergyRun>& runs, const std::vector<std
   return fit;
 }
 
-/// (model - measured) / measured of one row of the runs that have it.
+/// (model - measured) / measured of one row of each run that has it.
 Eigen::VectorXd relative_errors(const std::vector<EnergyRun>& runs, const std::vector<std::size_t>& which,
                                 const Robot& robot, Eigen::Index row) {
   Eigen::VectorXd error(static_cast<Eigen::Index>(which.size()));

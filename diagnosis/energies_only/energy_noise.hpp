@@ -6,21 +6,22 @@
 
 namespace joulepath {
 
-/// How much energies scatter from run to run for no reason that the runs tell, relative to a run's energy.
+/// Random scatter of energies between runs, relative to the energy of a run.
 struct EnergyNoise {
   double sum{};         ///< of both wheels, or of the battery
-  double difference{};  ///< right less left
+  double difference{};  ///< right minus left
 };
 
-/// Scatter about a smooth function of payload, acceleration and kind of path, degrees of freedom taken off;
-/// a usual value where there are too few runs to tell.
+/// Scatter about a smooth function of payload, acceleration and kind of path, corrected for degrees of
+/// freedom; a typical value where there are too few runs.
 [[nodiscard]] EnergyNoise estimate_energy_noise(const std::vector<EnergyRun>& runs, const Robot& robot);
 
-/// Expected |gap| (percent of the measured energy) of a model that is right.
+/// Expected |gap| (percent of the measured energy) of a correct model.
 [[nodiscard]] double noise_floor_percent(const EnergyNoise& noise);
 
-/// Relative error of the model's energy that a smooth function of payload, acceleration and kind of path
-/// expects for each run of `judged`, fitted on those of `fitted`: what any model could correct.
+/// Relative error of the model's energy for each run of `judged`, as a smooth function of payload,
+/// acceleration and kind of path that is fitted to the runs of `fitted`: an error that any model could
+/// correct.
 [[nodiscard]] Eigen::VectorXd smooth_error(const std::vector<EnergyRun>& runs,
                                            const std::vector<std::size_t>& fitted,
                                            const std::vector<std::size_t>& judged, const Robot& robot);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNoiseRounds = 4;
 
-/// Effects that show only in the samples of a log, or in the time of day where runs do not state it.
+/// Effects that show only in the samples of a log, or in the time of day where the runs do not state it.
 std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
   const bool dated =
       std::ranges::all_of(runs, [](const EnergyRun& run) { return run.motion.signals.time_of_day_known; });
@@ -26,7 +26,7 @@ std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
   return names;
 }
 
-/// Nuisances, then the doubts about the motions, then the candidates' amplitudes.
+/// Columns: nuisances, doubts about the motions, amplitudes of the candidates.
 std::vector<Column> columns_of(const Robot& robot, const std::vector<Nuisance>& nuisances,
                                const ModelState& nominal, const std::vector<Candidate>& candidates) {
   std::vector<Column> columns = list_columns(robot, nuisances, nominal, candidates, 0, false);
@@ -36,7 +36,7 @@ std::vector<Column> columns_of(const Robot& robot, const std::vector<Nuisance>& 
   return columns;
 }
 
-/// How a run's energies (J) change with each column, and measured less predicted.
+/// Change of a run's energies (J) with each column, and measured minus predicted energies.
 Eigen::MatrixXd rows_of(const EnergyRun& run, const Robot& robot, const std::vector<Nuisance>& nuisances,
                         const ModelState& nominal, const Equations& equations) {
   const auto at = [&](const DrivenMotion& motion, const ModelState& state) {
@@ -69,7 +69,7 @@ Eigen::MatrixXd rows_of(const EnergyRun& run, const Robot& robot, const std::vec
   return rows;
 }
 
-/// The rows over the scatter, run by run.
+/// Divides the rows of each run by their scatter.
 void weigh(EnergyProblem& problem) {
   problem.equations.runs.resize(problem.runs.size());
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
@@ -98,7 +98,7 @@ void find_visible(EnergyProblem& problem) {
   for (const std::string& label : seen) problem.hidden.erase(label);
 }
 
-/// Amplitude of each candidate that changes the runs' energy by as much as matters.
+/// Amplitude of each candidate that changes the energy of the runs by the materiality floor.
 std::vector<double> material_amplitudes(const EnergyProblem& problem) {
   const Equations& equations = problem.equations;
   const LinearProblem all = sum_runs(equations.runs, every(problem.runs.size()), equations.prior_sd);
@@ -115,7 +115,7 @@ std::vector<double> material_amplitudes(const EnergyProblem& problem) {
 /// An explanation and the calibration, fitted to some runs.
 struct EnergyFit {
   ModelState state{};
-  Eigen::VectorXd doubts{};  ///< of the motions, in sigmas
+  Eigen::VectorXd doubts{};  ///< doubts about the motions, in sigmas
 };
 
 EnergyFit fit_energies(const EnergyProblem& problem, const std::vector<std::size_t>& which,
@@ -132,7 +132,7 @@ EnergyFit fit_energies(const EnergyProblem& problem, const std::vector<std::size
   return fit;
 }
 
-/// Predicted less measured rows (J) of a run: a full prediction, linear in the doubts about its motion.
+/// Predicted minus measured rows (J) of a run: a full prediction, linear in the doubts about its motion.
 Eigen::VectorXd row_gaps_J(const EnergyProblem& problem, std::size_t r, const EnergyFit& fit) {
   const EnergyRun& run = problem.runs[r];
   const ModelPoint point = model_point(problem.robot, problem.nuisances, fit.state);
@@ -140,7 +140,7 @@ Eigen::VectorXd row_gaps_J(const EnergyProblem& problem, std::size_t r, const En
          problem.rows_J[r].middleCols(std::ssize(problem.nuisances), fit.doubts.size()) * fit.doubts;
 }
 
-/// Root mean square of what a fit leaves of one row of each run that has it, relative to the run's energy.
+/// Root mean square residual of one row over the runs that have it, relative to the energy of the run.
 double left_over(const EnergyProblem& problem, const EnergyFit& fit, Eigen::Index row) {
   double square = 0, freedom = -static_cast<double>(fit.state.effects.size()) - 1;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
@@ -151,8 +151,8 @@ double left_over(const EnergyProblem& problem, const EnergyFit& fit, Eigen::Inde
   return freedom > 0 ? std::sqrt(square / freedom) : 0.0;
 }
 
-/// What the best candidates leave is not noise of the readings, but it says how far the model can be
-/// believed: the scatter grows until they are as good as they claim.
+/// Increases the scatter until the best candidates fit as well as it implies: their residual is a model
+/// error, not noise of the readings.
 void add_model_error(EnergyProblem& problem) {
   const std::vector<std::size_t> all = every(problem.runs.size());
   for (int round = 0; round < kNoiseRounds; ++round) {

@@ -33,7 +33,7 @@ double payload_at(const std::vector<PayloadStep>& steps, double time_s) {
   return payload_kg;
 }
 
-/// Samples that are a step apart from the one before: ramps may join at the same instant.
+/// Indices of samples at distinct times: ramps may join at the same instant.
 std::vector<std::size_t> apart(const std::vector<double>& time_s) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < time_s.size(); ++i)
@@ -55,7 +55,7 @@ Eigen::VectorXd middles(const Eigen::VectorXd& values) {
   return 0.5 * (values.tail(values.size() - 1) + values.head(values.size() - 1));
 }
 
-/// Speeds are linear between the samples of a prescribed motion: middles and slopes are exact.
+/// Speeds are linear between the samples of a prescribed motion, so midpoints and slopes are exact.
 DrivenMotion driven(const Run& run, const PrescribedMotion& motion, const Robot& robot) {
   const Trajectory log = timed_motion(robot, {motion}, {.sample_period_s = kStep_s}).trajectory;
   DrivenMotion result{.signals = {.name = run.name, .period_s = kStep_s, .log_period_s = kStep_s}};
@@ -80,7 +80,7 @@ DrivenMotion driven(const Run& run, const PrescribedMotion& motion, const Robot&
   return result;
 }
 
-/// The motion driven otherwise; as prescribed where it cannot be driven so (no room to brake).
+/// The motion with one doubt applied; the prescribed motion where it cannot be driven so (no room to brake).
 DrivenMotion driven_otherwise(const Run& run, MotionDoubt doubt, double factor, const Robot& robot,
                               const DrivenMotion& as_prescribed) {
   try {
@@ -136,7 +136,7 @@ std::vector<EnergyRun> energy_runs(const Dataset& dataset) {
 RunJoules joules_of(const DrivenMotion& motion, const ModelPoint& point) {
   const Prediction p = predict(motion.signals, point);
   PowerSupply supply = make_plant(point.robot, point.effects).robot.power;
-  supply.sharing = PowerSharing::wheel;  // each wheel's energy is its own
+  supply.sharing = PowerSharing::wheel;  // each wheel regenerates separately
   RunJoules joules{.wheel_J = {}, .battery_J = p.battery_power_W.dot(motion.step_s)};
   for (Eigen::Index j = 0; j < motion.step_s.size(); ++j) {
     joules.wheel_J.left += motion.step_s[j] * supply_power_W(supply, {p.power_W.left[j], 0.0});

@@ -9,31 +9,31 @@
 
 namespace joulepath {
 
-/// Energies of one run: of the drives, each wheel's positive power and what its regeneration returns, and at
-/// the battery's terminals, standby included.
+/// Energies of one run: at the drives (positive and regenerated power of each wheel), and at the battery's
+/// terminals, standby included.
 struct RunJoules {
   Sided<double> wheel_J{};
   double battery_J{};
 };
 
-/// A prescribed motion as the robot may have driven it: what `predict` works on, at the middle of each step.
+/// A prescribed motion as the robot may have driven it: the input of `predict`, at the midpoint of each step.
 struct DrivenMotion {
   RunSignals signals{};
   Eigen::VectorXd step_s{};
 };
 
-/// How a drive may differ from its prescription; each a common factor of all runs.
+/// Possible deviations of a drive from its prescription; each is a factor common to all runs.
 enum class MotionDoubt { deceleration, start_speed };
 inline constexpr std::array kMotionDoubts{MotionDoubt::deceleration, MotionDoubt::start_speed};
 
-/// A run of which only the energy was measured.
+/// A run with a measured energy only.
 struct EnergyRun {
   std::size_t run_index{};
   std::string name{};
   DrivenMotion motion{};
-  std::array<std::array<DrivenMotion, 2>, kMotionDoubts.size()> doubted{};  ///< one sigma less, one more
+  std::array<std::array<DrivenMotion, 2>, kMotionDoubts.size()> doubted{};  ///< at minus and plus one sigma
   std::optional<Sided<double>> wheel_J{};
-  std::optional<double> battery_J{};  ///< counts where the wheels' energy is not given
+  std::optional<double> battery_J{};  ///< used where the wheels' energy is not given
   double payload_kg{};
   double acceleration_m_s2{};
   std::string path{};  ///< "straight", "curve to the left", "spin", ...
@@ -44,17 +44,17 @@ struct EnergyRun {
   }
 };
 
-/// A run that is a motion with an energy and no log.
+/// True for a run with a prescribed motion, an energy and no log.
 [[nodiscard]] bool is_energy_run(const Run& run);
 
 /// The dataset's runs without a log, in its order. Throws ConfigError with the run's place where its motion
 /// cannot be driven.
 [[nodiscard]] std::vector<EnergyRun> energy_runs(const Dataset& dataset);
 
-/// The energy of a motion by a model.
+/// Energies of a motion predicted by a model.
 [[nodiscard]] RunJoules joules_of(const DrivenMotion& motion, const ModelPoint& point);
 
-/// What is compared of a run: sum of the wheels, right less left; or the battery's energy alone (J).
+/// Compared values of a run: sum of the wheels and right minus left, or the battery's energy (J).
 [[nodiscard]] Eigen::VectorXd energy_rows(const EnergyRun& run, const RunJoules& joules);
 [[nodiscard]] Eigen::VectorXd measured_rows(const EnergyRun& run);
 

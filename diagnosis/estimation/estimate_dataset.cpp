@@ -10,7 +10,7 @@ namespace {
 constexpr double kJoulesPerWh = 3600.0;
 constexpr double k95OneSided = 1.644854;
 
-/// The motion of a run: its log, or what is prescribed.
+/// The motion of a run: its log, or its prescribed motion.
 Trajectory motion_of(const Run& run, const Robot& robot) {
   if (!run.motion) return run.log;
   const double payload_kg = run.payload.empty() ? 0.0 : run.payload.front().payload_kg;

@@ -32,7 +32,7 @@ double rough_channel_delay_s(const LogSet& logs) {
         const Eigen::VectorXd &volts = run.motor_voltage_V[side], &amperes = run.motor_current_A[side];
         const Eigen::Index begin = std::max(0, -zero_first), end = run.size() - std::max(0, last);
         if (volts.size() != run.size() || amperes.size() != run.size() || end <= begin) continue;
-        // V(t + shift) - R i(t + shift) - Kv n q'(t), minus its mean: constants may be wrong.
+        // V(t + shift) - R i(t + shift) - Kv n q'(t), minus its mean, because constants may be wrong.
         double sum = 0, square = 0, count = 0;
         for (Eigen::Index j = begin; j < end; j += stride, ++count) {
           const double winding_V = volts[j + shift] - motor.resistance_ohm * amperes[j + shift] -

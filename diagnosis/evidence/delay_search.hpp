@@ -4,10 +4,10 @@
 
 namespace joulepath {
 
-/// A first estimate of how late the electrical channels are, to the log's sample: the shift at which
-/// the windings' equation V - R i = Kv n q' holds best. Needs voltages and currents.
-/// Far from zero a delay is not linear, and looks like inertia, resistance and friction at once. 0
-/// unless the shift explains notably more than none.
+/// First estimate of the delay of the electrical channels, to one sample of the log: the shift at which the
+/// winding equation V - R i = Kv n q' holds best. Needs voltages and currents. A long delay is not linear and
+/// imitates inertia, resistance and friction together, so the search needs this start. 0 unless the shift
+/// explains notably more than no shift.
 [[nodiscard]] double rough_channel_delay_s(const LogSet& logs);
 
 }  // namespace joulepath

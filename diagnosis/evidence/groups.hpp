@@ -16,7 +16,7 @@ class Inclusion {
   /// Takes in the explanations of one choice of runs; the weights of all choices add up to 1.
   void add(const Equations& equations, const std::vector<Explanation>& explanations, double weight = 1.0);
 
-  /// Of at least one of some labels.
+  /// Of at least one of some labels: each set is counted once.
   [[nodiscard]] double of_any(const std::set<std::string>& labels) const;
   [[nodiscard]] double of(const std::string& label) const { return of_any({label}); }
   [[nodiscard]] std::map<std::string, double> of_each() const;

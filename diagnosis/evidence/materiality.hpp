@@ -9,17 +9,18 @@
 
 namespace joulepath {
 
-/// How much an effect changes the results that a user sees, independent of statistics.
+/// Change of the results of a user that an effect causes, independent of statistics.
 struct Impact {
   double motor_power{};    ///< sum |change| / sum |power|, over wheels and samples
   double battery_power{};  ///< the same at the battery's terminals
   double battery_voltage_V{};
   double heading_rad{};    ///< greatest change of a run's final heading
   double position{};       ///< greatest change of a run's final position / distance travelled
-  double delay_samples{};  ///< shift of the electrical channels in samples of the log
+  double delay_samples{};  ///< delay of the electrical channels in samples of the log
 };
 
-/// Below this nothing is called an effect: about 1 % of the energy, or as much of the motion.
+/// Smaller changes are not reported as effects: about 1 % of the energy, or a comparable change of the
+/// motion.
 struct MaterialityFloor {
   double motor_power{kMaterialEnergy};
   double battery_power{kMaterialEnergy};
@@ -39,8 +40,7 @@ struct MaterialityFloor {
 /// Greatest ratio of an impact to the floor: 1 = just material.
 [[nodiscard]] double materiality(const Impact& impact, const MaterialityFloor& floor = {});
 
-/// For each candidate of the equations, the amplitude at which it becomes material. `known` keeps what
-/// was found before.
+/// Amplitude at which each candidate of the equations becomes material. `known` caches earlier results.
 [[nodiscard]] std::vector<double> least_amplitudes(const std::vector<RunSignals>& signals, const Robot& robot,
                                                    const std::vector<Nuisance>& nuisances,
                                                    const ModelState& state,

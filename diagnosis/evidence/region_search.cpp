@@ -51,12 +51,11 @@ std::vector<PlacedSample> placed_samples(const std::vector<RunSignals>& signals,
 /// (sum)^2/count above the mean outside.
 void best_interval(const std::vector<PlacedSample>& samples, int axis, Rectangle& rectangle) {
   const auto a = static_cast<std::size_t>(axis), other = 1 - a;
-  double least = 1e300, greatest = -1e300, base = 0, base_count = 0;
+  double least = 1e300, greatest = -1e300;
   for (const PlacedSample& s : samples) {
     least = std::min(least, s.at_m[a]), greatest = std::max(greatest, s.at_m[a]);
-    base += s.coefficient, base_count += 1;
   }
-  if (base_count == 0) return;
+  if (samples.empty()) return;
   const auto bins = static_cast<std::size_t>(std::clamp((greatest - least) / kBin_m + 1, 1.0, 400.0));
   const double width = std::max(1e-9, (greatest - least) / static_cast<double>(bins));
   std::vector<double> sum(bins + 1, 0.0), count(bins + 1, 0.0);

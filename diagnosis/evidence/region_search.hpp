@@ -9,11 +9,10 @@
 
 namespace joulepath {
 
-/// For each effect that acts inside a region of the floor, the regions in which the wheels need more than
-/// elsewhere: a scan over strips and
-/// rectangles along the travelled places for the greatest contrast of the mechanics residual, inside
-/// against outside. Edges lie between the last sample inside and the next one outside; where nobody
-/// drove, the edge is as far as the robots went. Empty without a pose.
+/// Regions of the floor with the greatest need of power beyond the model, for each effect that acts inside a
+/// region. A scan over strips and rectangles along the driven places finds the greatest contrast of the
+/// mechanics residual between inside and outside. An edge lies between the last sample inside and the next
+/// one outside; beyond the driven places it lies at their limit. Empty without a pose.
 [[nodiscard]] std::vector<Candidate> region_candidates(const std::vector<RunSignals>& signals,
                                                        const Robot& robot,
                                                        const std::vector<Nuisance>& nuisances,

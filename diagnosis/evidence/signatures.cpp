@@ -18,7 +18,7 @@ bool is_active(const Candidate& candidate, const ModelState& state, std::size_t&
   return false;
 }
 
-/// The state with one candidate's amplitudes set; replaces the active effect of the same label.
+/// The state with one candidate's amplitudes; replaces the active effect with the same label.
 ModelState with_effect(ModelState state, const Candidate& candidate, const std::vector<double>& amplitude) {
   std::size_t index;
   if (is_active(candidate, state, index))
@@ -28,7 +28,7 @@ ModelState with_effect(ModelState state, const Candidate& candidate, const std::
   return state;
 }
 
-/// Central difference of predictions along one parameter.
+/// Central difference of predictions with respect to one parameter.
 template <class PredictAt>
 Eigen::MatrixXd difference(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
                            double low, double high, PredictAt&& predict_at) {
@@ -66,7 +66,8 @@ bool is_edge(const Candidate& candidate, const std::string& parameter) {
   return candidate.effect().find(parameter)->role == ParameterRole::edge;
 }
 
-/// An edge of a region is known from the scan to a bin; other shapes to a half of their value.
+/// Prior deviation of a shape parameter: a bin of the scan for an edge of a region, half of the value for
+/// others.
 double shape_prior_sd(const Candidate& candidate, const std::string& parameter) {
   if (is_edge(candidate, parameter)) return kRegionEdgeSd_m;
   return 0.5 * std::abs(candidate.shape.parameters.at(parameter));
@@ -117,8 +118,8 @@ class Differencer {
     });
   }
 
-  /// The effect's whole contribution, stronger where the variable is large. Poses are sums over the
-  /// way: there the form is unchanged.
+  /// The contribution of the effect, weighted by the variable. Poses are integrals along the way and stay
+  /// unchanged.
   Eigen::MatrixXd form(const Candidate& candidate, int variable) const {
     std::size_t index;
     if (!is_active(candidate, state_, index)) return {};
@@ -137,9 +138,9 @@ class Differencer {
     return predict(signals_, model_point(robot_, nuisances_, state));
   }
 
-  /// The signals are read at the state's delay already; what is left shifts the predicted readings.
-  /// Sixth-order difference over whole samples: half a sample would blur the readings, and a lower order
-  /// flattens the steep parts, whose rest then looks like an acceleration.
+  /// Derivative by the delay. The signals are already read at the state's delay; the remaining delay shifts
+  /// the predicted readings. A sixth-order difference over whole samples is used: half samples would blur the
+  /// readings, and a lower order flattens steep parts, whose residual then imitates an acceleration.
   Eigen::MatrixXd delay() const {
     constexpr std::array<double, 3> kWeight{45.0 / 60, -9.0 / 60, 1.0 / 60};
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(signals_.size(), kChannelCount);

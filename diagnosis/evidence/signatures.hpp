@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// Where a candidate's amplitudes stand in a state, and the changes of one of them that difference it: from
-/// `low` (0 where physics allows no less) to `high`.
+/// Position of a candidate's amplitudes in a state, and the interval from `low` to `high` for the finite
+/// difference of one amplitude (`low` is 0 where physics allows no negative value).
 struct AmplitudeStep {
   std::vector<double> value{};
   double low{};
@@ -19,23 +19,23 @@ struct AmplitudeStep {
 [[nodiscard]] AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate,
                                            std::size_t part);
 
-/// The state with that amplitude changed; the candidate is added where the state does not have it.
+/// The state with that amplitude changed; adds the candidate where the state lacks it.
 [[nodiscard]] ModelState with_change(const ModelState& state, const Candidate& candidate,
                                      const AmplitudeStep& step, std::size_t part, double change);
 
-/// What the strength of a law may depend on beyond the textbook: one form column each.
+/// Variables on which the strength of a law may depend beyond its textbook form: one form column each.
 inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw rate", "payload",
                                                                 "acceleration", "time of day"};
 
-/// Columns of the linear problem about a state, without rows: nuisances, candidates, shapes of the
-/// state's own effects, dictionary.
+/// Columns of the linear problem at a state, without rows: nuisances, candidates, shapes of the state's
+/// effects, dictionary.
 [[nodiscard]] std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
                                                const ModelState& state,
                                                const std::vector<Candidate>& candidates,
                                                std::size_t dictionary_entries, bool forms);
 
-/// d(structured rows)/d(parameter) of nuisances, amplitudes and shapes, each samples x kChannelCount:
-/// central differences of predictions, which are free of noise.
+/// d(structured rows)/d(parameter) of nuisances, amplitudes and shapes, each samples x kChannelCount: central
+/// differences of noise-free predictions.
 [[nodiscard]] std::vector<Eigen::MatrixXd> signatures(const RunSignals& signals, const Robot& robot,
                                                       const std::vector<Nuisance>& nuisances,
                                                       const ModelState& state,
@@ -43,8 +43,8 @@ inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw ra
                                                       const std::vector<Column>& columns,
                                                       const Prediction& base);
 
-/// Columns of what may differ from run to run: friction left, right, resistance left, right, gyro's
-/// bias, standby power.
+/// Columns of the parameters that may differ between runs: friction and resistance (left, right), bias of the
+/// gyro, standby power.
 [[nodiscard]] std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Robot& robot,
                                                           const Prediction& base);
 [[nodiscard]] Eigen::VectorXd run_start_variance(const Robot& robot);

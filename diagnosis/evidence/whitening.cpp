@@ -14,7 +14,8 @@ namespace {
 using Presence = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 using Covariance = Eigen::Matrix<double, kChannelCount, kChannelCount>;
 
-/// Number of samples right before each that are present too, up to the order; -1 where absent.
+/// Number of consecutive present samples directly before each sample, up to the order; -1 where the sample is
+/// absent.
 Eigen::MatrixXi history_of(const Presence& present) {
   Eigen::MatrixXi history = Eigen::MatrixXi::Constant(present.rows(), present.cols(), -1);
   for (Eigen::Index c = 0; c < present.cols(); ++c)
@@ -44,12 +45,12 @@ Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel
   return sum;
 }
 
-/// Size of a channel's noise, 1 without data.
+/// Standard deviation of a channel's noise, 1 without data.
 double size_of(const Autocovariance& r, double least_sd) {
   return r.count > 0 ? std::hypot(std::sqrt(r.lag[0]), least_sd) : 1.0;
 }
 
-/// Yule-Walker's equations for two lags.
+/// Yule-Walker equations for two lags.
 void fit_memory(NoiseModel& noise, int channel, const Autocovariance& r, double least_sd) {
   const auto c = static_cast<std::size_t>(channel);
   noise.stationary_ratio[c] = 1.0;
@@ -74,8 +75,8 @@ double innovation(const NoiseModel& noise, const Eigen::MatrixXd& rows, const Ei
   return value;
 }
 
-/// Channels whose noise has a common source: a current enters its winding's row and the driver's row,
-/// the battery's readings enter driver and supply. Elsewhere a correlation is structure, not noise.
+/// True for channels with a common source of noise: a current enters the winding row and the driver row, the
+/// battery's readings enter the driver and the supply row. Other correlations are structure, not noise.
 bool share_noise(int a, int b) {
   const auto side_of = [](int c) { return c == kCurrentLeft || c == kWindingLeft ? 0 : 1; };
   const auto is_motor = [](int c) { return c <= kWindingRight; };
@@ -84,7 +85,7 @@ bool share_noise(int a, int b) {
   return a <= kSupplyVoltage && b <= kSupplyVoltage && (a >= kDriverPower || b >= kDriverPower);
 }
 
-/// The nearest covariance that is safely positive definite.
+/// The nearest covariance with a margin of positive definiteness.
 Covariance made_positive(const Covariance& covariance) {
   Covariance scaled = covariance;
   Eigen::Matrix<double, kChannelCount, 1> sd = covariance.diagonal().cwiseMax(1e-24).cwiseSqrt();

@@ -10,21 +10,21 @@ namespace joulepath {
 
 inline constexpr int kAutoregressionOrder = 2;
 
-/// Noise of the structured rows, estimated from a dataset's own residuals: each channel's memory as an
-/// AR(2) process, and the covariance of what is new in all channels at a sample.
+/// Noise of the structured rows, estimated from the residuals of a dataset: an AR(2) process for each
+/// channel, and the covariance of the innovations of all channels at a sample.
 struct NoiseModel {
   std::array<std::array<double, kAutoregressionOrder>, kChannelCount> memory{};
   std::array<double, kChannelCount> stationary_ratio{};  ///< sd of the innovation / sd of the channel
-  std::array<double, kChannelCount> channel_sd{};        ///< of the smoothed channel itself
+  std::array<double, kChannelCount> channel_sd{};        ///< of the smoothed channel
   Eigen::Matrix<double, kChannelCount, kChannelCount> innovation_covariance{};
 };
 
-/// Estimates the noise from rows that hold nothing but noise (residuals of a rich fit), one entry per
-/// run. A channel without data gets unit noise; `least_sd` of each channel is added in quadrature.
+/// Estimates the noise from rows that contain only noise (residuals of a rich fit), one entry per run. A
+/// channel without data gets unit noise; `least_sd` of each channel is added in quadrature.
 [[nodiscard]] NoiseModel estimate_noise(const std::vector<ResidualRows>& rows,
                                         const std::array<double, kChannelCount>& least_sd = {});
 
-/// The same without memory or shared noise: each channel's size alone.
+/// The same without memory and without shared noise: only the size of each channel's noise.
 [[nodiscard]] NoiseModel white_noise(const std::vector<ResidualRows>& rows,
                                      const std::array<double, kChannelCount>& least_sd = {});
 
@@ -45,7 +45,7 @@ class Whitener {
     Eigen::MatrixXd inverse_factor{};  ///< lower triangular
   };
   NoiseModel noise_;
-  Eigen::MatrixXi history_;  ///< samples x channels: how many neighbors before are present, -1 = absent
+  Eigen::MatrixXi history_;  ///< samples x channels: number of present samples before, -1 = absent
   std::vector<Pattern> patterns_{};
   std::vector<int> pattern_of_sample_{};
   std::vector<int> channel_of_entry_{};

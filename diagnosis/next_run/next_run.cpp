@@ -12,11 +12,11 @@
 namespace joulepath {
 namespace {
 
-/// A safe manoeuvre with the reason to run it.
+/// A safe manoeuvre and its purpose.
 struct Manoeuvre {
   std::string why{};
   std::vector<PrescribedMotion> motions{};
-  double load{};  ///< of the greatest payload
+  double load{};  ///< share of the greatest payload
 };
 
 double usual_speed_m_s(const Robot& robot) {
@@ -59,29 +59,30 @@ PrescribedMotion stand(double duration_s) {
 std::vector<Manoeuvre> library(const Robot& robot) {
   const double v = usual_speed_m_s(robot), pi = std::numbers::pi;
   return {
-      {"standing still shows what is drawn and read without motion", {stand(20)}, 0},
-      {"the same lane both ways tells what depends on direction from what does not",
+      {"a standstill shows the power and the sensor readings without motion", {stand(20)}, 0},
+      {"the same lane in both directions separates losses that depend on the direction from others",
        {straight(v, 3, 0.25, false), stand(1), straight(v, 3, 0.25, true)},
        0},
-      {"the same lane with the greatest payload shows which losses grow with the load",
+      {"the same lane with the greatest payload shows losses that grow with the load",
        {straight(v, 3, 0.25, false), stand(1), straight(v, 3, 0.25, true)},
        1},
-      {"spins both ways show what resists turning, without travel",
+      {"spins in both directions show the resistance to turning without travel",
        {spin(2 * pi, 0.8), stand(1), spin(-2 * pi, 0.8)},
        0},
-      {"spins with the greatest payload tell what grows with the load from what does not",
+      {"spins with the greatest payload separate resistance to turning that grows with the load from "
+       "constant resistance",
        {spin(2 * pi, 0.8), stand(1), spin(-2 * pi, 0.8)},
        1},
-      {"arcs both ways show losses that grow with speed times yaw rate",
+      {"arcs in both directions show losses that grow with speed times yaw rate",
        {arc(0.8, pi, v), stand(1), arc(0.8, -pi, v)},
        1},
-      {"a crawl shows what fades with speed",
+      {"a crawl shows friction that decreases with speed",
        {straight(0.1 * v, 0.5, 0.25, false), stand(1), straight(0.25 * v, 1, 0.25, false)},
        0},
-      {"a fast run tells what grows with speed from what grows with its square",
+      {"a fast run separates losses that are linear in speed from losses that are quadratic",
        {straight(1.5 * v, 8, 0.4, false)},
        0},
-      {"hard starts and stops show what goes with acceleration",
+      {"hard starts and stops show effects of acceleration",
        {straight(v, 1.5, 0.5, false), straight(v, 1.5, 0.5, true), straight(v, 1.5, 0.5, false)},
        1},
   };
@@ -92,7 +93,7 @@ RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot&
   const TimedMotion timed = timed_motion(robot, motions, {.payload_kg = payload_kg});
   Run run{.name = "proposed", .log = timed.trajectory, .payload_known = true, .start_time_s = time_of_day_s};
   run.log.payload_kg.assign(run.log.size(), payload_kg);
-  // Current and voltage are there: the proposed run will measure them.
+  // Currents and voltages count as present: the proposed run will measure them.
   for (Side side : kSides) {
     run.log.motor_current_A[side].assign(run.log.size(), 0.0);
     run.log.motor_voltage_V[side].assign(run.log.size(), 0.0);
@@ -100,7 +101,7 @@ RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot&
   return make_run_signals(run, 0, robot);
 }
 
-/// The state with one candidate alone, as the data at hand fit it.
+/// The state with one candidate only, fitted to the present data.
 std::optional<ModelState> fitted_state(const Identification& id, const std::string& label) {
   for (const Explanation& e : id.explanations) {
     if (e.candidates.size() != 1) continue;
@@ -115,7 +116,8 @@ std::optional<ModelState> fitted_state(const Identification& id, const std::stri
   return std::nullopt;
 }
 
-/// Squared difference of two models' predictions in units of the noise, half of it: log evidence to expect.
+/// Expected log evidence between two models: half the squared difference of their predictions in units of the
+/// noise.
 double evidence_between(const Identification& id, const Robot& robot, const RunSignals& signals,
                         const ModelState& a, const ModelState& b) {
   const ModelPoint first = model_point(robot, id.nuisances, a), second = model_point(robot, id.nuisances, b);
@@ -171,7 +173,7 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
       next.payload_kg = payload_kg;
       next.why = manoeuvre.why;
     } catch (const ConfigError&) {
-      continue;  // this robot's limits do not allow the manoeuvre
+      continue;  // the robot's limits do not allow the manoeuvre
     }
   }
   return next;

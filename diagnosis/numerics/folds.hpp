@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// The fold of each item, dealt out in the order of the keys: every fold gets its share of each kind of item,
-/// and the order of the items does not matter.
+/// The fold of each item, assigned in the order of the keys: every fold gets a share of each kind of item,
+/// independent of the order of the items.
 template <class Key>
 std::vector<std::size_t> dealt_folds(const std::vector<Key>& keys, std::size_t folds) {
   std::vector<std::size_t> order = every(keys.size());

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// 0, 1, ... count - 1: every run of a set.
+/// 0, 1, ... count - 1.
 inline std::vector<std::size_t> every(std::size_t count) {
   std::vector<std::size_t> indices(count);
   std::iota(indices.begin(), indices.end(), std::size_t{0});

@@ -12,9 +12,9 @@
 
 namespace joulepath {
 
-/// Calls function(i) for i in [0, count) on the machine's cores. Each call writes only what belongs to
-/// its own i, so that the result does not depend on who runs first. The first exception ends the loop
-/// and is rethrown.
+/// Calls function(i) for i in [0, count) on the cores of the machine. Each call must write only data of its
+/// own i; the result then does not depend on the order of execution. The first exception ends the loop and is
+/// rethrown.
 template <class Function>
 void parallel_for(std::size_t count, Function&& function) {
   const std::size_t workers =

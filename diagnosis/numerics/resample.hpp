@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// A small deterministic generator (splitmix64): results must be the same bytes everywhere.
+/// A small deterministic generator (splitmix64) with the same bytes on every platform.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -23,8 +23,8 @@ class Dice {
   std::uint64_t state_;
 };
 
-/// 95 % intervals of `count` statistics over `draws` resamples of whole runs, with replacement;
-/// statistics(runs, values) fills in the values of one resample.
+/// 95 % intervals of `count` statistics over `draws` resamples of whole runs, with replacement.
+/// statistics(runs, values) computes the values of one resample.
 template <class Statistics>
 std::vector<std::pair<double, double>> bootstrap_intervals(std::size_t runs, std::size_t draws,
                                                            std::size_t count, Statistics&& statistics) {

@@ -4,8 +4,8 @@
 
 namespace joulepath {
 
-/// A Gaussian kernel on a uniform grid and its derivative, both discrete and normalized: constants
-/// pass the one and straight lines give their slope in the other, exactly.
+/// A Gaussian kernel on a uniform grid and its derivative, both discrete and normalized: smoothing preserves
+/// constants, and the derivative gives the slope of a straight line, both exactly.
 struct SmoothingKernel {
   std::vector<double> weight{};
   std::vector<double> slope_weight{};  ///< 1/s
@@ -14,14 +14,14 @@ struct SmoothingKernel {
 
 SmoothingKernel gaussian_kernel(double sigma_s, double period_s);
 
-/// sum_k weights[k] values[center - half + k]; values beyond the ends are those at the ends.
+/// sum_k weights[k] values[center - half + k]; the first and last values continue beyond the ends.
 double convolve_at(const std::vector<double>& values, const std::vector<double>& weights, std::size_t center);
 
-/// Values at `at_s`, linear between the samples, held at the ends.
+/// Values at `at_s`: linear interpolation, constant beyond the ends.
 std::vector<double> interpolate(const std::vector<double>& time_s, const std::vector<double>& values,
                                 const std::vector<double>& at_s);
 
-/// Adds multiples of 2 pi so that neighbors differ by less than pi.
+/// Adds multiples of 2 pi so that consecutive angles differ by less than pi.
 std::vector<double> unwrap_angle(std::vector<double> angle_rad);
 
 }  // namespace joulepath

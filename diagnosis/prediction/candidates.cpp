@@ -11,7 +11,7 @@ double value_or(const EffectSetting& setting, const std::string& key, double fal
   return found == setting.parameters.end() ? fallback : found->second;
 }
 
-/// What the strength replaces in the robot file, if it does.
+/// Value of the robot file that the effect's strength replaces; 0 where it replaces none.
 double replaced_value(const EffectDescription& effect, const Robot& robot) {
   return effect.in_robot_file ? effect.in_robot_file(robot) : 0.0;
 }

@@ -8,14 +8,15 @@
 
 namespace joulepath {
 
-/// What a leftover may depend on. No physics: hats and harmonics of everything that was measured, to
-/// tell how much of a gap anything at all could explain, and what it depends on.
+/// One entry of the dictionary: hats and harmonics of all measured quantities, without physics. The
+/// dictionary tells how much of a gap any function of these quantities could explain, and on which quantity
+/// it depends.
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
   std::string channel{};  ///< "current", "voltage", "battery power", "battery voltage" or "motion"
 };
 
-/// Ranges over a whole dataset that the dictionary's hats are laid out in.
+/// Ranges of the variables over a whole dataset, for the grids of the hats.
 struct DictionaryLayout {
   double greatest_wheel_speed_rad_s{1};
   double greatest_yaw_rate_rad_s{1};
@@ -30,7 +31,7 @@ struct DictionaryLayout {
 
 [[nodiscard]] DictionaryLayout lay_out(const std::vector<RunSignals>& runs, const Robot& robot);
 
-/// Families of the entries, in the order of dictionary_rows(); the same for all runs.
+/// Families of the entries, in the order of dictionary_rows(); equal for all runs.
 [[nodiscard]] std::vector<DictionaryEntry> dictionary_entries(const DictionaryLayout& layout);
 
 /// One matrix (samples x kChannelCount) per entry.

@@ -15,7 +15,7 @@ ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisance
     if (nuisances[k].key == kCreepNuisance)
       point.contact_creep_m_s_N = usual_creep_m_s_N(robot) * state.nuisance_fraction[k];
     else if (nuisances[k].key == kStampNuisance)
-      continue;  // a column of the linear problem alone: too small to be read anew
+      continue;  // a column of the linear problem only: too small to read the signals again
     else if (is_payload_nuisance(nuisances[k]))
       point.payload_factor *= 1 + state.nuisance_fraction[k];
     else

@@ -7,28 +7,28 @@
 
 namespace joulepath {
 
-/// An effect that is part of the model, with the values found for it.
+/// An effect of the model with its fitted values.
 struct ActiveEffect {
-  Candidate candidate{};  ///< shape parameters are in candidate.shape
+  Candidate candidate{};  ///< includes the shape parameters
   std::vector<double> amplitude{};
 };
 
-/// Where the search stands: calibration constants as they seem to be, and the effects taken up.
+/// State of the search: calibration constants and accepted effects.
 struct ModelState {
   std::vector<double> nuisance_fraction{};  ///< one per Nuisance
   std::vector<ActiveEffect> effects{};
 };
 
-/// The electrical channels' delay in a state, s.
+/// Delay of the electrical channels in a state, s.
 double channel_delay_s(const ModelState& state);
 
-/// The model that logs are held against: a time shift is left out, as the signals are read shifted.
+/// The model of a state. The time shift is left out, because the signals are read with that shift.
 ModelPoint model_point(const Robot& robot, const std::vector<Nuisance>& nuisances, const ModelState& state);
 
-/// The effects of a state as a robot file or a dataset file says them.
+/// The effects of a state as written in a robot file or a dataset file.
 std::vector<EffectSetting> settings_of(const Robot& robot, const ModelState& state);
 
-/// True for effects that change what a log shows rather than what the robot does.
+/// True for effects that change the log and not the motion of the robot.
 bool is_instrument(const std::string& effect);
 
 }  // namespace joulepath

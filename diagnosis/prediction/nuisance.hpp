@@ -5,8 +5,8 @@
 
 namespace joulepath {
 
-/// Two errors that every robot has and no robot file contains: tires creep a little under force, and the
-/// electrical channels' time stamps are good to a part of a sample only.
+/// Two errors of every robot that no robot file contains: tires creep slightly under force, and time stamps
+/// of the electrical channels are accurate to a part of a sample only.
 inline const std::string kCreepNuisance = "contact_creep";
 inline const std::string kStampNuisance = "time_stamps";
 
@@ -15,7 +15,7 @@ inline double usual_creep_m_s_N(const Robot& robot) {
   return kUsualCreep_kg_m_s_N / robot.total_mass_kg(0.0);
 }
 
-/// What `uncertainty:` says, then creep and time stamps: all that a calibration may have missed.
+/// Nuisances: the `uncertainty:` of the robot file, tire creep and time stamps.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 
 }  // namespace joulepath

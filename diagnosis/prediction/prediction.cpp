@@ -11,7 +11,7 @@
 namespace joulepath {
 namespace {
 
-/// Speeds below which a direction is blurred: measured speeds are never exactly zero.
+/// Below these speeds the direction is uncertain: measured speeds are never exactly zero.
 constexpr double kStillSpeed_m_s = 0.02;
 constexpr double kStillYawRate_rad_s = 0.12;
 constexpr double kStillWheelSpeed_rad_s = 0.2;
@@ -19,7 +19,7 @@ constexpr double kBlurredCurrent_A = 0.03;
 
 double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
 
-/// Instrument effects and those of the robot apart: the latter make a plant.
+/// Separates effects of instruments from effects of the robot, which belong to the plant.
 struct SplitModel {
   Plant plant{};
   std::vector<Effect> instruments{};
@@ -58,8 +58,8 @@ Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry
           .memory = memory};
 }
 
-/// A driver's drop turns over with the current's sign. At standstill and near zero a predicted sign is a
-/// guess: there the measured current's counts, where there is one.
+/// The voltage drop of a driver changes sign with the current. Near zero current the predicted sign is
+/// uncertain, so the sign of the measured current is used where it exists.
 void blur_driver_drop(double drop_V, const Eigen::VectorXd& measured_A, Eigen::Index j,
                       WheelState<double>& wheel) {
   if (drop_V == 0) return;
@@ -96,12 +96,12 @@ void distort(const std::vector<Effect>& instruments, double channel_delay_s, con
     }
 }
 
-/// What the motors would take from the supply, going by voltages and currents as the log shows them.
+/// Motor power drawn from the supply, from the logged voltages and currents.
 double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
   return supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]});
 }
 
-/// Centers a column: a run's pose offset is free.
+/// Removes the mean of a column: the offset of a run's pose is free.
 void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }
 
 }  // namespace
@@ -128,7 +128,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
     const Site site = site_at(signals, j, geometry, twist, memory);
     Sided<WheelState<double>> state;
     for (int pass = 0; pass < (plant.creep_m_s_N != 0 ? 2 : 1); ++pass) {
-      if (pass == 1) {  // the contact points are slower than the wheels by creep times force
+      if (pass == 1) {  // contact points are slower than the wheels by creep times force
         const Sided<double> slip_m_s{plant.creep_m_s_N * state.left.contact_force_N,
                                      plant.creep_m_s_N * state.right.contact_force_N};
         const double along_m_s = 0.5 * (slip_m_s.left + slip_m_s.right);

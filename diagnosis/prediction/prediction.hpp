@@ -10,30 +10,30 @@
 
 namespace joulepath {
 
-/// A model that logs are held against: constants, effects, and what instruments do to a log.
+/// A model to compare with logs: constants, effects, and the effects of instruments on a log.
 struct ModelPoint {
   Robot robot{};
-  std::vector<EffectSetting> effects{};  ///< beyond those of the robot file
+  std::vector<EffectSetting> effects{};  ///< in addition to those of the robot file
   double payload_factor{1.0};            ///< weighing error of all payloads
-  double contact_creep_m_s_N{};          ///< that every tire has, effects apart
-  double channel_delay_s{};              ///< of the motors' readings, beyond that of the effects
+  double contact_creep_m_s_N{};          ///< creep of every tire, without the effects
+  double channel_delay_s{};              ///< delay of the motors' readings in addition to that of the effects
 };
 
-/// What a model predicts for the motion that a run measured.
+/// Prediction of a model for the measured motion of a run.
 struct Prediction {
-  Sided<Eigen::VectorXd> current_A{};  ///< as a sensor shows them, instrument effects included
+  Sided<Eigen::VectorXd> current_A{};  ///< as a sensor reads them, effects of instruments included
   Sided<Eigen::VectorXd> voltage_V{};
-  Sided<Eigen::VectorXd> power_W{};  ///< voltage times current, as the log shows it
+  Sided<Eigen::VectorXd> power_W{};  ///< voltage times current, in the convention of the log
   Eigen::VectorXd battery_power_W{};
-  Eigen::VectorXd battery_voltage_V{};  ///< with the measured battery current
+  Eigen::VectorXd battery_voltage_V{};  ///< at the measured battery current
   Eigen::VectorXd yaw_rate_rad_s{};
   Eigen::VectorXd heading_rad{};  ///< change since the run's start, from the wheels
   Eigen::VectorXd x_m{};          ///< change since the run's start, from the wheels along the heading
   Eigen::VectorXd y_m{};
 };
 
-/// The rows of one run: one column per Channel. A row that does not count (channel absent, wheel
-/// near standstill) has `present` false.
+/// Rows of one run: one column per Channel. `present` is false for a row that does not count (absent channel,
+/// wheel near standstill).
 struct ResidualRows {
   Eigen::MatrixXd value{};  ///< samples x kChannelCount
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> present{};
@@ -41,12 +41,12 @@ struct ResidualRows {
 
 [[nodiscard]] Prediction predict(const RunSignals& signals, const ModelPoint& point);
 
-/// Measured less predicted, in structured rows.
+/// Measured minus predicted values as structured rows.
 [[nodiscard]] ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point,
                                          const Prediction& prediction);
 
-/// How structured rows change from one prediction to another: the signature of what was changed.
-/// Free of noise, as only predictions enter.
+/// Difference of the structured rows of two predictions: the signature of the changed parameter. Free of
+/// noise, because only predictions enter.
 [[nodiscard]] Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& point,
                                              const Prediction& base, const Prediction& changed);
 

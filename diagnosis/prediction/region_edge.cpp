@@ -7,7 +7,7 @@
 namespace joulepath {
 namespace {
 
-/// Middles of five equally likely parts of a normal kernel, in standard deviations.
+/// Midpoints of five equally likely parts of a normal kernel, in standard deviations.
 constexpr std::array<double, 5> kParts{-1.2816, -0.5244, 0.0, 0.5244, 1.2816};
 
 Site moved_along(Site site, double distance_m) {

@@ -6,10 +6,10 @@
 
 namespace joulepath {
 
-/// Logs of a dataset, read anew where the electrical channels turn out to be late.
+/// Logs of a dataset; they are read again when the electrical channels turn out to be delayed.
 struct LogSet {
   const Dataset* dataset{};
-  std::vector<std::size_t> runs{};  ///< of the dataset, those with a usable log
+  std::vector<std::size_t> runs{};  ///< indices of the dataset's runs with a usable log
   SignalOptions options{};
 };
 

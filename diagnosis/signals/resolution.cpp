@@ -8,7 +8,7 @@
 namespace joulepath {
 namespace {
 
-constexpr double kLeast = 1e-7;  ///< in each channel's unit, where it reads nothing at all
+constexpr double kLeast = 1e-7;  ///< in the unit of the channel, where all readings are zero
 
 /// Root mean square of a channel over all runs that have it.
 template <class Channel>

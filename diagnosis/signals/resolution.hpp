@@ -8,9 +8,8 @@
 
 namespace joulepath {
 
-/// The least noise (1-sigma) that a channel is given, whatever its residual says: a share of what the
-/// channel reads, as no instrument resolves more. Keeps logs without any noise, such as a simulator's,
-/// from being believed to the last digit.
+/// Lower bound of the noise (1-sigma) of each channel: a share of its readings, which models the resolution
+/// of instruments. Without it, logs without noise (of a simulator, for example) would count as exact.
 [[nodiscard]] std::array<double, kChannelCount> resolution_floor(const std::vector<RunSignals>& signals);
 
 }  // namespace joulepath

@@ -14,14 +14,14 @@ namespace {
 
 using Samples = std::vector<double>;
 
-/// The log on a uniform grid: unchanged if its period is steady, else by interpolation.
+/// The log on a uniform grid: unchanged where its period is steady, else interpolated.
 struct UniformLog {
   Samples time_s{};
   double period_s{};
   bool resampled{};
 };
 
-/// A uniform grid has at most this many times the samples of the log, whatever its clock says.
+/// Greatest ratio of samples on the uniform grid to samples of the log.
 constexpr double kMostGrowth = 50.0;
 
 UniformLog uniform_grid(const Samples& time_s) {
@@ -67,7 +67,7 @@ class Thinner {
     return interpolate(log_.time_s, channel, at_s);
   }
 
-  /// The channel as it was last stated: a payload changes in steps, and has no values between them.
+  /// The channel with its last stated value: a payload changes in steps and is not interpolated.
   Eigen::VectorXd held(const Samples& channel) const {
     if (channel.empty()) return {};
     Eigen::VectorXd result(static_cast<Eigen::Index>(centers_.size()));
@@ -99,7 +99,8 @@ class Thinner {
   std::vector<std::size_t> centers_{};
 };
 
-/// Means over a sample's period belong to its middle, poses to its end: the pose at the middle.
+/// Poses at the middle of each sample. Means over a sample's period belong to its middle, logged poses to its
+/// end.
 Samples at_sample_middle(Samples pose) {
   for (std::size_t i = pose.size(); i-- > 1;) pose[i] = 0.5 * (pose[i] + pose[i - 1]);
   return pose;
@@ -142,7 +143,8 @@ Samples product(const Samples& a, const Samples& b) {
   return result;
 }
 
-/// What a measured current takes where no voltage is logged: (R i + Kv n q') i, by the robot file's winding.
+/// Power of a measured current without a logged voltage: (R i + Kv n q') i with the winding of the robot
+/// file.
 Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const Samples& current_A) {
   Samples power(current_A.size());
   for (std::size_t k = 0; k < power.size(); ++k)
@@ -174,7 +176,7 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   }
 }
 
-/// Currents below which a driver's dead band hides the winding: less than friction takes.
+/// Below this current the dead band of a driver hides the winding: less than the friction current.
 double dead_band_A(const Motor& motor) {
   return std::min(kDeadBand_A, 0.5 * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A());
 }

@@ -9,16 +9,16 @@
 
 namespace joulepath {
 
-/// One run, smoothed and thinned out to what the diagnosis works on.
+/// One run, smoothed and downsampled for the diagnosis.
 ///
-/// Every measured channel is convolved with the same Gaussian kernel before it is thinned out; a
-/// wheel's acceleration is its speed convolved with the kernel's derivative. A convolution commutes
-/// with everything that is linear in the equations of motion, so currents and accelerations match
-/// although neither is differentiated. Absent channels are empty.
+/// Every measured channel is convolved with the same Gaussian kernel before downsampling; a wheel's
+/// acceleration is its speed convolved with the kernel's derivative. A convolution commutes with every linear
+/// term of the equations of motion, so currents and accelerations match although neither is differentiated.
+/// Absent channels are empty.
 struct RunSignals {
   std::string name{};
   std::size_t run_index{};
-  double period_s{};        ///< between samples here, not in the log
+  double period_s{};        ///< period of these samples, not of the log
   double log_period_s{};    ///< of the log
   double kernel_sigma_s{};  ///< of the smoothing
   Eigen::VectorXd time_s{};
@@ -27,8 +27,8 @@ struct RunSignals {
   Sided<Eigen::VectorXd> wheel_speed_rad_s{};
   Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
   Sided<Eigen::VectorXd> wheel_angle_rad{};  ///< since the run's start
-  /// Integrals of a wheel's speed times cosine and sine of the measured heading: what the wheel adds
-  /// to x and y per meter of radius (twice that, as both wheels share the axle's midpoint).
+  /// Integrals of a wheel's speed times cosine and sine of the measured heading: the wheel's contribution to
+  /// x and y per meter of radius (times two, because the axle's midpoint moves with the mean of both wheels).
   Sided<Eigen::VectorXd> wheel_along_x_rad{};
   Sided<Eigen::VectorXd> wheel_along_y_rad{};
   Sided<Eigen::VectorXd> motor_voltage_V{};
@@ -40,36 +40,36 @@ struct RunSignals {
   Eigen::VectorXd gyro_yaw_rate_rad_s{};
   Eigen::VectorXd x_m{};
   Eigen::VectorXd y_m{};
-  Eigen::VectorXd heading_rad{};  ///< unwrapped; from wheels and gyro where the log has no heading
+  Eigen::VectorXd heading_rad{};  ///< unwrapped; integrated from wheels and gyro where the log has no heading
   bool heading_measured{};
   bool time_of_day_known{};
-  /// Samples of each wheel in which it turns one way throughout the kernel: there dry friction
-  /// has a known direction.
+  /// Samples in which a wheel turns in one direction within the whole kernel, so that dry friction has a
+  /// known sign.
   Sided<std::vector<bool>> turning{};
-  /// Samples in which a measured current is beyond the driver's dead band: near zero the voltage may be
-  /// anything in it. Empty without currents.
+  /// Samples in which a measured current is beyond the driver's dead band; inside it the voltage is
+  /// arbitrary. Empty without currents.
   Sided<std::vector<bool>> conducting{};
 
   Eigen::Index size() const { return time_s.size(); }
 };
 
-/// What the motors take is measured, or known from their currents.
+/// True if the motor power is measured or known from the currents.
 [[nodiscard]] bool measures_motors(const RunSignals& run);
-/// Some energy is measured: the motors', or that at the battery's terminals.
+/// True if an energy is measured: at the motors or at the battery's terminals.
 [[nodiscard]] bool measures_energy(const RunSignals& run);
 
 struct SignalOptions {
   double kernel_sigma_s{kKernelSigma_s};
   double period_s{kPeriod_s};
   double least_turning_speed_rad_s{kLeastTurningSpeed_rad_s};
-  double channel_delay_s{};  ///< the electrical channels are read this much later
+  double channel_delay_s{};  ///< delay at which the electrical channels are read
 };
 
-/// Smooths and thins out a log. Needs wheel speeds and at least `kLeastSamples` samples.
+/// Smooths and downsamples a log with wheel speeds and at least `kLeastSamples` samples.
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options = {});
 
-/// A run that the diagnosis can work on sample by sample: wheel speeds, enough samples.
+/// True for a run that can be diagnosed sample by sample: wheel speeds, enough samples.
 bool has_usable_log(const Run& run);
 
 }  // namespace joulepath

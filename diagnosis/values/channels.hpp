@@ -5,10 +5,10 @@
 
 namespace joulepath {
 
-/// What the diagnosis compares, one column each. The structured rows of diagnosis.md: currents are
-/// mechanics (i - tau/(Kt n)); a winding row is V - R i - Kv n q' with the measured current; the
-/// driver row is battery power less what the motors take (all of it where nothing measures the motors); the
-/// supply row is the battery's voltage under its current; the rest is motion against wheel travel.
+/// Compared channels, one column each: the structured rows of diagnosis.md. A current row is mechanics (i -
+/// tau/(Kt n)). A winding row is V - R i - Kv n q' with the measured current. The driver row is battery power
+/// minus motor power (the whole battery power where the motors are not measured). The supply row is the
+/// battery's voltage under its current. The others compare motion with wheel travel.
 enum Channel {
   kCurrentLeft,
   kCurrentRight,

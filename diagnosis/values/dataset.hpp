@@ -11,13 +11,13 @@
 
 namespace joulepath {
 
-/// Payload from this time of the run on.
+/// Payload from this time of the run onwards.
 struct PayloadStep {
   double from_s{};
   double payload_kg{};
 };
 
-/// Something about a log that is not physics: held values, clock jumps, wrapped counters, columns ignored.
+/// A property of a log that is not physics: held values, clock jumps, wrapped counters, ignored columns.
 struct LogArtifact {
   std::string kind{};     ///< clock_jump | gap | held_value | wrapped | unsigned | ignored_columns |
                           ///< missing_values | resampled
@@ -30,21 +30,22 @@ struct LogArtifact {
 
 enum class RunUse { any, diagnosis, validation };
 
-/// One run: a log with its circumstances, or an energy-only record of a prescribed motion.
+/// One run: a log with its conditions, or a prescribed motion with measured energies.
 struct Run {
-  std::string name{};  ///< the file as the dataset names it; `runs[3]` for an energy-only run
-  Trajectory log{};    ///< payload_kg is filled for every sample; empty for an energy-only run
+  std::string name{};  ///< the file as named in the dataset; `runs[3]` for a run with energies only
+  Trajectory log{};    ///< payload_kg is filled for every sample; empty for a run with energies only
   std::optional<Trajectory> predicted{};  ///< another simulator's prediction, its own time base
   std::optional<PrescribedMotion> motion{};
   std::optional<Sided<double>> measured_energy_J{};
   std::optional<double> battery_energy_Wh{};
   std::vector<PayloadStep> payload{};  ///< in order of time; one entry = constant
-  bool payload_known{};                ///< false: neither the dataset nor the log says it; 0 is taken
+  bool payload_known{};  ///< false: neither the dataset nor the log states a payload, and 0 is used
   std::string surface{};
   std::optional<double> start_time_s{};  ///< time of day
   RunUse use{RunUse::any};
-  bool wheels_from_body_speeds{};   ///< the log has the body's speeds alone
-  bool current_sign_from_motion{};  ///< the log's currents are unsigned: sign taken from the wheel's motion
+  bool wheels_from_body_speeds{};   ///< the log has only the speeds of the body
+  bool current_sign_from_motion{};  ///< the log's currents are unsigned; the sign comes from the wheel's
+                                    ///< motion
   SourceMark mark{};
 };
 

@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// Input of every step after the identification; no step changes it.
+/// Input of every step after the identification; the steps do not change it.
 struct Examination {
   const Dataset& dataset;
   const RunsByUse& runs;

@@ -45,10 +45,6 @@ double share_lost(const Examination& x, const BoxedFit& nothing, const std::vect
              : 0.0;
 }
 
-double surest_probability(const Examination& x) {
-  return x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
-}
-
 /// Unknown terms of one channel: what an unknown depends on is often less sure than that it is there.
 std::set<std::string> of_same_channel(const Equations& equations, const std::string& label) {
   const auto channel = [](const std::string& text) { return text.substr(text.rfind('(')); };
@@ -90,7 +86,7 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
     const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
                  share = share_lost(x, nothing, term.columns), size = size_of(x, term);
     if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
-    const double stated = std::min(surest_probability(x), probability);
+    const double stated = std::min(names.surest, probability);
     if (size >= 1)
       names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
     else
@@ -123,17 +119,16 @@ Inclusion inclusion_of(const Examination& x) {
 
 double probability_of(const Names& names, const ActiveEffect& effect) {
   const auto found = names.probabilities.find(effect.candidate.label());
-  return found == names.probabilities.end() ? 0.0 : found->second;
+  return found == names.probabilities.end() ? 0.0 : std::min(names.surest, found->second);
 }
 
 Names choose_names(const Examination& x) {
   const Inclusion inclusion = inclusion_of(x);
   Names names{.probabilities = inclusion.of_each()};
+  names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
   share_probabilities(x.id, inclusion, names);
-  for (auto& [label, probability] : names.probabilities)
-    probability = std::min(probability, surest_probability(x));
   for (const ActiveEffect& effect : x.id.state.effects) {
     const std::string label = effect.candidate.label();
     std::set<std::string> group{label};
@@ -144,7 +139,7 @@ Names choose_names(const Examination& x) {
   return names;
 }
 
-std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities) {
+std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities, double surest) {
   std::vector<RankedEffect> ranking;
   for (const auto& [label, probability] : probabilities)
     if (probability > kLeastProbabilityRanked) ranking.push_back({label, probability});
@@ -152,6 +147,7 @@ std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& prob
     return a.probability > b.probability;
   });
   if (ranking.size() > kLongestRanking) ranking.resize(kLongestRanking);
+  for (RankedEffect& entry : ranking) entry.probability = std::min(surest, entry.probability);
   return ranking;
 }
 

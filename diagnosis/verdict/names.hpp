@@ -8,10 +8,10 @@ namespace joulepath {
 /// Outcome of the race between the catalog's laws and unknown terms.
 struct Names {
   std::vector<ActiveEffect> named{};
-  std::vector<UnknownCause> unknowns{};       ///< the greatest share first
-  std::vector<SmallEffect> small_unknowns{};  ///< below the materiality floor
-  /// Of effects by label, at most the share of sure names that were right on development cases.
-  std::map<std::string, double> probabilities{};
+  std::vector<UnknownCause> unknowns{};           ///< the greatest share first
+  std::vector<SmallEffect> small_unknowns{};      ///< below the materiality floor
+  std::map<std::string, double> probabilities{};  ///< of effects by label
+  double surest{1.0};  ///< share of sure names that were right on development cases: none is stated surer
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
 };
 
@@ -19,7 +19,8 @@ struct Names {
 [[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
-[[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities);
+[[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities,
+                                                     double surest = 1.0);
 
 [[nodiscard]] double probability_of(const Names& names, const ActiveEffect& effect);
 

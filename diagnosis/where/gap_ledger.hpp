@@ -11,23 +11,23 @@ namespace joulepath {
 /// Joules of a cell in one run.
 struct GapAmount {
   double gap_J{};       ///< sum of |predicted - measured|
-  double noise_J{};     ///< what noise alone gives
+  double noise_J{};     ///< expected from noise alone
   double signed_J{};    ///< sum of predicted - measured
-  double measured_J{};  ///< sum of |measured|; 0 where the cell has no energy of its own (a channel)
+  double measured_J{};  ///< sum of |measured|; 0 where the cell has no energy (a channel)
 
   double excess_J() const { return gap_J > noise_J ? gap_J - noise_J : 0.0; }
   void add(const GapAmount& more);
 };
 
-/// Books the gap by axis, cell and run, and shares it out: the share of noise is subtracted, shares over one
-/// axis add up to 1, intervals come from resampling whole runs.
+/// Collects the gap by axis, cell and run and computes shares: the share of noise is subtracted, the shares
+/// over one axis add up to 1, and intervals come from resampling whole runs.
 class GapLedger {
  public:
   explicit GapLedger(std::size_t runs) : runs_(runs) {}
 
   void book(const std::string& axis, const std::string& value, std::size_t run, const GapAmount& amount);
 
-  /// The axes in the order asked for, each with its cells from the greatest share down.
+  /// Cells of the given axes, in decreasing order of their share.
   [[nodiscard]] std::vector<WhereCell> cells(const std::vector<std::string>& axes,
                                              std::size_t bootstrap) const;
 
@@ -39,10 +39,10 @@ class GapLedger {
   std::map<std::string, Cells> axes_{};
 };
 
-/// "low to high unit", as cells of a continuous axis are called.
+/// "low to high unit": name of a cell of a continuous axis.
 [[nodiscard]] std::string range_text(double low, double high, const char* unit);
 
-/// "value unit", to two decimals.
+/// "value unit", with two decimals.
 [[nodiscard]] std::string number_text(double value, const char* unit);
 
 }  // namespace joulepath

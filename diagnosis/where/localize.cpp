@@ -41,8 +41,8 @@ class Localizer {
   const GapLedger& ledger() const { return ledger_; }
 
  private:
-  /// Mean size of the power's error that sensor noise makes; without a voltage channel V is that of the
-  /// measured current, whose error counts in it, too.
+  /// Mean absolute error of the power caused by sensor noise. Without a voltage channel, V is computed from
+  /// the measured current, whose error then enters there, too.
   double noise_W(double voltage_V, double current_A, Side side, bool voltage_measured) const {
     const std::size_t s = side == Side::left ? 0 : 1;
     const double sd_A = noise_.channel_sd[kCurrentLeft + s], ohm = nominal_.robot.motor[side].resistance_ohm;
@@ -75,7 +75,7 @@ class Localizer {
     }
   }
 
-  /// The power at the battery's terminals, where nothing measures the motors: no wheel is to blame.
+  /// Adds the power at the battery's terminals where the motors are not measured; no wheel is attributed.
   void add_battery(const RunSignals& run, const Prediction& p, const ResidualRows& rows, std::size_t r) {
     const double noise_J = std::sqrt(2 / std::numbers::pi) * noise_.channel_sd[kDriverPower] * run.period_s;
     for (Eigen::Index j = 0; j < run.size(); ++j) {
@@ -109,7 +109,7 @@ class Localizer {
     }
   }
 
-  /// The same gap by the equation that it breaks, each in watts.
+  /// Adds the same gap by the violated equation, each in watts.
   void book_channels(const ResidualRows& rows, const Prediction& p, std::size_t r, Side side, Eigen::Index j,
                      double dt) {
     const int s = side == Side::left ? 0 : 1;

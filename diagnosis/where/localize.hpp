@@ -8,10 +8,10 @@
 
 namespace joulepath {
 
-/// Where the power gap lies: per axis (phase, wheel, speed, payload, floor, heading, direction, time of
-/// day, run, channel) the share of the summed absolute gap, with the expected share of noise subtracted,
-/// with an interval over runs. Shares over one axis add up to 1. Runs that carry another simulator's
-/// prediction (`others`, one entry per run) are held against that one.
+/// Localizes the power gap: per axis (phase, wheel, speed, payload, floor, heading, direction, time of day,
+/// run, channel) the share of the summed absolute gap, with the expected share of noise subtracted and an
+/// interval over runs. The shares over one axis add up to 1. Runs with another simulator's prediction
+/// (`others`, one entry per run) are compared with that prediction.
 [[nodiscard]] std::vector<WhereCell> localize_gap(const std::vector<RunSignals>& signals,
                                                   const std::vector<OtherPrediction>& others,
                                                   const ModelPoint& nominal, const NoiseModel& noise,

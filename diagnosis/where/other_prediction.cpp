@@ -27,7 +27,7 @@ Run as_predicted(const Run& run) {
   return result;
 }
 
-/// The other simulator's energy gap on the runs that carry its power.
+/// Energy gap of the other simulator on the runs with its power.
 struct OtherGap {
   std::size_t runs{};
   double gap_J{}, bias_J{}, measured_J{};

@@ -45,8 +45,8 @@ using MoreEffects = std::tuple<>;
 
 namespace joulepath {
 
-/// The catalog: every effect that the simulator, the planner, the diagnosis and the documents know.
-/// To add one, write its file and name it here (docs/adding_an_effect.md).
+/// The catalog: every effect of the simulator, the planner, the diagnosis and the documents. To add one,
+/// write its file and list it here (docs/adding_an_effect.md).
 using OwnEffects =
     std::variant<RollingResistance, FloorPatch, StribeckFriction, CoulombFriction, DraggingWheel,
                  DirectionDependentFriction, ViscousFriction, GearEfficiency, TurningScrub, CasterSwivel,

@@ -64,7 +64,7 @@ struct Needs {
   bool reversing{};
 };
 
-/// What the catalog, the documents and the diagnosis know about an effect.
+/// Properties of an effect for the catalog, the documents and the diagnosis.
 struct EffectInfo {
   std::string_view name{};
   std::string_view kind{};  ///< resistance | mass and geometry | floor | electrical | instruments

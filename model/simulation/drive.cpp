@@ -133,7 +133,7 @@ void Drive::body_forces(const DriveState& state, const Site& site, Forces& force
   const double v = state[kVelocity + kTravel];
   const double omega = state[kVelocity + kTurn];
   forces.load = effect_load(plant_, mass_, v, omega, site);
-  forces.total[kTravel] = mass_.first_moment_kg_m * omega * omega - forces.load.force_N;
+  forces.total[kTravel] = mass_.first_moment_kg_m * omega * omega - forces.load.force_N + input_.push_N;
   forces.total[kTurn] = -mass_.first_moment_kg_m * v * omega - forces.load.moment_Nm;
 }
 

@@ -52,6 +52,7 @@ struct DriveInput {
   Sided<double> voltage_V{};  ///< commanded
   bool coasting{};            ///< the bridges are open: no current
   double payload_kg{};        ///< as stated
+  double push_N{};            ///< along the heading, from outside
 };
 
 /// The robot as an ordinary differential equation with dry friction: [P1, Eq. (25)], plus creep at the

@@ -128,4 +128,10 @@ void DriveIntegrator::advance_to(double end_s) {
   time_s_ = end_s;
 }
 
+void DriveIntegrator::displace(double ahead_m, double left_m) {
+  const double c = std::cos(state_[kHeading]), s = std::sin(state_[kHeading]);
+  state_[kX] += c * ahead_m - s * left_m;
+  state_[kY] += s * ahead_m + c * left_m;
+}
+
 }  // namespace joulepath

@@ -27,6 +27,9 @@ class DriveIntegrator {
 
   void advance_to(double end_s);
 
+  /// Moves the robot on the floor, without a motion of its wheels: ahead, and to its left.
+  void displace(double ahead_m, double left_m);
+
   std::size_t steps() const { return steps_; }
   std::size_t events() const { return events_; }
   bool battery_gave_way() const { return battery_gave_way_; }

@@ -14,7 +14,7 @@ namespace joulepath {
 
 /// A trajectory for a robot that may differ from its file.
 struct SimulationRequest {
-  Robot robot{};                         ///< as the controller knows it, its own effects included
+  Robot robot{};                         ///< robot of the controller, with the effects of its file
   std::vector<EffectSetting> effects{};  ///< further effects of the plant, unknown to the controller
   Trajectory reference{};                ///< speeds (body or wheels) over time; payload_kg where it varies
   std::vector<Interval> coasting{};      ///< when the bridges are open, in the reference's time

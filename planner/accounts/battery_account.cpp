@@ -37,8 +37,8 @@ LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
   return loss;
 }
 
-/// By how much the energy of a leg as planned rises when an uncertain constant is one sigma higher: half the
-/// difference between one sigma more and one less.
+/// Change of a planned leg's energy when an uncertain constant is one sigma higher: half the difference
+/// between one sigma more and one less.
 double sigma_shift_J(const LegPlan& leg, const UncertainPlant& plant, std::size_t constant) {
   const auto& [more, less] = plant.shifted[constant];
   const double still_s = leg.prescribed ? leg.dwell_s : leg.duration_s + leg.dwell_s;
@@ -49,7 +49,7 @@ double sigma_shift_J(const LegPlan& leg, const UncertainPlant& plant, std::size_
   return shift_J;
 }
 
-/// State of charge as the legs go by.
+/// State of charge over the legs.
 class Charge {
  public:
   Charge(const Battery& battery, double start_fraction)
@@ -62,7 +62,7 @@ class Charge {
     net_J_ += energy_J;
     peak_J_ = std::max(peak_J_, net_J_);
   }
-  /// Takes up charge for a time, at most up to a fraction; returns what the terminals took.
+  /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
   double take_up(double power_W, double duration_s, double to_fraction) {
     const double stored_W = power_W - battery_load(battery_, -power_W).loss_W;
     const double stored_J =
@@ -114,7 +114,7 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
     const LegLoss loss = loss_on(leg, plant);
     account.loss_J += loss.loss_J;
     account.lowest_voltage_V = std::min(account.lowest_voltage_V, loss.lowest_voltage_V);
-    // The charger feeds the robot that stands at it.
+    // At a charger, standby power comes from the charger.
     charge.draw(leg.energy.total_J() + loss.loss_J - (charges ? standby_W * leg.dwell_s : 0.0));
     if (!account.fails_on_leg && charge.fraction() < battery.reserve_fraction) account.fails_on_leg = k;
     if (charges) leg.charged_J = charge.take_up(leg.charger_W - standby_W, leg.dwell_s, charge_to_fraction);

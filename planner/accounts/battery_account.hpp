@@ -5,20 +5,22 @@
 
 namespace joulepath {
 
-/// State of charge along a plan, with the loss in the internal resistance; absent where the robot file
-/// gives no capacity. At legs with a charger the dwell charges, up to a fraction. The 95 % interval comes
-/// from the robot file's uncertainty, carried to the energy to first order; missions per charge count down to
-/// the reserve, at the upper bound. Fills the plan's sigmas and what its legs charged.
+/// State of charge along a plan, with the loss in the internal resistance; absent where the robot file gives
+/// no capacity. At legs with a charger the battery charges during the dwell, up to a fraction. The 95 %
+/// interval comes from the robot file's uncertainty, propagated to the energy to first order. Missions per
+/// charge are counted down to the reserve, at the upper bound. Sets the plan's sigmas and the charged energy
+/// of its legs.
 [[nodiscard]] std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& plant,
                                                             double start_fraction,
                                                             double charge_to_fraction = 1.0);
 
-/// The verdict where the reserve would be touched.
+/// The verdict where the state of charge falls below the reserve.
 [[nodiscard]] std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant);
 
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
-/// of `uncertainty:`, each carried through the power model along the planned motion by central differences.
-/// Legs err together, so the plan's is more than the root of the legs' squares.
+/// of `uncertainty:`, each propagated through the power model along the planned motion by central
+/// differences. Errors of the legs are correlated, so the plan's sigma is above the root sum of squares of
+/// the legs.
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant);
 
 }  // namespace joulepath

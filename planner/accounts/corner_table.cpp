@@ -12,10 +12,10 @@ namespace joulepath {
 namespace {
 
 constexpr int kHalf = 36;     ///< angles from 0 to pi
-constexpr int kDrivenOn = 1;  ///< angles of a kink at which nobody stops
+constexpr int kDrivenOn = 1;  ///< number of angles at which the robot does not stop
 constexpr std::size_t kNodes = 60;
 
-/// Energy and time of a path whose pieces are driven from rest to rest in the time of least energy.
+/// Energy and time of a path whose pieces are each driven from rest to rest in the time of least energy.
 class DriveCost {
  public:
   DriveCost(const Plant& plant, const Limits& limits, double payload_kg)

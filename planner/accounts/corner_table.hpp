@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// What a corner between two straight legs costs beyond driving their length straight on, by its angle:
-/// planned in full at every 5 degrees, linear between. Up to 5 degrees the robot drives on.
+/// Cost of a corner between two straight legs by its angle, in addition to driving their length straight on:
+/// planned every 5 degrees, linear between. Up to 5 degrees the robot does not stop.
 class CornerTable {
  public:
   struct Cost {

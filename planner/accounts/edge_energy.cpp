@@ -53,11 +53,11 @@ class Rows {
          .distance_m = leg.distance_m,
          .payload_kg = leg.payload.from_kg,
          .from = sampled_state(motion, motion.time_s.front()).pose,
-         .to = sampled_state(motion, motion.time_s.back()).pose,
+         .to = end_pose(motion),
          .energy = prescribed_energy(leg, plant_)});
   }
 
-  /// The row of a stretch between two of its path coordinates.
+  /// The row of a part of a stretch between two path coordinates.
   EdgeEnergy between(const StretchPlan& stretch, double from, double to) const {
     const PathMotion motion = path_motion(stretch.request);
     const Profile& profile = stretch.profile;

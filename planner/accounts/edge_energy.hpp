@@ -9,7 +9,7 @@ namespace joulepath {
 struct EdgeEnergy {
   enum class Kind { drive, turn, wait, dwell, prescribed };
   std::size_t leg{};
-  std::string name{};  ///< of an order's edge; else empty
+  std::string name{};  ///< name of an order's edge; else empty
   Kind kind{Kind::drive};
   double start_s{};  ///< from the mission's start
   double duration_s{};

@@ -14,28 +14,12 @@
 namespace joulepath {
 namespace {
 
-constexpr double kStep_m = 0.25;  ///< within which the floor is the same
+constexpr double kStep_m = 0.25;  ///< sampling distance of the floor's properties
 constexpr double kSlowest_m_s = 0.02;
 constexpr int kBits = 14;  ///< of the cheapest speed
 constexpr double kStraightBack_rad = 3.13;
 constexpr double kLeast_J = 1e-3;  ///< a router needs positive costs
 constexpr int kFitSweeps = 60;
-
-std::vector<Point2> graph_line(const RouteGraph& graph, const RouteGraph::Edge& edge) {
-  std::vector<Point2> line{{graph.nodes[edge.start].x_m, graph.nodes[edge.start].y_m}};
-  for (std::size_t i = 0; i + 1 < edge.via_m.size(); i += 2)
-    line.push_back({edge.via_m[i], edge.via_m[i + 1]});
-  line.push_back({graph.nodes[edge.end].x_m, graph.nodes[edge.end].y_m});
-  return line;
-}
-
-double bearing_rad(const Point2& from, const Point2& to) {
-  return std::atan2(to[1] - from[1], to[0] - from[0]);
-}
-
-double distance_m(const Point2& from, const Point2& to) {
-  return std::hypot(to[0] - from[0], to[1] - from[1]);
-}
 
 class GraphPricer {
  public:
@@ -55,11 +39,11 @@ class GraphPricer {
   }
 
  private:
-  /// Median length of an edge: how far the robot drives between two corners.
+  /// Median length of an edge: the typical distance between two corners.
   static double typical_leg_m(const RouteGraph& graph) {
     std::vector<double> lengths;
     for (const RouteGraph::Edge& edge : graph.edges) {
-      const std::vector<Point2> line = graph_line(graph, edge);
+      const std::vector<Point2> line = edge_line(graph, edge);
       for (std::size_t i = 0; i + 1 < line.size(); ++i) lengths.push_back(distance_m(line[i], line[i + 1]));
     }
     if (lengths.empty()) return 5.0;
@@ -68,9 +52,9 @@ class GraphPricer {
     return std::max(0.5, lengths[lengths.size() / 2]);
   }
 
-  /// Straight lines at a constant speed, and the corners between them.
+  /// Cost of an edge driven at constant speed along straight lines, with its corners.
   EdgeCost edge_cost(const RouteGraph::Edge& edge) const {
-    const std::vector<Point2> line = graph_line(graph_, edge);
+    const std::vector<Point2> line = edge_line(graph_, edge);
     const double most = std::min({limits_.speed_m_s, edge.speed_limit_m_s.value_or(kNoLimit), 10.0});
     const auto energy_J = [&](double speed_m_s) { return steady_J(line, speed_m_s); };
     EdgeCost cost{.speed_m_s = most};
@@ -111,10 +95,10 @@ class GraphPricer {
     std::vector<std::vector<std::size_t>> leaving(graph_.nodes.size());
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) leaving[graph_.edges[e].start].push_back(e);
     for (std::size_t in = 0; in < graph_.edges.size(); ++in) {
-      const std::vector<Point2> before = graph_line(graph_, graph_.edges[in]);
+      const std::vector<Point2> before = edge_line(graph_, graph_.edges[in]);
       const double arriving = bearing_rad(before[before.size() - 2], before.back());
       for (const std::size_t out : leaving[graph_.edges[in].end]) {
-        const std::vector<Point2> behind = graph_line(graph_, graph_.edges[out]);
+        const std::vector<Point2> behind = edge_line(graph_, graph_.edges[out]);
         const double angle = wrapped_angle_rad(bearing_rad(behind[0], behind[1]) - arriving);
         const CornerTable::Cost corner = corners_.at(angle);
         if (std::abs(angle) < kStraightBack_rad)
@@ -123,8 +107,8 @@ class GraphPricer {
     }
   }
 
-  /// The two-way fit corner(in, out) = end of `in` + start of `out` with the least squares over the corners:
-  /// sweeps of averages, which converge for every pattern of pairs.
+  /// Attribution of corner costs to edges: the fit corner(in, out) = end of `in` + start of `out` of least
+  /// squares over the corners. It iterates averages, which converge for every pattern of pairs.
   void attribute(GraphCosts& costs) const {
     const std::size_t count = graph_.edges.size();
     std::vector<double> end_J(count, 0.0), start_J(count, 0.0), end_s(count, 0.0), start_s(count, 0.0);
@@ -165,7 +149,8 @@ class GraphPricer {
       for (std::size_t e = 0; e < mine.size(); ++e)
         if (count[e] > 0) mine[e] = sum[e] / count[e];
     };
-    sweep(&CornerCost::in, end, &CornerCost::out, start, 0.5);  // halves first: no edge bears all of a node
+    // Equal halves first: no edge gets the whole cost of a node.
+    sweep(&CornerCost::in, end, &CornerCost::out, start, 0.5);
     for (int i = 0; i < kFitSweeps; ++i) {
       sweep(&CornerCost::out, start, &CornerCost::in, end, 1.0);
       sweep(&CornerCost::in, end, &CornerCost::out, start, 1.0);

@@ -9,25 +9,25 @@
 // Design: docs/decisions/0322-turning-energy-on-edges.md
 namespace joulepath {
 
-/// What driving over one directed edge costs.
+/// Cost of one directed edge.
 struct EdgeCost {
   double energy_J{};  ///< standby included; > 0
   double time_s{};
-  double speed_m_s{};  ///< that takes the least energy along the edge, standby included
+  double speed_m_s{};  ///< speed of least energy along the edge, standby included
 };
 
-/// What a corner between two edges costs beyond driving both at their speeds: stop, turn and start, or the
-/// slower arc. `in` and `out` are indices of edges, `out` starts where `in` ends.
+/// Cost of a corner between two edges, in addition to driving both at their speeds: stop, turn and start, or
+/// the slower arc. `in` and `out` are indices of edges; `out` starts where `in` ends.
 struct CornerCost {
   std::size_t in{}, out{};
   double energy_J{}, time_s{};
 };
 
-/// How well costs of corners are carried by edges alone.
+/// Accuracy of the attribution of corner costs to edges.
 struct TurnAttribution {
   std::size_t corners{};
-  double mean_J{};  ///< of a corner
-  double rms_J{};   ///< of what attribution leaves over at a corner
+  double mean_J{};  ///< mean cost of a corner
+  double rms_J{};   ///< rms residual of the attribution at a corner
   double worst_J{};
 };
 
@@ -39,7 +39,7 @@ struct GraphCosts {
   TurnAttribution attribution{};
 };
 
-/// `corner_radius_m`: of the arcs by which corners are driven; 0: the robot stops and turns.
+/// `corner_radius_m`: radius of the arcs at corners; 0: the robot stops and turns.
 [[nodiscard]] GraphCosts graph_costs(const RouteGraph& graph, const Robot& robot, double payload_kg,
                                      double corner_radius_m);
 

@@ -5,22 +5,10 @@
 #include <cstdio>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/baselines/comparison.hpp"
 
 namespace joulepath {
 namespace {
-
-void add_stretch(BaselineTotal& total, const BaselineResult& result, double planned_s) {
-  total.name = result.name;
-  if (!result.feasible) {
-    total.feasible = false;
-    if (total.reason.empty()) total.reason = result.reason;
-  }
-  total.energy_J += result.energy_J;
-  total.motion_energy_J += result.motion_energy_J;
-  total.duration_s += result.duration_s;
-  total.later_s += std::max(0.0, result.duration_s - planned_s);
-  total.settings.push_back(result.parameters);
-}
 
 void add_leg(BaselineTotal& total, const BaselineTotal& leg) {
   total.name = leg.name;
@@ -49,8 +37,8 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
-/// A leg's bound, gap and status from those of its stretches. Of seconds that it waits at its stop a slower
-/// drive could make use, at what they cost here.
+/// Bound, gap and status of a leg from those of its stretches. Where a leg waits at its stop, the bound
+/// accounts for a slower drive that uses the waiting time.
 void judge_leg(LegPlan& leg, double standby_W, double accuracy) {
   leg.lower_bound_J = leg.energy.total_J();
   if (leg.prescribed) return;
@@ -88,9 +76,9 @@ void add_baselines(LegPlan& leg) {
     for (const auto make : {trapezoid_max_acceleration, trapezoid_best_tuned})
       stretch.baselines.push_back(soonest(make, stretch.request, planned_s));
     for (std::size_t b = 0; b < leg.baselines.size(); ++b)
-      add_stretch(leg.baselines[b], stretch.baselines[b], planned_s);
+      add_result(leg.baselines[b], stretch.baselines[b], planned_s);
   }
-  if (leg.prescribed)  // every way of planning drives it the same
+  if (leg.prescribed)  // a prescribed motion is the same in every plan
     for (BaselineTotal& baseline : leg.baselines) {
       baseline.energy_J = leg.energy.total_J();
       baseline.motion_energy_J = leg.energy.motion_J();

@@ -4,7 +4,7 @@
 
 namespace joulepath {
 
-/// Adds the two trapezoids to the stretches of a leg, at the plan's own times, and their totals to the leg.
+/// Adds the two trapezoids to the stretches of a leg, in the plan's times, and their totals to the leg.
 void add_baselines(LegPlan& leg);
 
 /// Totals over the legs: energy by cause, time, gap, replay, baselines, status.

@@ -8,7 +8,8 @@
 namespace joulepath {
 namespace {
 
-/// A plan of more than 2.8 hours at 50 Hz is sampled more slowly, so that its memory is bounded.
+/// Greatest number of samples: plans of more than 2.8 hours at 50 Hz get a longer period, which bounds the
+/// memory.
 constexpr double kMostSamples = 5e5;
 
 /// The content of one sample of the trajectory.
@@ -88,7 +89,7 @@ void append(Trajectory& out, const Plant& plant, const Sample& sample, double ti
   out.leg.push_back(static_cast<double>(leg));
 }
 
-/// Joules between two instants of a plan, over all legs between them.
+/// Energy (J) of a plan between two instants, over all legs between them.
 double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, double from_s, double to_s) {
   double sum_J = 0;
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
@@ -100,7 +101,7 @@ double plan_energy_J(const Plan& plan, const std::vector<LegMotion>& motions, do
   return sum_J;
 }
 
-/// The end of a plan: of its last leg's dwell.
+/// End of a leg: the end of its dwell.
 double end_s(const LegPlan& leg) { return leg.start_s + leg.duration_s + leg.dwell_s; }
 
 /// Rows of a plan in the order of time, with the energy between them.

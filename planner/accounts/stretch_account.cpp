@@ -31,7 +31,7 @@ Plant changed(const Plant& plant, const Nuisance& nuisance, double fraction) {
   return other;
 }
 
-/// One pass over the nodes of the energy integral, for all constants.
+/// Accounts for the nodes of the energy integral in one pass, for all constants.
 DriveAccount drive_account(const ProfileRequest& request, const Profile& profile,
                            const UncertainPlant& plant) {
   const PathMotion motion = path_motion(request);

@@ -7,15 +7,15 @@
 
 namespace joulepath {
 
-/// A plant and what becomes of it when the robot differs from its file by one uncertain constant.
+/// A plant, and its variants with one uncertain constant shifted.
 struct UncertainPlant {
   Plant plant{};
   std::vector<std::array<Plant, 2>> shifted{};  ///< per entry of `uncertainty:`, one sigma more and one less
 };
 [[nodiscard]] UncertainPlant uncertain(Plant plant);
 
-/// Fills in what a planned stretch takes: by independent replay, by cause, in the battery, and by how much an
-/// uncertain constant changes it. `request` and `profile` are given.
+/// Computes the accounts of a planned stretch: independent replay, energy by cause, battery loss, and the
+/// change by each uncertain constant. `request` and `profile` must be set.
 void account_for(StretchPlan& stretch, const UncertainPlant& plant, const SharedAnswers& answers);
 
 }  // namespace joulepath

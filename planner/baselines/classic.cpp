@@ -97,7 +97,8 @@ std::optional<Profile> s_curve(RampLimits ramp, double length, double duration_s
     for (const JerkPiece& piece : s_curve_pieces(rate, ramp, 0)) sum_s += piece.duration_s;
     return 0.5 * sum_s;
   };
-  // Ramps are symmetric: they cover half of rate times their duration. The search finds the slower root.
+  // Ramps are symmetric: their length is half of the rate times their duration. The search finds the slower
+  // root.
   const auto taken_s = [&](double rate) { return length / rate + ramp_s(rate); };
   double low = length / duration_s, high = low;
   while (high * ramp_s(high) < length && taken_s(high) > duration_s) high *= 1.02;
@@ -123,14 +124,14 @@ BaselineResult minimum_time_then_wait(const ProfileRequest& request, double dura
   return finish_baseline(request, kFastest, std::move(*result.profile), duration_s, {{"moving_s", moving_s}});
 }
 
-/// For pieces that are entered and left at this very speed: never a motion from rest, and it cannot be
-/// clipped.
+/// A constant speed, for pieces that begin and end at exactly this speed; it is never a motion from rest and
+/// cannot be clipped.
 BaselineResult constant_speed(const ProfileRequest& request, double duration_s) {
   constexpr const char* kName = "constant_speed";
   constexpr double kSame = 1e-6;
   const double length = piece_length(request.piece), rate = length / duration_s;
   if (std::abs(request.start_rate - rate) > kSame || std::abs(request.end_rate - rate) > kSame)
-    return no_baseline(kName, "needs a jump of speed at the ends");
+    return no_baseline(kName, "needs a step of speed at the ends");
   Profile profile{
       .time_s = {0, duration_s}, .s = {0, length}, .rate = {rate, rate}, .acceleration = {0}, .jerk = {0}};
   return finish_baseline(request, kName, std::move(profile), duration_s,
@@ -144,7 +145,7 @@ using SettingsOf = Settings (*)(const ProfileRequest& request, double length, do
 Baseline from_rest_to_rest(const char* name, Shape shape, SettingsOf settings) {
   return [=](const ProfileRequest& request, double duration_s) {
     if (request.start_rate != 0 || request.end_rate != 0)
-      return no_baseline(name, "runs from rest to rest only");
+      return no_baseline(name, "defined from rest to rest only");
     const double length = piece_length(request.piece);
     return clipped_baseline(
         request, name, [&](double t) { return shape(request, length, t); }, duration_s,

@@ -53,7 +53,7 @@ class ClippedShape {
 
 BaselineResult clipped_baseline(const ProfileRequest& request, const char* name, const ShapeOfDuration& shape,
                                 double duration_s, std::map<std::string, double> parameters) {
-  BaselineResult whole = no_baseline(name, "no such shape takes this time");
+  BaselineResult whole = no_baseline(name, "no such shape has this duration");
   if (std::optional<Profile> profile = shape(duration_s))
     whole = finish_baseline(request, name, std::move(*profile), duration_s, parameters);
   if (whole.feasible) return whole;
@@ -62,7 +62,7 @@ BaselineResult clipped_baseline(const ProfileRequest& request, const char* name,
       best_share(request, LocalLimits(request).shares(), [&](const ProfileRequest& inner, double share) {
         const LocalLimits local(inner);
         std::optional<Profile> profile = ClippedShape(inner, local, share, shape).profile(duration_s);
-        if (!profile) return no_baseline(name, "cannot make the time within the local limits of the path");
+        if (!profile) return no_baseline(name, "cannot meet the time within the local limits of the path");
         return finish_baseline(request, name, std::move(*profile), duration_s, parameters);
       });
   if (!clipped.feasible && !clipped.profile && whole.profile)

@@ -8,21 +8,24 @@ namespace joulepath {
 namespace {
 
 void add(ComparedProfile& sum, BaselineResult result, double planned_s) {
-  BaselineTotal& total = sum.total;
+  add_result(sum.total, result, planned_s);
+  if (result.profile) sum.profiles.push_back(std::move(*result.profile));
+}
+
+}  // namespace
+
+void add_result(BaselineTotal& total, const BaselineResult& result, double planned_s) {
   total.name = result.name;
-  if (!result.feasible && total.feasible) {
+  if (!result.feasible) {
     total.feasible = false;
-    total.reason = result.reason;
+    if (total.reason.empty()) total.reason = result.reason;
   }
   total.energy_J += result.energy_J;
   total.motion_energy_J += result.motion_energy_J;
   total.duration_s += result.duration_s;
   total.later_s += std::max(0.0, result.duration_s - planned_s);
-  total.settings.push_back(std::move(result.parameters));
-  if (result.profile) sum.profiles.push_back(std::move(*result.profile));
+  total.settings.push_back(result.parameters);
 }
-
-}  // namespace
 
 std::vector<ComparedProfile> compare_baselines(const std::vector<TimedStretch>& stretches) {
   std::vector<ComparedProfile> compared(stretches.empty() ? 0 : baselines().size());

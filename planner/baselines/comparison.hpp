@@ -13,6 +13,9 @@ struct ComparedProfile {
   std::vector<Profile> profiles{};  ///< per stretch, empty where one does not exist
 };
 
+/// Adds the result of one stretch to a total.
+void add_result(BaselineTotal& total, const BaselineResult& result, double planned_s);
+
 /// A stretch and its driving time.
 struct TimedStretch {
   const ProfileRequest* request{};

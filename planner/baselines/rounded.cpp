@@ -125,10 +125,10 @@ using Choice = std::function<std::optional<Profile>(const ProfileRequest& inner,
 BaselineResult best_rounded(const ProfileRequest& request, const char* name, double duration_s,
                             const Choice& choice) {
   if (request.start_rate != 0 || request.end_rate != 0)
-    return no_baseline(name, "under a jerk limit it runs from rest to rest only");
+    return no_baseline(name, "under a jerk limit defined from rest to rest only");
   const auto make = [&](const ProfileRequest& inner, double share) {
     std::optional<Profile> profile = choice(inner, RoundedTrapezoids(inner, share));
-    if (!profile) return no_baseline(name, "cannot make the time within the jerk limit");
+    if (!profile) return no_baseline(name, "cannot meet the time within the jerk limit");
     return finish_baseline(request, name, std::move(*profile), duration_s,
                            {{"jerk_m_s3", request.limits.jerk_m_s3}});
   };

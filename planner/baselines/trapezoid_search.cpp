@@ -28,7 +28,7 @@ BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, dou
   constexpr double kNearly = 1e-3;
   const double least_s = family.least_duration_s();
   if (!(duration_s <= least_s * (1 + kNearly))) return no_baseline(name, otherwise);
-  return no_baseline(name, "the plan's time is the least possible: no other profile makes it");
+  return no_baseline(name, "the plan's time is the least possible: no other profile meets it");
 }
 
 /// The settings of least energy for one share; nothing if none keeps the rows.
@@ -66,7 +66,7 @@ BaselineResult trapezoid_max_acceleration(const ProfileRequest& request, double 
   if (is_rounded(request)) return rounded_max_acceleration(request, kName, duration_s);
   const auto make = [&](const ProfileRequest& inner, double share) {
     const double up = most_acceleration(inner), down = most_deceleration(inner);
-    return of_share(request, inner, kName, duration_s, "cannot make the time with the local speed limits",
+    return of_share(request, inner, kName, duration_s, "cannot meet the time with the local speed limits",
                     [&](const TrapezoidFamily& family) {
                       const auto rate = family.rate_for(up, down, share, duration_s);
                       return rate ? std::optional(TrapezoidSettings{*rate, up, down, share}) : std::nullopt;
@@ -79,7 +79,7 @@ BaselineResult trapezoid_best_tuned(const ProfileRequest& request, double durati
   constexpr const char* kName = "trapezoid_best_tuned";
   if (is_rounded(request)) return rounded_best_tuned(request, kName, duration_s);
   const auto make = [&](const ProfileRequest& inner, double share) {
-    return of_share(request, inner, kName, duration_s, "no trapezoid makes the time within the limits",
+    return of_share(request, inner, kName, duration_s, "no trapezoid meets the time within the limits",
                     [&](const TrapezoidFamily& family) { return tuned(inner, family, share, duration_s); });
   };
   BaselineResult best = best_share(request, LocalLimits(request).shares(), make);

@@ -15,14 +15,14 @@
 // Design: docs/decisions/0300-answers-by-content.md
 namespace joulepath {
 
-/// Answers by the content of their question: in memory up to a limit (the least recently used go first), and
-/// in a folder if one is given. Safe to share between threads.
+/// Answers identified by the content of their question. They are kept in memory up to a limit (the least
+/// recently used are removed first), and in a folder if one is given. Safe to share between threads.
 class AnswerCache {
  public:
   static constexpr std::uint64_t kLimit_bytes = 128ULL << 20;
 
   explicit AnswerCache(std::uint64_t limit_bytes = kLimit_bytes) : limit_bytes_(limit_bytes) {}
-  /// Also kept in a folder, for other processes and later.
+  /// Keeps answers in a folder as well, for other processes and later runs.
   explicit AnswerCache(const std::string& folder) : AnswerCache() { disk_.emplace(folder); }
 
   using Bytes = std::shared_ptr<const std::string>;
@@ -44,15 +44,15 @@ class AnswerCache {
   std::map<ContentKey, std::list<Entry>::iterator> places_{};
 };
 
-/// Where the answers of a mission are kept, and what all of its questions depend on.
+/// The cache of a mission's answers, and the content common to all of its questions.
 struct SharedAnswers {
-  AnswerCache* cache{};  ///< null: nothing is kept
+  AnswerCache* cache{};  ///< null: no cache
   ContentKey world{};    ///< of the program, the robot and the floor
 };
 
-/// The answer to a question: the one that is kept, or `compute()`. `kind` and the question's parts together
-/// with `answers.world` must hold everything that the answer depends on. An answer reads back to the last
-/// bit, so that results do not depend on what is kept.
+/// The answer to a question: from the cache, or from `compute()`. `kind`, the parts of the question and
+/// `answers.world` must together contain everything on which the answer depends. A cached answer equals the
+/// computed one to the last bit, so results do not depend on the content of the cache.
 template <class Compute, class... Parts>
 auto remembered(const SharedAnswers& answers, std::string_view kind, const Compute& compute,
                 const Parts&... parts) -> decltype(compute()) {

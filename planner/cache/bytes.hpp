@@ -16,10 +16,10 @@ namespace joulepath {
 template <class T>
 inline constexpr bool kIsPlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Writes values as bytes: numbers as they are in memory, containers with their size first.
+/// Writes values as bytes: numbers in their memory representation, containers with their size first.
 ///
-/// A struct takes part through `each_field(archive, value)` in its namespace, which hands its fields to the
-/// archive. It takes them apart by a structured binding, so that a new field does not compile before it is
+/// A struct is serialized through `each_field(archive, value)` in its namespace, which passes its fields to
+/// the archive. The function uses a structured binding, so that a new field is a compile error until it is
 /// listed.
 class ByteWriter {
  public:
@@ -40,7 +40,7 @@ class ByteWriter {
     if constexpr (kIsPlainNumber<T>)
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     else
-      each_field(*this, const_cast<T&>(value));  // fields are handed on, not changed
+      each_field(*this, const_cast<T&>(value));  // the writer does not change the fields
   }
   template <class T>
   void write(const std::vector<T>& values) {
@@ -68,8 +68,8 @@ class ByteWriter {
   std::string bytes_{};
 };
 
-/// Reads what a ByteWriter wrote, in the same order. Bytes that do not fit leave it in failure, never outside
-/// of its text.
+/// Reads what a ByteWriter wrote, in the same order. Bytes that do not fit set the failure state; the reader
+/// never reads beyond its text.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}
@@ -78,7 +78,7 @@ class ByteReader {
   void operator()(Values&... values) {
     (read(values), ...);
   }
-  /// Whether everything was read and nothing is left.
+  /// True if everything was read without a failure.
   bool finished() const { return !failed_ && left_.empty(); }
   bool failed() const { return failed_; }
   void fail() { failed_ = true; }
@@ -90,7 +90,7 @@ class ByteReader {
     left_.remove_prefix(size);
     return true;
   }
-  /// A container's size: each of its elements takes at least a byte.
+  /// Size of a container; each of its elements takes at least one byte.
   std::size_t size() {
     std::size_t count = 0;
     if (take(&count, sizeof count) && count > left_.size()) failed_ = true;

@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// 128 bits that identify a content: of different contents they are the same by chance alone (two of 10^12
-/// contents with a probability below 10^-14). No protection against contents that are made to collide.
+/// 128-bit hash of a content. Different contents have equal keys only by chance (two of 10^12 contents with a
+/// probability below 10^-14). It does not protect against contents made to collide.
 struct ContentKey {
   std::uint64_t first{}, second{};
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -18,15 +19,15 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "joulepath answer 1\n";
 constexpr std::uint64_t kLooksPerLimit =
-    16;                             ///< the folder's size is looked at when so much of it was written
-constexpr double kKeptShare = 0.9;  ///< of the limit, after files were deleted
-constexpr std::chrono::hours kAbandoned{1};  ///< a file beside its place that is older has no writer
+    16;                             ///< written bytes after which the size of the folder is computed again
+constexpr double kKeptShare = 0.9;  ///< of the limit, after a deletion
+constexpr std::chrono::hours kAbandoned{1};  ///< an older temporary file has no writer any more
 
 std::string checksum_of(const ContentKey& key, const std::string& answer) {
   return content_key(key.text() + answer).text();
 }
 
-/// A name that no other thread or process writes to.
+/// The name of a temporary file that no other thread or process uses.
 std::string beside(const std::string& file) {
   static std::atomic<unsigned> count{0};
   return file + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".new";
@@ -38,7 +39,7 @@ struct KeptFile {
   std::uint64_t bytes{};
 };
 
-/// Every file of the folder; what other processes delete meanwhile is left out.
+/// Every file of the folder, without those that other processes delete meanwhile.
 std::vector<KeptFile> files_in(const std::string& folder) {
   std::vector<KeptFile> files;
   std::error_code error;

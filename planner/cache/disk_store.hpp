@@ -10,10 +10,10 @@
 
 namespace joulepath {
 
-/// Answers as files of one folder, shared by processes: one file per key, written beside its place and
-/// renamed into it, with a checksum of its content. A file that is damaged, of another key or missing is no
-/// answer; the next one that is kept replaces it. What cannot be written (no space, no permission) is not
-/// kept. When the folder grows beyond its limit, the files that were used least recently are deleted.
+/// Answers as files of one folder that processes share: one file per key with a checksum of its content,
+/// written under a temporary name and renamed. A file that is missing, damaged or of another key counts as no
+/// answer, and the next answer replaces it. Answers that cannot be written (no space, no permission) are
+/// dropped. When the folder exceeds its limit, the least recently used files are deleted.
 ///
 /// Safe to share between threads.
 class DiskStore {
@@ -33,7 +33,7 @@ class DiskStore {
   std::string folder_;
   std::uint64_t limit_bytes_;
   std::mutex mutex_{};
-  std::uint64_t written_bytes_{};  ///< since the folder's size was looked at
+  std::uint64_t written_bytes_{};  ///< since the size of the folder was computed
   bool looked_{};
 };
 

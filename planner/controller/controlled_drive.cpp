@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "planner/baselines/finish.hpp"
+#include "planner/baselines/rounded.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/profile/profile_solver.hpp"
 
+// Design: docs/decisions/0376-controllers-under-jerk.md
 namespace joulepath {
 namespace {
 
@@ -35,7 +37,16 @@ BaselineResult drive_stretch(const ProfileRequest& request, const TrapezoidFamil
   return best ? std::move(*best) : no_baseline("controller", "cannot keep the speeds at the ends");
 }
 
-/// Least energy of a stretch in a time; the controller's own energy if no profile is as fast.
+/// Under a jerk limit the corners of a controller's trapezoids are rounded: as fast as its settings allow.
+BaselineResult drive_under_jerk(const ProfileRequest& request, const TrapezoidSettings& settings) {
+  std::optional<Profile> profile = fastest_profile(request, settings);
+  if (!profile) return no_baseline("controller", "cannot keep the speeds at the ends");
+  const double duration_s = profile->time_s.back();
+  return finish_baseline(request, "controller", std::move(*profile), duration_s,
+                         {{"jerk_m_s3", request.limits.jerk_m_s3}});
+}
+
+/// Least energy of a stretch in a time; `otherwise` if no profile is as fast.
 double optimum_J(const StretchPlan& stretch, double duration_s, double otherwise_J) {
   ProfileRequest request = stretch.request;
   request.time = {.mode = TimeMode::fixed_time, .duration_s = duration_s};
@@ -67,9 +78,19 @@ TrapezoidSettings fastest_settings(const StretchPlace& /*place*/, const StretchP
           family.most_deceleration()};
 }
 
+std::optional<Profile> fastest_profile(const ProfileRequest& request, const TrapezoidSettings& settings) {
+  ProfileRequest fastest = request;
+  fastest.limits.speed_m_s = std::min(fastest.limits.speed_m_s, settings.rate);
+  fastest.limits.acceleration_m_s2 = std::min(fastest.limits.acceleration_m_s2, settings.acceleration);
+  fastest.limits.deceleration_m_s2 = std::min(fastest.limits.deceleration_m_s2, settings.deceleration);
+  fastest.time = {.mode = TimeMode::minimum_time};
+  fastest.solver = SolverChoice::fast;
+  return solve_profile(fastest).profile;
+}
+
 ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
                                     const StretchCaps& caps) {
-  // All parts that the controller does not drive are as in the plan: dwells, waits, prescribed motions.
+  // Parts that the controller does not drive are as in the plan: dwells, waits, prescribed motions.
   ControlledDrive drive{.energy_J = plan.energy.total_J(),
                         .motion_energy_J = plan.energy.motion_J(),
                         .duration_s = plan.duration_s};
@@ -77,10 +98,12 @@ ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& set
     ProfileRequest request = stretch.request;
     if (caps)
       for (const SpeedCap& cap : caps(place, stretch)) request.speed_caps.push_back(cap);
-    const BaselineResult result = with_room(request, [&](const ProfileRequest& inner) {
-      const TrapezoidFamily family(inner);
-      return drive_stretch(request, family, settings(place, stretch, family));
-    });
+    const BaselineResult result =
+        is_rounded(request) ? drive_under_jerk(request, settings(place, stretch, TrapezoidFamily(request)))
+                            : with_room(request, [&](const ProfileRequest& inner) {
+                                const TrapezoidFamily family(inner);
+                                return drive_stretch(request, family, settings(place, stretch, family));
+                              });
     drive.energy_J += result.energy_J - stretch.energy.total_J();
     drive.motion_energy_J += result.motion_energy_J - stretch.energy.motion_J();
     drive.duration_s += result.duration_s - stretch.profile.duration_s();

@@ -21,8 +21,9 @@ struct StretchPlace {
 void for_each_stretch(const Plan& plan,
                       const std::function<void(const StretchPlace&, const StretchPlan&)>& visit);
 
-/// How a controller without a speed profile drives a plan's path: as fast as its settings and the local
-/// limits allow, in trapezoids from stop to stop. Prescribed motions and dwells are as in the plan.
+/// A plan's path driven by a controller without a speed profile, as fast as its settings and the local limits
+/// allow: trapezoids from stop to stop, rounded where the robot has a jerk limit. Prescribed motions and
+/// dwells are as in the plan.
 struct ControlledDrive {
   double energy_J{};         ///< at the battery's terminals, standby included
   double motion_energy_J{};  ///< without standby
@@ -37,6 +38,10 @@ using StretchSettings =
 /// Speed caps on one stretch, besides the mission's own.
 using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, const StretchPlan&)>;
 
+/// The fastest profile along a curve within a controller's settings and all limits; none if there is none.
+[[nodiscard]] std::optional<Profile> fastest_profile(const ProfileRequest& request,
+                                                     const TrapezoidSettings& settings);
+
 /// Drives a valid plan's stretches. Energy by the same model on the exact path.
 [[nodiscard]] ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
                                                   const StretchCaps& caps = {});
@@ -45,7 +50,7 @@ using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, con
 [[nodiscard]] TrapezoidSettings fastest_settings(const StretchPlace& place, const StretchPlan& stretch,
                                                  const TrapezoidFamily& family);
 
-/// Energy of a controller's drive, and the least energy of its path in the same time.
+/// Energy of a controller's drive, and the least energy along its path in the same time.
 struct LossAtTime {
   double duration_s{};
   double energy_J{};
@@ -55,7 +60,7 @@ struct LossAtTime {
 
 /// The loss of a controller that cannot follow the plan's speeds.
 struct ControllerLoss {
-  /// At the controller's own time; the optimum is that of every stretch in the controller's time.
+  /// In the controller's own time; the optimum is the sum over the stretches, each in the controller's time.
   LossAtTime own_time{};
   /// At the plan's time, if the controller is not later: it waits at the end, standby included.
   std::optional<LossAtTime> plan_time{};

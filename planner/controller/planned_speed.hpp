@@ -4,11 +4,10 @@
 
 namespace joulepath {
 
-/// Highest planned speed (m/s) between two places of a leg; 0 where nothing but turns lies between.
+/// Highest planned speed (m/s) between two places of a leg; 0 where there are only turns between them.
 [[nodiscard]] double highest_speed_m_s(const LegPlan& leg, double from_m, double to_m);
 
-/// Parts of a leg that one speed may be set for: those that the mission names, else its curves segment by
-/// segment.
+/// Parts of a leg that can each have a speed: those that the mission names, else the segments of its curves.
 [[nodiscard]] std::vector<PathPart> leg_parts(const LegPlan& leg);
 
 /// A speed for each part of each leg of a plan: [leg][part], in m/s; 0 on parts without any length.
@@ -21,8 +20,8 @@ using PartSpeeds = std::vector<std::vector<double>>;
 [[nodiscard]] std::vector<SpeedCap> caps_on(const PartSpeeds& speeds, const StretchPlace& place,
                                             const StretchPlan& stretch, const LegPlan& leg);
 
-/// The scale in (0, 1] of speed caps with which a controller takes the plan's time; 1 where it is not earlier
-/// even without. `drive` gives the drive for a scale.
+/// The scale in (0, 1] of the speed caps with which a controller takes the plan's time; 1 where the
+/// controller is not earlier without caps. `drive` returns the drive for a scale.
 [[nodiscard]] double scale_for_plan_time(const Plan& plan,
                                          const std::function<ControlledDrive(double)>& drive);
 

@@ -57,7 +57,8 @@ std::size_t index_in(const OccupancyGrid& grid, OccupancyGrid::CellIndex cell) {
          static_cast<std::size_t>(cell.column);
 }
 
-/// Copies the crossed cells' values to the cells within reach; the nearest crossed cell decides.
+/// Copies the values of crossed cells to the cells within reach; the nearest crossed cell determines the
+/// value.
 void spread(OccupancyGrid& grid, double reach_m) {
   const std::vector<std::int8_t> crossed = grid.occupancy_percent;
   std::vector<double> nearest(crossed.size(), std::numeric_limits<double>::infinity());
@@ -91,11 +92,11 @@ SpeedMask planned_speed_mask(const Plan& plan, double resolution_m, double reach
     cell = std::max(cell, scale * sample.speed_m_s);
     top_m_s = std::max(top_m_s, cell);
   }
-  mask.multiplier = std::floor(1e5 * top_m_s / kTop) / 1e5;
+  mask.multiplier = std::ceil(1e5 * top_m_s / kTop - 1e-9) / 1e5;
   for (std::size_t k = 0; k < highest.size(); ++k)
     if (highest[k] > 0)
       mask.grid.occupancy_percent[k] = static_cast<std::int8_t>(
-          std::clamp(static_cast<int>(std::floor(highest[k] / mask.multiplier + 1e-9)), 1, kTop));
+          std::clamp(static_cast<int>(std::ceil(highest[k] / mask.multiplier - 1e-9)), 1, kTop));
   spread(mask.grid, reach_m);
   return mask;
 }

@@ -6,8 +6,9 @@
 namespace joulepath {
 
 /// A speed mask (kind absolute, base 0) along a plan's path. A cell that the path crosses caps the speed at
-/// the plan's highest speed in it, over all passes, times `scale`, rounded down to the mask's hundredths but
-/// never to 0. Cells within `reach_m` take the cap of the nearest crossed cell. Elsewhere there is no cap.
+/// the plan's highest speed in it, over all passes, times `scale`, rounded up to the mask's hundredths, so
+/// that a controller need not be late. Cells within `reach_m` take the cap of the nearest crossed cell.
+/// Elsewhere there is no cap.
 ///
 /// A cell that the path crosses by less than a twentieth of its side counts as not crossed. A mask depends on
 /// neither leg nor payload, and does not affect turns in place.

@@ -44,7 +44,7 @@ std::optional<Infeasibility> blocked_path(const Path& path, const RouteSpace& sp
   const auto conflict = path_conflict(checker, path);
   if (!conflict) return std::nullopt;
   Infeasibility verdict = verdict_on(*conflict, checker.clearance_m());
-  constexpr double kSpare_m = 1e-4;  // for places between those that were checked
+  constexpr double kSpare_m = 1e-4;  // margin for places between the checked ones
   const double room_m = checker.clearance_m() - conflict->deepest.short_by_m - kSpare_m;
   if (room_m >= 0 && !path_conflict(checker.with_clearance(room_m), path))
     verdict.relaxation = {{"clearance_m", room_m}};

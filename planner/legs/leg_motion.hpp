@@ -12,7 +12,7 @@ namespace joulepath {
 /// The motion of a leg's prescription, from the robot's state at the end of the previous leg.
 [[nodiscard]] SampledMotion prescribed_motion(const LegPlan& leg, const Plant& plant);
 
-/// The motion of a planned leg: along its stretches, or prescribed. It keeps references to the leg and the
+/// The motion of a planned leg, along its stretches or as prescribed. It keeps references to the leg and the
 /// plant.
 class LegMotion {
  public:

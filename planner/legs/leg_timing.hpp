@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// All stretches of a leg: they share one price of time, because the leg's duration is the sum of theirs.
-/// Solutions are kept, so that a search over prices solves each problem once.
+/// All stretches of a leg. They share one price of time, because the leg's duration is the sum of theirs.
+/// Solutions are cached, so that a search over prices solves each problem once.
 class LegTiming {
  public:
   explicit LegTiming(std::vector<ProfileRequest> stretches, const SharedAnswers& answers = {})
@@ -19,7 +19,8 @@ class LegTiming {
   const std::vector<ProfileRequest>& stretches() const { return stretches_; }
   std::vector<ProfileRequest>& stretches() { return stretches_; }
 
-  /// Driving time (s) at a price of a second, beyond standby; an infinite price gives the minimum time.
+  /// Driving time (s) at a price of a second, in addition to standby; an infinite price gives the minimum
+  /// time.
   double duration_s(double price_W, SolverChoice solver);
 
   /// Profiles of all stretches at a price; a result without a profile contains the reason.

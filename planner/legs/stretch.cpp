@@ -9,22 +9,38 @@
 namespace joulepath {
 namespace {
 
-/// Intervals of a curve on which the mask sets one cap.
+/// Intervals of a curve on which the mask sets one cap. Their borders are those of the cells: two places half
+/// a cell apart see whether the cap changes, bisection finds where.
 void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_limit_m_s,
                       std::vector<SpeedCap>& caps) {
-  const double step_m = 0.5 * mask.grid.resolution_m;
-  const auto count = static_cast<std::size_t>(std::ceil(curve.length_m() / step_m));
-  std::optional<double> cap_m_s;
-  double from_m = 0.0;
-  for (std::size_t k = 0; k <= count; ++k) {
-    const double s_m = std::min(curve.length_m(), static_cast<double>(k) * step_m);
+  constexpr int kHalvings = 20;
+  const double length_m = curve.length_m(), step_m = 0.5 * mask.grid.resolution_m;
+  const auto cap_at = [&](double s_m) {
     const Pose pose = curve.at(s_m).pose;
-    const std::optional<double> here = mask.speed_cap_m_s(pose.x_m, pose.y_m, speed_limit_m_s);
-    if (k > 0 && here == cap_m_s && k < count) continue;
-    if (k > 0 && cap_m_s) caps.push_back({std::max(0.0, from_m - step_m), s_m, *cap_m_s});
-    cap_m_s = here;
-    from_m = s_m;
+    return mask.speed_cap_m_s(pose.x_m, pose.y_m, speed_limit_m_s);
+  };
+  const auto count = static_cast<std::size_t>(std::ceil(length_m / step_m));
+  std::optional<double> cap_m_s = cap_at(0);
+  double from_m = 0, last_m = 0;
+  const auto append_until = [&](double s_m) {
+    if (cap_m_s && s_m > from_m) caps.push_back({from_m, s_m, *cap_m_s});
+  };
+  for (std::size_t k = 1; k <= count; ++k) {
+    const double s_m = std::min(length_m, static_cast<double>(k) * step_m);
+    const std::optional<double> here = cap_at(s_m);
+    if (here != cap_m_s) {
+      double low_m = last_m, high_m = s_m;
+      for (int i = 0; i < kHalvings; ++i) {
+        const double middle_m = 0.5 * (low_m + high_m);
+        (cap_at(middle_m) == cap_m_s ? low_m : high_m) = middle_m;
+      }
+      append_until(high_m);
+      cap_m_s = here;
+      from_m = high_m;
+    }
+    last_m = s_m;
   }
+  append_until(length_m);
 }
 
 }  // namespace

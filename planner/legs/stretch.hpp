@@ -8,7 +8,7 @@
 
 namespace joulepath {
 
-/// Which steps of choosing ways are taken; without one its simplest alternative stands.
+/// Steps of choosing ways; a step that is left out is replaced by its simplest alternative.
 struct WaySteps {
   bool corners{true};     ///< else stop, turn, go at every corner
   bool routes{true};      ///< else the shortest route
@@ -23,8 +23,8 @@ struct PlanOptions {
   unsigned seed{1};
   WaySteps steps{};
   bool baselines{true};     ///< compare with classic profiles
-  unsigned threads{1};      ///< for the legs of one mission; the plan does not depend on it
-  SharedAnswers answers{};  ///< of other missions, kept; the plan does not depend on them
+  unsigned threads{1};      ///< threads for the legs of one mission; the plan does not depend on it
+  SharedAnswers answers{};  ///< cached answers of other missions; the plan does not depend on them
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
@@ -32,14 +32,14 @@ struct PlanOptions {
 [[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
 
 /// The speed caps of a piece that begins `offset_m` into its leg: the mission's zones on that leg, and the
-/// speed mask read along the curve (at half of its resolution, so that no cell is stepped over).
+/// speed mask sampled along the curve (at half of its resolution, so that no cell is skipped).
 [[nodiscard]] std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,
                                                   const std::vector<SpeedZone>& zones,
                                                   const std::optional<SpeedMask>& mask,
                                                   double speed_limit_m_s);
 
-/// The requests of a leg to the profile optimizer, one per piece; the effects' memories run on from piece to
-/// piece, from `memory` at the departure. The time goals are left to the caller.
+/// The requests of a leg to the profile optimizer, one per piece. The memories of the effects continue from
+/// piece to piece, from `memory` at the departure. The caller sets the time goals.
 [[nodiscard]] std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg,
                                                        std::size_t leg_index, const MissionRequest& mission,
                                                        const MissionWorld& world, const Plant& plant,

@@ -101,7 +101,7 @@ Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& 
     for (MissionRequest& longer : with_one_more_stop(best.mission, best.plan, plant)) {
       Plan plan = plan_legs(longer);
       const bool drives = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-      // The stop increases the legs' indices by one: only a breach beyond that is progress.
+      // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
       const bool further =
           touches_reserve(plan) && *plan.battery->fails_on_leg > *best.plan.battery->fails_on_leg + 1;
       if ((drives || further) && (!next || rank(plan) > rank(next->plan)))

@@ -9,10 +9,11 @@ namespace joulepath {
 /// Plans a mission whose legs are given.
 using PlanLegs = std::function<Plan(const MissionRequest&)>;
 
-/// Inserts stops at chargers, where the mission allows them, until the battery never falls below its reserve:
-/// each before the leg on which it would, or up to two legs earlier, at the charger with the least energy of
-/// the mission. The robot stays until its state of charge is that of `charging:`. `failed` is the plan
-/// without them; it is returned unchanged if no stop helps, or if chargers are no remedy.
+/// Inserts stops at chargers, where the mission allows them, until the state of charge never falls below the
+/// reserve. Each stop is inserted before the leg that would breach the reserve, or up to two legs earlier, at
+/// the charger that gives the mission the least energy. The robot charges up to the state of charge of
+/// `charging:`. `failed` is the plan without these stops; it is returned unchanged if no stop helps or if
+/// chargers cannot remedy the failure.
 [[nodiscard]] Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
                                      const PlanLegs& plan_legs);
 

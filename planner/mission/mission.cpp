@@ -16,14 +16,14 @@
 namespace joulepath {
 namespace {
 
-constexpr double kNoWait = 1e-6;  ///< relative: a wait shorter than this is rounding
-constexpr int kRounds = 3;        ///< of choosing ways at the prices that the last round's times led to
+constexpr double kNoWait = 1e-6;  ///< relative: a shorter wait is rounding
+constexpr int kRounds = 3;  ///< rounds of choosing ways at the prices that follow from the last round's times
 
 /// The final solutions of a leg at its price; none for a prescribed motion.
 const std::vector<ProfileResult>& final_results(LegTiming& timing, double price_W, double duration_s,
                                                 const PlanOptions& options) {
-  // A duration longer than any use: the bound is to know that there is no more of it. The times that
-  // were shared are the fast solver's, so Ipopt has not been asked yet.
+  // The leg has more time than it uses: its bound may assume that no stretch takes longer. So far only the
+  // fast solver has solved the leg.
   if (price_W <= 0 && timing.duration_s(price_W, SolverChoice::fast) < duration_s * (1 - kNoWait))
     timing.give(duration_s);
   return timing.solve(price_W, options.solver);
@@ -53,17 +53,19 @@ void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
     leg.stretches.push_back(std::move(stretch));
   }
   const double wait_s = std::max(0.0, duration_s - leg.duration_s);
-  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
-    leg.stretches.back().profile.wait_s += wait_s;
+  if (wait_s > kNoWait * duration_s) {
     leg.duration_s += wait_s;
     leg.energy.standby_J += plant.robot.power.standby_W * wait_s;
+  }
+  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
+    leg.stretches.back().profile.wait_s += wait_s;
     leg.stretches.back().energy.standby_J += plant.robot.power.standby_W * wait_s;
     leg.stretches.back().replay.energy_J += plant.robot.power.standby_W * wait_s;
   }
   leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
 }
 
-/// Whether prices moved so much that another way might be the better one.
+/// True if prices changed so much that another way may be better.
 bool moved(const std::vector<double>& before_W, const std::vector<double>& after_W) {
   for (std::size_t k = 0; k < before_W.size(); ++k)
     if (before_W[k] != after_W[k] &&
@@ -72,8 +74,7 @@ bool moved(const std::vector<double>& before_W, const std::vector<double>& after
   return false;
 }
 
-/// Legs whose ways were chosen at the prices of their times; the plan becomes the verdict where there are
-/// none.
+/// Legs whose ways were chosen at the prices of their times; where there are none, the plan is the verdict.
 struct TimedLegs {
   PreparedLegs prepared{};
   TimeSplit split{};
@@ -110,7 +111,7 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
   return timed;
 }
 
-/// Which limit holds the fastest drive of a leg.
+/// The limit that determines the fastest drive of a leg.
 std::string held_by(LegTiming& leg) {
   HoldingLimits limits;
   double before_m = 0.0;
@@ -150,7 +151,8 @@ bool has_own_duration(const MissionRequest& mission) {
                      [](const LegRequest& leg) { return leg.duration_s.has_value(); });
 }
 
-/// A draft's limits hold at nodes alone and it has no bound: neither says that it is no plan, or the best.
+/// Marks a draft: its limits hold at nodes only and it has no bound, so its status is neither `infeasible`
+/// nor `optimal`.
 void mark_as_draft(Plan& plan) {
   plan.status = SolveStatus::feasible;
   plan.message.clear();
@@ -161,7 +163,7 @@ void mark_as_draft(Plan& plan) {
   }
 }
 
-/// Plans the legs as they are, in their order; `plan` has what is known about the mission already.
+/// Plans the legs as given, in their order; `plan` contains what is already known about the mission.
 Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                      const RouteSpace* space, const Plant& plant, Plan plan) {
   TimedLegs timed = time_legs(mission, world, space, plant, options, plan);
@@ -181,7 +183,9 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   const UncertainPlant uncertain_plant = uncertain(plant);
   for_each_index(legs.size(), options.threads, [&](std::size_t k) {
     legs[k].start_s = k == 0 ? 0.0 : split.arrival_s[k - 1] + legs[k - 1].dwell_s;
-    settle_leg(legs[k], timing[k], results[k], split.price_W[k], split.duration_s[k], uncertain_plant,
+    // A robot that arrives before the stop's window opens waits there: the wait is part of the leg.
+    const double duration_s = std::max(split.duration_s[k], split.arrival_s[k] - legs[k].start_s);
+    settle_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
                options.answers);
     if (options.baselines) add_baselines(legs[k]);
   });
@@ -241,7 +245,8 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     Plan chosen = plan_given_legs(legs, world, options, space, plant, plan);
     if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
       return chosen;
-    // Ways are chosen by energy; one that a leg's own duration has no use for must not be the last word.
+    // Ways are chosen by energy. A way that cannot keep a leg's own duration is replaced by one with stops at
+    // corners.
     PlanOptions plain = options;
     plain.steps.corners = false;
     Plan other = plan_given_legs(legs, world, plain, space, plant, plan);

@@ -7,7 +7,7 @@ namespace joulepath {
 namespace {
 
 /// Price at which a leg alone takes a given time. A long time has a negative price, down to nearly minus the
-/// standby power (seconds without any price are unbounded), where the robot waits instead.
+/// standby power (where a second has no price, the time is unbounded); there the robot waits instead.
 double price_for_duration(LegTiming& leg, double duration_s, double standby_W, SolverChoice solver) {
   const TimeSplit split =
       split_time({.legs = 1,
@@ -19,7 +19,7 @@ double price_for_duration(LegTiming& leg, double duration_s, double standby_W, S
   return split.late ? kNoLimit : split.price_W.front();
 }
 
-/// One round, at the times of day that the stretches have.
+/// One round, at the present times of day of the stretches.
 TimeSplit share_once(PreparedLegs& prepared, const MissionRequest& mission, double standby_W,
                      SolverChoice solver) {
   const double floor_W = lowest_price_W(mission.objective);

@@ -36,7 +36,7 @@ std::optional<Infeasibility> payload_too_heavy(const Robot& robot, const LegRequ
                      .hint = {}});
 }
 
-/// A leg that ends at speed continues at that speed, without a dwell.
+/// A leg that ends at speed must be followed by a leg at that speed, without a dwell.
 void check_joint(const MissionRequest& mission, std::size_t k) {
   const LegRequest& leg = mission.legs[k];
   if (leg.dwell_s > 0 && leg.end_speed_m_s > 0)
@@ -45,7 +45,7 @@ void check_joint(const MissionRequest& mission, std::size_t k) {
   const LegRequest& next = mission.legs[k + 1];
   if (leg.end_speed_m_s != next.start_speed_m_s)
     refuse_speed(next, "start_speed_m_s", next.start_speed_m_s,
-                 "the speed at which the leg before ends, " + std::to_string(leg.end_speed_m_s) + " m/s");
+                 "the end speed of the previous leg, " + std::to_string(leg.end_speed_m_s) + " m/s");
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ struct TimeSplit {
 ///
 ///   minimize sum E_j(T_j)   subject to   arrival_k <= latest_k
 ///
-/// With convex E_j the multipliers are dE_j/dT_j = -sum over k >= j of mu_k, mu_k >= 0. The deadline that
-/// The deadline with the highest price of all legs before it binds; the legs after it repeat the same step.
+/// With convex E_j the multipliers are dE_j/dT_j = -sum over k >= j of mu_k, mu_k >= 0. The deadline with the
+/// highest price for all legs before it binds; the same step is repeated for the legs after it.
 [[nodiscard]] TimeSplit split_time(const TimeSplitRequest& request);
 
 }  // namespace joulepath

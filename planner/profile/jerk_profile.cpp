@@ -153,13 +153,15 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
   if (replay(request, fastest).valid()) {
     const char* key = request.time.mode == TimeMode::fixed_time ? "duration_s" : "deadline_s";
     verdict.relaxation[key] = least_s;
-    text << "; " << key << " " << least_s << " would do";
+    text << "; smallest change that works: " << key << " = " << least_s;
   }
   const ProfileRequest enough = with_enough_jerk(request);
   const Profile enough_fast = *fastest_by_jerk(enough);
   if (enough_fast.duration_s() <= request.time.duration_s && replay(enough, enough_fast).valid()) {
     verdict.relaxation["jerk_m_s3"] = enough.limits.jerk_m_s3;
-    text << "; jerk_m_s3 " << enough.limits.jerk_m_s3 << " would do";
+    text << (verdict.relaxation.size() > 1 ? ", or jerk_m_s3 = "
+                                           : "; smallest change that works: jerk_m_s3 = ")
+         << enough.limits.jerk_m_s3;
   }
   verdict.message = text.str();
   ProfileResult result;
@@ -222,7 +224,8 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
   }
   if (!(request.limits.jerk_m_s3 > 0)) {
     ProfileResult none;
-    none.summary.message = "a jerk limit of 0 or less allows no change of acceleration: nothing can start";
+    none.summary.message =
+        "a jerk limit of 0 or less allows no change of acceleration: the robot cannot start";
     return blame_jerk(request, std::move(none));
   }
   if (soon) return too_soon(request, *fastest);

@@ -54,7 +54,7 @@ class Place {
     return best;
   }
 
-  /// Whether G is unbounded below towards standstill.
+  /// True if G is unbounded below towards standstill.
   bool creeps() const { return cost_.least(0.0, of_rate_) < -kSame * size_; }
 
  private:

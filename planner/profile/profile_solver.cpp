@@ -23,13 +23,16 @@ namespace {
 
 using nlp::Problem;
 
-constexpr int kRounds = 12;            ///< of tightening and refinement
-constexpr double kSameTime = 2e-6;     ///< a deadline this close to the minimum time leaves no choice
-constexpr int kSharpenings = 16;       ///< cuts of the grid for a deadline that it misses by little
-constexpr double kProven = 0.04;       ///< gap aimed at, of the accuracy asked for
-constexpr double kProvenTime = 0.01;   ///< the same for a profile of least time
-constexpr double kWorthAProof = 0.7;   ///< of the gap before: a finer grid that closes less is the last
-constexpr std::size_t kMostNodes = 4;  ///< times the nodes asked for: a grid beyond is not cut again
+constexpr int kRounds = 12;  ///< of tightening and refinement
+/// Relative: a deadline within this distance of the minimum time determines the profile.
+constexpr double kSameTime = 2e-6;
+constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that is missed slightly
+constexpr double kProven = 0.04;      ///< target of the gap, as a share of the requested accuracy
+constexpr double kProvenTime = 0.01;  ///< the same for a profile of least time
+/// Share of the previous gap: a finer grid that closes less is the last one.
+constexpr double kWorthAProof = 0.7;
+/// A grid with more than this multiple of the requested nodes is not refined.
+constexpr std::size_t kMostNodes = 4;
 constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
@@ -76,16 +79,16 @@ class ProfileSolver {
   }
 
  private:
-  /// Whether the fastest profile of a grid is after the deadline.
+  /// True if the fastest profile of a grid is after the deadline.
   static bool late(const Problem& problem) {
     if (problem.duration_row == nlp::DurationRow::none) return false;
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
     return !envelope.blocked && duration_of(problem, envelope.fastest) > problem.duration_s * (1 + kMetTime);
   }
 
-  /// A grid whose fastest profile takes less: a profile is slower than the path asks for where what holds it
-  /// changes within a segment. Empty where the deadline is before the least time, or no grid comes close
-  /// enough to it; result_ then says which.
+  /// A grid with a faster fastest profile: where the limit that determines the profile changes within a
+  /// segment, the profile is slower than the path requires. Empty where the deadline is before the least
+  /// time, or where no grid comes close enough to it; result_ then contains the reason.
   std::vector<double> towards_least_time(const Problem& problem) {
     const LeastTime bound = least_time(CostModel(request_, motion_), problem.s);
     if (problem.duration_s < bound.lower_s) {
@@ -111,7 +114,8 @@ class ProfileSolver {
     return excess_s;
   }
 
-  /// Fills best_; false when the request is infeasible or the solver failed (result_ then says so).
+  /// Sets best_; false when the request is infeasible or the solver failed (result_ then contains the
+  /// reason).
   bool solve_on(const Problem& problem) {
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
     if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
@@ -156,7 +160,7 @@ class ProfileSolver {
     return take(problem, solution_.b, solver);
   }
 
-  /// By Ipopt: from the fast solver's solution where there is one on this grid, else from a guess.
+  /// Solves with Ipopt, from the fast solver's solution where there is one on this grid, else from a guess.
   nlp::Solution settle(const Problem& problem, const std::vector<double>& guess) {
     const bool near = settling_ && solution_.b.size() == problem.node_count() &&
                       solution_.row_multiplier.size() == problem.rows.size();
@@ -169,7 +173,7 @@ class ProfileSolver {
     return found;
   }
 
-  /// The fast solver finds the grid; where Ipopt is asked for it has the last word on it.
+  /// True if Ipopt must solve again on the final grid, which the fast solver found.
   bool to_settle() const {
     return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
   }
@@ -197,7 +201,7 @@ class ProfileSolver {
     return std::move(result_);
   }
 
-  /// The bound, and a grid on which it will be closer; empty where that is not worth it.
+  /// Computes the bound and returns a grid with a tighter one; empty where refinement is not worth its cost.
   std::vector<double> prove(const Problem& problem) {
     SolveSummary& summary = result_.summary;
     const bool fastest = summary.solver == kFastestSolver;
@@ -221,7 +225,7 @@ class ProfileSolver {
                               least.switches);
   }
 
-  /// Keeps a profile within the limits, with the status that follows from its bound.
+  /// Stores a profile within the limits, with the status that follows from its bound.
   void keep() {
     const bool closed = result_.summary.gap_percent <= 100 * request_.accuracy;
     kept_ = result_;
@@ -229,7 +233,7 @@ class ProfileSolver {
     kept_->profile = best_;
   }
 
-  /// The last profile within the limits, whatever became of a finer grid; else the verdict.
+  /// The last profile within the limits, whatever the result of a finer grid; else the verdict.
   ProfileResult answer() { return kept_ ? std::move(*kept_) : std::move(result_); }
 
   const ProfileRequest& request_;
@@ -239,8 +243,8 @@ class ProfileSolver {
   std::optional<Profile> best_{};
   std::optional<ProfileResult> kept_{};
   nlp::Solution solution_{};
-  bool given_over_{};  ///< the fast solver did not converge: Ipopt does the rest
-  bool settling_{};    ///< on the last grid, by Ipopt
+  bool given_over_{};  ///< the fast solver did not converge: Ipopt solves the rest
+  bool settling_{};    ///< Ipopt solves on the last grid
   double last_ratio_{};
   double least_gap_{kNoLimit};
   int sharpened_{};

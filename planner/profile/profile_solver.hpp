@@ -5,8 +5,8 @@
 
 namespace joulepath {
 
-/// Least-energy (or least-time) profile within every limit, between nodes too. Does not throw for an
-/// impossible request: verdicts are data.
+/// Least-energy (or least-time) profile within every limit, also between nodes. Returns a verdict for an
+/// impossible request and does not throw.
 [[nodiscard]] ProfileResult solve_profile(const ProfileRequest& request);
 
 }  // namespace joulepath

@@ -2,8 +2,8 @@
 
 namespace joulepath {
 
-inline constexpr double kSettled =
-    7e-7;  ///< relative violation that a plan may have, short of the replay's 1e-6
-inline constexpr double kMetTime = 1e-7;  ///< relative: a deadline missed by less is met
+/// Relative violation that a plan may have, below the replay's 1e-6.
+inline constexpr double kSettled = 7e-7;
+inline constexpr double kMetTime = 1e-7;  ///< relative: a deadline missed by less counts as met
 
 }  // namespace joulepath

@@ -1,10 +1,11 @@
 #include "planner/sweep/design_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "model/number_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,11 +22,6 @@ std::string text_at(const SweepParameter& parameter, double fraction) {
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 }  // namespace
-
-std::string number_text(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 double SweepParameter::at(double fraction) const {
   if (fraction <= 0) return from;

@@ -21,7 +21,7 @@ struct SweepParameter {
   [[nodiscard]] double fraction_of(double value) const;
 };
 
-/// The designs of a study, each a text per parameter; numbers read back to the last bit.
+/// The designs of a study, each a text per parameter; numbers parse back to the same bits.
 class DesignTable {
  public:
   /// Every combination of the levels; the last parameter changes fastest.
@@ -44,8 +44,5 @@ class DesignTable {
   std::size_t size_{};
   std::vector<std::vector<double>> fractions_{};  ///< of a hypercube: per parameter, per design
 };
-
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string number_text(double value);
 
 }  // namespace joulepath

@@ -6,7 +6,7 @@
 #include "planner/values/profile_result.hpp"
 #include "planner/values/replay_result.hpp"
 
-// Fields of the questions and answers that are kept (planner/cache).
+// Fields of the cached questions and answers (planner/cache).
 namespace joulepath {
 
 template <class Archive>
@@ -74,8 +74,8 @@ void each_field(Archive& archive, TimeGoal& value) {
   archive(mode, duration_s, price_W);
 }
 
-/// Of a question alone. The plant is left out: SharedAnswers::world stands for the robot that it is made
-/// from.
+/// Used for questions only. The plant is left out, because SharedAnswers::world identifies the robot of the
+/// plant.
 inline void each_field(ByteWriter& archive, ProfileRequest& value) {
   auto& [piece, plant, limits, payload, start_rate, end_rate, speed_caps, time, nodes, accuracy, solver,
          draft, time_of_day_s, memory] = value;

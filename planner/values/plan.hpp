@@ -26,25 +26,25 @@ struct StretchPlan {
   double battery_loss_J{};  ///< in the internal resistance, while driving
   double lowest_voltage_V{kNoLimit};
   std::vector<double> sigma_shift_J{};  ///< of the energy, per uncertain constant that is one sigma higher
-  std::vector<BaselineResult> baselines{};  ///< of the trapezoids, as far as they were asked for
+  std::vector<BaselineResult> baselines{};  ///< of the trapezoids that were requested
 };
 
-/// A baseline over several stretches: same path, same distance, same time; later where no such profile keeps
-/// the plan's time.
+/// A baseline over several stretches, on the same path in the same time; in a later time where no such
+/// profile keeps the plan's time.
 struct BaselineTotal {
   std::string name{};
   bool feasible{true};
-  std::string reason{};  ///< why it is not counted
+  std::string reason{};  ///< reason why it does not count
   double energy_J{};
   double motion_energy_J{};
   double duration_s{};
-  double later_s{};  ///< beyond the plan's time
+  double later_s{};  ///< delay after the plan's time
   bool late() const { return later_s > 1e-3; }
   std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
 };
 
-/// What the planner looked at before it settled on a leg's path: driven between the chosen ways of its
-/// neighbors, turns at both stops included; where a stop names a heading, this leg's own turns.
+/// A candidate for the path of a leg, driven between the chosen ways of its neighbors, turns at both stops
+/// included; where a stop names a heading, with the turns of this leg only.
 struct PathAlternative {
   std::string name{};
   double energy_J{};  ///< standby included
@@ -53,7 +53,7 @@ struct PathAlternative {
   bool chosen{};
 };
 
-/// A leg after a step of choosing its way, as the inner solves see it at the leg's price of a second.
+/// A leg after a step of choosing its way, scored by inner solves at the leg's price of a second.
 struct WayImprovement {
   std::string step{};  ///< shortest_route | corners | routes | stops | refinement
   double energy_J{};   ///< standby included
@@ -76,32 +76,32 @@ struct LegPlan {
   double distance_m{};
   double turned_rad{};
   double price_of_time_W{};
-  EnergyByCause energy{};   ///< driving and dwell
-  double lower_bound_J{};   ///< no profiles of these stretches take less between departure and departure
-  double gap_percent{};     ///< of its energy; where it is driven in the least time, of its time
+  EnergyByCause energy{};  ///< driving and dwell
+  double lower_bound_J{};  ///< no profiles of these stretches take less energy from departure to departure
+  double gap_percent{};    ///< relative to its energy; where it is driven in least time, relative to its time
   double energy_sigma_J{};  ///< 1-sigma from the robot file's uncertainty
-  double charger_W{};       ///< of the charger at its stop, where it was put in to charge
-  double charged_J{};       ///< taken up there
+  double charger_W{};       ///< of the charger at its stop, where the planner inserted it
+  double charged_J{};       ///< energy charged there
   std::vector<BaselineTotal> baselines{};
   std::vector<PathAlternative> alternatives{};
   std::vector<WayImprovement> improvements{};
 };
 
-/// Why a mission cannot be driven, and the smallest change found that would make it possible.
+/// The reason why a mission cannot be driven, and the smallest change found that would make it possible.
 struct PlanInfeasibility {
   Infeasibility reason{};
   std::size_t leg{};
   double arc_length_m{};  ///< along the leg
 };
 
-/// The order of stops that a mission with `visit:` was given.
+/// The chosen order of stops of a mission with `visit:`.
 struct VisitOrder {
   std::vector<std::size_t> order{};  ///< indices into MissionRequest::visit
   std::vector<LegRequest> legs{};
   bool exact{};                           ///< false: a beam search, with the bound below
   double energy_J{};                      ///< of the order, from the table of leg energies
   std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
-  double lower_bound_J{};                 ///< no order takes less: cheapest way into each stop, unloaded
+  double lower_bound_J{};  ///< no order takes less: the cheapest way into each stop, without payload
   std::optional<Infeasibility> infeasibility{};
 };
 
@@ -111,14 +111,14 @@ struct BatteryAccount {
   std::array<double, 2> interval_95{};  ///< of the end fraction, from the robot file's uncertainty
   double loss_J{};                      ///< in the internal resistance
   double charged_J{};                   ///< at chargers on the way
-  double required_capacity_Wh{};        ///< 95 % upper bound of what is drawn at most between charges
+  double required_capacity_Wh{};        ///< 95 % upper bound of the largest energy between charges
   double missions_per_charge{};
   double lowest_voltage_V{};
-  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the reserve is touched
+  std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the charge falls below the reserve
   std::vector<double> fraction_after_leg{};
 };
 
-/// The answer to a mission.
+/// The result for a mission.
 struct Plan {
   std::string mission{};
   SolveStatus status{SolveStatus::failed};
@@ -128,7 +128,7 @@ struct Plan {
   double energy_sigma_J{};  ///< 1-sigma of energy from the robot file's uncertainty
   double duration_s{};
   double distance_m{};
-  double lower_bound_J{};  ///< no profiles of these paths take less; no number with a leg of least time
+  double lower_bound_J{};  ///< no profiles of these paths take less; NaN with a leg of least time
   double gap_percent{};
   bool local{};
   std::string solver{};

@@ -13,7 +13,7 @@ enum class TimeMode {
   time_budget,   ///< at most duration_s
   free_time,     ///< least energy, standby included
   time_price,    ///< least energy + price_W T, at most duration_s
-  minimum_time,  ///< least time; energy is not minimized
+  minimum_time,  ///< least time; the energy is not minimized
 };
 
 struct TimeGoal {

@@ -26,8 +26,8 @@ bool in_map(const std::vector<BezierPoints>& curves_m, const OccupancyGrid& map)
   return true;
 }
 
-/// A hint where control points look as if they counted from the other frame; empty where they do not.
-/// `space` may be null.
+/// A hint where control points seem to be given in the other frame; empty where they do not. `space` may be
+/// null.
 std::string frame_hint(const PathRequest& path, const Pose& start, const RouteSpace* space) {
   const auto [x_m, y_m] = path.bezier_m.front().front();
   if (path.frame == PathRequest::Frame::map) {
@@ -56,7 +56,7 @@ LegPath along_bezier(const LegRequest& leg, const Pose& start, const RouteSpace*
   return {.path = std::move(chain.path), .source = "bezier"};
 }
 
-/// A path that the mission gives, held against the floor where there is one.
+/// A path given by the mission, checked against the floor where there is one.
 LegPath along_given(const LegRequest& leg, const Pose& start, const RouteSpace* space) {
   LegPath way = leg.path->ready ? LegPath{.path = *leg.path->ready, .source = "given"}
                                 : along_bezier(leg, start, space);
@@ -73,7 +73,7 @@ std::string metres(double value) {
   return text;
 }
 
-/// Where the file names the stop: ` (mission.yaml:13:10: legs[1].to)`.
+/// The mark where the file names the stop: ` (mission.yaml:13:10: legs[1].to)`.
 std::string named_at(const ItemMarks& marks) {
   const SourceMark& mark = marks.at("to");
   if (mark.file.empty()) return "";

@@ -10,7 +10,7 @@
 
 namespace joulepath {
 
-/// The path of a leg, or why there is none.
+/// The path of a leg, or the reason why there is none.
 struct LegPath {
   Path path{};
   std::string source{};  ///< bezier | ompl_bitstar | ...
@@ -19,15 +19,15 @@ struct LegPath {
   std::vector<WayImprovement> improvements{};
 };
 
-/// Where a leg begins. A start without a heading (a station that names none) leaves it open.
+/// Start of a leg. A station that names no heading leaves the heading open.
 struct LegStart {
   Pose pose{};
   bool heading_free{};
 };
 
-/// Finds the way of one leg from where the robot stands; one that the mission gives is held against the map.
-/// Throws ConfigError, at the leg's own marks, for what is a mistake in the file (a curve with a cusp, a
-/// start inside of an obstacle, no map to search).
+/// Finds the way of one leg from the robot's pose; a given path is checked against the map. Throws
+/// ConfigError, with the marks of the leg, for mistakes in the file (a curve with a cusp, a start inside an
+/// obstacle, a missing map).
 [[nodiscard]] LegPath leg_path(const LegRequest& leg, std::size_t leg_index, const LegStart& start,
                                const MissionRequest& mission, const RouteSpace* space,
                                const PlanOptions& options);

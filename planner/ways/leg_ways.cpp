@@ -14,7 +14,8 @@ constexpr double kLeads_m[] = {0.4, 0.8, 1.5};
 constexpr std::size_t kVariedRoutes = 2;
 constexpr std::size_t kBentRoutes = 2;
 constexpr double kAlong_rad = 0.03;  ///< headings this close need no lead
-/// Shaping keeps this much more away than the final check, so that it cannot fail by rounding.
+/// Shaping uses a clearance larger by this margin than the final check, so that rounding cannot fail the
+/// check.
 constexpr double kShapeMargin_m = 0.001;
 
 std::string radius_name(double radius_m) {
@@ -23,7 +24,7 @@ std::string radius_name(double radius_m) {
   return text;
 }
 
-/// Makes and scores ways of one leg.
+/// Creates and scores ways of one leg.
 class WayMaker {
  public:
   WayMaker(const LegRequest& leg, std::size_t leg_index, const ChoiceContext& context)
@@ -138,7 +139,8 @@ std::vector<Way> natural_ways(const LegRoutes& routes, const LegRequest& leg, st
     if (!routes.routes[k].wide_m.empty()) add(k, true, {}, "largest_blend");
   }
   sort_by_cost(ways, maker);
-  std::vector<std::size_t> varied{shortest_route(routes)};  // the plain reference
+  // The shortest route is the reference of the first step.
+  std::vector<std::size_t> varied{shortest_route(routes)};
   for (const Way& way : ways)
     if (varied.size() < kVariedRoutes && way.route != varied.front()) varied.push_back(way.route);
   if (!variety.blends)

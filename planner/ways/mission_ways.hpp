@@ -7,18 +7,18 @@
 
 namespace joulepath {
 
-/// The ways of a mission's legs, chosen at prices of a second. Routes that were searched are kept with the
-/// space, so that asking again at other prices is cheap.
+/// The ways of a mission's legs, chosen at prices of a second. Searched routes are cached with the space, so
+/// that another choice at other prices is cheap.
 class MissionWays {
  public:
   MissionWays(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
               const Plant& plant, const PlanOptions& options)
       : mission_(mission), world_(world), space_(space), plant_(plant), options_(options) {}
 
-  /// Paths of all legs, up to the first one that has none (its `infeasibility` has the reason). Consecutive
-  /// legs between stations are chosen together, up to a station that names a heading: what comes after it
-  /// does not depend on what was before. A prescribed motion has an empty path. A quick choice
-  /// (WayRun::quick) is for learning prices. Throws ConfigError as leg_path() does.
+  /// Paths of all legs, up to the first leg without one (its `infeasibility` has the reason). Consecutive
+  /// legs between stations are chosen together, up to a station that names a heading, because the legs after
+  /// it do not depend on those before. A prescribed motion has an empty path. A quick choice (WayRun::quick)
+  /// serves to find prices. Throws ConfigError as leg_path() does.
   [[nodiscard]] std::vector<LegPath> choose(const std::vector<double>& price_W, bool quick) const;
 
  private:
@@ -31,14 +31,14 @@ class MissionWays {
   ChoiceContext context(double price_W) const {
     return {mission_, world_, space_, plant_, options_, price_W};
   }
-  /// Whether there is a way to choose for a leg.
+  /// True if a leg has more than one possible way.
   bool has_choice(std::size_t leg, const LegStart& start) const;
   const Station& stop_of(std::size_t leg) const { return mission_.stations.at(mission_.legs[leg].to); }
-  /// The legs from one on, up to the first without a choice.
+  /// Groups of legs from one leg on, up to the first leg without a choice.
   std::vector<Together> groups_from(std::size_t leg, LegStart start) const;
-  /// The routes of a leg between places; may be none.
+  /// The routes of a leg between places; may be empty.
   std::vector<PooledRoute> routes_of(std::size_t leg, const RouteRequest& request, double price_W) const;
-  /// Paths of the legs, up to the first without a route; none where no choice can be driven.
+  /// Paths of the legs, up to the first leg without a route; empty where no choice can be driven.
   std::vector<LegPath> choose_together(const Together& legs, const std::vector<double>& price_W,
                                        bool quick) const;
   LegPath settled(std::size_t leg, const LegStart& start) const;

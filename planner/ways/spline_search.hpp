@@ -9,8 +9,8 @@
 
 namespace joulepath {
 
-/// Values above every cost, for splines that cannot be driven: the optimizer is led away from them.
-inline constexpr double kBlocked = 1e9;  ///< in the way of an obstacle; more where it is deeper
+/// Values above every cost, for splines that cannot be driven; they lead the optimizer away from them.
+inline constexpr double kBlocked = 1e9;  ///< blocked by an obstacle; larger for a deeper collision
 inline constexpr double kNotDrivable = 2.5 * kBlocked;  ///< no profile within the limits
 inline constexpr double kNoCurve = 3 * kBlocked;        ///< a cusp
 
@@ -21,7 +21,7 @@ inline constexpr double kLeastHandle_m = 0.01;
 /// 0 where a path is free, else kBlocked and more.
 [[nodiscard]] double blocked(const FootprintChecker& checker, const Path& path);
 
-/// What an optimizer over a spline's variables starts from.
+/// Start of an optimizer over the variables of a spline.
 struct SplineVariables {
   std::vector<double> value{};
   std::vector<double> first_step{};
@@ -37,7 +37,7 @@ struct SearchEffort {
   double relative_tolerance{1e-6};  ///< of the value
 };
 
-/// Minimizes by NLopt's Subplex; `variables.value` is moved to the best point. Returns the value there.
+/// Minimizes with NLopt's Subplex and moves `variables.value` to the best point. Returns the value there.
 [[nodiscard]] double minimize(SplineVariables& variables, const SearchEffort& effort,
                               const std::function<double(const std::vector<double>&)>& value);
 

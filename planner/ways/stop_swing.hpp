@@ -5,7 +5,7 @@
 // Design: docs/decisions/0170-ways-as-whole-curves.md
 namespace joulepath {
 
-/// Two legs that meet at a stop where any heading will do.
+/// Two legs that meet at a stop with a free heading.
 struct StopRequest {
   FreeSpline before{};
   FreeSpline after{};  ///< begins where `before` ends
@@ -16,8 +16,8 @@ struct StopResult {
   double cost{};  ///< of both
 };
 
-/// Moves the common heading at the stop, the handles beside it and the knots next to it, so that the two legs
-/// cost least together (Subplex). Absent where nothing free was found.
+/// Optimizes the common heading at the stop, the handles beside it and the knots next to it for the least
+/// cost of both legs (Subplex). Absent where no free path was found.
 [[nodiscard]] std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
                                                   const SearchEffort& effort = {});
 

@@ -9,8 +9,8 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kPolishedKnots = 4;  ///< the most knots that move
-constexpr std::size_t kSameSpans = 2;      ///< polished guesses with one number of spans
+constexpr std::size_t kPolishedKnots = 4;  ///< greatest number of moving knots
+constexpr std::size_t kSameSpans = 2;      ///< polished guesses with the same number of spans
 
 struct JudgedGuess {
   SwingGuess guess{};
@@ -53,7 +53,7 @@ double Swing::value(const FreeSpline& spline) {
   return cost;
 }
 
-/// The guesses to polish: the cheapest, and no more than kSameSpans with one number of spans.
+/// The guesses to polish: the cheapest, at most kSameSpans with the same number of spans.
 std::vector<JudgedGuess> Swing::picked() {
   std::vector<JudgedGuess> judged;
   for (SwingGuess& guess : swing_guesses(request_)) {
@@ -72,7 +72,7 @@ std::vector<JudgedGuess> Swing::picked() {
   return picked;
 }
 
-/// Variables: both handles, a free goal heading, the moving knots.
+/// Optimizes both handles, a free goal heading and the moving knots.
 void Swing::polish(JudgedGuess& judged, double first_step_m) {
   const bool free_heading = !request_.goal_heading_rad;
   std::vector<std::size_t>& moving = judged.guess.moving;

@@ -11,17 +11,18 @@
 // Design: docs/decisions/0170-ways-as-whole-curves.md
 namespace joulepath {
 
-/// A leg between two stops whose path is free: the robot leaves in the heading in which it stands, turns
-/// while it drives, and arrives in the heading asked, without a turn in place.
+/// A leg between two stops with a free path: the robot leaves in its present heading, turns while it drives,
+/// and arrives in the requested heading, without a turn in place.
 struct SwingRequest {
   Pose start{};
   Point2 goal_m{};
   std::optional<double> goal_heading_rad{};  ///< absent: any
-  const Curve* along{};  ///< a free curve between the stops, whose middle part may be kept; absent: straight
+  /// A free curve between the stops, whose middle part may be reused; absent: straight.
+  const Curve* along{};
 };
 
 struct SwingOptions {
-  std::size_t starts{3};  ///< first guesses that are polished
+  std::size_t starts{3};  ///< number of first guesses that are polished
   SearchEffort effort{};  ///< per polished guess
 };
 
@@ -32,11 +33,10 @@ struct SwingResult {
   int evaluations{};
 };
 
-/// The cheapest free spline that was found: many first guesses (one to three spans with short and long
-/// handles, knots beside the start and the goal, joined to the middle of `along`) are judged by one
-/// evaluation each, the best of them polished by NLopt's Subplex over handles, knots near the ends and a free
-/// goal heading. The result is free of collisions along its whole length. Deterministic; absent where nothing
-/// is free.
+/// The cheapest free spline found. Many first guesses (one to three spans with short and long handles, knots
+/// beside the start and the goal, spans joined to the middle of `along`) are each scored by one evaluation.
+/// NLopt's Subplex polishes the best of them over handles, knots near the ends and a free goal heading. The
+/// result is free of collisions along its whole length. Deterministic; absent where no free spline was found.
 [[nodiscard]] std::optional<SwingResult> best_swing(const SwingRequest& request,
                                                     const FootprintChecker& checker, const PathCost& cost,
                                                     const SwingOptions& options = {});

@@ -7,25 +7,27 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSharp_rad = 1.2;  ///< from this turn on a curve may first swing to the other side
-constexpr double kJoinAfter_m[] = {0.6, 1.5, 3.0};  ///< of a curved leg that is kept in its middle
+/// From this turn on, guesses that first swing to the other side are added.
+constexpr double kSharp_rad = 1.2;
+/// Lengths after which a guess joins the middle of a given curve.
+constexpr double kJoinAfter_m[] = {0.6, 1.5, 3.0};
 
 Point2 beside(const Point2& at, double bearing, double reach_m) {
   return {at[0] + reach_m * std::cos(bearing), at[1] + reach_m * std::sin(bearing)};
 }
 double sign(double value) { return value < 0 ? -1.0 : 1.0; }
 
-/// One end of a leg as its guesses see it: the path leaves `place` towards `bearing_rad` after a turn.
+/// One end of a leg for the guesses: the path leaves `place` towards `bearing_rad` after a turn.
 struct End {
   Point2 place{};
   double bearing_rad{};
   double turn_rad{};  ///< from the heading (away from the stop) to the bearing
-  double reach_m{};   ///< to the other end, or to where the curve is joined
+  double reach_m{};   ///< distance to the other end, or to where the curve is joined
 
   Point2 knot(double share_m, double aside_rad) const {
     return beside(place, bearing_rad - sign(turn_rad) * aside_rad, share_m);
   }
-  /// Straight back against the heading: the curve then swings round on the spot, nearly.
+  /// A point behind the robot, opposite to its heading: the curve then nearly turns in place.
   Point2 behind(double share_m) const {
     return beside(place, bearing_rad - turn_rad + std::numbers::pi, share_m);
   }
@@ -46,7 +48,7 @@ class Guesses {
   void guess_joined();
 
   const SwingRequest& request_;
-  End from_{}, to_{};  ///< at the start and, seen backward, at the goal
+  End from_{}, to_{};  ///< at the start, and at the goal in reversed direction
   std::vector<SwingGuess> guesses_{};
 };
 
@@ -83,7 +85,7 @@ void Guesses::guess_spans() {
       }
 }
 
-/// Knots beside the start, the goal, or both, round which the curve swings.
+/// Knots beside the start, the goal, or both, around which the curve swings.
 void Guesses::guess_swings() {
   const double reach_m = from_.reach_m;
   const bool fixed = request_.goal_heading_rad.has_value();
@@ -115,7 +117,7 @@ void Guesses::guess_swings() {
     }
 }
 
-/// The middle of the given curve is kept; its ends are replaced by swings.
+/// Keeps the middle of the given curve and replaces its ends by swings.
 void Guesses::guess_joined() {
   const Curve& along = *request_.along;
   const double length_m = along.length_m();
@@ -158,8 +160,8 @@ void Guesses::face(double leave_rad, double arrive_rad) {
          reach_m};
 }
 
-/// A curve between the stops, too, may be on the way to a goal in sight (a lead along the start's heading is
-/// one): guesses that go straight for the goal are never left out.
+/// Guesses that go straight for the goal are always included, also where a curve is given: that curve may
+/// belong to a goal in line of sight (for example a lead along the start's heading).
 std::vector<SwingGuess> Guesses::all() {
   if (!(distance_m(start_m(), request_.goal_m) > 0.05)) return {};
   const double straight_rad = bearing_rad(start_m(), request_.goal_m);

@@ -19,7 +19,7 @@ class Chain {
  public:
   explicit Chain(const ChainRequest& request) : request_(request) {}
 
-  /// From the mission's start (leg 0) or the way before to a way of a leg.
+  /// The joint between two ways; leg 0 begins at the mission's start.
   Joint joint(std::size_t leg, const Way* before, const Way* after) const {
     if (leg == 0) return from_start(*after);
     const ChainLeg& earlier = request_.legs[leg - 1];
@@ -49,7 +49,7 @@ class Chain {
     if (!request_.start_heading_free) depart(0, request_.start, request_.start.heading_rad, after, joint);
     return joint;
   }
-  /// At the end of a leg whose station names a heading, or of the last one.
+  /// The joint at the end of a leg whose station names a heading, or of the last leg.
   Joint arrival(const ChainLeg& leg, const Way& way) const {
     Joint joint{.heading_rad = leg.goal_heading_rad};
     if (leg.goal_heading_rad)
@@ -74,7 +74,7 @@ class Chain {
   const ChainRequest& request_;
 };
 
-/// Cheapest cost up to and with a way, and the way of the leg before.
+/// Least cost up to and including a way, and the way of the previous leg.
 struct State {
   double cost_J{kNoLimit};
   std::size_t from{kNone};

@@ -5,7 +5,7 @@
 #include "planner/ways/leg_path.hpp"
 #include "planner/ways/way_score.hpp"
 
-// Fields of the questions and answers about ways that are kept (planner/cache).
+// Fields of the cached questions and answers about ways (planner/cache).
 namespace joulepath {
 
 template <class Archive>
@@ -56,7 +56,7 @@ void each_field(Archive& archive, WaySteps& value) {
   archive(corners, routes, stops, refinement);
 }
 
-/// All that the way of a leg between two stations depends on, beside its neighbors.
+/// Everything on which the way of a leg between two stations depends, except its neighbors.
 struct LegQuestion {
   PayloadAlongLeg payload{};
   double start_speed_m_s{}, end_speed_m_s{};

@@ -27,14 +27,14 @@ RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoic
   }
 }
 
-/// In which the robot stands before the leg; absent where any heading will do.
+/// The robot's heading before the leg; absent where any heading is possible.
 std::optional<double> RefinedRun::heading_before(std::size_t k) const {
   if (k == 0) return request_.start_heading_free ? std::nullopt : std::optional(request_.start.heading_rad);
   if (request_.legs[k - 1].goal_heading_rad) return request_.legs[k - 1].goal_heading_rad;
   return parts_[k - 1].arrives_rad;
 }
 
-/// In which the robot leaves the stop at the leg's end, or which the station names.
+/// The heading in which the robot leaves the stop at the leg's end, or which the station names.
 std::optional<double> RefinedRun::heading_after(std::size_t k) const {
   if (request_.legs[k].goal_heading_rad) return request_.legs[k].goal_heading_rad;
   if (k + 1 < parts_.size()) return parts_[k + 1].leaves_rad;
@@ -69,7 +69,7 @@ PathScore RefinedRun::driving(std::size_t k, const Path& path) const {
   return score_path(path, run_.contexts[k].mission.legs[index], index, run_.contexts[k]);
 }
 
-/// Of a path between the neighbors' headings, turns at both stops included.
+/// Score of a path between the neighbors' headings, turns at both stops included.
 PathScore RefinedRun::score(std::size_t k, const Path& path) const {
   PathScore sum = turn_before(k, path);
   sum += turn_after(k, path);
@@ -77,7 +77,7 @@ PathScore RefinedRun::score(std::size_t k, const Path& path) const {
   return sum;
 }
 
-/// The same of the leg's own path.
+/// Score of the leg's present path.
 PathScore RefinedRun::score(std::size_t k) const {
   PathScore sum = turn_before(k, parts_[k].path);
   sum += turn_after(k, parts_[k].path);
@@ -121,7 +121,7 @@ void RefinedRun::swing(std::size_t k) {
   part.spline = result->spline;
 }
 
-/// The stop between legs k and k + 1.
+/// Optimizes the stop between legs k and k + 1.
 void RefinedRun::swing_through(std::size_t k) {
   Part &before = parts_[k], &after = parts_[k + 1];
   if (request_.legs[k].goal_heading_rad || !before.spline || !after.spline) return;
@@ -168,7 +168,7 @@ std::vector<LegPath> RefinedRun::paths() const {
   return paths;
 }
 
-/// Energy and time of a leg as paths() makes it: a turn at a stop counts on the leg that makes it.
+/// Energy and time of a leg as paths() returns it: a turn at a stop counts on the leg that makes it.
 PathScore RefinedRun::as_driven(std::size_t k) const {
   PathScore sum = parts_[k].driving;
   const bool turned_already = k > 0 && parts_[k - 1].turns_at_goal && !request_.legs[k - 1].goal_heading_rad;

@@ -9,36 +9,37 @@
 
 namespace joulepath {
 
-/// Turns the chosen ways of a run into paths: control points may be moved, then turns in place
-/// at the stops are added.
+/// Turns the chosen ways of a run into paths: optionally moves control points, then adds the turns in place
+/// at the stops.
 class RefinedRun {
  public:
   RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run);
 
-  /// Moves the control points of each leg in turn, its neighbors' headings given; a way that leaves or
-  /// reaches a stop in the heading of its neighbor keeps that heading.
+  /// Optimizes the control points of each leg in turn, with the headings of its neighbors fixed; a way that
+  /// leaves or reaches a stop in the heading of its neighbor keeps that heading.
   void refine();
 
-  /// Replaces turns in place at the stops by curves: each leg in turn is optimized as a whole from the
-  /// heading in which the robot stands (best_swing), where that is cheaper.
+  /// Replaces turns in place at the stops by curves where that is cheaper: optimizes each leg in turn as a
+  /// whole from the robot's present heading (best_swing).
   void swing();
 
   /// The paths of the legs, turns in place included.
   [[nodiscard]] std::vector<LegPath> paths() const;
 
-  /// Adds what refinement made of a leg to its alternatives and improvements.
+  /// Adds the results of refinement to the alternatives and improvements of a leg.
   void tell(std::size_t k, LegPath& path) const;
 
  private:
   struct Part {
     const Way* way{};
     Path path{};
-    PathScore driving{};  ///< of the path alone
+    PathScore driving{};  ///< of the path only
     double leaves_rad{};
     double arrives_rad{};
-    bool turns_at_goal{};  ///< after arrival, to where the next leg leaves (or to the heading of the station)
+    bool turns_at_goal{};  ///< turns after arrival to the heading in which the next leg leaves (or to that of
+                           ///< the station)
     bool refined{};
-    std::optional<FreeSpline> spline{};  ///< of a path that is one
+    std::optional<FreeSpline> spline{};  ///< the path's spline, where it is one
   };
   std::optional<double> heading_before(std::size_t k) const;
   std::optional<double> heading_after(std::size_t k) const;

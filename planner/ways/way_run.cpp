@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWorthHalving_rad = 0.3;
 
-/// Remembers which turns on the spot were checked.
+/// Caches the turns in place that were checked.
 class TurnCheck {
  public:
   explicit TurnCheck(const FootprintChecker& checker) : checker_(checker) {}
@@ -34,7 +34,7 @@ class TurnCheck {
   std::map<std::array<double, 4>, bool> known_{};
 };
 
-/// A run with its ways, as far as they are made.
+/// A run with the ways created so far.
 class RunChoice {
  public:
   explicit RunChoice(const WayRun& run)
@@ -73,7 +73,7 @@ class RunChoice {
   const Way& way(std::size_t k, const std::vector<ChainChoice>& chain) const {
     return ways_[k][chain[k].way];
   }
-  /// Only ways that a step needs are made; a quick choice uses the largest blends alone.
+  /// Creates only ways that a step needs; a quick choice uses the largest blends only.
   Variety variety(std::size_t k) const {
     Variety variety{.stop_turn_go = !run_.quick || !steps_.corners,
                     .blends = steps_.corners,
@@ -98,8 +98,8 @@ class RunChoice {
   std::vector<std::vector<WayImprovement>> improvements_{};
 };
 
-/// Headings at the stops that could spare a turn: those that stations name, those in which the neighboring
-/// legs come and go, and the middle between them.
+/// Headings at the stops that could avoid a turn: those of stations, those of the neighboring legs, and the
+/// mean between them.
 void RunChoice::add_bent_ways(const std::vector<ChainChoice>& natural) {
   std::vector<std::vector<Way>> bent(size());
   for (std::size_t k = 0; k < size(); ++k) {

@@ -11,17 +11,17 @@ namespace joulepath {
 struct WayRun {
   std::size_t first{};  ///< index of the first leg
   LegStart start{};
-  std::vector<ChoiceContext> contexts{};  ///< one per leg: prices differ
+  std::vector<ChoiceContext> contexts{};  ///< one per leg, because prices differ
   std::vector<LegRoutes> routes{};
-  bool quick{};  ///< to learn prices: largest blends alone, no arcs at stops, no refinement
+  bool quick{};  ///< for finding prices: largest blends only, no arcs at stops, no refinement
 };
 
-/// The paths of a run that cost least together, energy and time at the legs' prices. For each leg ways are
-/// made over homotopically different routes: with corners driven as stop-turn-go or as blends of several
-/// radii, and along headings that make turns at the stops needless. All are scored by inner profile solves
-/// and listed in `alternatives`; dynamic programming over the stops picks one per leg, and `improvements`
-/// lists what each step saved. Last, the control points of the chosen ways are moved. What collides is no
-/// candidate. Empty where the run is empty or no choice can be driven.
+/// The paths of a run with the least total cost, energy and time at the legs' prices. For each leg, ways are
+/// created over homotopically different routes: with corners as stop-turn-go or as blends of several radii,
+/// and along headings that avoid turns at the stops. Inner profile solves score all of them (`alternatives`).
+/// Dynamic programming over the stops picks one per leg, and `improvements` lists the saving of each step.
+/// Finally the control points of the chosen ways are optimized. Ways with collisions are excluded. Empty
+/// where the run is empty or no choice can be driven.
 [[nodiscard]] std::vector<LegPath> choose_run(const WayRun& run);
 
 }  // namespace joulepath

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kScoringNodes = 60;
 constexpr std::size_t kTurnNodes = 30;
 constexpr double kHighestPrice_W = 1e6;
-constexpr double kCornerShare = 0.5;  ///< of a turn in place: what an arc around the same angle costs at most
+/// Upper bound of the cost of an arc, relative to a turn in place by the same angle.
+constexpr double kCornerShare = 0.5;
 
 PathScore score_stretches(std::vector<ProfileRequest> stretches, double price_W) {
   for (ProfileRequest& request : stretches) request.draft = true;
@@ -67,8 +68,9 @@ bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
   LegTiming timing(
       stretches_of(path, leg, leg_index, context.mission, context.world, context.plant, context.options),
       context.options.answers);
-  return std::ranges::all_of(timing.solve(context.price_W, SolverChoice::fast),
-                             [](const ProfileResult& result) { return result.profile.has_value(); });
+  const std::vector<ProfileResult>& results = timing.solve(context.price_W, SolverChoice::fast);
+  return std::all_of(results.begin(), results.end(),
+                     [](const ProfileResult& result) { return result.profile.has_value(); });
 }
 
 const TurnScores::Table& TurnScores::table(double payload_kg) {
@@ -124,8 +126,8 @@ TravelCost travel_cost(const LegRequest& leg, const ChoiceContext& context, Turn
           std::min(speed_m_s, std::max(0.05, mask->speed_cap_m_s(x_m, y_m, cruise_m_s).value_or(cruise_m_s)));
     return (steady_power_W(plant, payload_kg, speed_m_s, {x_m, y_m, heading_rad}) + price_W) / speed_m_s;
   };
-  // Nothing on the floor can be cheaper than the same robot without any effect, at full speed, downhill at
-  // most.
+  // Lower bound for the whole floor: the robot at full speed, outside of every region of the floor, in the
+  // cheapest of 16 headings (a slope).
   double least = rate(1e9, 1e9, 0.0);
   for (int k = 0; k < 16; ++k) least = std::min(least, rate(1e9, 1e9, std::numbers::pi / 8 * k));
   least = std::max(1e-3, 0.999 * least);

@@ -17,13 +17,13 @@ struct ChoiceContext {
   const RouteSpace* space{};
   const Plant& plant;
   const PlanOptions& options;
-  double price_W{};  ///< of a second on this leg, on top of standby
+  double price_W{};  ///< price of a second on this leg, in addition to standby
 
-  /// The price with which ways are compared: very high instead of infinite.
+  /// The price for comparisons of ways: a large value replaces an infinite price.
   double finite_price_W() const;
 };
 
-/// Energy and time of a path driven at its best for a price of time.
+/// Energy and time of the optimal drive along a path at a price of time.
 struct PathScore {
   double energy_J{};  ///< standby included
   double duration_s{};
@@ -33,17 +33,17 @@ struct PathScore {
   PathScore& operator+=(const PathScore& other);
 };
 
-/// The score of a path on a leg, by inner profile solves on a coarse grid (`draft`): ways differ by percents,
-/// grids by hundredths of them.
+/// The score of a path on a leg, by inner profile solves on a coarse grid (`draft`): costs of ways differ by
+/// percents, costs on different grids by hundredths of a percent.
 [[nodiscard]] PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,
                                    const ChoiceContext& context);
 
-/// Whether a path has profiles within every limit between the nodes, too: draft scores check nodes alone.
+/// True if a path has profiles within every limit, also between the nodes; draft scores check nodes only.
 [[nodiscard]] bool is_drivable(const Path& path, const LegRequest& leg, std::size_t leg_index,
                                const ChoiceContext& context);
 
-/// What turns in place cost, by payload and angle: tabulated by inner solves, interpolated between. Effects
-/// that depend on the place or the heading are taken at the origin.
+/// Cost of turns in place by payload and angle: tabulated by inner solves, interpolated between. Effects that
+/// depend on the place or the heading are evaluated at the origin.
 class TurnScores {
  public:
   explicit TurnScores(const ChoiceContext& context) : context_(context) {}
@@ -61,8 +61,8 @@ class TurnScores {
 };
 
 /// Cost of travel on a leg for the search: J/m of friction, rolling, slope and floor patches at a steady
-/// speed with this leg's payload, plus standby and the price of time over that speed; J/rad of a corner.
-/// Where the floor is alike everywhere `rate` is absent and costs count in metres of travel.
+/// speed with this leg's payload, plus standby and the price of time divided by that speed; J/rad of a
+/// corner. Where the floor is uniform, `rate` is absent and costs count in metres of travel.
 [[nodiscard]] TravelCost travel_cost(const LegRequest& leg, const ChoiceContext& context, TurnScores& turns);
 
 }  // namespace joulepath

@@ -12,17 +12,17 @@ namespace joulepath::python {
 
 namespace nb = nanobind;
 
-/// Numbers from Python: the package has made them contiguous, finite float64.
+/// Numbers from Python; the package converts them to contiguous, finite float64.
 using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Points = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 
 [[nodiscard]] std::vector<double> vector_of(const Numbers& numbers);
 
-/// A read-only numpy view of values that `owner` keeps.
+/// A read-only numpy view of values that `owner` keeps alive.
 [[nodiscard]] nb::ndarray<nb::numpy, const double, nb::ndim<1>> view_of(const std::vector<double>& values,
                                                                         nb::handle owner);
 
-/// A trajectory that Python owns; its channels are seen as views, so it never changes.
+/// A trajectory owned by Python. It never changes, because its channels are exposed as views.
 struct Log {
   Trajectory trajectory{};
 };

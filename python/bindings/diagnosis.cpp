@@ -19,18 +19,17 @@ namespace {
 
 using Tables = std::map<std::string, CsvTable>;
 
-/// Columns of one length as the table that a CSV file of them would be.
+/// A table of columns of equal length, as a CSV file of them would give.
 CsvTable table_of(const std::string& name, const std::map<std::string, Numbers>& columns) {
   CsvTable table{.file = name};
   for (const auto& [header, values] : columns) {
     table.header.push_back(header);
     table.columns.push_back(vector_of(values));
-    table.line_of_row.assign(values.size(), 0);
   }
   return table;
 }
 
-/// As the command reads: suspect channels make a verdict, not an error.
+/// Options of the `diagnose` command: suspect channels lead to a verdict, not to an error.
 constexpr ReadOptions kReading{.cut_long_logs = true, .accept_implausible = true};
 
 DiagnosisResults diagnose_text(const std::string& text, const std::string& name, const RobotValue& robot,
@@ -43,7 +42,7 @@ DiagnosisResults diagnose_text(const std::string& text, const std::string& name,
   const Document document = from_object(name, [&] { return Document::parse(text, name); });
   Dataset dataset = from_object(
       name, [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
-  dataset.file.clear();  // there is no file that a corrected one could be made of
+  dataset.file.clear();  // without a file, no corrected dataset can be written
   return diagnosis_results(std::move(dataset), options, &document);
 }
 
@@ -64,7 +63,7 @@ std::optional<std::string> corrected_dataset(const DiagnosisResults& self, const
 }  // namespace
 
 void bind_diagnosis(nb::module_& module) {
-  nb::class_<DiagnosisResults>(module, "DiagnosisValue", "A diagnosis with what is written of it.")
+  nb::class_<DiagnosisResults>(module, "DiagnosisValue", "A diagnosis with its output files.")
       .def_prop_ro(
           "json", [](const DiagnosisResults& self) { return self.json; }, "diagnosis.json")
       .def(

@@ -6,8 +6,8 @@
 
 namespace joulepath::python {
 
-/// Calls a function that reads a text made of a Python object: an error inside names the key alone, because
-/// the text has no lines that the user knows.
+/// Calls a function that reads a text made from a Python object. Errors name the key only, because the user
+/// does not know the lines of that text.
 template <class Function>
 auto from_object(std::string_view name, Function&& function) {
   try {

@@ -3,7 +3,7 @@
 namespace {
 
 NB_MODULE(_core, module) {
-  module.doc() = "joulepath's functions as joulepath (the package) calls them; no interface of its own.";
+  module.doc() = "Compiled functions of the package joulepath; not a public interface.";
   module.attr("version") = JOULEPATH_VERSION;
   using namespace joulepath::python;
   bind_errors(module);

@@ -1,12 +1,14 @@
 #include "python/bindings/plan.hpp"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
@@ -93,7 +95,7 @@ std::unique_ptr<PlanValue> planned(const MakeMission& make_mission, const RobotV
 }
 
 void bind_path(nb::module_& module) {
-  nb::class_<PathValue>(module, "PathValue", "A path that is ready to be driven.")
+  nb::class_<PathValue>(module, "PathValue", "A drivable path.")
       .def_prop_ro("length_m", [](const PathValue& self) { return self.path.distance_m(); })
       .def_prop_ro("turned_rad", [](const PathValue& self) { return self.path.turned_rad(); })
       .def("poses", &path_poses, nb::arg("step_m"), "Position and heading along the path.");
@@ -102,7 +104,7 @@ void bind_path(nb::module_& module) {
 }
 
 void bind_plan_value(nb::module_& module) {
-  nb::class_<PlanValue>(module, "PlanValue", "A plan with what is written of it.")
+  nb::class_<PlanValue>(module, "PlanValue", "A plan with its output files.")
       .def_prop_ro("status",
                    [](const PlanValue& self) { return solve_status_name(self.results.plan.status); })
       .def_prop_ro("message", [](const PlanValue& self) { return self.results.plan.message; })
@@ -138,11 +140,13 @@ void bind_plan(nb::module_& module) {
          const std::string& solver, std::size_t nodes, double accuracy) {
         const MissionSource source{
             .file = "path", .robot_at_hand = true, .payload_kg = payload_kg, .duration_s = time_s};
-        return planned([&] { return mission_along(source, path.path); }, &robot,
-                       plan_options(solver, nodes, 1, accuracy, false));
+        auto plan = planned([&] { return mission_along(source, path.path); }, &robot,
+                            plan_options(solver, nodes, 1, accuracy, false));
+        const bool driven = plan->results.valid;
+        return std::pair(std::move(plan), driven);
       },
       nb::arg("robot"), nb::arg("path"), nb::arg("payload_kg"), nb::arg("time_s").none(), nb::arg("solver"),
-      nb::arg("nodes"), nb::arg("accuracy"));
+      nb::arg("nodes"), nb::arg("accuracy"), "The plan, and whether it can be driven.");
   module.def(
       "plan_file",
       [](const std::string& file, const std::string& robot_file, const RobotValue* robot,

@@ -42,7 +42,7 @@ nb::object object_of(const Value& value) {
 }  // namespace
 
 void bind_robot(nb::module_& module) {
-  nb::class_<RobotValue>(module, "RobotValue", "All that a robot file says.")
+  nb::class_<RobotValue>(module, "RobotValue", "The content of a robot file.")
       .def(
           "text", [](const RobotValue& self) { return robot_text(self.robot); }, "The robot file (YAML).")
       .def_prop_ro("name", [](const RobotValue& self) { return self.robot.name; });

@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBetweenChecks{20};
 
-thread_local StopToken* token = nullptr;  // kept alive by the thread that waits
+thread_local StopToken* token = nullptr;  // the waiting thread keeps it alive
 
 void raise_interrupt() {
   const nb::gil_scoped_acquire acquire;
@@ -39,7 +39,7 @@ void bind_stop(nb::module_& module) {
       .def("stop", [](StopToken& self) { self.set = true; });
   module.def(
       "use_stop_token", [](StopToken* used) { token = used; }, nb::arg("token").none(),
-      "Makes this thread's computations end when the token says so; it must outlive them.");
+      "Ends this thread's computations when the token is set; the token must outlive them.");
 }
 
 }  // namespace joulepath::python

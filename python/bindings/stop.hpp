@@ -8,7 +8,7 @@
 
 namespace joulepath::python {
 
-/// Ends the computations of the threads that use it; for a caller that waits for them.
+/// Lets a waiting caller end the computations of the threads that use it.
 struct StopToken {
   std::atomic<bool> set{false};
 };

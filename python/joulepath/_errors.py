@@ -1,4 +1,4 @@
-"""What can go wrong."""
+"""Exceptions of the package."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class ConfigError(ValueError):
-    """An input that cannot be right: a file, a dict or an argument.
+    """An invalid input: a file, a dict or an argument.
 
     ``file``, ``line`` and ``column`` (from 1) say where it stands, None where there is no such place; ``key`` is
     dotted as in the file (``motor.gear_ratio``) or the argument's name; ``found``, ``accepted`` and ``hint`` are
@@ -33,13 +33,13 @@ class ConfigError(ValueError):
 
 
 def refused(key: str, found: str, accepted: str, hint: str = "") -> ConfigError:
-    """The error of an argument, worded as those of files."""
+    """The error of an argument, in the form of the errors of files."""
     message = f"{key}: found {found}, accepted: {accepted}" + (f" ({hint})" if hint else "")
     return ConfigError(message, key=key, found=found, accepted=accepted, hint=hint)
 
 
 class PlanningError(RuntimeError):
-    """The solver failed; ``plan`` is what there is of the answer (None in another process than that which planned)."""
+    """The solver failed. ``plan`` is the incomplete plan (None in another process than the planning one)."""
 
     def __init__(self, message: str, plan: Plan) -> None:
         super().__init__(message)

@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all."""
+"""Writing results atomically."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._errors import refused
 
 
 def save(directory: str | os.PathLike[str], contents: dict[str, str | None], force: bool) -> FilePath:
-    """Writes files into a directory. A name without content is one that an older result may have left there.
+    """Writes files into a directory. A name without content is a file of older results, which is removed.
 
     Raises ConfigError where one of them exists and ``force`` is not given.
     """

@@ -1,4 +1,4 @@
-"""Arguments as the compiled part takes them; what cannot be meant is refused with its name."""
+"""Conversion of arguments for the compiled module; invalid ones raise an error with their name."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def points(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def samples(name: str, value: ArrayLike, count: int, least: float, most: float) -> NDArray[np.float64]:
-    """``count`` samples within bounds; one number stands for all."""
+    """``count`` samples within bounds; one number counts for all."""
     if np.ndim(value) == 0:
         value = np.full(count, number(name, value))
     array = numbers(name, value, 1, least, most)
@@ -70,7 +70,7 @@ def times(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def number(name: str, value: Any, least: float = -math.inf, above: float = -math.inf, most: float = math.inf) -> float:
-    """A finite number; ``least`` and ``most`` are accepted themselves, ``above`` is not."""
+    """A finite number; ``least`` and ``most`` are included, ``above`` is excluded."""
     if type(value) is float and math.isfinite(value) and above < value and least <= value <= most:
         return value
     accepted = f"a number > {above:g}" if above > -math.inf else f"a number >= {least:g}" if least > -math.inf else "a finite number"
@@ -98,20 +98,20 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
 
 
 def one_of(name: str, value: Any, words: tuple[str, ...]) -> str:
-    """One of some words."""
+    """One of several words."""
     if not isinstance(value, str) or value not in words:
         raise refused(name, repr(value), "one of: " + ", ".join(words))
     return str(value)
 
 
 def text_of(name: str, value: Any) -> str:
-    """A dict or list as JSON; numpy's numbers and arrays, mappings and tuples are fine in it."""
+    """A dict or list as JSON; numpy's numbers and arrays, mappings and tuples are accepted."""
     def plain(item: Any) -> Any:
         if isinstance(item, Mapping):
             return dict(item)
         if isinstance(item, (np.ndarray, np.generic)):
             return item.tolist()
-        raise refused(name, f"a value of type {type(item).__name__}", "what JSON can hold")
+        raise refused(name, f"a value of type {type(item).__name__}", "values that JSON supports")
 
     try:
         text = json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False)
@@ -119,21 +119,21 @@ def text_of(name: str, value: Any) -> str:
         raise
     except ValueError as error:
         if "Out of range" not in str(error):
-            raise refused(name, "a value that holds itself", "what JSON can hold") from error
+            raise refused(name, "a value that contains itself", "values that JSON supports") from error
         raise refused(name, "a number that is not finite", "finite numbers", "leave the key out instead") from error
     except TypeError as error:
-        raise refused(name, "a key that is no text", "what JSON can hold") from error
+        raise refused(name, "a key that is not a string", "values that JSON supports") from error
     except RecursionError as error:
-        raise refused(name, "lists and maps of great depth", "what JSON can hold") from error
+        raise refused(name, "lists and maps of great depth", "values that JSON supports") from error
     return encodable(name, text)
 
 
 def encodable(name: str, text: str) -> str:
-    """A text that UTF-8 can hold."""
+    """A text that UTF-8 can encode."""
     try:
         text.encode()
     except UnicodeEncodeError as error:
-        raise refused(name, ascii(text[max(0, error.start - 20):error.end]), "text that UTF-8 can hold") from error
+        raise refused(name, ascii(text[max(0, error.start - 20):error.end]), "text that UTF-8 can encode") from error
     return text
 
 

@@ -30,7 +30,7 @@ class Record(Mapping[str, Any]):
             raise AttributeError(f"no {key!r} here; there are: {', '.join(self._values)}") from None
 
     def __setattr__(self, key: str, value: object) -> None:
-        raise AttributeError("results do not change")
+        raise AttributeError("results are read-only")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)

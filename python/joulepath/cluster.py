@@ -1,7 +1,7 @@
 """Many plans on the workers of a Dask cluster; needs ``distributed``.
 
-Tasks are shards of ``joulepath batch`` or ``joulepath sweep``. They carry file names only: workers and client see one file
-system. Each shard runs in a process of its own, which dies with its worker. Design: docs/decisions/0262-dask-runs-processes.md
+Tasks are shards of ``joulepath batch`` or ``joulepath sweep``. They contain file names only, so workers and client need a
+common file system. Each shard runs in a separate process, which ends with its worker. Design: docs/decisions/0262-dask-runs-processes.md
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ TRIES = 2  #: processes or workers that a job may end before it is quarantined
 
 
 class ClusterError(RuntimeError):
-    """A run that cannot go on; finished jobs stay, and ``resume=True`` continues."""
+    """A run that cannot continue; finished jobs stay, and ``resume=True`` continues."""
 
 
 def build_id() -> str:
@@ -44,7 +44,7 @@ class _Shard:
     number: int
     of: int
     words: tuple[str, ...]  # batch missions.jsonl --nodes 40
-    here: str  # where the words' files are seen from
+    here: str  # directory of the file names in words
     folder: FilePath  # of all shards
     memory_MiB: int
     build: str
@@ -53,7 +53,7 @@ class _Shard:
         return self.folder / str(self.number) / name
 
     def blame(self, deaths: Counter[tuple[int, int]], reason: str) -> None:
-        """Counts a death for the first job without a result: with one thread, the one that was planned. Sets it aside."""
+        """Counts a killed process for the first job without a result (with one thread, the planned one); quarantines it at the limit."""
         files = [self.file(name) for name in ("results.partial.jsonl", "quarantine.jsonl")]
         lines = "\n".join(file.read_text() for file in files if file.exists()).splitlines()
         known = {int(found[1]) for line in lines if (found := re.match(r'{"index": ?(\d+),.*}$', line))}
@@ -65,7 +65,7 @@ class _Shard:
 
 
 def _run_shard(shard: _Shard) -> None:
-    """On a worker: runs a shard until it is whole."""
+    """On a worker: runs a shard until it is complete."""
     if build_id() != shard.build:
         raise ClusterError(f"a worker has joulepath {build_id()}, the client {shard.build}")
     deaths: Counter[tuple[int, int]] = Counter()
@@ -86,9 +86,8 @@ def _run_shard(shard: _Shard) -> None:
 
 
 def _wait(client: Any, shards: list[_Shard], progress: Callable[[int, int], None] | None) -> None:
-    """Runs all shards. One whose workers died is begun again."""
+    """Runs all shards. A shard whose workers died is restarted."""
     dask: Any = importlib.import_module("distributed")
-
     running = {client.submit(_run_shard, shard, pure=False): shard for shard in shards}
     deaths: Counter[tuple[int, int]] = Counter()
     finished = dask.as_completed(list(running))
@@ -122,7 +121,8 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     target, folder = FilePath(out).absolute(), FilePath(f"{FilePath(out).absolute()}.shards")
     if target.exists():
         raise refused("out", f"{target}, which exists", "a new name")
-    if strangers := {worker: build for worker, build in client.run(build_id).items() if build != build_id()}:
+    builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
+    if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
         raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
     count = whole("shards", shards or 4 * len(client.nthreads()), 1, 1_000_000)
     is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(os.fspath(study)))

@@ -1,4 +1,4 @@
-"""Why a robot takes other energy than its model says."""
+"""Diagnosis of the difference between the energy of a robot and the prediction of its model."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Run:
 
 
 class Diagnosis:
-    """The answer of ``diagnose``. ``json`` holds all of diagnosis.json."""
+    """The result of ``diagnose``. ``json`` holds all of diagnosis.json."""
 
     def __init__(self, value: _core.DiagnosisValue) -> None:
         self._value = value
@@ -72,11 +72,11 @@ class Diagnosis:
         return None if corrected is None else Robot._of(corrected)
 
     def report(self) -> str:
-        """report.html: one page that needs nothing else."""
+        """report.html: one self-contained page."""
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes what ``joulepath diagnose`` writes, byte for byte."""
+        """Writes the same files as ``joulepath diagnose``, byte for byte."""
         return save(directory, {"diagnosis.json": self._value.json, "report.html": self.report(),
                                 "robot_corrected.yaml": None if self.robot is None else self.robot.text(),
                                 "dataset_corrected.yaml": self._value.corrected_dataset(os.fspath(directory))}, force)

@@ -12,7 +12,7 @@ from .robots import Robot, robot_of
 
 
 class Energy:
-    """What a motion takes at the battery's terminals."""
+    """Energy of a motion at the battery's terminals."""
 
     __slots__ = ("_value",)
 

@@ -12,7 +12,7 @@ Result = TypeVar("Result")
 
 
 def map(function: Callable[..., Result], jobs: Iterable[Any], *, threads: int = 2) -> list[Result | Exception]:  # noqa: A001
-    """Calls ``function`` for every job on several threads; results stand in the order of the jobs.
+    """Calls ``function`` for every job on several threads; results are in the order of the jobs.
 
     A dict is a job's keyword arguments, a tuple its positional ones, anything else its only one. A call that fails gives
     its exception as its result, so that one infeasible job does not cost the others. Ctrl-C ends all.

@@ -1,4 +1,4 @@
-"""Paths that are given rather than searched."""
+"""Given paths, without a search."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import html
 import json
+import math
 import os
 from pathlib import Path as FilePath
 from typing import Any, Mapping
@@ -112,7 +113,7 @@ class Plan:
         return axes
 
     def report(self) -> str:
-        """report.html: one page that needs nothing else."""
+        """report.html: one self-contained page."""
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
@@ -173,6 +174,14 @@ class Profile(Plan):
         return self.trajectory["battery_power_W"]
 
 
+def _solver_options(solver: Any, nodes: Any, accuracy: Any) -> tuple[str, int, float]:
+    """The options as the compiled part takes them; those that need no conversion cost no further calls."""
+    if (type(solver) is str and solver in SOLVERS and type(nodes) is int and 10 <= nodes <= 20000
+            and type(accuracy) is float and 0.0 < accuracy < math.inf):
+        return solver, nodes, accuracy
+    return one_of("solver", solver, SOLVERS), whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0)
+
+
 def _failure(result: Plan) -> PlanningError:
     return (Infeasible if result.status == "infeasible" else PlanningError)(result._value.message, result)
 
@@ -185,11 +194,10 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     ``solver``: ``ipopt`` (reference) or ``fast``. The GIL is released meanwhile. Raises Infeasible, ConfigError.
     """
     path = xy if isinstance(xy, Path) else Path(xy)
-    value = _core.profile(
+    value, driven = _core.profile(
         robot._value if type(robot) is Robot else robot_of(robot)._value, path._value, number("payload_kg", payload_kg, least=0.0),
-        None if time_s is None else number("time_s", time_s, above=0.0), one_of("solver", solver, SOLVERS),
-        whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0))
-    if not value.driven:
+        None if time_s is None else number("time_s", time_s, above=0.0), *_solver_options(solver, nodes, accuracy))
+    if not driven:
         raise _failure(Profile(value))
     return Profile(value)
 
@@ -204,8 +212,8 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
     are seen from the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
     mission's; ``payload_kg`` and ``time_s`` are for a path. Raises Infeasible, PlanningError, ConfigError.
     """
-    options = (one_of("solver", solver, SOLVERS), whole("nodes", nodes, 10, 20000), whole("seed", seed, 0, 2**32 - 1),
-               number("accuracy", accuracy, above=0.0), bool(baselines))
+    solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
+    options = (solver, nodes, whole("seed", seed, 0, 2**32 - 1), accuracy, bool(baselines))
     if isinstance(mission, Mapping):
         if payload_kg is not None or time_s is not None:
             raise refused("payload_kg" if payload_kg is not None else "time_s", "a value together with a mission",

@@ -13,7 +13,7 @@ from ._records import Record
 
 
 class Robot:
-    """A differential-drive robot: all that its file says. It never changes; ``replace`` makes another one.
+    """A differential-drive robot with all values of its file. It is read-only; ``replace`` makes a changed copy.
 
     Every section of the schema (``joulepath schema robot``) is an attribute.
 
@@ -57,7 +57,7 @@ class Robot:
 
     @classmethod
     def parse(cls, text: str, name: str = "robot.yaml") -> Robot:
-        """The robot of a file's text; ``name`` stands in error messages."""
+        """The robot of a file's text; ``name`` appears in error messages."""
         return cls._of(_core.parse_robot(encodable("text", text), name))
 
     @classmethod
@@ -94,7 +94,7 @@ class Robot:
         return getattr(self._values, key)
 
     def __setattr__(self, key: str, value: object) -> None:
-        raise AttributeError("a robot does not change; replace() makes another one")
+        raise AttributeError("a robot is read-only; replace() makes a changed copy")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._values]

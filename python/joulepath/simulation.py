@@ -16,7 +16,7 @@ Effects = Mapping[str, Mapping[str, Any]]
 
 
 class Simulation(Log):
-    """The log of a simulated run, as its sensors show it."""
+    """The log of the sensors of a simulated run."""
 
     __slots__ = ("__dict__", "_run")
 
@@ -26,7 +26,7 @@ class Simulation(Log):
 
     @functools.cached_property
     def executed(self) -> Log:
-        """The truth at the samples, without the sensors' errors."""
+        """The exact values at the samples, without sensor errors."""
         return Log(self._run.executed())
 
     @property

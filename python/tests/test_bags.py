@@ -1,4 +1,5 @@
 """Bags that other programs wrote are read as those programs read them; bags that joulepath writes are read by them."""
+import json
 import subprocess
 
 import numpy as np
@@ -123,14 +124,36 @@ def test_an_exported_bag_is_read_by_others_and_by_joulepath(program, scenarios, 
     subprocess.run([program, "estimate", tmp_path / "plan.mcap", "--robot", file], check=True, stdout=subprocess.DEVNULL)
 
 
-def test_rosbag2_folders_of_sqlite_files_are_read(robot, tmp_path):
-    """Two writers' files of one topic, without definitions, as ROS 2 Humble writes them."""
+def test_a_simulated_log_is_read_by_others_as_a_bag(program, robot, tmp_path):
+    reader = pytest.importorskip("mcap.reader")
+    log = jp.simulate(jp.profile(robot, [[0, 0], [2, 0], [4, 1]], solver="fast"), seed=3)
+    log.save(tmp_path / "run.csv")
+    robot.save(tmp_path / "robot.yaml")
+    subprocess.run([program, "export", tmp_path / "run.csv", "--robot", tmp_path / "robot.yaml", "--to", "bag", "--out",
+                    tmp_path / "log.mcap"], check=True, stdout=subprocess.DEVNULL)
+    power, types = [], set()
+    with open(tmp_path / "log.mcap", "rb") as stream:
+        for schema, channel, message in reader.make_reader(stream).iter_messages():
+            types.add((channel.topic, schema.name))
+            if channel.topic == "/log/power":
+                power.append(json.loads(message.data))
+    assert types == {("/log/path", "nav_msgs/msg/Path"), ("/log/odom", "nav_msgs/msg/Odometry"), ("/log/power", "joulepath/power/1")}
+    for column in ("motor_current_left_A", "battery_voltage_V", "wheel_speed_right_rad_s"):
+        np.testing.assert_array_equal([message[column] for message in power], log[column])
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_rosbag2_folders_of_sqlite_files_are_read(robot, tmp_path, compressed):
+    """Without definitions, as ROS 2 Humble writes them; messages compressed one by one."""
     rosbag2 = pytest.importorskip("rosbags.rosbag2")
     typesys = pytest.importorskip("rosbags.typesys")
     store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
     types = store.types
     folder = tmp_path / "day"
-    with rosbag2.Writer(folder, version=8) as writer:
+    writer = rosbag2.Writer(folder, version=8)
+    if compressed:
+        writer.set_compression(rosbag2.CompressionMode.MESSAGE, rosbag2.CompressionFormat.ZSTD)
+    with writer:
         connection = writer.add_connection("/odom", "nav_msgs/msg/Odometry", typestore=store)
         for k in range(300):
             time_ns = START_NS + k * 20_000_000

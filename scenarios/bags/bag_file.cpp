@@ -1,5 +1,7 @@
 #include "scenarios/bags/bag_file.hpp"
 
+#include <zstd.h>
+
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -36,6 +38,21 @@ auto reader_of(const std::string& file) {
   return fs::path(file).extension() == ".db3" ? &read_sqlite_bag : &read_mcap;
 }
 
+constexpr std::string_view kZstdMagic{"\x28\xB5\x2F\xFD", 4};
+constexpr std::uint64_t kMostMessageBytes = 64u << 20;
+
+/// rosbag2 can compress each message by itself; neither CDR nor JSON begins as a zstd frame. False if the
+/// frame is broken.
+bool unpack(std::string_view& data, std::string& unpacked) {
+  if (!data.starts_with(kZstdMagic)) return true;
+  const std::uint64_t size = ZSTD_getFrameContentSize(data.data(), data.size());
+  if (size > kMostMessageBytes) return false;  // unknown and broken sizes are greater
+  unpacked.resize(size);
+  if (ZSTD_decompress(unpacked.data(), size, data.data(), data.size()) != size) return false;
+  data = unpacked;
+  return true;
+}
+
 }  // namespace
 
 bool is_bag(const std::string& file) {
@@ -48,6 +65,7 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
                    const std::function<void(const BagMessage&)>& on_message) {
   std::map<std::pair<std::string, std::string>, std::size_t> topics;
   BagDamage damage;
+  std::string unpacked;
   for (const std::string& part : is_folder(file) ? files_of(file, named_by) : std::vector{file}) {
     std::vector<std::size_t> channels;
     const auto open = [&](const BagChannel& channel) {
@@ -57,7 +75,10 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
     };
     const auto take = [&](BagMessage message) {
       message.channel = channels[message.channel];
-      on_message(message);
+      if (unpack(message.data, unpacked))
+        on_message(message);
+      else
+        ++damage.broken_records;
     };
     const BagDamage more = reader_of(part)(part, named_by, open, take);
     damage.truncated = damage.truncated || more.truncated;

@@ -2,44 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/bags/byte_reader.hpp"
 #include "scenarios/bags/message_numbers.hpp"
+#include "scenarios/bags/topic_samples.hpp"
 
 // Design: docs/decisions/0261-bags-are-tables.md
 namespace joulepath {
 namespace {
 
-constexpr double kOtherClock_s = 1.0;  ///< stamps that differ more from the log times belong to another clock
-constexpr double kSteppedBack_s = 1.0;
-
 /// One topic during reading.
 struct Topic {
-  std::string name{};
+  TopicSamples samples{};
   std::unique_ptr<MessageNumbers> reader{};
-  std::vector<std::string> columns{};
-  std::vector<double> stamp_s{}, log_s{};
-  std::vector<std::vector<double>> values{};
-  bool stamped{};
-  bool free_form{};  ///< no definition of its fields is known: a field that no message has is absent
   std::size_t broken{};
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-bool strictly_ascending(const std::vector<double>& times) {
-  return std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-}
 
 class BagLogReader {
  public:
@@ -59,15 +40,15 @@ class BagLogReader {
     tell_damage();
     std::vector<Topic*> order;
     for (Topic& topic : topics_)
-      if (topic.reader && !topic.log_s.empty()) order.push_back(&topic);
+      if (topic.reader && !topic.samples.stamp_s.empty()) order.push_back(&topic);
     if (order.empty())
-      throw named_by.error(file_,
-                           any_given_ ? "none of the mapped topics" : "no topic that tells of a motion",
+      throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
                            "a bag with Odometry or JointState, or columns: that name its topics",
                            "joulepath check lists the topics and proposes a dataset");
     std::stable_sort(order.begin(), order.end(),
                      [&](const Topic* a, const Topic* b) { return rank(*a) < rank(*b); });
-    for (Topic* topic : order) log_.tables.push_back(table(*topic));
+    for (Topic* topic : order)
+      log_.tables.push_back(table_of_samples(std::move(topic->samples), file_, run_, log_.artifacts));
     return std::move(log_);
   }
 
@@ -77,7 +58,8 @@ class BagLogReader {
     return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
   }
 
-  /// The suggested columns, with what is given without a topic (a scale, a delay, that one is absent) on top.
+  /// The suggested columns, overridden by columns that are given without a topic (a scale, a delay, an absent
+  /// column).
   static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
     ColumnSources sources = suggested;
     for (const auto& [column, source] : given) {
@@ -91,20 +73,21 @@ class BagLogReader {
   }
 
   void open(const BagChannel& channel) {
-    topics_.push_back({.name = channel.topic});
+    topics_.push_back({.samples = {.name = channel.topic}});
     Topic& topic = topics_.back();
+    TopicSamples& samples = topic.samples;
     std::vector<std::string> paths;
     for (const auto& [column, source] : log_.sources)
       for (const std::string& from : source.from) {
         std::string path;
         if (!split_source(from, channel.topic, path)) continue;
-        if (std::ranges::count(topic.columns, from) > 0) continue;
-        topic.columns.push_back(from);
+        if (std::ranges::count(samples.columns, from) > 0) continue;
+        samples.columns.push_back(from);
         paths.push_back(path);
       }
     if (paths.empty()) return;
     topic.reader = message_numbers(channel);
-    topic.free_form = channel.encoding == "json";
+    samples.free_form = channel.encoding == "json";
     if (!topic.reader) {
       tell("unreadable", channel.topic,
            "messages of type " + channel.type + " in encoding " + channel.encoding, 1);
@@ -113,7 +96,7 @@ class BagLogReader {
     for (const std::string& path : paths) topic.reader->want(path);
     topic.reader->want("header.stamp.sec");
     topic.reader->want("header.stamp.nanosec");
-    topic.values.resize(paths.size());
+    samples.values.resize(paths.size());
   }
 
   void take(const BagMessage& message) {
@@ -125,14 +108,15 @@ class BagLogReader {
       ++topic.broken;
       return;
     }
-    const std::size_t n = topic.columns.size();
+    TopicSamples& samples = topic.samples;
+    const std::size_t n = samples.columns.size();
     for (std::size_t i = 0; i < n; ++i)
-      topic.values[i].push_back(std::isfinite(numbers_[i]) ? numbers_[i] : std::nan(""));
-    topic.log_s.push_back(1e-9 * static_cast<double>(message.log_time_ns));
+      samples.values[i].push_back(std::isfinite(numbers_[i]) ? numbers_[i] : std::nan(""));
+    samples.log_times.add(message.log_time_ns);
     const double stamp_s = numbers_[n] + 1e-9 * numbers_[n + 1];
     const bool stamped = std::isfinite(stamp_s) && stamp_s != 0.0;
-    topic.stamp_s.push_back(stamped ? stamp_s : topic.log_s.back());
-    topic.stamped = topic.stamped || stamped;
+    samples.stamp_s.push_back(stamped ? stamp_s : 1e-9 * static_cast<double>(message.log_time_ns));
+    samples.stamped = samples.stamped || stamped;
   }
 
   void tell(const char* kind, const std::string& channel, const std::string& text, std::size_t count) {
@@ -140,92 +124,28 @@ class BagLogReader {
   }
 
   void tell_damage() {
-    if (damage_.truncated) tell("truncated", "", "the bag ends in the middle; what is whole was read", 1);
+    if (damage_.truncated) tell("truncated", "", "the bag is truncated; its complete records were read", 1);
     if (damage_.broken_chunks > 0)
       tell("broken", "", "chunks that do not decompress or have a wrong check sum were left out",
            damage_.broken_chunks);
     if (damage_.broken_records > 0)
       tell("broken", "", "broken records were left out", damage_.broken_records);
     for (const Topic& topic : topics_)
-      if (topic.broken > 0) tell("broken", topic.name, "messages that end early were left out", topic.broken);
+      if (topic.broken > 0)
+        tell("broken", topic.samples.name, "messages that end early were left out", topic.broken);
   }
 
-  /// The topic whose times are the run's: that of the wheels, else of the body, else of the pose.
+  /// Priority of a topic as the source of the run's times: wheels first, then body, then pose.
   [[nodiscard]] int rank(const Topic& topic) const {
     int rank = 0;
     for (const char* column : {"wheel_speed_left_rad_s", "linear_speed_m_s", "position_x_m"}) {
       const auto source = log_.sources.find(column);
       if (source != log_.sources.end())
         for (const std::string& from : source->second.from)
-          if (std::ranges::count(topic.columns, from) > 0) return rank;
+          if (std::ranges::count(topic.samples.columns, from) > 0) return rank;
       ++rank;
     }
     return rank;
-  }
-
-  /// The stamps; the log times if the stamps belong to another clock or step back.
-  std::vector<double> clock(const Topic& topic) {
-    if (!topic.stamped) return topic.log_s;
-    std::vector<double> lag_s(topic.log_s.size());
-    std::transform(topic.log_s.begin(), topic.log_s.end(), topic.stamp_s.begin(), lag_s.begin(),
-                   std::minus<>());
-    const double lag = median(std::move(lag_s));
-    if (std::abs(lag) > kOtherClock_s) {
-      char text[112];
-      std::snprintf(text, sizeof text, "stamps are %.3f s before the log times: log times are taken", lag);
-      tell("other_clock", topic.name, text, topic.log_s.size());
-      return topic.log_s;
-    }
-    for (std::size_t i = 1; i < topic.stamp_s.size(); ++i)
-      if (topic.stamp_s[i] < topic.stamp_s[i - 1] - kSteppedBack_s) {
-        tell("other_clock", topic.name, "stamps step back: log times are taken", 1);
-        return topic.log_s;
-      }
-    return topic.stamp_s;
-  }
-
-  /// The order of the messages: ascending times, each once.
-  std::vector<std::size_t> order_of(const std::vector<double>& times, const Topic& topic) {
-    std::vector<std::size_t> order(times.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto earlier = [&](std::size_t a, std::size_t b) { return times[a] < times[b]; };
-    if (!std::is_sorted(order.begin(), order.end(), earlier)) {
-      std::size_t late = 0;
-      for (std::size_t i = 1; i < times.size(); ++i) late += times[i] < times[i - 1] ? 1 : 0;
-      tell("out_of_order", topic.name, "messages out of order were sorted by time", late);
-      std::stable_sort(order.begin(), order.end(), earlier);
-    }
-    const auto same = [&](std::size_t a, std::size_t b) { return times[a] == times[b]; };
-    const auto end = std::unique(order.begin(), order.end(), same);
-    if (const auto repeated = order.end() - end; repeated > 0)
-      tell("repeated", topic.name, "messages with the time of the one before were left out",
-           static_cast<std::size_t>(repeated));
-    order.erase(end, order.end());
-    return order;
-  }
-
-  CsvTable table(Topic& topic) {
-    CsvTable table{.file = file_};
-    table.header.push_back("time_s");
-    table.columns.push_back(clock(topic));
-    const auto has_value = [](double value) { return !std::isnan(value); };
-    for (std::size_t i = 0; i < topic.columns.size(); ++i) {
-      if (topic.free_form && !std::ranges::any_of(topic.values[i], has_value)) continue;
-      table.header.push_back(topic.columns[i]);
-      table.columns.push_back(std::move(topic.values[i]));
-    }
-    const std::vector<double>& times = table.columns.front();
-    if (!strictly_ascending(times)) {
-      const std::vector<std::size_t> order = order_of(times, topic);
-      for (std::vector<double>& column : table.columns) {
-        std::vector<double> ordered;
-        for (const std::size_t i : order) ordered.push_back(column[i]);
-        column = std::move(ordered);
-      }
-    }
-    table.line_of_row.assign(table.columns.front().size(), 0);
-    topic = {};
-    return table;
   }
 
   std::string file_;
@@ -241,6 +161,12 @@ class BagLogReader {
 
 bool is_log_file(const std::string& file) {
   return std::filesystem::path(file).extension() == ".csv" || is_bag(file);
+}
+
+bool is_run_log(const std::string& file) {
+  if (!is_log_file(file) || is_bag(file)) return is_bag(file);
+  const std::vector<std::string> header = read_csv(file, [](const std::string&) { return false; }).header;
+  return std::ranges::count(header, "time_s") > 0;
 }
 
 BagLog read_bag_log(const std::string& file, const NamedBy& named_by, const ColumnSources& sources,

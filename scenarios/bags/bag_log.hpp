@@ -11,6 +11,8 @@ namespace joulepath {
 
 /// Whether a file is a log by itself, not a dataset that names logs: CSV or a bag.
 [[nodiscard]] bool is_log_file(const std::string& file);
+/// Of these, one with times: a CSV file of waypoints has none.
+[[nodiscard]] bool is_run_log(const std::string& file);
 
 /// The requested columns of a bag, one table per topic, that of the wheels (or the body) first. Their columns
 /// have the names of the sources; `time_s` is the header's stamp, or the log time without a stamp.

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/kinematics.hpp"
+#include "model/log_columns.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "scenarios/bags/mcap_writer.hpp"
 #include "scenarios/bags/ros_definitions.hpp"
@@ -11,11 +14,12 @@ namespace {
 
 constexpr double kBagRate_Hz = 50.0;
 constexpr std::string_view kFrame = "map";
+constexpr double kLastStamp_s = 2147483647.0;  ///< 32 bits hold the seconds of a stamp
 
-constexpr const char* kPowerSchema = R"({"title": "joulepath/power/1", "type": "object", "properties": {
-  "battery_power_W": {"type": "number"}, "energy_J": {"type": "number"},
-  "motor_power_left_W": {"type": "number"}, "motor_power_right_W": {"type": "number"},
-  "motor_current_left_A": {"type": "number"}, "motor_current_right_A": {"type": "number"}}})";
+/// The channels of the power messages of a plan; those of a log are all that it has beside its motion.
+const std::vector<std::string> kPlanPower{"battery_power_W",      "energy_J",
+                                          "motor_power_left_W",   "motor_power_right_W",
+                                          "motor_current_left_A", "motor_current_right_A"};
 
 BagChannel ros_channel(const std::string& topic, const std::string& type) {
   return {.topic = topic,
@@ -68,35 +72,84 @@ std::string path(const Trajectory& motion) {
   return out.bytes();
 }
 
-std::string power(const Trajectory& motion, std::size_t k) {
-  return nlohmann::ordered_json{{"battery_power_W", motion.battery_power_W[k]},
-                                {"energy_J", motion.energy_J[k]},
-                                {"motor_power_left_W", motion.motor_power_W.left[k]},
-                                {"motor_power_right_W", motion.motor_power_W.right[k]},
-                                {"motor_current_left_A", motion.motor_current_A.left[k]},
-                                {"motor_current_right_A", motion.motor_current_A.right[k]}}
-      .dump();
+using Json = nlohmann::ordered_json;
+
+std::string power_schema(const std::vector<std::string>& columns) {
+  Json properties = Json::object();
+  for (const std::string& column : columns) properties[column] = {{"type", "number"}};
+  return Json{{"title", "joulepath/power/1"}, {"type", "object"}, {"properties", properties}}.dump();
+}
+
+std::string power(const Trajectory& motion, const std::vector<std::string>& columns, std::size_t k) {
+  Json message = Json::object();
+  for (const std::string& column : columns) message[column] = find_log_column(column)->of(motion)[k];
+  return message.dump();
+}
+
+/// The bag of a motion, on topics below `prefix`.
+std::string bag_of(const Trajectory& motion, const std::string& prefix,
+                   const std::vector<std::string>& power_columns) {
+  McapWriter bag;
+  const auto path_channel = bag.channel(ros_channel(prefix + "/path", "nav_msgs/msg/Path"));
+  const auto odometry_channel = bag.channel(ros_channel(prefix + "/odom", "nav_msgs/msg/Odometry"));
+  const auto power_channel = bag.channel({.topic = prefix + "/power",
+                                          .type = "joulepath/power/1",
+                                          .schema_encoding = "jsonschema",
+                                          .schema = power_schema(power_columns),
+                                          .encoding = "json"});
+  bag.message(path_channel, 0, path(motion));
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const std::uint64_t time_ns = nanoseconds(motion.time_s[k]);
+    bag.message(odometry_channel, time_ns, odometry(motion, k));
+    bag.message(power_channel, time_ns, power(motion, power_columns, k));
+  }
+  return bag.finish();
+}
+
+/// Body speeds from the wheels', and a pose from the speeds, where the log has none [P1, Eqs. (2), (3)].
+Trajectory with_body_motion(Trajectory log, const Geometry& geometry) {
+  const std::size_t n = log.size();
+  log.linear_speed_m_s.resize(n);
+  log.angular_speed_rad_s.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Twist<double> body =
+        body_twist(geometry, Sided<double>{log.wheel_speed_rad_s.left[k], log.wheel_speed_rad_s.right[k]});
+    log.linear_speed_m_s[k] = body.speed_m_s;
+    log.angular_speed_rad_s[k] = body.yaw_rate_rad_s;
+  }
+  if (!log.position_x_m.empty() && !log.position_y_m.empty() && !log.heading_rad.empty()) return log;
+  Pose pose{};
+  for (auto* channel : {&log.position_x_m, &log.position_y_m, &log.heading_rad}) channel->assign(n, 0.0);
+  for (std::size_t k = 1; k < n; ++k) {
+    const double step_s = log.time_s[k] - log.time_s[k - 1];
+    const double middle_rad = pose.heading_rad + 0.5 * step_s * log.angular_speed_rad_s[k];
+    pose = {pose.x_m + step_s * log.linear_speed_m_s[k] * std::cos(middle_rad),
+            pose.y_m + step_s * log.linear_speed_m_s[k] * std::sin(middle_rad),
+            pose.heading_rad + step_s * log.angular_speed_rad_s[k]};
+    log.position_x_m[k] = pose.x_m;
+    log.position_y_m[k] = pose.y_m;
+    log.heading_rad[k] = pose.heading_rad;
+  }
+  return log;
 }
 
 }  // namespace
 
 Export export_bag(const ExportInput& input) {
   const Trajectory motion = plan_trajectory(input.plan, input.plant, input.rate_Hz.value_or(kBagRate_Hz));
-  McapWriter bag;
-  const auto path_channel = bag.channel(ros_channel("/plan/path", "nav_msgs/msg/Path"));
-  const auto odometry_channel = bag.channel(ros_channel("/plan/odom", "nav_msgs/msg/Odometry"));
-  const auto power_channel = bag.channel({.topic = "/plan/power",
-                                          .type = "joulepath/power/1",
-                                          .schema_encoding = "jsonschema",
-                                          .schema = kPowerSchema,
-                                          .encoding = "json"});
-  bag.message(path_channel, 0, path(motion));
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    const std::uint64_t time_ns = nanoseconds(motion.time_s[k]);
-    bag.message(odometry_channel, time_ns, odometry(motion, k));
-    bag.message(power_channel, time_ns, power(motion, k));
-  }
-  return {.files = {{input.out_file, bag.finish()}}};
+  return {.files = {{input.out_file, bag_of(motion, "/plan", kPlanPower)}}};
+}
+
+std::string log_bag(const Trajectory& log, const Geometry& geometry) {
+  std::vector<std::string> columns;
+  for (const LogColumn& column : log_columns())
+    if (column.name != "time_s" && !column.of(log).empty()) columns.push_back(column.name);
+  Trajectory motion = with_body_motion(log, geometry);
+  const double before_0_s = std::min(0.0, log.time_s.front());  // a stamp is not negative
+  for (double& time_s : motion.time_s) time_s -= before_0_s;
+  if (motion.time_s.back() > kLastStamp_s)
+    throw ConfigError({{}, "time_s", std::to_string(motion.time_s.back()) + " s", "times below 2^31 s", ""});
+  return bag_of(motion, "/log", columns);
 }
 
 }  // namespace joulepath

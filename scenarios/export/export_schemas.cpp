@@ -12,7 +12,7 @@ Schema at_time_schema() {
 std::vector<Schema::Key> loss_keys() {
   return {required("own_time", at_time_schema(), "the controller at its own duration"),
           required("plan_time", nullable(at_time_schema()),
-                   "waiting until the plan's end; null where it is later"),
+                   "with a wait until the plan's end; null where the controller is later"),
           required("broken_limit", text(), "the limit that the controller would exceed; empty: none")};
 }
 

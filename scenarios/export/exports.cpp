@@ -42,15 +42,15 @@ const std::vector<ExportFormat>& export_formats() {
        "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
        export_edges},
       {"controller",
-       "speed, acceleration and deceleration for each leg, with the energy that they lose (JSON)",
+       "speed, acceleration and deceleration for each leg, with the resulting energy loss (JSON)",
        export_controller},
       {"nav2_settings",
-       "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the energy that they lose "
+       "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the resulting energy loss "
        "(YAML)",
        export_nav2_settings},
-      {"vda5050", "the order with a maximum speed on each edge (JSON), and the energy that it loses",
+      {"vda5050", "the order with a maximum speed on each edge (JSON), and the resulting energy loss",
        export_vda5050},
-      {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the energy that it loses", export_speed_mask},
+      {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the resulting energy loss", export_speed_mask},
   };
   return formats;
 }

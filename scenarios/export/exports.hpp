@@ -26,7 +26,7 @@ struct ExportFile {
   std::string content{};
 };
 
-/// The files of an export, the requested one first, and for settings the energy that they lose.
+/// The files of an export, the requested one first; for settings also the energy that they lose.
 struct Export {
   std::vector<ExportFile> files{};
   std::optional<ControllerLoss> loss{};
@@ -50,6 +50,11 @@ struct ExportFormat {
 [[nodiscard]] Export export_nav2_settings(const ExportInput& input);  ///< YAML
 [[nodiscard]] Export export_vda5050(const ExportInput& input);
 [[nodiscard]] Export export_speed_mask(const ExportInput& input);
+
+/// A run log as a bag (MCAP): Path, Odometry, and every column of the log as JSON. Its clock is that of the
+/// log, so that the bag of a plan and that of its run lie on each other; one that begins below 0 begins at 0.
+/// Throws ConfigError for times that no stamp holds.
+[[nodiscard]] std::string log_bag(const Trajectory& log, const Geometry& geometry);
 
 /// `loss` of controller.json, and the extra file beside exports that cannot contain it (schema
 /// joulepath/loss/1).

@@ -7,7 +7,8 @@
 namespace joulepath {
 namespace {
 
-/// What the settings of every controller are made of; a mission without turns or curves has the robot's.
+/// Speeds from which the settings of every controller follow; without turns or curves in the mission, the
+/// robot's limits.
 struct Speeds {
   TrapezoidSettings drive{}, turn{};
 };
@@ -37,7 +38,7 @@ std::string loses(const ControllerLoss& loss, const Plan& plan) {
   return text;
 }
 
-/// Yaw rates in curves are the path's; a controller's limit must not cut them.
+/// Yaw rates in curves follow from the path; the controller's limit must not be below them.
 double most_yaw_rate(const Plan& plan, const Speeds& speeds) {
   double most = speeds.turn.rate;
   for (const LegPlan& leg : plan.legs)
@@ -96,7 +97,7 @@ Export export_nav2_settings(const ExportInput& input) {
   const double yaw_rate = most_yaw_rate(input.plan, speeds);
   const std::vector<LegSettings> legs(input.plan.legs.size(), {.drive = speeds.drive, .turn = speeds.turn});
   const ControllerLoss loss = loss_of(input.plan, drive_with(input.plan, legs));
-  // Pure pursuit alone has no linear acceleration of its own: the drives' limits hold.
+  // Pure pursuit has no limit of linear acceleration, so the limits of the drives apply.
   std::vector<LegSettings> steep = legs;
   const Limits& limits = input.plan.legs.front().stretches.front().request.limits;
   for (LegSettings& leg : steep) {

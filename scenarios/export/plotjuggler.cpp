@@ -1,5 +1,4 @@
-#include <charconv>
-
+#include "model/number_text.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "scenarios/export/exports.hpp"
 
@@ -33,12 +32,6 @@ std::vector<std::pair<const char*, const std::vector<double>*>> signals(const Tr
           {"battery/energy_J", &motion.energy_J},
           {"mission/leg", &motion.leg},
           {"mission/payload_kg", &motion.payload_kg}};
-}
-
-void append_number(std::string& text, double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  text.append(buffer, end);
 }
 
 }  // namespace

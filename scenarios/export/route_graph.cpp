@@ -14,16 +14,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Route servers keep ids in 32 bits; those of an expanded graph are counted on from the largest.
+/// Route servers store ids in 32 bits; new ids of an expanded graph follow the largest id.
 constexpr long kMostId = 2'000'000'000;
-constexpr double kTransfer = 1e-3;  ///< J and s from an arrival to its place: positive, and nothing
+constexpr double kTransfer = 1e-3;  ///< J and s from an arrival node to its place: positive, but negligible
 
 bool is_line(const Json& feature) {
   const std::string type = feature["geometry"]["type"].get<std::string>();
   return type == "LineString" || type == "MultiLineString";
 }
 
-/// A number that is read as a floating-point one: 12.0 and not 12.
+/// A number in floating-point notation: 12.0 instead of 12.
 double as_float(double value) {
   constexpr double kDigits = 1e6;
   return std::round(value * kDigits) / kDigits;
@@ -50,8 +50,8 @@ std::vector<std::size_t> line_features(const Json& file) {
   return lines;
 }
 
-/// A node per arriving edge, beside the nodes themselves (routes start there) and a copy of each (routes end
-/// there). Edges that leave an arrival carry the corner's cost.
+/// A node per arriving edge, in addition to the original nodes (routes start there) and a copy of each
+/// (routes end there). Edges that leave an arrival node include the cost of the corner.
 class Expansion {
  public:
   Expansion(const Json& file, const RouteGraph& graph, const GraphCosts& costs, double most_m_s)

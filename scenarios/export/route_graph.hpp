@@ -18,12 +18,12 @@ struct RouteGraphOrder {
 };
 
 /// The graph file with `energy_J`, `abs_time_taken`, `abs_speed_limit` and `speed_limit` (percent) in the
-/// metadata of each edge, and the settings of a route server that reads it. With `expand_turns` a node
-/// becomes one node per arriving edge, so that costs of corners are exact.
+/// metadata of each edge, and the settings of a route server for it. With `expand_turns`, each node becomes
+/// one node per arriving edge, so that the costs of corners are exact.
 struct RouteGraphExport {
   std::vector<ExportFile> files{};
   TurnAttribution attribution{};
-  std::size_t nodes{}, edges{};  ///< written
+  std::size_t nodes{}, edges{};  ///< of the written graph
 };
 
 /// Throws ConfigError for a broken graph, or a robot that cannot drive it.

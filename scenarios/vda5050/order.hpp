@@ -12,8 +12,8 @@ namespace joulepath {
 
 /// An action of a robot at a node or on an edge of an order.
 struct OrderAction {
-  /// none: drives on meanwhile, with other actions; single: drives on, alone; soft: stands, with other
-  /// actions; hard: stands, alone.
+  /// none: the robot drives on, other actions may run; single: it drives on, no other action; soft: it
+  /// stands, other actions may run; hard: it stands, no other action.
   enum class Blocking { none, single, soft, hard };
   std::string type{};
   Blocking blocking{Blocking::none};

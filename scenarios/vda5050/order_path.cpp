@@ -13,7 +13,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRounding_rad = 0.01;
-constexpr double kSmallestRadius_m = 0.05;  ///< of a blend; a smaller one is no better than a turn in place
+/// Radius of a blend; a smaller one has no advantage over a turn in place.
+constexpr double kSmallestRadius_m = 0.05;
 constexpr double kSharpest_rad = 2.7;
 constexpr double kLongestEdge_m = 1e4;
 
@@ -136,9 +137,7 @@ class Builder {
     return std::visit([](const auto& s) { return s.at(s.length_m()); }, segment);
   }
 
-  /// A heading that a node requires. The path itself, or a turn in place, provides the heading at a node that
-  /// is passed.
-  /// turn in place.
+  /// Gives the robot the heading that a node requires, by a turn in place where the path has another heading.
   void pass(const OrderNode& node) {
     if (!node.heading_rad) return;
     const double off_rad = std::abs(wrapped_angle_rad(*node.heading_rad - pose().heading_rad));

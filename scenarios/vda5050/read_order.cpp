@@ -139,7 +139,7 @@ void check_order(const Node& root, const std::vector<Node>& nodes, const std::ve
   bool released = true;
   const auto base_comes_first = [&](const Node& item) {
     if (item["released"].boolean() && !released)
-      item["released"].fail("false: what comes before is not released", "the base comes before the horizon");
+      item["released"].fail("false: the items before are not released", "the base comes before the horizon");
     released = item["released"].boolean();
   };
   const auto same = [](const Node& edge, const char* key, const Node& node) {

@@ -15,12 +15,12 @@ namespace {
 
 using nlohmann::json;
 
-/// Where a leg of the mission leaves the robot; the start where its path cannot be driven (planning says
-/// why).
+/// The pose of the robot after a leg; the start where the leg's path cannot be driven (planning reports the
+/// reason).
 LegStart after(const LegRequest& leg, const LegStart& start, const Plant& plant) {
   if (leg.motion) {
     const Trajectory motion = *prescribed_leg(leg, plant, start.pose).prescribed;
-    return {.pose = sampled_state(motion, motion.time_s.back()).pose};
+    return {.pose = end_pose(motion)};
   }
   if (leg.path->ready) return leg.path->ready->pieces.empty() ? start : LegStart{leg.path->ready->end()};
   const BezierFrame frame =

@@ -7,15 +7,15 @@
 
 namespace joulepath::studio {
 
-/// The mission and the robot of a question. Throws ConfigError as reading their files does; `folder` is what
-/// file names are relative to.
+/// The mission and the robot of a question. Throws ConfigError as the readers of their files do. File names
+/// are relative to `folder`.
 struct Asked {
   MissionRequest mission{};
   Robot robot{};
 };
 [[nodiscard]] Asked asked_from(const nlohmann::json& question, const std::string& folder);
 
-/// Gives every leg to a station the path that an earlier answer gave it, moved to where its stops are now.
+/// Gives every leg to a station the path of an earlier answer, moved to the present places of its stops.
 /// Throws ConfigError where there is none.
 void follow_paths(MissionRequest& mission, const nlohmann::json& paths, const Plant& plant);
 

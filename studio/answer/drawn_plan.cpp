@@ -13,7 +13,8 @@ namespace joulepath::studio {
 namespace {
 
 using nlohmann::json;
-constexpr double kBinds = 0.995;  ///< of a limit: what an optimum that follows it uses, between nodes too
+constexpr double kBinds = 0.995;  ///< share of a limit from which it counts as binding; an optimum at the
+                                  ///< limit uses this much between nodes
 constexpr double kJustBefore_s = 1e-6;
 constexpr std::size_t kLeastSamples = 6;  ///< per stretch
 
@@ -28,7 +29,7 @@ int index_of(std::string_view name) {
   return -1;
 }
 
-/// The limit that a stretch uses most at an instant. At rest none is used: nothing there is held back.
+/// The limit with the highest use on a stretch at an instant. None at rest.
 TightestLimit tightest(const StretchPlan& stretch, const PathMotion& motion, double elapsed_s) {
   const Profile& profile = stretch.profile;
   if (profile.time_s.empty() || elapsed_s > profile.time_s.back()) return {};

@@ -6,15 +6,15 @@
 
 namespace joulepath::studio {
 
-/// Instants at which a plan is drawn: about `count`, the ends of stretches and of dwells among them.
+/// Times at which a plan is drawn: about `count`, including the ends of stretches and of dwells.
 [[nodiscard]] std::vector<double> drawn_times_s(const Plan& plan, std::size_t count);
 
-/// The motion of a valid plan at these instants: columns by the names of trajectory.csv, and
-/// `limit` (index into `limits`, -1: none binds) with `limit_use` (of the tightest limit, 1 = at the limit).
+/// The motion of a valid plan at these times: columns with the names of trajectory.csv, `limit` (index into
+/// `limits`, -1: none binds) and `limit_use` (of the tightest limit, 1 = at the limit).
 [[nodiscard]] nlohmann::json drawn_motion(const Plan& plan, const Plant& plant,
                                           const std::vector<double>& times_s);
 
-/// The names of limits that `limit` counts in.
+/// The names of the limits, in the order of the index `limit`.
 [[nodiscard]] nlohmann::json limit_names();
 
 /// The path that a planned leg follows; empty for a prescribed motion.

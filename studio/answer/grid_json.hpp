@@ -12,7 +12,7 @@ namespace joulepath::studio {
 [[nodiscard]] OccupancyGrid grid_from(const nlohmann::json& grid);
 
 /// The floor of a mission: {map, keepout, speed_mask: {grid, absolute, base, multiplier}}, each may be null.
-/// The robot and the route graph are no part of it.
+/// The robot and the route graph are not included.
 [[nodiscard]] nlohmann::json floor_json(const MissionWorld& world);
 [[nodiscard]] MissionWorld floor_from(const nlohmann::json& floor);
 

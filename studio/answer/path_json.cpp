@@ -83,7 +83,7 @@ Path path_from(const json& pieces) try {
   for (const json& piece : pieces) path.pieces.push_back(piece_from(piece));
   return path;
 } catch (const json::exception& error) {
-  refuse(error.what(), "pieces as an answer gives them");
+  refuse(error.what(), "pieces in the format of an answer");
 }
 
 }  // namespace joulepath::studio

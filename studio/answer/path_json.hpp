@@ -12,7 +12,7 @@ namespace joulepath::studio {
 ///                                  {"bezier": four points}, {"rational": homogeneous points}]}
 [[nodiscard]] nlohmann::json path_json(const Path& path);
 
-/// Throws ConfigError where the JSON is no such path.
+/// Throws ConfigError where the JSON is not such a path.
 [[nodiscard]] Path path_from(const nlohmann::json& pieces);
 
 }  // namespace joulepath::studio

@@ -150,7 +150,7 @@ std::string Session::answer(const std::string& question) const try {
 } catch (const ConfigError& error) {
   return error_json(error).dump(-1, ' ', false, json::error_handler_t::replace);
 } catch (const std::exception& error) {  // no question may end a program that others ask, too
-  return error_json(ConfigError({{}, "question", error.what(), "a question as the page asks it", ""}))
+  return error_json(ConfigError({{}, "question", error.what(), "a question in the format of the page", ""}))
       .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

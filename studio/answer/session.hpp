@@ -10,20 +10,20 @@
 
 namespace joulepath::studio {
 
-/// A floor on which missions are planned again and again: what the studio's page asks, by the program or by
-/// the same code as WebAssembly. Safe to use from several threads.
+/// A floor on which missions are planned repeatedly. It answers the questions of the studio's page, in the
+/// program or as WebAssembly compiled from the same code. Safe to use from several threads.
 ///
 /// A question is {mode, mission, robot, paths, samples, ...}: mission and robot as their files in JSON,
-/// `paths` per leg as an earlier answer gave it (path_json.hpp) or null.
-///   plan      the mission as asked, routes searched: what `joulepath plan --solver fast` gives
-///   paths     certified along the given paths; legs to stations follow theirs, moved to the stops' new
-///   places draft     the same in drafts: limits hold at nodes alone, no bound front     least energy for
-///   each duration along the given paths (`points`) classics  classic profiles on the given paths in the
-///   plan's times
+/// `paths` per leg from an earlier answer (path_json.hpp) or null. Modes:
+///   plan      the mission as given, with route search: the result of `joulepath plan --solver fast`
+///   paths     certified along the given paths; paths of legs to stations are moved with their stops
+///   draft     the same as drafts: limits hold at nodes only, no bound
+///   front     least energy for each duration along the given paths (`points`)
+///   classics  classic profiles on the given paths in the plan's times
 /// The answer is {plan, legs, motion, ...}, or {error: {message, key, found, accepted, hint}}.
 class Session {
  public:
-  /// `folder`: what file names in missions are relative to.
+  /// `folder`: file names in missions are relative to it.
   Session(MissionWorld floor, std::string folder);
   ~Session();
 
@@ -33,7 +33,7 @@ class Session {
   std::shared_ptr<const RouteSpace> space_for(const MissionRequest& mission, const Robot& robot) const;
   std::string checked_answer(const nlohmann::json& question) const;
 
-  MissionWorld floor_;  ///< its robot is not looked at
+  MissionWorld floor_;  ///< its robot is not used
   std::string folder_;
   mutable std::mutex lock_{};
   mutable std::string space_key_{};

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether a text reads back as the same text without quotes.
+/// True if a text without quotes parses back to the same text.
 bool is_plain(const std::string& text) {
   const auto safe = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.' || c == '/'; };
   if (text.empty() || !std::all_of(text.begin(), text.end(), safe)) return false;

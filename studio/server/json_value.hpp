@@ -6,7 +6,7 @@
 
 namespace joulepath::studio {
 
-/// A parsed value as JSON: numbers, true and false as such, everything else as a text.
+/// A parsed value as JSON: numbers, true and false keep their type, everything else is a string.
 [[nodiscard]] nlohmann::ordered_json json_of(const Value& value);
 
 /// JSON as YAML in one line: {to: dock, payload_kg: 5.7}.

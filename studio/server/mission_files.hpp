@@ -9,12 +9,12 @@
 
 namespace joulepath::studio {
 
-/// A mission's file and its robot's, as the page reads and saves them. No name of a file comes from the page:
-/// it saves to the mission's own file, and to its robot's where that lies in the mission's folder, or else to
-/// MISSION_robot.yaml there, which the mission then names.
+/// The files of a mission and of its robot, which the page reads and saves. The page never chooses a file
+/// name. It saves to the mission's own file, and to its robot's file if that is in the mission's folder;
+/// otherwise to MISSION_robot.yaml there, and the mission then refers to that file.
 class MissionFiles {
  public:
-  /// Replaces a file as a whole or not at all.
+  /// Replaces a file completely or leaves it unchanged.
   using Writer = std::function<void(const std::string& file, const std::string& content)>;
 
   MissionFiles(std::string mission_file, Writer write);
@@ -24,13 +24,13 @@ class MissionFiles {
   /// The files of the mission's floor, read.
   [[nodiscard]] MissionWorld read_floor() const;
 
-  /// {name, mission_file, robot_file, mission, robot, base: {mission, robot}}: values and texts as they are
-  /// on the disk now. Throws ConfigError.
+  /// {name, mission_file, robot_file, mission, robot, base: {mission, robot}}: the present values and texts
+  /// of the files. Throws ConfigError.
   [[nodiscard]] nlohmann::ordered_json load() const;
 
-  /// Saves {mission, robot, base}: only the text of changed values is replaced. {conflict: file} where a file
-  /// is no longer as `base` has it; else what load() then gives. Throws ConfigError for values that no reader
-  /// takes; nothing is written then.
+  /// Saves {mission, robot, base} and replaces only the text of changed values. Returns {conflict: file}
+  /// where a file no longer equals `base`, else the result of load(). Throws ConfigError for values that the
+  /// readers reject, and writes nothing then.
   [[nodiscard]] nlohmann::ordered_json save(const nlohmann::ordered_json& question);
 
  private:

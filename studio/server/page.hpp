@@ -7,11 +7,11 @@
 namespace joulepath::studio {
 
 /// The studio's page in one text that needs nothing else: markup, style, modules, the WebAssembly where the
-/// build has it, and data. `from`: a folder to take the page's files from; empty: those that the program
-/// holds.
-[[nodiscard]] std::string page(const nlohmann::json& data, const std::string& from = {});
+/// build has it, and data. `tree`: the source tree to take the page's files from; empty: those that the
+/// program holds.
+[[nodiscard]] std::string page(const nlohmann::json& data, const std::string& tree = {});
 
-/// Whether the page can plan without the program.
+/// True if the page can plan without the program.
 [[nodiscard]] bool has_web_assembly();
 
 }  // namespace joulepath::studio

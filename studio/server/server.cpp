@@ -31,10 +31,10 @@ json schema_of(const std::string& kind) {
   return nullptr;
 }
 
-/// A question that a newer one of the same page took the place of.
+/// Thrown by a question that a newer one of the same page replaces.
 struct Superseded {};
 
-/// The newest question of each page in each mode: older ones end early.
+/// The newest question of each page in each mode; older ones end early.
 class Newest {
  public:
   using Key = std::pair<std::string, std::string>;
@@ -74,8 +74,9 @@ class Studio {
                                  {"X-Frame-Options", "DENY"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"}});
     server_.Get(base, [this](const auto&, auto& response) {
-      guarded(response, "text/html; charset=utf-8",
-              [&] { return studio::page(page_data(files_, floor_, ""), options_.page_folder); });
+      guarded(response, "text/html; charset=utf-8", [&] {
+        return studio::page(page_data(files_, floor_, "", options_.diagnosis), options_.page_folder);
+      });
     });
     server_.Get(base + "files", [this](const auto&, auto& response) {
       guarded(response, kJson, [&] { return files_.load().dump(); });
@@ -98,7 +99,7 @@ class Studio {
  private:
   static constexpr const char* kJson = "application/json";
 
-  /// Another site's page may neither read nor write here, whatever name it gave to this address.
+  /// Rejects requests of another site's page, whatever name it gave to this address.
   bool refused(const httplib::Request& request, httplib::Response& response) const {
     const std::string port = std::to_string(port_), host = request.get_header_value("Host");
     const bool own_host = host == "127.0.0.1:" + port || host == "localhost:" + port;
@@ -124,8 +125,18 @@ class Studio {
     }
   }
 
+  /// An order is the one file that planning reads: which one is the mission file's to say, not the page's.
+  void refuse_other_order(const json& question) const {
+    const json mission = question.value("mission", json::object());
+    if (!mission.contains("order") || mission["order"] == json(files_.load()["mission"].value("order", "")))
+      return;
+    throw ConfigError(
+        {{}, "order", "another file than the mission's own", "the one that the file names", ""});
+  }
+
   std::string answer(const std::string& question) {
     const json asked = json::parse(question);
+    refuse_other_order(asked);
     const Newest::Key key{asked.value("page", ""), asked.value("mode", "")};
     const long number = newest_.next(key);
     const StopScope stop([&] {
@@ -145,12 +156,14 @@ class Studio {
 
 }  // namespace
 
-json page_data(const MissionFiles& files, const MissionWorld& floor, const std::string& answer) {
+json page_data(const MissionFiles& files, const MissionWorld& floor, const std::string& answer,
+               const std::string& diagnosis) {
   json data{{"files", files.load().dump()},
             {"floor", floor_json(floor)},
             {"schemas", {{"mission", schema_of("mission")}, {"robot", schema_of("robot")}}},
             {"served", answer.empty()}};
   if (!answer.empty()) data["answer"] = json::parse(answer);
+  if (!diagnosis.empty()) data["diagnosis"] = json::parse(diagnosis);
   return data;
 }
 

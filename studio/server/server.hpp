@@ -10,16 +10,18 @@ namespace joulepath::studio {
 
 struct ServerOptions {
   int port{};                 ///< 0: any that is free
+  std::string diagnosis{};    ///< diagnosis.json with signals that the page shows; empty: none
   std::string page_folder{};  ///< empty: the page that the program holds
 };
 
-/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or null.
+/// The data that the page starts with: files, floor, schemas. `answer`: a first plan, or ""; `diagnosis`: as
+/// ServerOptions has it.
 [[nodiscard]] nlohmann::json page_data(const MissionFiles& files, const MissionWorld& floor,
-                                       const std::string& answer);
+                                       const std::string& answer, const std::string& diagnosis);
 
 /// Serves the studio of one mission on the loopback interface until the program ends. Every address begins
-/// with a random token; requests that another site makes (Host, Origin) are refused; bodies are bounded.
-/// `ready` is called with the address. Throws std::system_error where no port is free.
+/// with a random token. Requests of other sites (Host, Origin) are rejected, and the size of bodies is
+/// bounded. `ready` is called with the address. Throws std::system_error where no port is free.
 void serve(MissionFiles& files, const ServerOptions& options,
            const std::function<void(const std::string& address)>& ready);
 

@@ -12,15 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kMostEdits = 4000;
 
-/// Order of keys does not matter to who reads the file.
+/// Compares values; the order of keys has no meaning.
 bool same(const Json& a, const Json& b) { return nlohmann::json(a) == nlohmann::json(b); }
 
-/// One step towards the wanted values: the first difference is looked for in the order of the file.
+/// One step towards the wanted values: the first difference in the order of the file.
 class Edit {
  public:
   explicit Edit(const std::string& text) : text_(text), spans_(text_) {}
 
-  /// The text after one edit; absent where this value is as wanted.
+  /// The text after one edit; absent where this value is already as wanted.
   std::optional<std::string> towards(const Value& value, const Json& wanted, bool in_flow) const {
     const Json now = json_of(value);
     if (same(now, wanted)) return std::nullopt;
@@ -46,7 +46,8 @@ class Edit {
       if (auto text = towards(entry.value, wanted.at(entry.key), in_flow)) return text;
     }
     for (const auto& [key, value] : wanted.items())
-      if (std::none_of(map.entries.begin(), map.entries.end(), [&](const auto& e) { return e.key == key; }))
+      if (std::none_of(map.entries.begin(), map.entries.end(),
+                       [&key = key](const auto& e) { return e.key == key; }))
         return with_entry(map, flow_text(Json{{key, value}}), in_flow);
     return std::nullopt;
   }
@@ -61,7 +62,7 @@ class Edit {
     return with_line(spans_.line_end(last), indent + entry + "\n");
   }
 
-  /// A line put in at the beginning of a line, or at the end of a text that lacks its last line break.
+  /// Inserts a line at the beginning of a line, or at the end of a text without a final line break.
   std::string with_line(std::size_t at, const std::string& line) const {
     const bool broken = at == 0 || text_[at - 1] == '\n';
     return replaced({at, at}, (broken ? "" : "\n") + line);
@@ -98,12 +99,12 @@ class Edit {
     return towards(list.items[k], wanted[k], in_flow);
   }
 
-  /// The lines of an item of a block list, its dash and comments beside it included.
+  /// The lines of an item of a block list, including its dash and the comments beside it.
   Span item_lines(const Value& list, std::size_t k) const {
     const Span item = spans_.of(list.items[k], false);
     return {spans_.line_begin(item.begin), spans_.line_end(item.end)};
   }
-  /// What stands before an item of a block list: indentation and dash.
+  /// The text before an item of a block list: indentation and dash.
   std::string dash(const Value& list) const {
     const std::size_t item = spans_.of(list.items.front(), false).begin;
     const std::size_t begin = text_.rfind('-', item);
@@ -130,7 +131,7 @@ class Edit {
     return replaced({spans_.of(list.items[k - 1], true).end, item.end}, "");
   }
 
-  /// An item taken with its own text to an earlier place.
+  /// Moves an item with its own text to an earlier place.
   std::string with_moved_item(const Value& list, std::size_t from, std::size_t to, bool in_flow) const {
     const Span item = in_flow ? spans_.of(list.items[from], true) : item_lines(list, from);
     const Span place = in_flow ? spans_.of(list.items[to], true) : item_lines(list, to);

@@ -5,9 +5,9 @@
 
 namespace joulepath::studio {
 
-/// A file's text (YAML or JSON by the name) with other values: only the text of what differs is replaced, so
-/// that comments, order and notation stay. The result reads back as exactly `wanted`; where no edit leads
-/// there (aliases, texts over several lines), throws ConfigError and nothing is changed.
+/// The text of a file (YAML or JSON by its name) with other values. Only the text of changed values is
+/// replaced, so comments, order and notation stay. The result parses to exactly `wanted`. Throws ConfigError
+/// and changes nothing where no such edit exists (aliases, texts over several lines).
 [[nodiscard]] std::string with_values(const std::string& text, const std::string& file,
                                       const nlohmann::ordered_json& wanted);
 

@@ -6,7 +6,7 @@
 
 namespace joulepath::studio {
 
-/// Where values stand in a text, as offsets.
+/// Places of values in a text, as offsets.
 struct Span {
   std::size_t begin{};
   std::size_t end{};
@@ -18,12 +18,12 @@ class TextSpans {
   explicit TextSpans(const std::string& text);
 
   [[nodiscard]] std::size_t offset(int line, int column) const;
-  /// From a value's first character to behind its last; comments beside it are not part of it. `in_flow`:
-  /// inside of braces or brackets.
+  /// From a value's first character to the end of the last one, without comments. `in_flow`: inside braces or
+  /// brackets.
   [[nodiscard]] Span of(const Value& value, bool in_flow) const;
-  /// Whether a map or a list is written with braces or brackets.
+  /// True if a map or a list is written with braces or brackets.
   [[nodiscard]] bool is_flow(const Value& value) const;
-  /// Behind the line break of the line that holds an offset.
+  /// Offset after the line break of the line at an offset.
   [[nodiscard]] std::size_t line_end(std::size_t at) const;
   [[nodiscard]] std::size_t line_begin(std::size_t at) const;
 

@@ -17,7 +17,8 @@ std::unique_ptr<joulepath::studio::Session>& session() {
 
 extern "C" {
 
-/// Takes a floor (grid_json.hpp) as JSON; "" or what is wrong with it. The text stays until the next call.
+/// Sets the floor (grid_json.hpp) from JSON; returns "" or an error message. The text is valid until the next
+/// call.
 EMSCRIPTEN_KEEPALIVE const char* joulepath_open(const char* floor) {
   static std::string error;
   error.clear();
@@ -30,7 +31,7 @@ EMSCRIPTEN_KEEPALIVE const char* joulepath_open(const char* floor) {
   return error.c_str();
 }
 
-/// The answer to a question (session.hpp). The text stays until the next call.
+/// The answer to a question (session.hpp). The text is valid until the next call.
 EMSCRIPTEN_KEEPALIVE const char* joulepath_answer(const char* question) {
   static std::string answer;
   answer = session()->answer(question);

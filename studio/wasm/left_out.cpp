@@ -1,5 +1,6 @@
-// What the browser's build leaves out, because its library is not there: Ipopt, OMPL, NLopt, yaml-cpp,
-// libpng. The page asks for none of it; where it is asked for, the answer says so.
+// Replacements for the parts that the browser build leaves out, because their libraries are missing: Ipopt,
+// OMPL, NLopt, yaml-cpp, libpng. The page does not use them; a question that needs them gets an error
+// message.
 #include <cstdlib>
 
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
@@ -60,8 +61,8 @@ bool is_order(const Document&) { return false; }
 void follow_order(MissionRequest&, const NamedBy&) { refuse("a VDA 5050 order"); }
 Value read_yaml_text(const std::string&, std::string_view, int) { refuse("a file in YAML"); }
 
-/// As scenarios/number_text.cpp: this library has no from_chars for floating-point numbers. JSON has been
-/// checked by its parser; the locale is "C".
+/// Replaces scenarios/number_text.cpp: this library has no from_chars for floating-point numbers. The JSON
+/// parser has checked the text; the locale is "C".
 std::optional<double> parse_number(std::string_view text) {
   const std::string copy(text);
   char* end = nullptr;

@@ -9,9 +9,6 @@
 
 #include "app/jobs/journal.hpp"
 #include "app/jobs/mission_planner.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/plan_file.hpp"
-#include "scenarios/robot_file.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -34,7 +31,7 @@ std::string mission(const std::string& name, double length_m, const std::string&
          R"(", "legs": [{"path": {"bezier_m": [[[0, 0], [1, 0], [2, 0], [)" + end + ", 0]]]}}]}";
 }
 
-TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
+TEST(Batch, ABrokenMissionAffectsItsOwnLineOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   ASSERT_EQ(::mkfifo(scratch.at("pipe.yaml").c_str(), 0600), 0);
@@ -56,7 +53,7 @@ TEST(Batch, EachBrokenMissionIsItsOwnLineAndStopsNothing) {
   }
 }
 
-/// Missions that share legs, and some that differ from each other in one thing alone.
+/// Missions that share legs, and missions that differ from each other in one property.
 std::vector<std::string> sharing_missions() {
   const std::string legs[] = {
       R"([{"to": "shelf"}, {"to": "dock", "payload_kg": 5}])",
@@ -83,7 +80,7 @@ std::string figures(Json line) {
   return line.dump();
 }
 
-TEST(Batch, ResultsDependNeitherOnOrderNorOnThreadsNorOnWhatIsKept) {
+TEST(Batch, ResultsDoNotDependOnOrderThreadsOrCache) {
   const ScratchDirectory scratch;
   const std::string good = JOULEPATH_SOURCE_DIR "/tests/data/broken/good/";
   for (const char* file : {"robot.yaml", "map.yaml", "map.pgm"}) scratch.write(file, text_of(good + file));
@@ -116,69 +113,6 @@ TEST(Batch, ResultsDependNeitherOnOrderNorOnThreadsNorOnWhatIsKept) {
     if (entry.is_regular_file() && random() % 2)
       std::filesystem::resize_file(entry.path(), random() % entry.file_size());
   EXPECT_EQ(batch(missions, cache + " -j 2"), alone) << "every second file damaged";
-}
-
-TEST(Batch, AnotherRobotOrFloorIsAnotherWorld) {
-  const Robot robot = read_robot(kGoodRobot);
-  MissionRequest mission{.clearance_m = 0.1};
-  MissionWorld world{.robot = robot, .map = OccupancyGrid{2, 1, 0.1, {}, {0, 100}, "map"}};
-  std::vector<ContentKey> keys;
-  const auto note = [&](const Robot& with) { keys.push_back(world_key(floor_key(mission, world), with)); };
-  note(robot);
-  Robot other = robot;
-  other.motor.right.friction_torque_Nm = std::nextafter(other.motor.right.friction_torque_Nm, 1.0);
-  note(other);
-  mission.clearance_m = 0.2;
-  note(robot);
-  world.map->occupancy_percent[0] = 1;
-  note(robot);
-  world.keepout = world.map;
-  note(robot);
-  world.speed_mask = SpeedMask{.grid = *world.map};
-  note(robot);
-  world.speed_mask->base = 50;
-  note(robot);
-  world.route_graph = RouteGraph{.nodes = {{1, 0, 0}}};
-  note(robot);
-  std::sort(keys.begin(), keys.end());
-  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
-}
-
-/// A leg's own duration is tried with ways that stop at corners where no other keeps it: the second choice is
-/// another question than the first.
-TEST(Batch, OtherStepsAreAnotherQuestion) {
-  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
-  const MissionWorld world = read_world(mission);
-  AnswerCache kept;
-  const auto energy_J = [&](const WaySteps& steps, AnswerCache* cache) {
-    PlanOptions options{
-        .solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .steps = steps, .baselines = false};
-    options.answers.cache = cache;
-    return plan_mission(mission, world, options).energy.total_J();
-  };
-  const WaySteps plain{.corners = false, .stops = false, .refinement = false};
-  const WaySteps arcs{.stops = false, .refinement = false};
-  const double plain_J = energy_J(plain, nullptr), arcs_J = energy_J(arcs, nullptr);
-  EXPECT_NE(plain_J, arcs_J);
-  for (int again = 0; again < 2; ++again) {
-    EXPECT_EQ(energy_J(plain, &kept), plain_J);
-    EXPECT_EQ(energy_J(arcs, &kept), arcs_J);
-  }
-}
-
-TEST(Plan, DependsNeitherOnThreadsNorOnWhatIsKept) {
-  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
-  const MissionWorld world = read_world(mission);
-  AnswerCache kept;
-  const auto text = [&](unsigned threads, AnswerCache* cache) {
-    PlanOptions options{.solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .threads = threads};
-    options.answers.cache = cache;
-    return plan_json_text(plan_mission(mission, world, options));
-  };
-  const std::string plan = text(1, nullptr);
-  EXPECT_EQ(text(2, nullptr), plan);
-  EXPECT_EQ(text(2, &kept), plan);
-  EXPECT_EQ(text(1, &kept), plan) << "from kept answers";
 }
 
 TEST(Batch, TheFirstExceptionStopsAllThreadsAndReachesTheCaller) {
@@ -245,7 +179,7 @@ TEST(Batch, TheFingerprintCoversEveryFileThatTheMissionReads) {
   EXPECT_EQ(fingerprint(), "");
 }
 
-TEST(Batch, ResumeKeepsWhatIsUnchangedAndPlansWhatIsNot) {
+TEST(Batch, ResumePlansChangedMissionsOnly) {
   const ScratchDirectory scratch;
   scratch.write("robot.yaml", text_of(kGoodRobot));
   const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
@@ -288,7 +222,7 @@ TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   EXPECT_EQ(text_of(partial), "{}\n");
 }
 
-TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
+TEST(JobJournal, ExistingLinesNeverChangeAndATruncatedLineAffectsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");
   { JobJournal(file, JobJournal::Use::anew).add({.index = 0, .line = R"({"status": "a"})"}, "x"); }
@@ -301,7 +235,7 @@ TEST(JobJournal, WhatIsThereIsNeverChangedAndACutLineHarmsNoOther) {
     EXPECT_EQ(journal.find(0, ""), nullptr);
     EXPECT_EQ(journal.find(1, "x"), nullptr);
     journal.add({.index = 2, .line = R"({"status": "b"})"}, "z");
-    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // one writer at a time
+    EXPECT_ANY_THROW(JobJournal(file, JobJournal::Use::resume));  // only one writer at a time
   }
   EXPECT_EQ(text_of(file).substr(0, before.size()), before);
   const JobJournal again(file, JobJournal::Use::resume);

@@ -37,7 +37,7 @@ TEST(CommandLine, UsageErrorsEndWithTwoAndOneHint) {
   EXPECT_NE(run_program(scratch, "schema robt").err.find("did you mean robot?"), std::string::npos);
 }
 
-TEST(CommandLine, AnUnknownEffectToLeaveOutIsToldWithTheNamesThatComeNear) {
+TEST(CommandLine, AnUnknownEffectOfWithoutIsReportedWithSimilarNames) {
   const ScratchDirectory scratch;
   const auto slip =
       run_program(scratch, "diagnose none.yaml --out " + scratch.at("out") + " --without rolling_resistanc");
@@ -84,7 +84,7 @@ TEST(CommandLine, DiagnosisOfABadDatasetEndsWithTwoAndWritesNothing) {
   }
 }
 
-TEST(CommandLine, AnUnknownArgumentIsToldBeforeWhatIsMissing) {
+TEST(CommandLine, AnUnknownArgumentIsReportedBeforeAMissingOne) {
   const ScratchDirectory scratch;
   const auto result = run_program(scratch, "plan mission.yaml --ouut " + scratch.at("out"));
   EXPECT_EQ(result.code, 2);
@@ -155,7 +155,7 @@ TEST(CommandLine, AMissionOfTheSamePathHasTheSamePlan) {
                    energy_J("compare " + mission));
 }
 
-TEST(CommandLine, WhatAPathLacksOrAMissionHasIsSaidInOneLine) {
+TEST(CommandLine, OptionsThatAPathOrAMissionDoesNotTakeAreReportedInOneLine) {
   const ScratchDirectory scratch;
   const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n"),
                     mission = kBroken + "good/mission.yaml", out = " --out " + scratch.at("out");
@@ -215,7 +215,7 @@ TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   }
 }
 
-TEST(CommandLine, CheckGoesOnAfterABadFileAndTellsAllAsJson) {
+TEST(CommandLine, CheckContinuesAfterABadFileAndReportsAllAsJson) {
   const ScratchDirectory scratch;
   const auto result = run_program(
       scratch, "check --json " + kBroken + "robot/negative_mass.yaml " + kBroken + "good/robot.yaml");
@@ -249,7 +249,7 @@ TEST(CommandLine, InterruptedMeansOneHundredAndThirty) {
   EXPECT_EQ(WEXITSTATUS(status), 130);
 }
 
-TEST(CommandLine, CompletionKnowsEveryCommandAndIsValidBash) {
+TEST(CommandLine, CompletionListsEveryCommandAndIsValidBash) {
   const ScratchDirectory scratch;
   const std::string help = run_program(scratch, "--help").out,
                     bash = run_program(scratch, "completion bash").out;

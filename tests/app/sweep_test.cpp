@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A robot on which everything has a closed form: Coulomb friction alone, all braking power comes back.
+/// A robot with closed forms for everything: Coulomb friction only, all braking power is recovered.
 constexpr double kResistance_ohm = 1.5, kTorqueConstant_Nm_A = 0.05, kMass_kg = 30.0, kRadius_m = 0.1,
                  kFriction_Nm = 0.4, kGear = 20.0, kDistance_m = 6.0, kTime_s = 8.0;
 const std::string kSimpleRobot = R"(
@@ -62,7 +62,7 @@ TEST_F(Sweep, OptimizedGearRatioIsThatOfTheClosedForm) {
   EXPECT_NE(text_of(scratch.at("out/sweep.json")).find("motor's shaft"), std::string::npos);
 }
 
-/// With friction held at the wheel only the copper heat of acceleration depends on the ratio, as 1/n².
+/// With friction held at the wheel, only the copper heat of acceleration depends on the ratio, as 1/n².
 TEST_F(Sweep, FrictionHeldAtTheWheelLeavesTheHeatOfAcceleration) {
   ASSERT_EQ(
       sweep(
@@ -173,7 +173,7 @@ TEST_F(Shards, SweepsMergeToo) {
         << file;
 }
 
-TEST_F(Shards, WhatDoesNotBelongTogetherIsRefused) {
+TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   for (const char* k : {"1", "2", "3"})
     ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/3").code, 0);
   const auto refused = [&](const std::string& directories, const std::string& word) {

@@ -7,15 +7,20 @@ import sys
 # From the ground up; a room may include itself and the rooms before it. The longest prefix decides.
 PLANNER = """model planner/cache planner/path/geometry planner/path/floor planner/path/shape planner/path/search planner/sweep planner/values
 planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
-planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/mission planner/controller""".split()
+planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/mission planner/controller planner/online""".split()
 DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/checks diagnosis/prediction
-diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
+diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only diagnosis/monitor
 diagnosis""".split()
 HOUSE = ["model", "planner", "diagnosis", "scenarios", "app/report", "studio", "app", "python"]  # planner and diagnosis do not know each other
 # Headers that take long to compile or that a replacement of the library must find in one place.
 # Design: docs/decisions/0140-compile-time.md
 CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/yaml_text.cpp", "png.h": "scenarios/image.cpp",
             "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/", "httplib": "studio/server/"}
+
+
+# The studio's page is compiled from these by emscripten, whose standard library has no algorithms on ranges.
+# Design: docs/decisions/0330-one-answer-for-page-and-program.md
+PAGE, PROGRAM_ALONE = re.compile("model/|planner/|studio/answer/"), re.compile("model/(simulation|estimate)|planner/(sweep|controller)|ipopt_solver|search/search.cpp|ompl_space|shape/refine|ways/spline_search")
 
 
 def room(path, rooms):
@@ -45,6 +50,8 @@ def main(root):
                 match = re.match(r'#include "(\w+/[^"]+)"', line)
                 if match and upward(root, path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which stands above it")
+                if "std::ranges::" in line and PAGE.match(path) and not PROGRAM_ALONE.search(path):
+                    complaints.append(f"{path}:{number}: std::ranges, which the page's compiler does not have")
                 match = re.match(r"#include <([^>]+)>", line)
                 if match and misplaced(path, match[1]):
                     complaints.append(f"{path}:{number}: includes {match[1]}, which has another place")

@@ -61,6 +61,18 @@ def test_a_shorter_way_is_refused():
             assert judged(identity, answer) == "BREAKS form by inf", identity
 
 
+def test_a_node_beside_a_knot_by_rounding_is_judged_as_on_it():
+    for identity in STEPS:
+        problem, solution = PROBLEMS[identity], GIVEN[identity]
+        robot, s = DATA["robots"][problem["robot"]], np.array(solution["s_m"])
+        near = np.isclose(s[:, None], problem["path"]["s_m"][1:-1], rtol=1e-12, atol=0).any(1)
+        uses = evaluate(problem, robot, solution)["uses"]
+        for ulps in (-4, -1, 1, 4):
+            beside = evaluate(problem, robot, {**solution, "s_m": np.where(near, s + ulps * np.spacing(s), s).tolist()})["uses"]
+            for key in uses:
+                assert abs(beside[key] - uses[key]) <= 1e-6, (identity, ulps, key, uses[key], beside[key])
+
+
 def test_anothers_answer_is_refused():
     for identity in GIVEN:
         for other in GIVEN:

@@ -14,7 +14,7 @@ Dataset quiet_day(const std::string& options) {
   return testing::blind_day(options + " --seed 12 --label none");
 }
 
-/// Battery power and odometry alone: the commonest log there is.
+/// Battery power and odometry only: the most common log.
 Dataset battery_only(Dataset dataset, bool battery = true) {
   for (Run& run : dataset.runs) {
     Trajectory& log = run.log;
@@ -26,7 +26,7 @@ Dataset battery_only(Dataset dataset, bool battery = true) {
   return dataset;
 }
 
-TEST(AllClear, StatesTheGapThatWouldHaveBeenSeen) {
+TEST(AllClear, ReportsTheDetectableGap) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(quiet_day("--effect none --protocol 24"), {.bootstrap = 20});
   ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
@@ -34,7 +34,7 @@ TEST(AllClear, StatesTheGapThatWouldHaveBeenSeen) {
   EXPECT_LT(d.gap.energy.detectable_percent, 10.0);
 }
 
-TEST(AllClear, ALogWithoutAnyPowerGetsNone) {
+TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset day = quiet_day("--effect rolling_resistance --size 0.01 --protocol 12");
   const Diagnosis d = diagnose(battery_only(day, false), {.bootstrap = 20});
@@ -42,7 +42,7 @@ TEST(AllClear, ALogWithoutAnyPowerGetsNone) {
   EXPECT_TRUE(d.causes.empty());
 }
 
-/// A resistance shows in the battery's power, and where: while the robot drives, on no wheel in particular.
+/// A resistance shows in the battery's power and is localized to driving phases, but to no wheel.
 TEST(AllClear, BatteryPowerAloneShowsAGapAndWhereItLies) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset day = quiet_day("--effect rolling_resistance --size 0.015 --protocol 24");
@@ -53,7 +53,7 @@ TEST(AllClear, BatteryPowerAloneShowsAGapAndWhereItLies) {
   EXPECT_TRUE(std::ranges::none_of(d.where, [](const WhereCell& cell) { return cell.axis == "wheel"; }));
 }
 
-/// A payload that is put on at a stop is what it is at each sample: no value between the two.
+/// The payload changes at a stop in one step; no sample has an intermediate value.
 TEST(Payload, AStepWithinARunIsNotInterpolated) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset day = quiet_day("--effect none --protocol 6");

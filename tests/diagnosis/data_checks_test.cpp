@@ -14,13 +14,13 @@
 namespace joulepath {
 namespace {
 
-/// A test day of the benchmark's plant, which shares nothing with the product.
+/// A test day of the benchmark's plant, which shares no code with the product.
 Dataset twelve_runs(const std::string& options) {
   return testing::blind_day(options + " --protocol 12 --label none");
 }
 
-/// The run that turns most to both sides: there the motors of both sides have different work, and every
-/// channel has something to say.
+/// The run with the most turning to both sides: the motors work differently there, so every channel carries
+/// information.
 std::size_t liveliest(const Dataset& dataset) {
   std::size_t best = 0;
   double most = -1;
@@ -45,7 +45,7 @@ void scale(std::vector<double>& channel, double factor) {
 struct Case {
   const char* name;
   const char* kind;
-  const char* channel;  ///< that the check must hold
+  const char* channel;  ///< the channel that the check must name
   Spoil spoil;
 };
 
@@ -117,7 +117,7 @@ TEST_P(SpoiltChannel, OfAllRunsIsNamedAndStopsTheDiagnosis) {
 INSTANTIATE_TEST_SUITE_P(DataChecks, SpoiltChannel, ::testing::ValuesIn(cases()),
                          [](const auto& tested) { return tested.param.name; });
 
-/// What the catalog can explain at its full size is for the diagnosis, not for the data checks.
+/// Effects of the catalog at full size must not make the data suspect.
 TEST(SoundData, WithEffectsOfFullSizeAreNotSuspect) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   for (const char* effect :

@@ -42,7 +42,7 @@ PrescribedMotion bend(double radius_m, double angle_rad) {
           .angle_rad = angle_rad};
 }
 
-/// A test day with a wattmeter alone: the energy of a plant, with an error of `scatter` from run to run.
+/// A test day with a wattmeter only: the energy of a plant, with an error of `scatter` per run.
 Dataset wattmeter_day(const std::vector<EffectSetting>& effects, double scatter, unsigned seed) {
   Dataset dataset{.file = "wattmeter.yaml", .robot = testing::nomad()};
   dataset.robot.uncertainty = {{"friction_torque_Nm", 0.01}, {"resistance_ohm", 0.01}};
@@ -60,6 +60,16 @@ Dataset wattmeter_day(const std::vector<EffectSetting>& effects, double scatter,
         Sided<double>{joules.wheel_J.left * factor, joules.wheel_J.right * factor};
   }
   return dataset;
+}
+
+TEST(EnergyOnly, ACurveIsNamedByTheSideToWhichItTurns) {
+  Dataset dataset{.robot = testing::nomad()};
+  dataset.runs = {run_of(bend(1.0, 1.5), 0, 0), run_of(bend(1.0, -1.5), 0, 1), run_of(steady(0.5), 0, 2)};
+  const std::vector<EnergyRun> runs = energy_runs(dataset);
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0].path, "curve to the left");
+  EXPECT_EQ(runs[1].path, "curve to the right");
+  EXPECT_EQ(runs[2].path, "straight");
 }
 
 TEST(EnergyOnly, SteadySpeedTakesWhatTheClosedFormSays) {

@@ -1,9 +1,13 @@
+#include "diagnosis/evidence/groups.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/write_diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
@@ -41,6 +45,26 @@ bool group_holds(const Cause& cause, const std::string& effect) {
          std::count(cause.indistinguishable_from.begin(), cause.indistinguishable_from.end(), effect) > 0;
 }
 
+/// Of the sets {a, b}, {a}, {b} and none each contributes once to "a or b".
+TEST(Group, ProbabilityThatOneOfItsMembersIsThereIsAProbability) {
+  Equations equations;
+  equations.candidates = {Candidate{.shape = {.name = "rolling_resistance"}},
+                          Candidate{.shape = {.name = "coulomb_friction"}}};
+  const std::vector<Explanation> explanations{{.candidates = {0, 1}, .score = 5},
+                                              {.candidates = {0}, .score = 4},
+                                              {.candidates = {1}, .score = 4},
+                                              {}};
+  Inclusion inclusion;
+  inclusion.add(equations, explanations);
+  const auto each = inclusion.of_each();
+  const double any = inclusion.of_any({"rolling_resistance", "coulomb_friction"});
+  EXPECT_GT(each.at("rolling_resistance") + each.at("coulomb_friction"), 1.0);
+  EXPECT_LE(any, 1.0);
+  const double w = kScoreFlattening;
+  EXPECT_NEAR(any, 1 - 1 / (std::exp(5 * w) + 2 * std::exp(4 * w) + 1), 1e-12);
+  EXPECT_NEAR(inclusion.of("coulomb_friction"), each.at("coulomb_friction"), 1e-12);
+}
+
 TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
   const Diagnosis d =
       diagnose(rolling_day(std::vector<double>(8, 5.0), {0.002, 0.005, 0.01}), {.bootstrap = 20});
@@ -49,13 +73,16 @@ TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {
   EXPECT_TRUE(group_holds(d.causes[0], "rolling_resistance"));
   EXPECT_TRUE(group_holds(d.causes[0], "coulomb_friction"));
   EXPECT_LT(d.causes[0].probability, 0.6);
+  const auto ranked = std::ranges::find(d.ranking, d.causes[0].effect.name, &RankedEffect::effect);
+  ASSERT_NE(ranked, d.ranking.end());
+  EXPECT_NEAR(d.causes[0].probability, ranked->probability, 1e-12);
   EXPECT_FALSE(d.pinned_combination.empty());
   EXPECT_FALSE(d.corrected_robot.has_value());
   EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(),
                           [](const std::string& n) { return n.find("one payload") != std::string::npos; }));
 }
 
-TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
+TEST(Group, TwoPayloadsSeparateThemAlsoWithoutNoise) {
   const Diagnosis d = diagnose(rolling_day({0, 8, 0, 8, 0, 8, 0, 8, 0, 8}, {}), {.bootstrap = 20});
   ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
   EXPECT_EQ(d.verdict, Verdict::explained);
@@ -66,7 +93,7 @@ TEST(Group, TwoPayloadsTellThemApartEvenInALogWithoutNoise) {
   EXPECT_EQ(diagnosis_json(d).find("null"), std::string::npos);
 }
 
-TEST(Group, WithoutVoltagesAMagnetIsNotToldFromACurrentSensor) {
+TEST(Group, WithoutVoltagesMagnetAndCurrentSensorAreAGroup) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = testing::blind_day("torque_constant_error", 0.1, 0, 12, 77);
   for (auto& run : dataset.runs) {

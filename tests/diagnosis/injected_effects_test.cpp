@@ -52,9 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Injection{"current_sensor_gain", 0.1}, Injection{"time_misalignment", 0.08}),
     [](const ::testing::TestParamInfo<Injection>& injected) { return injected.param.effect; });
 
-/// This robot coasts against so much friction that regeneration returns a fifth of the materiality floor; the
-/// data still prove it.
-TEST(SmallEffect, IsNamedBelowTheMaterialityFloorWhereTheDataAreBeyondDoubt) {
+/// This robot coasts against so much friction that regeneration returns only a fifth of the materiality
+/// floor; the evidence is still decisive.
+TEST(SmallEffect, IsNamedBelowTheMaterialityFloorWithStrongEvidence) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(blind_day("regeneration_error", 0.6, 0, 12, 4242), {.bootstrap = 50});
   ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
@@ -71,7 +71,7 @@ TEST(ForeignCause, IsNeverCalledExplainedWhenItsGapStays) {
   }
 }
 
-TEST(NullDatasets, AreSilent) {
+TEST(NullDatasets, NameNoEffect) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   int alarms = 0;
   for (int seed = 1; seed <= 4; ++seed)

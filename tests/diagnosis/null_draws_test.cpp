@@ -55,7 +55,7 @@ TEST(NullDraws, RaiseAtMostOneAlarmInAHundred) {
   EXPECT_LE(alarms, kDraws / 100);
 }
 
-TEST(EffectDraws, AreFoundAndTheirIntervalsHoldTheTruth) {
+TEST(EffectDraws, AreFoundAndTheirIntervalsCoverTheTruth) {
   std::mt19937 engine(2025);
   constexpr int kDraws = 300;
   constexpr double kSize = 0.35;  // about seven standard deviations

@@ -44,7 +44,7 @@ TEST(OddRuns, ARunAtRestThroughoutIsNoObstacle) {
   EXPECT_TRUE(d.causes.empty()) << d.causes.front().effect.name;
 }
 
-/// Derivatives by a shape parameter at the end of what the catalog accepts are taken from within.
+/// Derivatives by a shape parameter at the end of its accepted range are one-sided.
 TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset dataset = speeds_and_currents("none");
@@ -63,7 +63,7 @@ TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
   }
 }
 
-/// The same day with and without its voltages: V = R i + Kv n q' gives nearly the same joules.
+/// The same day with and without voltages: V = R i + Kv n q' gives nearly the same joules.
 TEST(OddRuns, WithoutVoltagesEnergiesAreThoseOfTheCurrents) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const std::string effect = "rolling_resistance --size 0.01";

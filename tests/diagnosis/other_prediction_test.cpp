@@ -23,7 +23,7 @@ Trajectory wrong_in_reverse(const Trajectory& log) {
   return other;
 }
 
-TEST(OtherPrediction, WhereIsAboutTheOtherSimulatorAndWhichAboutOurs) {
+TEST(OtherPrediction, LocationRefersToTheOtherSimulatorAndCausesToOurs) {
   const std::string file =
       std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/p03_rolling_resistance/dataset.yaml";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no practice sets beside the sources";

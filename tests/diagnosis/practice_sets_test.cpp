@@ -33,7 +33,7 @@ std::string path_of(const std::string& folder) {
 }
 
 /// A corrected robot file gives better plans on the labelled robot (its true constants and effect), by at
-/// least half of the saving that the diagnosis claims; without a significant claim, not worse ones.
+/// least half of the claimed saving; without a significant claim, plans must not get worse.
 void expect_better_plans(const std::string& folder, const Robot& nominal, const Diagnosis& d) {
   if (!d.corrected_robot) return;
   const std::string label = std::filesystem::path(path_of(folder)).replace_filename("truth.yaml").string();
@@ -124,7 +124,7 @@ TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
   EXPECT_NEAR(first.causes[0].parameters[0].value, reversed.causes[0].parameters[0].value, 1e-6);
 }
 
-TEST(Diagnosis, NeverNamesWhatIsTakenOutOfTheCatalog) {
+TEST(Diagnosis, NeverNamesAnEffectRemovedFromTheCatalog) {
   if (!std::filesystem::exists(path_of("p14_floor_patch_rough")))
     GTEST_SKIP() << "no practice sets beside the sources";
   using Pair = std::pair<const char*, const char*>;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kDrivenRuns = 12;
 constexpr double kStudent11 = 2.201;  ///< 97.5 % quantile of Student's t with 11 degrees of freedom
 
-/// One column, unit noise by the model; in truth each run has a slope of its own about 1.
+/// One column, unit noise in the model; each run has its own true slope about 1.
 Equations scattered_slopes(double scatter, std::mt19937& engine) {
   std::normal_distribution<double> normal;
   Equations equations{.columns = {{Column::Kind::amplitude, 0, 0, 1e3, 0.0}},

@@ -43,7 +43,7 @@ def missing_paths(source):
 
 
 CODE = ["*.cpp", "*.hpp", "*.py", "*.js", "*.cmake", "CMakeLists.txt", "run"]
-ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests", "cmake"]
+ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests", "fuzz", "cmake"]
 DOCUMENT = re.compile(r"(?<![\w./-])(?:docs|benchmarks/results)/[\w/-]+\.(?:md|svg|png)")
 
 

@@ -37,15 +37,15 @@ TEST(EffectLaw, TheSimulatorSpendsWhatThePowerModelSaysForEveryEffect) {
     const EffectSetting setting = typical_effect(description);
     const SimulationResult run = run_of({setting});
     const Plant plant = make_plant(nomad(), {setting});
-    // The body's true motion, so that what the wheels do beside it (creep) is the model's to say.
+    // The true motion of the body; the model must predict the wheels' deviation from it (creep).
     Trajectory body = run.executed;
     body.wheel_speed_rad_s = {};
     const EnergyEstimate estimate = estimate_energy(plant, body, {.reach_s = 0.0});
     const double energy_J = run.motor_energy_J.left + run.motor_energy_J.right;
     EXPECT_NEAR((estimate.motor_J.left + estimate.motor_J.right) / energy_J, 1.0, 2e-3)
         << description.info.name;
-    // Where scrub holds the robot on a straight line, its moment is a reaction that no motion tells, and
-    // it shifts load between the wheels: only their sum can agree.
+    // Where scrub holds the robot on a straight line, its moment is a reaction that the motion does not
+    // determine. It shifts load between the wheels, so only their sum can agree.
     if (setting.name != "turning_scrub") {
       for (Side side : kSides)
         EXPECT_NEAR(estimate.motor_J[side] / run.motor_energy_J[side], 1.0, 2e-3)

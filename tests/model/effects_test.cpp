@@ -1,9 +1,12 @@
 // Every effect's law by closed form on a simple motion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "model/effects/catalog.hpp"
 #include "model/power.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -246,6 +249,33 @@ TEST(EffectLaw, InstrumentsChangeReadings) {
   EXPECT_NEAR(late.motor_voltage_V.left[2], 3.0, 1e-12);
   EXPECT_NEAR(late.motor_current_A.right[2], 1.5, 1e-12);
   EXPECT_EQ(late.wheel_speed_rad_s.left.size(), 0u);
+}
+
+TEST(Plant, EffectsOfOneKindAddUp) {
+  const EffectSetting slip{.name = "wheel_slip", .parameters = {{"creep_stiffness_N_s_m", 400}}};
+  const EffectSetting drop{.name = "driver_voltage_drop", .parameters = {{"voltage_V", 0.3}}};
+  const EffectSetting gear{.name = "gear_efficiency", .parameters = {{"loss_fraction", 0.1}}};
+  const Plant plant = make_plant(nomad(), {slip, drop, gear, slip, drop, gear});
+  EXPECT_NEAR(plant.creep_m_s_N, 2.0 / 400, 1e-15);
+  EXPECT_NEAR(plant.driver_voltage_drop_V, 0.6, 1e-15);
+  EXPECT_NEAR(plant.torque_loss_fraction, 2 * make_plant(nomad(), {gear}).torque_loss_fraction, 1e-15);
+}
+
+TEST(EffectCatalog, WithoutAGridOfItsOwnASearchSpansADecadeAroundTheTypicalSize) {
+  int searched = 0;
+  for (const EffectDescription& effect : effect_catalog())
+    for (const ParameterDescription& parameter : effect.parameters) {
+      if (!parameter.grid.empty()) continue;
+      const std::vector<double> grid = search_grid(parameter, nomad());
+      const double typical = typical_size(parameter, nomad());
+      ASSERT_EQ(grid.size(), 3u);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double factor = std::array{0.3, 1.0, 3.0}[k];
+        EXPECT_EQ(grid[k], std::clamp(factor * typical, parameter.min, parameter.max));
+      }
+      ++searched;
+    }
+  EXPECT_GT(searched, 5);
 }
 
 }  // namespace

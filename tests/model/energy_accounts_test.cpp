@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "model/energy.hpp"
+#include "model/operating_point.hpp"
+#include "model/power.hpp"
 #include "model/simulation/drive.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -48,6 +50,22 @@ TEST(EnergyByCause, PowerOverATimeIsAddedToEveryCause) {
   energy.add(Plant{}, watts, 2.0);
   EXPECT_EQ(energy.motion_J(), 1011111 + 2 * 11111);
   EXPECT_EQ(energy.total_J(), 1111111 + 2 * 111111);
+}
+
+/// A turn about the left wheel: direction 0 has no friction, neither in the power nor in the torque.
+TEST(PowerByCause, AWheelThatStandsHasNoFriction) {
+  const Robot robot = testing::nomad();
+  const Plant plant = make_plant(robot);
+  const double omega = 0.5, v = omega * robot.geometry.half_track_m;
+  const BodyMotion<double> motion{v, 0.0, omega, 0.0};
+  const Site site = site_of(robot.geometry, {}, 0.0, v, omega);
+  ASSERT_EQ(site.wheel_direction.left, 0);
+  ASSERT_EQ(site.wheel_direction.right, 1);
+  const Sided<WheelState<double>> wheels = operating_point(plant, motion, site);
+  const PowerByCause watts = power_by_cause(plant, motion, site);
+  EXPECT_NEAR(watts.coulomb_friction_W,
+              robot.motor.right.friction_torque_Nm * 2 * v / robot.geometry.wheel_radius_m.right, 1e-12);
+  EXPECT_NEAR(watts.motor_W(), wheels.left.power_W + wheels.right.power_W, 1e-9);
 }
 
 TEST(Drive, CurrentStoresHalfInductanceTimesItsSquareInEachWinding) {

@@ -7,6 +7,7 @@
 
 #include "model/config_error.hpp"
 #include "model/local_fit.hpp"
+#include "model/sampled_motion.hpp"
 #include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -41,7 +42,27 @@ TEST(LocalFit, ParabolasPassUnchanged) {
   }
 }
 
-TEST(LocalFit, NoiseIsToldFromMotion) {
+/// Samples further apart than the reach: each is fitted with its two neighbors.
+TEST(LocalFit, SparseSamplesAreFittedWithTheirNeighbors) {
+  const std::vector<double> time_s{0, 1, 2.5, 3, 5};
+  std::vector<double> values;
+  for (double t : time_s) values.push_back(1 - 2 * t + 3 * t * t);
+  const LocalFit fit = fit_locally(time_s, values, 0.1);
+  for (std::size_t i = 1; i + 1 < time_s.size(); ++i) {
+    EXPECT_NEAR(fit.value[i], values[i], 1e-9);
+    EXPECT_NEAR(fit.slope[i], -2 + 6 * time_s[i], 1e-9);
+  }
+}
+
+TEST(SampledMotion, TheTimeOfDayGoesOnWithTheLog) {
+  const Trajectory log{
+      .time_s = {5, 6, 8}, .linear_speed_m_s = {0, 0.5, 0.5}, .angular_speed_rad_s = {0, 0, 0}};
+  const Plant plant = make_plant(nomad());
+  const SampledMotion motion(plant, log, {.time_of_day_s = 100});
+  EXPECT_NEAR(motion.at(7.5).site.time_of_day_s, 102.5, 1e-12);
+}
+
+TEST(LocalFit, NoiseIsSeparatedFromMotion) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 0.01);
   std::vector<double> values;
@@ -63,7 +84,7 @@ TEST(Estimate, ConstantSpeedCostsPowerTimesTime) {
   EXPECT_NEAR(estimate.distance_m, 5.0, 1e-12);
 }
 
-TEST(Estimate, BodySpeedsAndWheelSpeedsSayTheSame) {
+TEST(Estimate, BodySpeedsAndWheelSpeedsGiveTheSameEnergy) {
   const SimulationResult run = noisy_run(nomad(), 1);
   Trajectory wheels = run.log;
   wheels.linear_speed_m_s.clear();
@@ -115,6 +136,23 @@ TEST(Estimate, ARobotThatStandsOnASlopeIsHeldByFrictionNotByItsMotors) {
   const EnergyEstimate estimate = estimate_energy(plant, log);
   EXPECT_EQ(estimate.motor_J.left, 0.0);
   EXPECT_NEAR(estimate.by_cause.total_J(), 50.0, 1e-9);
+}
+
+/// S-bends: casters swivel all the time. With the smoothing of noisy logs their energy stays the same.
+TEST(Estimate, CastersTakeTheSameWithAndWithoutSmoothing) {
+  const Plant plant =
+      make_plant(nomad(), {{.name = "caster_swivel", .parameters = {{"moment_Nm", 2.0}, {"trail_m", 0.1}}}});
+  Trajectory log;
+  for (int i = 0; i <= 2000; ++i) {
+    log.time_s.push_back(0.01 * i);
+    log.linear_speed_m_s.push_back(0.4);
+    log.angular_speed_rad_s.push_back(0.8 * std::sin(0.02 * i));
+  }
+  const double exact_J = estimate_energy(plant, log, {.reach_s = 0.0}).by_cause.effects_J.at("caster_swivel");
+  const double smoothed_J =
+      estimate_energy(plant, log, {.reach_s = 0.03}).by_cause.effects_J.at("caster_swivel");
+  EXPECT_GT(exact_J, 0.5);
+  EXPECT_NEAR(smoothed_J / exact_J, 1.0, 0.01);
 }
 
 TEST(Estimate, BrakingCountsAsTheRobotRegenerates) {

@@ -68,7 +68,7 @@ TEST(Motions, BezierEndsAtItsLastControlPoint) {
   EXPECT_NEAR(t.heading_rad.back(), std::numbers::pi / 2, 2e-5);
 }
 
-TEST(Motions, RepeatedRampsAndStandsFollowEachOther) {
+TEST(Motions, RepeatedRampsAndStandsAreChained) {
   const PrescribedMotion ramp{.profile = MotionProfile::constant_ramp,
                               .acceleration_m_s2 = 0.2,
                               .deceleration_m_s2 = 0.8,

@@ -53,7 +53,7 @@ TEST(Simulate, FollowsItsReferenceAndComesToRest) {
   EXPECT_EQ(result.saturated_fraction, 0.0);
 }
 
-TEST(Simulate, FeedbackHoldsTheSpeedAgainstWhatTheControllerDoesNotKnow) {
+TEST(Simulate, FeedbackHoldsTheSpeedAgainstUnmodeledEffects) {
   SimulationRequest request = request_for(nomad(), {kStraight});
   request.effects = {{.name = "rolling_resistance", .parameters = {{"coefficient", 0.05}}}};
   const double with_feedback = simulate(request).worst_speed_error_rad_s;
@@ -157,7 +157,7 @@ TEST(Simulate, CreepStatesApproachTheModelsCreepingContact) {
   SimulationRequest request =
       request_for(robot, {{.profile = MotionProfile::constant_speed, .speed_m_s = 0.5, .duration_s = 10}});
   const EffectSetting drag{.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 40.0}}};
-  for (double stiffness : {1000.0, 50000.0}) {  // states of their own, and the stiff limit
+  for (double stiffness : {1000.0, 50000.0}) {  // explicit states, and the stiff limit
     request.effects = {drag, {.name = "wheel_slip", .parameters = {{"creep_stiffness_N_s_m", stiffness}}}};
     const SimulationResult result = simulate(request);
     const std::size_t last = result.log.size() - 1;

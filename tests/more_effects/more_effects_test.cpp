@@ -13,7 +13,7 @@
 #include "scenarios/write_diagnosis.hpp"
 #include "tests/support/nomad.hpp"
 
-/// The product with the three effects of more_effects.hpp: every part of it uses them without a change.
+/// The product with the three effects of more_effects.hpp; every part must use them without a change.
 namespace joulepath {
 namespace {
 

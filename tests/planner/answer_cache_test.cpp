@@ -74,7 +74,7 @@ TEST(Bytes, APathReadsBackToTheLastBit) {
   }
 }
 
-TEST(Bytes, WhatIsCutOrChangedIsReadWithoutHarm) {
+TEST(Bytes, TruncatedAndChangedBytesAreReadSafely) {
   ByteWriter writer;
   writer(std::string("name"), std::vector<double>{1, 2, 3}, std::optional<double>{4},
          std::map<std::string, double>{{"a", 5}});
@@ -122,7 +122,7 @@ TEST(AnswerCache, ComputesOnceAndKeepsWithinItsLimit) {
   EXPECT_NE(cache.find(key_of(199)), nullptr) << "the most recent one stays";
 }
 
-TEST(AnswerCache, ADamagedFileIsNoAnswerAndIsReplaced) {
+TEST(AnswerCache, DamagedFilesAreReplaced) {
   const ScratchDirectory scratch;
   std::mt19937 random(3);
   for (int trial = 0; trial < 200; ++trial) {
@@ -150,7 +150,7 @@ TEST(AnswerCache, ADamagedFileIsNoAnswerAndIsReplaced) {
   }
 }
 
-TEST(AnswerCache, AnAnswerInThePlaceOfAnotherIsNoAnswer) {
+TEST(AnswerCache, AFileOfAnotherKeyIsIgnored) {
   const ScratchDirectory scratch;
   DiskStore store(scratch.at("cache"));
   store.keep(key_of(1), answer_of(1));
@@ -207,7 +207,7 @@ TEST(AnswerCache, AFolderThatCannotBeWrittenKeepsNothing) {
   EXPECT_EQ(store.find(key_of(1)), std::nullopt);
 }
 
-TEST(AnswerCache, WhatWasUsedLeastRecentlyIsDeletedFirst) {
+TEST(AnswerCache, LeastRecentlyUsedFilesAreDeletedFirst) {
   const ScratchDirectory scratch;
   const auto now = fs::file_time_type::clock::now();
   {

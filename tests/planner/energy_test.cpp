@@ -214,10 +214,10 @@ TEST(EnergyOfAMotion, IsTheSameByPlanEstimateAndReplayForEveryEffect) {
     }
 }
 
-/// The controller knows the plan's energy law but not the plant's history (a caster's memory, the load of dry
+/// The controller uses the plan's energy law without the plan's history (a caster's memory, the load of dry
 /// friction), so a run does not repeat the plan exactly. Its energy is compared with that of its executed
 /// motion: the simulator integrates forces and motion in one system of equations, the estimate uses the
-/// motion alone.
+/// motion only.
 TEST(EnergyOfAMotion, IsTheSameBySimulationAndByTheEstimateOfWhatItExecuted) {
   RandomMotions random;
   for (int i = 0; i < kMotionsPerEffect / 3; ++i)
@@ -226,7 +226,7 @@ TEST(EnergyOfAMotion, IsTheSameBySimulationAndByTheEstimateOfWhatItExecuted) {
       const SimulationResult run = simulated(motion, sampled(motion, 3));
       Trajectory body = run.executed;
       body.wheel_speed_rad_s = {};
-      // Contacts creep with a delay in the simulator, at once in the estimate; casters fade in near
+      // Contacts creep with a delay in the simulator and without one in the estimate; casters fade in near
       // standstill.
       const bool lags = motion.effect == "wheel_slip" || motion.effect == "caster_swivel";
       EXPECT_NEAR(estimated_J(motion, body) / run.energy_J, 1.0, lags ? 1e-3 : 1e-4) << told(motion, i);
@@ -239,8 +239,8 @@ Robot robot_with_casters() {
   return robot;
 }
 
-/// Moment times the angle over which it decays, M trail/l (1 - exp(-l angle/trail)), drawn from the wheels'
-/// power; the current for it adds copper loss.
+/// Moment times the angle over which it decays, M trail/l (1 - exp(-l angle/trail)), supplied by the wheels;
+/// the current for it adds copper loss.
 TEST(EnergyOfAMotion, APrescribedSpinPaysForItsCastersOnlyUntilTheyHaveComeRound) {
   const Robot robot = robot_with_casters();
   PrescribedMotion spin{.profile = MotionProfile::spin, .angle_rad = std::numbers::pi, .yaw_rate_rad_s = 1.0};

@@ -85,7 +85,7 @@ TEST(FloorCheck, ATurnInPlaceIsSwept) {
   EXPECT_GT(plan.infeasibility->reason.amount, 0.2);
 }
 
-TEST(FloorCheck, APrescribedMotionIsHeldAgainstTheFloorToo) {
+TEST(FloorCheck, APrescribedMotionIsCheckedAgainstTheFloor) {
   MissionRequest mission{.name = "ramp"};
   mission.start.pose = {2, 3, 0};
   mission.legs.push_back({.motion = PrescribedMotion{.profile = MotionProfile::trapezoid,

@@ -77,7 +77,7 @@ TEST_P(PlanRows, EveryNodeOfEveryProfileHasOne) {
   }
 }
 
-TEST_P(PlanRows, ALinearReaderSeesNoLimitOfSpeedAndAccelerationExceeded) {
+TEST_P(PlanRows, LinearInterpolationExceedsNoLimitOfSpeedAndAcceleration) {
   ASSERT_EQ(plan_.legs.size(), 3u) << plan_.message;
   const PlanNodes nodes = plan_nodes(plan_, plant_of(plan_));
   const Trajectory& rows = nodes.rows;

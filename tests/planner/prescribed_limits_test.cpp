@@ -81,7 +81,7 @@ TEST(PrescribedLimits, EveryRowOfTheTableIsHeld) {
 }
 
 /// Kinematic limits by hand.
-TEST(PrescribedLimits, TheUseIsWhatTheMotionSays) {
+TEST(PrescribedLimits, TheExcessFollowsFromTheMotion) {
   const std::map<std::string, double> expected{{"speed", 0.5},
                                                {"acceleration", 0.4},
                                                {"deceleration", 0.3},
@@ -145,7 +145,7 @@ TEST(PrescribedLimits, SpeedZonesAreHeldInsideThem) {
   EXPECT_EQ(verdict_of(planned(mission, unlimited())), nullptr);
 }
 
-TEST(PrescribedLimits, TwoLimitsThatAreExceededAreBothNamedAndNoneIsSaidToBeEnough) {
+TEST(PrescribedLimits, TwoExceededLimitsAreBothNamedWithoutARelaxation) {
   Robot robot = with_limit(*limit_named("battery_power"), 12);
   robot.limits->speed_m_s = 0.45;
   const Plan plan = planned(mission_of(trapezoid()), robot);
@@ -155,9 +155,8 @@ TEST(PrescribedLimits, TwoLimitsThatAreExceededAreBothNamedAndNoneIsSaidToBeEnou
   EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
 }
 
-/// After a spin to the left the casters have to swivel by twice as much for one to the right as from
-/// straight.
-TEST(PrescribedLimits, WhatTheCastersRememberOfTheLegBeforeCounts) {
+/// After a spin to the left, the casters swivel twice as far for a spin to the right as from straight.
+TEST(PrescribedLimits, CasterMemoryOfThePreviousLegCounts) {
   const auto spin = [](double angle_rad) {
     return LegRequest{.motion = PrescribedMotion{.profile = MotionProfile::spin,
                                                  .angle_rad = angle_rad,

@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "model/number_text.hpp"
 #include "planner/sweep/design_search.hpp"
 #include "planner/sweep/design_table.hpp"
 #include "planner/sweep/sweep_analysis.hpp"

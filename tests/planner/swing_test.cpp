@@ -23,7 +23,7 @@ MissionRequest to_goal(const Pose& start, const Point2& goal_m, std::optional<do
   return mission;
 }
 
-/// What the mission takes along a given path.
+/// Energy of the mission along a given path.
 double along_J(MissionRequest mission, const Path& path) {
   mission.legs = {{.to = "goal", .path = PathRequest{.ready = path}}};
   return plan_mission(mission, empty_floor(), kQuick).energy.total_J();
@@ -39,7 +39,7 @@ Path one_bezier(const Pose& start, const BezierPoints& points_m) {
   return Path{{Curve({BezierSegment(map_m.front())})}};
 }
 
-// Control points that were set by hand: one cubic that leaves in the robot's heading and swings round.
+// Control points set by hand: one cubic that leaves in the robot's heading and swings around.
 TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
   const Pose back{20, 20, 150 * std::numbers::pi / 180};
   const MissionRequest behind = to_goal(back, {24, 20});
@@ -52,9 +52,8 @@ TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
             1.002 * along_J(left, one_bezier(aside, {{{0, 0}, {0, 0.805}, {3.925, 0.134}, {6, 0}}})));
 }
 
-// Where the cheapest way with a lead along the start's heading is a curve already, curves that go straight
-// for the goal are tried all the same. A brute-force search over splines finds 84.7 J; turning in place
-// takes 99.4 J.
+// Also where the cheapest way with a lead along the start's heading is already a curve, curves straight to
+// the goal are tried. A brute-force search over splines finds 84.7 J; turning in place takes 99.4 J.
 TEST(Swing, IsTriedFromTheStraightLineWhereALeadIsCheaperThanATurn) {
   const MissionRequest mission = to_goal({20, 20, 2.07096}, {18.25321, 19.31798}, 1.07146);
   const Plan plan = plan_mission(mission, empty_floor(), kQuick);
@@ -103,7 +102,7 @@ TEST(Swing, AStopWithoutAHeadingIsLeftAsItIsReached) {
 }
 
 TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
-  // A wall half a metre to the left of a robot that must turn round to the left or the right.
+  // A wall half a metre to the left of a robot that must turn by half a turn in either direction.
   MissionWorld world = empty_floor();
   for (int row = 206; row < 400; ++row)
     for (int column = 0; column < 400; ++column)

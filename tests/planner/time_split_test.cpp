@@ -31,7 +31,7 @@ TimeSplitRequest request_of(const std::vector<Leg>& legs, std::vector<double> la
           .lowest_price_W = 0.0};
 }
 
-TEST(TimeSplit, WithoutDeadlinesNobodyPaysForTime) {
+TEST(TimeSplit, WithoutDeadlinesThePriceOfTimeIsTheLowest) {
   const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {kNone, kNone}));
   EXPECT_EQ(split.price_W, (std::vector<double>{0.0, 0.0}));
   EXPECT_NEAR(split.arrival_s[1], std::sqrt(50.0) + 5.0, 1e-12);

@@ -25,7 +25,7 @@ VisitRequest pick(const std::string& station, double payload_kg) {
       .kind = VisitRequest::Kind::pick, .station = station, .payload_kg = payload_kg, .payload_given = true};
 }
 
-/// A light load nearby, a heavy one far off, another light one on the way; all goes back to the dock.
+/// A light load nearby, a heavy one far away, another light one on the way; all go back to the dock.
 MissionRequest round_trip() {
   MissionRequest mission{.name = "round"};
   mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0}},
@@ -81,7 +81,28 @@ TEST(VisitOrder, AWindowTurnsTheOrderRound) {
   EXPECT_LE(plan.legs[0].start_s + plan.legs[0].duration_s, 25.0);
 }
 
-/// A window that the most economical drive misses and a faster one keeps, against the same stops as legs.
+/// A window that the most economical drive misses and a faster one meets, compared with the same stops as
+/// legs.
+/// The robot is early and waits for the window: duration and standby energy count the wait.
+TEST(VisitOrder, TheWaitForAWindowIsPartOfThePlan) {
+  MissionRequest mission = round_trip();
+  mission.visit[1].window_s = {600, 900};
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  const Plan plan = visit_plan(mission, robot);
+  ASSERT_EQ(plan.status <= SolveStatus::feasible, true) << plan.message;
+  EXPECT_GT(plan.duration_s, 600);
+  EXPECT_NEAR(plan.energy.standby_J, 10 * plan.duration_s, 1e-6 * plan.energy.standby_J);
+  double time_s = 0, sum_J = 0;
+  for (const LegPlan& leg : plan.legs) {
+    EXPECT_NEAR(leg.start_s, time_s, 1e-6);
+    time_s += leg.duration_s + leg.dwell_s;
+    sum_J += leg.energy.total_J();
+  }
+  EXPECT_NEAR(time_s, plan.duration_s, 1e-6);
+  EXPECT_NEAR(sum_J, plan.energy.total_J(), 1e-6 * sum_J);
+}
+
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;

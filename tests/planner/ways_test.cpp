@@ -28,7 +28,7 @@ OccupancyGrid floor_with_rack() {
   return grid;
 }
 
-/// Round the rack by three stops; only the dock has a heading.
+/// Three stops around the rack; only the dock has a heading.
 MissionRequest round_of_three() {
   MissionRequest mission{.name = "round", .clearance_m = 0.05};
   mission.stations = {{"dock", {.x_m = 2, .y_m = 2, .heading_rad = 0.0, .charger_W = 200}},
@@ -77,7 +77,7 @@ TEST(Ways, EveryStepLowersTheCostAndTheWholeIsWhatIsDriven) {
 
 TEST(Ways, AHeadingAtAStopIsReachedByAnArcWhereThatIsCheaper) {
   PlanOptions turning = kCoarse;
-  turning.steps.refinement = false;  // refinement replaces turns by curves itself
+  turning.steps.refinement = false;  // refinement would replace turns by curves
   const PlanOptions bending = turning;
   turning.steps.stops = false;
   const Plan turned = plan_of(round_of_three(), turning), bent = plan_of(round_of_three(), bending);
@@ -134,7 +134,7 @@ TEST(WayChain, IsNoDearerThanAnyOtherChoice) {
   EXPECT_NEAR(best_J, least_J, 1e-9 * least_J);
 }
 
-TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
+TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   MissionRequest mission = round_of_three();
   mission.legs.push_back({.to = "east"});
   mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
@@ -165,7 +165,7 @@ TEST(Charging, AStopIsPutInOnlyWhereTheReserveWouldBeTouched) {
   EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
 }
 
-TEST(EnergyBand, LegsErrTogetherAndNoUncertaintyMeansNoBand) {
+TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
   Robot robot = testing::nomad();
   EXPECT_EQ(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J, 0.0);
   robot.uncertainty["standby_W"] = 0.1;

@@ -100,7 +100,7 @@ TEST_F(Bags, AVendorsMessagesAreReadByFieldPathInCdrAndJson) {
   EXPECT_EQ(*log.tables[1].find("/drive.motor_right.current"), (std::vector<double>{2.5, 3.5, 4.5}));
 }
 
-TEST_F(Bags, ClocksOrderAndRepetitionsAreTold) {
+TEST_F(Bags, ClockOrderAndRepeatedMessagesAreReported) {
   McapWriter bag;
   const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
   for (const int k : {0, 2, 1, 3, 3, 4}) {

@@ -44,14 +44,14 @@ TEST(BrokenFiles, EachGivesItsOwnMessage) {
   }
 }
 
-TEST(BrokenFiles, TheFilesThatTheyWereMadeFromAreRight) {
+TEST(BrokenFiles, TheUnbrokenFilesAreValid) {
   for (const char* file :
        {"robot.yaml", "mission.yaml", "visit.yaml", "map.yaml", "dataset.yaml", "fleet.yaml", "run.csv",
         "graph.geojson", "order.json", "path.yaml", "waypoints.csv", "corners.csv"})
     EXPECT_NO_THROW(static_cast<void>(read_any_file(kBroken + "good/" + file))) << file;
 }
 
-TEST(AnyFile, ALogWithPlacesIsALogAndNoPath) {
+TEST(AnyFile, ALogWithPositionsIsNotAPath) {
   const ScratchDirectory scratch;
   const auto kind_of = [&](const std::string& name, const std::string& text) {
     return read_any_file(scratch.write(name, text)).kind;
@@ -63,7 +63,7 @@ TEST(AnyFile, ALogWithPlacesIsALogAndNoPath) {
   EXPECT_EQ(kind_of("path.csv", "x_m,y_m\n0,0\n0.1,0\n0.2,0\n"), "path");
 }
 
-TEST(AnyFile, WhereAPathStopsOrTurnsIsNoted) {
+TEST(AnyFile, StopsAndTurnsOfAPathAreNoted) {
   const ScratchDirectory scratch;
   const auto notes_of = [&](const std::string& curves) {
     return read_any_file(scratch.write("path.yaml", "bezier_m: [" + curves + "]\n")).notes;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/signals/run_signals.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "tests/support/locations.hpp"
@@ -36,6 +38,28 @@ TEST(ClockJumps, ALogIsCutAtAJumpAndTheJumpIsReported) {
   ASSERT_EQ(runs[1].payload.size(), 2u);
   EXPECT_EQ(runs[1].payload[1].payload_kg, 2.0);
   EXPECT_NEAR(runs[1].payload[1].from_s, 2.5, 1e-9);
+}
+
+TEST(ClockJumps, StretchesHaveAllSamplesOfAllColumnsToTheLastBit) {
+  joulepath::Run whole{.name = "a.csv"};
+  for (std::size_t i = 0; i < 60; ++i) {
+    whole.log.time_s.push_back(static_cast<double>(i));
+    whole.log.payload_kg.push_back(3.0);
+    whole.log.linear_speed_m_s.push_back(i % 2 == 0 ? 0.0 : -0.0);
+    whole.log.motor_current_A.left.push_back(0.5 * static_cast<double>(i));
+  }
+  const Trajectory log = whole.log;
+  const auto runs = stretches_between(std::move(whole), {0, 1, 20, 60});  // the first has one sample
+  ASSERT_EQ(runs.size(), 2u);
+  for (const auto& [run, first] : {std::pair{&runs[0], 1u}, std::pair{&runs[1], 20u}})
+    for (std::size_t i = 0; i < run->log.size(); ++i) {
+      EXPECT_EQ(run->log.time_s[i], static_cast<double>(i));
+      EXPECT_EQ(run->log.payload_kg[i], 3.0);
+      EXPECT_EQ(std::signbit(run->log.linear_speed_m_s[i]), std::signbit(log.linear_speed_m_s[first + i]));
+      EXPECT_EQ(run->log.motor_current_A.left[i], log.motor_current_A.left[first + i]);
+      EXPECT_TRUE(run->log.motor_current_A.right.empty());
+    }
+  EXPECT_EQ(runs[0].log.size() + runs[1].log.size(), 59u);
 }
 
 TEST(ClockJumps, AGapOfAMinuteIsNoJumpAndABrokenClockTellsNoTimeOfDay) {

@@ -30,7 +30,7 @@ TEST(CsvTable, EmptyCellsAreMissingValues) {
   EXPECT_EQ(table.line_of_row, (std::vector<int>{2, 3}));
 }
 
-TEST(CsvTable, ColumnsNotWantedMayHoldAnything) {
+TEST(CsvTable, UnrequestedColumnsMayContainAnything) {
   const CsvTable table = parse_csv("note,a,note\n\"x, y\",1,nan\nz,2,\n", "t.csv",
                                    [](const std::string& name) { return name == "a"; });
   EXPECT_EQ(*table.find("a"), (std::vector<double>{1, 2}));

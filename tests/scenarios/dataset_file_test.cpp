@@ -148,7 +148,7 @@ runs: [{file: a.csv, predicted: sim.csv}]
   EXPECT_EQ(dataset.runs[0].predicted->wheel_speed_rad_s.left[1], 8.0);
 }
 
-TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsTold) {
+TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {
   const ScratchDirectory scratch;
   std::string csv = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,battery_voltage_V\n";
   double t = 0.0;
@@ -169,7 +169,7 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsTold) {
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
 }
 
-TEST(DatasetFile, ASlowLocalizationIsToldAndASmoothDriveIsNot) {
+TEST(DatasetFile, ASlowLocalizationIsReportedAndASmoothDriveIsNot) {
   const ScratchDirectory scratch;
   const auto artifacts_with_pose_every = [&](int rows) {
     std::string csv =

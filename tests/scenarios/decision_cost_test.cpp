@@ -13,7 +13,7 @@ TEST(DecisionCost, TheRightModelLosesNothing) {
   EXPECT_EQ(cost.joules_lost_percent, 0.0);
 }
 
-TEST(DecisionCost, AWrongModelIsNeverTheBetterPlanner) {
+TEST(DecisionCost, AWrongModelNeverPlansBetter) {
   Robot patient = testing::nomad();
   patient.power.standby_W = 2.0;
   patient.motor.left.resistance_ohm = patient.motor.right.resistance_ohm = 2.0;

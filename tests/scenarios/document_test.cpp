@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-/// The message of the refusal of a text; empty: it is accepted.
+/// The error message for a text; empty: the text is accepted.
 std::string refusal(const std::string& file, const std::string& text) {
   try {
     static_cast<void>(Document::parse(text, file));

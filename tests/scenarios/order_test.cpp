@@ -44,7 +44,7 @@ const Path& path_of(const MissionRequest& mission, std::size_t leg = 0) {
   return *mission.legs.at(leg).path->ready;
 }
 
-TEST(Order, BothVersionsSayTheSame) {
+TEST(Order, BothVersionsGiveTheSameMission) {
   const ScratchDirectory scratch;
   const std::string v2 = scratch.write(
       "2.json",
@@ -128,7 +128,7 @@ TEST(Order, AgainstTheEdgeIsDrivenInReverse) {
   EXPECT_NEAR(wrapped_angle_rad(global.second + pi / 2), 0, 1e-6);
 }
 
-TEST(Order, AHeadingAtANodeIsTurnedTo) {
+TEST(Order, TheRobotTurnsToTheHeadingOfANode) {
   const ScratchDirectory scratch;
   const MissionRequest mission = mission_of(
       scratch.write("o.json", order(node(0, 0, 0) + "," + node(2, 2, 0, ", \"theta\": 1.5"), edge(1))));
@@ -136,7 +136,7 @@ TEST(Order, AHeadingAtANodeIsTurnedTo) {
   EXPECT_NEAR(path_of(mission).turned_rad(), 1.5, 1e-12);
 }
 
-TEST(Order, ActionsTakeTheTimeThatTheirBlockingMakes) {
+TEST(Order, DurationOfActionsFollowsTheirBlockingType) {
   using Blocking = OrderAction::Blocking;
   const auto action = [](Blocking blocking, double duration_s) {
     return OrderAction{.type = "a", .blocking = blocking, .duration_s = duration_s};

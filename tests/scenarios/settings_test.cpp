@@ -42,11 +42,13 @@ TEST(HeavyRobot, SettingsAreNotLate) {
     Export (*write)(const ExportInput&);
   };
   for (const auto& [name, write] :
-       {Case{"controller.json", export_controller}, Case{"settings.yaml", export_nav2_settings}}) {
+       {Case{"controller.json", export_controller}, Case{"settings.yaml", export_nav2_settings},
+        Case{"order.json", export_vda5050}, Case{"mask.yaml", export_speed_mask}}) {
     const Export result = write(heavy().input(name));
     ASSERT_TRUE(result.loss) << name;
     EXPECT_TRUE(result.loss->plan_time) << name << " is later than the plan";
     EXPECT_LE(result.loss->own_time.duration_s, heavy().plan.duration_s * (1 + 1e-5)) << name;
+    EXPECT_EQ(result.loss->broken_limit, "") << name;
   }
 }
 

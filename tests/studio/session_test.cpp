@@ -165,7 +165,7 @@ TEST(Session, NoClassicProfileTakesLessInTheSameTime) {
   }
 }
 
-TEST(Session, SaysWhatIsWrongInsteadOfThrowing) {
+TEST(Session, ReturnsErrorsInsteadOfThrowing) {
   json question = curve_question("plan");
   question["mission"]["legs"][0]["payload"] = 3;
   EXPECT_NE(answer_to(question).at("error").at("message").get<std::string>().find("payload_kg"),

@@ -72,20 +72,12 @@ class StudioPage(Browser):
         end = time.monotonic() + patience_s
         while not self.run(condition):
             if time.monotonic() > end:
-                raise AssertionError(f"not within {patience_s} s: {condition}; errors {self.run('return studio.errors')}; console {self.console()}")
+                raise AssertionError(f"not within {patience_s} s: {condition}; errors {self.run('return joulepath.errors')}; console {self.console()}")
             time.sleep(0.02)
 
     def settle(self):
         """Until the mission as it is now is planned."""
         self.until("return ['planned', 'certified', 'problem'].includes(document.documentElement.dataset.state)")
-
-    def width(self, pixels, height=1000):
-        self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride",
-                                                "params": {"width": pixels, "height": height, "deviceScaleFactor": 1, "mobile": False}})
-
-    def press(self, selector, key):
-        element = self.call("POST", "/element", {"using": "css selector", "value": selector})
-        self.call("POST", f"/element/{element[ELEMENT]}/value", {"text": key})
 
     def keys(self, *texts):
         actions = [{"type": kind, "value": key} for text in texts for key in text for kind in ("keyDown", "keyUp")]
@@ -110,7 +102,8 @@ class StudioPage(Browser):
         return name
 
     def messages(self):
-        return self.console() + self.run("return studio.errors")
+        """Errors of the page; not Chromium's note that a test left a page with unsaved changes."""
+        return [told for told in self.console() if "beforeunload" not in told] + self.run("return joulepath.errors")
 
 
 __all__ = ["Served", "StudioPage", "chromium", "write_mission", "random", "SOURCE", "MISSION"]

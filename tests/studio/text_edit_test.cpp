@@ -124,7 +124,7 @@ TEST(TextEdit, ReadsBackAsWantedAfterRandomEdits) {
   EXPECT_NE(text.find("# by the door"), std::string::npos) << text;
 }
 
-TEST(TextEdit, RefusesWhatItCannotKeep) {
+TEST(TextEdit, RejectsNotationsThatItCannotKeep) {
   const std::string text = "a: &x {k: 1}\nb: *x\n";
   Json wanted = values_of(text);
   wanted["b"]["k"] = 2;

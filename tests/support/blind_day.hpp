@@ -16,8 +16,8 @@ namespace joulepath::testing {
 inline std::string blind_plant() { return std::string(JOULEPATH_BINARY_DIR) + "/bin/blind_plant"; }
 inline bool have_blind_plant() { return std::filesystem::exists(blind_plant()); }
 
-/// A test day from the benchmark's plant: separate wheel bodies, electrical states, a controller, its own
-/// integrator. It shares no code with the diagnosis. `options` of blind_plant, without --out.
+/// A test day of the benchmark's plant, which shares no code with the diagnosis: separate wheel bodies,
+/// electrical states, a controller, its own integrator. `options`: of blind_plant, without --out.
 inline Dataset blind_day(const std::string& options) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / ("blind_day_" + std::to_string(getpid()));
@@ -29,7 +29,7 @@ inline Dataset blind_day(const std::string& options) {
   return dataset;
 }
 
-/// `size` 0: drawn.
+/// `size` 0: a random size.
 inline Dataset blind_day(const std::string& effect, double size, int level, int runs, int seed) {
   return blind_day("--effect " + effect + (size != 0 ? " --size " + std::to_string(size) : "") + " --level " +
                    std::to_string(level) + " --protocol " + std::to_string(runs) + " --seed " +

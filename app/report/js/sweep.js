@@ -1,4 +1,8 @@
-/* `joulepath sweep`: the best design, the Pareto front, the effect of each parameter, the reasons why designs do not count. */
+/** `joulepath sweep`: the best design, the Pareto front, the effect of each parameter, the reasons why designs do not count. */
+import {h, key} from "page/dom.js";
+import {fraction, number, percent, short, with_unit, words} from "page/numbers.js";
+import {jp} from "report/core.js";
+import "report/bars.js";
 
 /** Energy against duration: every design a dot, the Pareto front on top. */
 jp.design_cloud = function (sweep) {
@@ -17,42 +21,42 @@ jp.design_cloud = function (sweep) {
   [0, 0.25, 0.5, 0.75, 1].forEach((part) => {
     const at_t = t[0] + part * (t[1] - t[0]), at_e = e[0] + part * (e[1] - e[0]);
     picture.append(svg("line", {x1: left, x2: width - right, y1: y(at_e), y2: y(at_e), stroke: "var(--grid)"}),
-      svg("text", {x: left - 8, y: y(at_e) + 4, "text-anchor": "end", "font-size": 13, fill: "var(--soft)"}, jp.number(at_e, 4)),
-      svg("text", {x: x(at_t), y: height - bottom + 18, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, jp.number(at_t, 4)));
+      svg("text", {x: left - 8, y: y(at_e) + 4, "text-anchor": "end", "font-size": 13, fill: "var(--soft)"}, number(at_e, 4)),
+      svg("text", {x: x(at_t), y: height - bottom + 18, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, number(at_t, 4)));
   });
   picture.append(svg("text", {x: (left + width) / 2, y: height - 6, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, "duration of all missions, s"),
     svg("text", {x: 14, y: (height - bottom) / 2, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)", transform: `rotate(-90 14 ${(height - bottom) / 2})`}, "energy, J"));
   dots.forEach(([time, energy, within]) => picture.append(svg("circle", {cx: x(time), cy: y(energy), r: 3, fill: within ? "var(--sixth)" : "none", stroke: within ? "none" : "var(--soft)", "fill-opacity": 0.7})));
   front.forEach(([time, energy]) => picture.append(svg("circle", {cx: x(time), cy: y(energy), r: 5, fill: "var(--second)"})));
-  return jp.h("div", {}, jp.h("p", {class: "small"}, jp.key("Pareto front", "var(--second)", "box"), jp.key("within the constraints", "var(--sixth)", "box"), jp.key("outside", "var(--soft)", "box")), picture);
+  return h("div", {}, h("p", {class: "small"}, key("Pareto front", "var(--second)", "box"), key("within the constraints", "var(--sixth)", "box"), key("outside", "var(--soft)", "box")), picture);
 };
 
 /** The effect of a parameter: the mean of each level, and its share of the variance. */
 jp.sweep_effects = function (effects, unit) {
-  const shares = jp.bar_rows(effects.main.map((one) => ({label: one.parameter, value: one.share_of_variance, text: jp.fraction(one.share_of_variance)})), {most: 1});
+  const shares = jp.bar_rows(effects.main.map((one) => ({label: one.parameter, value: one.share_of_variance, text: fraction(one.share_of_variance)})), {most: 1});
   const means = effects.main.map((one) => {
     const values = one.levels.map((level) => level.mean), low = Math.min(...values), high = Math.max(...values);
-    return jp.h("div", {}, jp.h("h3", {}, one.parameter), jp.table(["level", {n: `mean, ${unit}`}, {n: "against the best level"}, {n: "designs"}],
-      one.levels.map((level) => [level.level, {n: jp.number(level.mean, 6)}, {n: high > low ? "+" + jp.percent(100 * (level.mean / low - 1), 3) : "–"}, {n: String(level.designs)}])));
+    return h("div", {}, h("h3", {}, one.parameter), jp.table(["level", {n: `mean, ${unit}`}, {n: "against the best level"}, {n: "designs"}],
+      one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high > low ? "+" + percent(100 * (level.mean / low - 1), 3) : "–"}, {n: String(level.designs)}])));
   });
   const pairs = effects.interactions.filter((one) => one.share_of_variance > 1e-4).slice(0, 10);
-  return [jp.h("h3", {}, "Share of the variance"), shares,
-    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: jp.fraction(one.share_of_variance)}])) : jp.h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects."),
-    jp.h("div", {class: "columns"}, means)];
+  return [h("h3", {}, "Share of the variance"), shares,
+    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: fraction(one.share_of_variance)}])) : h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects."),
+    h("div", {class: "columns"}, means)];
 };
 
 jp.draw_sweep = function (data) {
   const sweep = data.sweep, names = (sweep.parameters || []).map((one) => one.name);
-  const value = (one, name) => (typeof one.parameters[name] === "number" ? jp.short(one.parameters[name], 6) : String(one.parameters[name]));
+  const value = (one, name) => (typeof one.parameters[name] === "number" ? short(one.parameters[name], 6) : String(one.parameters[name]));
   const heads = [...names.map((name) => ({n: name})), {n: "energy J"}, {n: "motion J"}, {n: "time s"}];
-  const row = (one) => [...names.map((name) => ({n: value(one, name)})), {n: jp.number(one.energy_J, 6)}, {n: jp.number(one.motion_energy_J, 6)}, {n: jp.number(one.duration_s, 5)}];
+  const row = (one) => [...names.map((name) => ({n: value(one, name)})), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s, 5)}];
   const best = sweep.optimized && sweep.optimized.within_constraints ? sweep.optimized : sweep.best;
   const reasons = Object.entries(sweep.not_counted || {});
-  jp.page(jp.header(data.title || "Sweep", `${jp.short(sweep.designs, 9)} designs`, best ? `${jp.short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
-    best ? jp.h("div", {class: "tiles"}, jp.tile("Best energy", jp.with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", jp.with_unit(best.duration_s, "s"))) : null,
-    jp.h("div", {class: "notice"}, jp.h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
+  jp.page(jp.header(data.title || "Sweep", `${short(sweep.designs, 9)} designs`, best ? `${short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
+    best ? h("div", {class: "tiles"}, jp.tile("Best energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
+    h("div", {class: "notice"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
     sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
     sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,
-    reasons.length ? jp.section("Not counted", jp.table(["reason", {n: "plans"}], reasons.map(([reason, count]) => [jp.words(reason), {n: String(count)}]))) : null);
+    reasons.length ? jp.section("Not counted", jp.table(["reason", {n: "plans"}], reasons.map(([reason, count]) => [words(reason), {n: String(count)}]))) : null);
 };

@@ -59,8 +59,8 @@ void add_mechanics(std::vector<Term>& terms) {
   sign_term("stribeck_friction", "torque_Nm",
             [](const Instant& at, std::size_t s) { return std::exp(-at.q[s] * at.q[s]); });
   sign_term("gear_efficiency", "loss_fraction", [](const Instant& at, std::size_t s) {
-    return std::abs(
-        nominal_torque_Nm(at, s));  // noise-free: a measured current would regress on its own noise
+    // Noise-free: regressing on a measured current would include its noise on both sides.
+    return std::abs(nominal_torque_Nm(at, s));
   });
   sign_term("direction_dependent_friction", "reverse_torque_Nm",
             [](const Instant& at, std::size_t s) { return at.q[s] < 0 ? 1.0 : 0.0; });

@@ -1,6 +1,6 @@
-// blind_controls DATA_SET_FOLDER OUT.json: the answers of simpler methods on the same data, in the form of
-// diagnosis.json: always friction, a plain refit of the robot file's parameters, sparse regression (STLSQ),
-// and a black box on the residual power. Every fourth run is held out for the energy figures.
+// blind_controls DATA_SET_FOLDER OUT.json: results of simpler methods on the same data, in the form of
+// diagnosis.json. Methods: always friction, a plain refit of the robot file's parameters, sparse regression
+// (STLSQ), and a black box on the residual power. Every fourth run is held out for the energy figures.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -135,8 +135,8 @@ std::string always_friction(const std::vector<std::vector<Row>>& rows, const Rob
                 held_out_energy(rows, fit));
 }
 
-/// Least squares on the robot file's own parameters; the named one changed by the most sigmas of its
-/// calibration.
+/// Least squares on the parameters of the robot file. The result names the parameter that changed by the most
+/// sigmas of its calibration.
 std::string plain_refit(const std::vector<std::vector<Row>>& rows, const Robot& robot,
                         const Weights& weights) {
   Fit fit{parameter_library(robot), {}};

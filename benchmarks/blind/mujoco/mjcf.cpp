@@ -9,10 +9,10 @@ namespace blind {
 namespace {
 
 constexpr double kTireFriction = 0.9;
-constexpr double kCasterClearance_m =
-    3e-4;  // a soft contact yields by half of it: the wheels carry the robot
+// The soft contact yields by half of it, so that the wheels carry the robot.
+constexpr double kCasterClearance_m = 3e-4;
 
-/// Throws for effects of the world that this physics cannot model.
+/// Throws for effects of the world that MuJoCo cannot model.
 void refuse_what_has_no_form(const World& w) {
   World allowed;
   allowed.rolling_coefficient = w.rolling_coefficient;

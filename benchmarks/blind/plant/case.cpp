@@ -29,7 +29,7 @@ void draw_calibration_error(Case& c) {
   }
 }
 
-/// Sensors are scaled to the machine: the Nomad's are those of the practice sets.
+/// Sensors are scaled to the machine; those of the Nomad equal the sensors of the practice sets.
 void draw_noise(Case& c) {
   Random random = stream(c, 2);
   const Machine nomad = nominal_machine("nomad");

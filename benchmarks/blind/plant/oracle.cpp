@@ -123,9 +123,9 @@ RunDirections directions_of(const Case& c, const Scene& scene, std::size_t run) 
   return d;
 }
 
-/// min over calibration errors nu of |full - null(nu)|^2 + |nu|^2, by Gauss-Newton with the null model
-/// simulated again at each step: a calibration error that accumulates in the pose is no evidence. `free` has
-/// a direction per run that costs nothing (another effect's size), or is empty.
+/// min over calibration errors nu of |full - null(nu)|^2 + |nu|^2, by Gauss-Newton. Each step simulates the
+/// null model again, because a calibration error that accumulates in the pose is not evidence. `free` has a
+/// direction per run without a cost (another effect's size), or is empty.
 double profiled_ratio(const Case& c, const Scene& null, const std::vector<Vector>& full,
                       const std::vector<RunDirections>& directions, const std::vector<Vector>& free) {
   Vector nu(kNuisances, 0.0);
@@ -150,7 +150,7 @@ double profiled_ratio(const Case& c, const Scene& null, const std::vector<Vector
       sum[k + 1][0] -= nu[k];
     }
     const double here = marginalized(sum, kNuisances, 1.0)[0][0];
-    if (round > 0 && !(here <= value)) break;  // no step, or one to where the model has no answer
+    if (round > 0 && !(here <= value)) break;  // no step, or a step to an invalid state of the model
     value = here;
     for (std::size_t k = 0; k < kNuisances; ++k) {  // the step of nuisance k: eliminate all others first
       Matrix order = sum;

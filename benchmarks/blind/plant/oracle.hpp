@@ -7,18 +7,19 @@ namespace blind {
 
 struct Case;
 
-/// The best possible answer with everything known but the calibration error, computed before any diagnosis.
+/// The best possible diagnosis with everything known except the calibration error, computed before any
+/// diagnosis.
 struct OracleResult {
-  /// 2 ln(likelihood ratio) expected for the true effects at their true size against none, calibration
-  /// errors profiled with their prior and per-run scatter marginalized, under the true noise covariance.
+  /// Expected 2 ln(likelihood ratio) of the true effects at their true size against none. Calibration errors
+  /// are profiled with their prior, scatter between runs is marginalized, and the noise covariance is the
+  /// true one.
   double likelihood_ratio{};
   /// The same for each effect alone, the others profiled: pairs, one figure per effect.
   std::map<std::string, double> each{};
   /// Share of the summed absolute power gap to the nominal model, by axis and cell.
   std::map<std::string, std::map<std::string, double>> where{};
-  double
-      effect_percent{};  ///< what the effects change of the motors' or the battery's energy, the larger one
-  double effect_pose_rms{};     ///< and of the pose (m and rad together)
+  double effect_percent{};      ///< change of the energy of the motors or of the battery, the larger one
+  double effect_pose_rms{};     ///< change of the pose (m and rad together)
   double energy_gap_percent{};  ///< sum over runs |nominal - true| energy / true energy
 };
 

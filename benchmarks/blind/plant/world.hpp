@@ -7,8 +7,9 @@
 
 namespace blind {
 
-/// Everything that acts on the machine or on its sensors beyond the constants of `Machine`; zero = absent.
-/// The catalog's effects set their own field; the foreign ones come last and are in no catalog.
+/// Everything that acts on the machine or on its sensors in addition to the constants of `Machine`; zero =
+/// absent. Each effect of the catalog sets its own field; foreign effects come last and are not in the
+/// catalog.
 struct World {
   // Resistance.
   double rolling_coefficient{};
@@ -34,7 +35,7 @@ struct World {
   Pair current_offset_A{};
   double current_gain{};
   double electrical_delay_s{};
-  // Rough level: slight departures from the textbook's forms, in every case of that level.
+  // Rough level: slight departures from the textbook forms, in every case of that level.
   double form{};             ///< relative change of an effect's size over its own driving variable
   Pair cogging_torque_Nm{};  ///< ripple over the wheel angle
   Pair cogging_phase_rad{};

@@ -11,35 +11,35 @@
 
 namespace joulepath {
 
-/// A hat function: 1 at `center`, 0 a `width` away.
+/// A hat function: 1 at `center`, 0 at a distance of `width`.
 inline double hat(double x, double center, double width) {
   return std::max(0.0, 1.0 - std::abs(x - center) / width);
 }
 
-/// Share of the dataset's time of day that has passed at a sample, 0 to 1.
+/// Elapsed share of the dataset's time of day at a sample, 0 to 1.
 inline double day_share(const DictionaryLayout& layout, const RunSignals& signals, Eigen::Index j) {
   return (signals.time_of_day_s[j] - layout.day_begin_s) /
          std::max(1.0, layout.day_end_s - layout.day_begin_s);
 }
 
-/// Speeds of the body at a sample, from the speeds of the wheels.
+/// Body velocity at a sample from the wheel speeds.
 inline Twist<double> twist_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
   return body_twist(robot.geometry,
                     Sided<double>{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]});
 }
 
-/// Accelerations of the body at a sample, from those of the wheels.
+/// Body acceleration at a sample from the wheel accelerations.
 inline Twist<double> twist_rate_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
   return body_twist(robot.geometry, Sided<double>{signals.wheel_acceleration_rad_s2.left[j],
                                                   signals.wheel_acceleration_rad_s2.right[j]});
 }
 
-/// Collects entries of the dictionary; either only their names (no signals) or their rows too.
+/// Collects entries of the dictionary: names only (without signals), or names and rows.
 class DictionaryCollector {
  public:
   DictionaryCollector(const RunSignals* signals, const Robot* robot) : signals_(signals), robot_(robot) {}
 
-  /// A resisting torque of both wheels alike (and the left less the right, where `apart`).
+  /// A resisting torque on both wheels; with `apart` also left minus right.
   template <class Function>
   void friction(const std::string& family, bool apart, Function&& size) {
     for (int sign : {1, -1}) {
@@ -55,7 +55,7 @@ class DictionaryCollector {
       });
     }
   }
-  /// A torque on each wheel by itself, whichever way it turns.
+  /// A torque on each wheel separately, independent of its direction of rotation.
   template <class Function>
   void torque(const std::string& family, Side side, Function&& size_Nm) {
     entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
@@ -92,7 +92,7 @@ class DictionaryCollector {
       });
     }
   }
-  /// Power that the supply gives beside the motors'.
+  /// Supply power in addition to the motors' power.
   template <class Function>
   void battery_power(const std::string& family, Function&& size_W) {
     entry(family, "battery power",
@@ -104,7 +104,7 @@ class DictionaryCollector {
     entry(family, "battery voltage",
           [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) { entry_rows(j, kSupplyVoltage) = size_V(j); });
   }
-  /// Speed along the heading and yaw rate that the wheels do not show.
+  /// Speed along the heading and yaw rate that differ from those of the wheels.
   template <class Along, class Yaw>
   void motion(const std::string& family, Along&& along_m_s, Yaw&& yaw_rad_s) {
     double x_m = 0, y_m = 0, heading_rad = 0;
@@ -143,17 +143,17 @@ class DictionaryCollector {
   const Robot* robot_;
 };
 
-/// What the wheels' torques, a force or a moment may depend on; entries of the current rows. `s` and
-/// `robot` are null where only names are asked for.
+/// Variables of the wheels' torques, of a force or of a moment; entries of the current rows. `s` and `robot`
+/// are null where only names are collected.
 void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                    const Robot* robot);
-/// What a winding's voltage may depend on.
+/// Variables of a winding's voltage.
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                   const Prediction* p);
-/// What the supply's power and voltage may depend on.
+/// Variables of the supply's power and voltage.
 void add_supply(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Prediction* p);
-/// What the motion may show that the wheels do not.
+/// Variables of the motion relative to the wheels.
 void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Robot* robot);
 

@@ -10,9 +10,12 @@ namespace joulepath::nlp {
 /// and rows that are linear in b keep their derivatives.
 class FastModel {
  public:
-  explicit FastModel(const Problem& problem);
+  /// Room for problems of this size.
+  void reserve(std::size_t segments, std::size_t rows);
+  /// Takes another problem, which has to outlive its use.
+  void set_problem(const Problem& problem);
 
-  const Problem& problem() const { return p_; }
+  const Problem& problem() const { return *p_; }
   /// Evaluates at squares of the rate at all nodes.
   void evaluate(const std::vector<double>& b);
 
@@ -30,7 +33,7 @@ class FastModel {
   };
   void evaluate_rows(std::size_t segment, double b0, double b1);
 
-  const Problem& p_;
+  const Problem* p_{};
   std::vector<Coefficients> coefficients_{};
   std::vector<SegmentJets> jets_{};
   std::vector<Jet> rows_{};

@@ -47,9 +47,24 @@ void add_recoveries(FastState& state, const FastModel& model, double mu) {
 
 }  // namespace
 
-FastState starting_state(FastModel& model, const FastStart& start) {
+void FastState::reserve(std::size_t nodes, std::size_t rows) {
+  b.reserve(nodes);
+  low.reserve(nodes);
+  high.reserve(nodes);
+  sides.reserve(2 * rows);
+  recoveries.reserve(2 * nodes);
+}
+
+void set_starting_state(FastModel& model, const FastStart& start, FastState& state) {
   const Problem& problem = model.problem();
-  FastState state{.b = start.b, .duration_row = problem.duration_row};
+  state.b.assign(start.b.begin(), start.b.end());
+  state.low.clear();
+  state.high.clear();
+  state.sides.clear();
+  state.recoveries.clear();
+  state.time = {};
+  state.lambda = state.time_residual = 0;
+  state.duration_row = problem.duration_row;
   for (std::size_t k = 1; k + 1 < state.b.size(); ++k) {
     const double cap = problem.cap[k].squared;
     state.b[k] = std::clamp(state.b[k], std::min(1e-12, 1e-3 * cap), cap * (1 - start.room));
@@ -63,8 +78,8 @@ FastState starting_state(FastModel& model, const FastStart& start) {
   if (state.has_budget()) {
     const double s = std::max(problem.duration_s - model.duration_s(), 1e-3 * problem.duration_s);
     state.time = {.s = s, .y = std::min(0.05 * size / s, 0.2 * size / problem.duration_s)};
+    if (start.price_W) state.time.y = *start.price_W;
   }
-  return state;
 }
 
 }  // namespace joulepath::nlp

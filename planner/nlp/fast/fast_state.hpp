@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/nlp/fast/fast_model.hpp"
@@ -41,6 +42,9 @@ struct Recovery {
 
 /// Everything that an interior-point iteration moves. A cap that is infinite has an empty pair in `high`.
 struct FastState {
+  /// Room for problems of this size.
+  void reserve(std::size_t nodes, std::size_t rows);
+
   std::vector<double> b{};  ///< squares of the rate at all nodes
   std::vector<Pair> low{};  ///< b >= 0, per inner node
   std::vector<Pair> high{};
@@ -74,9 +78,10 @@ struct FastStart {
   const std::vector<double>& b;
   double gap{};   ///< complementarity of every pair, as a share of a segment's part of the objective
   double room{};  ///< least share of a cap that is left below it
+  std::optional<double> price_W{};  ///< multiplier of the duration's budget, where it is known
 };
 
-/// A strictly positive state near a start; evaluates the model there.
-[[nodiscard]] FastState starting_state(FastModel& model, const FastStart& start);
+/// Sets a strictly positive state near a start; evaluates the model there.
+void set_starting_state(FastModel& model, const FastStart& start, FastState& state);
 
 }  // namespace joulepath::nlp

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/nlp/fast/jerk_newton.hpp"
+#include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
 // Design: docs/decisions/0210-jerk-by-stages.md
 namespace joulepath::nlp {
@@ -17,11 +18,12 @@ constexpr double kFarGap = 0.1, kNearGap = 1e-2;
 
 class JerkFastSolver {
  public:
-  JerkFastSolver(const JerkProgram& program, double first_gap)
-      : program_(program),
-        p_(program.problem()),
-        state_(starting_state(program, first_gap)),
-        newton_(program, state_) {}
+  JerkFastSolver(const JerkProgram& program, double first_gap, double kink_width)
+      : kinks_(program.problem(), kink_width),
+        p_(kinks_.problem()),
+        program_(program, p_),
+        state_(rounded_start(first_gap)),
+        newton_(program_, state_) {}
 
   JerkSolution solve() {
     JerkSolution solution;
@@ -29,11 +31,11 @@ class JerkFastSolver {
     for (; i < kMostIterations; ++i) {
       const double error = measure();
       if (!std::isfinite(error)) break;
-      if (error <= kTolerance) {
+      if (error <= kTolerance && kinks_.is_settled()) {
         solution.converged = true;
         break;
       }
-      if (!iterate()) break;
+      if (!iterate(error)) break;
     }
     if (!solution.converged)
       solution.message = i >= kMostIterations ? "no convergence within its iterations" : "no descent";
@@ -44,6 +46,11 @@ class JerkFastSolver {
   }
 
  private:
+  JerkState rounded_start(double gap) {
+    kinks_.start(program_.squares(), gap);
+    return starting_state(program_, gap);
+  }
+
   /// Residuals of the optimality conditions at the current point, relative to the objective.
   double measure() {
     double gap = 0, primal = 0, dual_z = 0, defect = 0;
@@ -80,7 +87,7 @@ class JerkFastSolver {
   }
 
   /// Mehrotra's predictor and corrector; false if no step is left.
-  bool iterate() {
+  bool iterate(double error) {
     newton_.assemble();
     state_.for_each_pair([](Pair& pair) { pair.corrected = 0; });
     const std::optional<StepSizes> affine = newton_.solve();
@@ -100,12 +107,14 @@ class JerkFastSolver {
     });
     const std::optional<StepSizes> sizes = newton_.solve();
     if (!sizes) return false;
+    kinks_.narrow(error);
     newton_.take(*sizes);
     return sizes->primal > 1e-8;
   }
 
-  const JerkProgram& program_;
+  NarrowingKinks kinks_;
   const Problem& p_;
+  const JerkProgram program_;
   JerkState state_;
   JerkNewton newton_;
   std::size_t pairs_{};
@@ -116,7 +125,15 @@ class JerkFastSolver {
 }  // namespace
 
 JerkSolution solve_fast(const JerkProgram& program, JerkStart start) {
-  return JerkFastSolver(program, start == JerkStart::near ? kNearGap : kFarGap).solve();
+  JerkSolution solution;
+  int iterations = 0;
+  for (const double width : kFinalWidths) {
+    solution = JerkFastSolver(program, start == JerkStart::near ? kNearGap : kFarGap, width).solve();
+    iterations += solution.iterations;
+    if (solution.converged || !has_kinks(program.problem())) break;
+  }
+  solution.iterations = iterations;
+  return solution;
 }
 
 }  // namespace joulepath::nlp

@@ -4,11 +4,17 @@
 #include <cmath>
 
 namespace joulepath::nlp {
-NewtonStep::NewtonStep(const FastModel& model, FastState& state)
-    : model_(model), p_(model.problem()), state_(state) {
-  const std::size_t n = p_.unknown_count();
+
+void NewtonStep::reserve(std::size_t nodes) {
+  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_}) v->reserve(nodes);
+  for (Tridiagonal* matrix : {&hessian_, &original_}) matrix->reserve(nodes);
+}
+
+void NewtonStep::set_problem() {
+  p_ = &model_.problem();
+  const std::size_t n = p_->unknown_count();
   for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_}) v->assign(n, 0.0);
-  hessian_ = Tridiagonal(n);
+  hessian_.resize(n);
 }
 
 void NewtonStep::add_gradient(std::size_t segment, double g0, double g1, std::vector<double>& to) const {
@@ -24,14 +30,14 @@ void NewtonStep::add_hessian(std::size_t segment, double h00, double h01, double
 }
 
 void NewtonStep::lagrangian_gradient(std::vector<double>& to) const {
-  const double weight = p_.time_weight_W + state_.multiplier_of_time();
-  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+  const double weight = p_->time_weight_W + state_.multiplier_of_time();
+  for (std::size_t k = 0; k < p_->segment_count(); ++k) {
     const SegmentJets& j = model_.jets(k);
     double g0 = weight * j.duration_s.d[0], g1 = weight * j.duration_s.d[1];
     for (std::size_t c = 0; c < 2; ++c) {
-      const double recovered = c < p_.channels ? state_.recoveries[k * p_.channels + c].sum.y : 0.0;
-      g0 += (p_.energy_weight - recovered) * j.energy_J[c].d[0];
-      g1 += (p_.energy_weight - recovered) * j.energy_J[c].d[1];
+      const double recovered = c < p_->channels ? state_.recoveries[k * p_->channels + c].sum.y : 0.0;
+      g0 += (p_->energy_weight - recovered) * j.energy_J[c].d[0];
+      g1 += (p_->energy_weight - recovered) * j.energy_J[c].d[1];
     }
     add_gradient(k, g0, g1, to);
   }
@@ -56,16 +62,16 @@ bool NewtonStep::factor() {
 }
 
 void NewtonStep::add_segments() {
-  const double weight = p_.time_weight_W + state_.multiplier_of_time();
-  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+  const double weight = p_->time_weight_W + state_.multiplier_of_time();
+  for (std::size_t k = 0; k < p_->segment_count(); ++k) {
     const SegmentJets& j = model_.jets(k);
     const Jet& dt = j.duration_s;
     double h00 = weight * dt.dd[0], h01 = weight * dt.dd[1], h11 = weight * dt.dd[2];
     for (std::size_t c = 0; c < 2; ++c) {
       const Jet& E = j.energy_J[c];
-      double part = p_.energy_weight;
-      if (c < p_.channels) {
-        const Recovery& r = state_.recoveries[k * p_.channels + c];
+      double part = p_->energy_weight;
+      if (c < p_->channels) {
+        const Recovery& r = state_.recoveries[k * p_->channels + c];
         part -= r.sum.y;
         const double sigma = r.z.sigma * r.sum.sigma * r.inverse_sigma;
         h00 += sigma * E.d[0] * E.d[0];
@@ -113,15 +119,15 @@ void NewtonStep::right_side() {
     const Pair &low = state_.low[k], &high = state_.high[k];
     gradient_[k] = (high.s > 0 ? high.corrected * high.inverse : 0.0) - low.corrected * low.inverse;
   }
-  for (std::size_t k = 0; k < p_.segment_count(); ++k) {
+  for (std::size_t k = 0; k < p_->segment_count(); ++k) {
     const SegmentJets& j = model_.jets(k);
-    double g0 = p_.time_weight_W * j.duration_s.d[0], g1 = p_.time_weight_W * j.duration_s.d[1];
+    double g0 = p_->time_weight_W * j.duration_s.d[0], g1 = p_->time_weight_W * j.duration_s.d[1];
     for (std::size_t c = 0; c < 2; ++c) {
-      double part = p_.energy_weight;
-      if (c < p_.channels) {
-        const Recovery& r = state_.recoveries[k * p_.channels + c];
+      double part = p_->energy_weight;
+      if (c < p_->channels) {
+        const Recovery& r = state_.recoveries[k * p_->channels + c];
         const double wanted = r.sum.corrected * r.sum.inverse;
-        const double excess = p_.recovery_weight - r.z.corrected * r.z.inverse - wanted;
+        const double excess = p_->recovery_weight - r.z.corrected * r.z.inverse - wanted;
         part += -wanted + r.sum.sigma * (r.z.sigma * r.residual - excess) * r.inverse_sigma;
       }
       g0 += part * j.energy_J[c].d[0];
@@ -141,7 +147,7 @@ void NewtonStep::right_side() {
 void NewtonStep::factor_border() {
   if (!state_.has_duration()) return;
   std::fill(time_gradient_.begin(), time_gradient_.end(), 0.0);
-  for (std::size_t k = 0; k < p_.segment_count(); ++k)
+  for (std::size_t k = 0; k < p_->segment_count(); ++k)
     add_gradient(k, model_.jets(k).duration_s.d[0], model_.jets(k).duration_s.d[1], time_gradient_);
   time_solved_ = time_gradient_;
   hessian_.solve(time_solved_);
@@ -179,10 +185,10 @@ StepSizes NewtonStep::expand() {
   }
   for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
     Recovery& r = state_.recoveries[i];
-    const std::size_t k = i / p_.channels;
-    const Jet& E = model_.jets(k).energy_J[i % p_.channels];
+    const std::size_t k = i / p_->channels;
+    const Jet& E = model_.jets(k).energy_J[i % p_->channels];
     const double moved = E.d[0] * step_at(k) + E.d[1] * step_at(k + 1) + r.residual;
-    const double excess = p_.recovery_weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
+    const double excess = p_->recovery_weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
     move(r.z, -(excess + r.sum.sigma * moved) * r.inverse_sigma);
     move(r.sum, moved + r.z.ds);
   }

@@ -40,10 +40,15 @@ struct StepSizes {
 };
 
 /// The Newton system of FastState. Every row and every recovery variable is eliminated within its segment,
-/// what is left by b is tridiagonal, the duration borders it. O(N), no allocation after construction.
+/// what is left by b is tridiagonal, the duration borders it. O(N).
 class NewtonStep {
  public:
-  NewtonStep(const FastModel& model, FastState& state);
+  NewtonStep(const FastModel& model, FastState& state) : model_(model), state_(state) {}
+
+  /// Room for problems of this size.
+  void reserve(std::size_t nodes);
+  /// Takes the model's problem.
+  void set_problem();
 
   /// Assembles and factors at the state; shifted until positive definite, false where that fails.
   [[nodiscard]] bool factor();
@@ -67,7 +72,7 @@ class NewtonStep {
   StepSizes expand();
 
   const FastModel& model_;
-  const Problem& p_;
+  const Problem* p_{};
   FastState& state_;
   double new_lambda_{}, border_pivot_{};
   std::vector<double> gradient_{}, step_{}, time_gradient_{}, time_solved_{};

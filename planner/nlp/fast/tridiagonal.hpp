@@ -10,7 +10,17 @@ struct Tridiagonal {
   std::vector<double> diagonal{};
   std::vector<double> below{};
 
-  explicit Tridiagonal(std::size_t n = 0) : diagonal(n, 0.0), below(n > 0 ? n - 1 : 0, 0.0) {}
+  explicit Tridiagonal(std::size_t n = 0) { resize(n); }
+
+  void reserve(std::size_t n) {
+    diagonal.reserve(n);
+    below.reserve(n);
+  }
+  /// All zeros.
+  void resize(std::size_t n) {
+    diagonal.assign(n, 0.0);
+    below.assign(n > 0 ? n - 1 : 0, 0.0);
+  }
 
   /// False if a pivot is not positive: the matrix is not positive definite.
   [[nodiscard]] bool factor() {

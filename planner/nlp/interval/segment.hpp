@@ -38,6 +38,7 @@ struct WheelLoad {
   Real current_A{};
   Real voltage_V{};
   Real force_N{};
+  Real power_W{};
 };
 
 /// A place within a segment with the model's inputs there.
@@ -54,11 +55,14 @@ inline constexpr std::size_t kLimitPoints = 3;   ///< both ends, evaluated insid
 inline constexpr std::size_t kEnergyPoints = 2;  ///< Gauss-Legendre in time
 inline constexpr std::array<double, kEnergyPoints> kEnergyTimes{0.21132486540518712, 0.78867513459481288};
 
+inline constexpr KinkRounding kLeastRounding{};
+
 /// The part of the path between two neighboring nodes.
 struct Segment {
   double s0{};
   double ds{};
   const Plant* plant{};
+  const KinkRounding* rounding{&kLeastRounding};
   std::array<SegmentPoint, kLimitPoints> limit_points{};
   std::array<SegmentPoint, kEnergyPoints> energy_points{};
 };
@@ -99,8 +103,9 @@ struct Interval {
 
 template <class Real>
 WheelLoad<Real> affine_load(const AffineWheel& wheel, const Motion<Real>& motion) {
-  return {wheel.current_A(motion.a, motion.b, motion.u), wheel.voltage_V(motion.a, motion.b, motion.u),
-          wheel.force_N(motion.a, motion.b, motion.u)};
+  const Real current_A = wheel.current_A(motion.a, motion.b, motion.u);
+  const Real voltage_V = wheel.voltage_V(motion.a, motion.b, motion.u);
+  return {current_A, voltage_V, wheel.force_N(motion.a, motion.b, motion.u), voltage_V * current_A};
 }
 
 /// Wheel loads at a point for a motion there.
@@ -110,12 +115,14 @@ Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& p
   if (point.affine) return {affine_load(point.wheel.left, motion), affine_load(point.wheel.right, motion)};
   if constexpr (std::is_same_v<Real, Range>) {
     constexpr Range anything{-kNoLimit, kNoLimit};
-    return {{anything, anything, anything}, {anything, anything, anything}};
+    constexpr WheelLoad<Range> any{anything, anything, anything, anything};
+    return {any, any};
   } else {
     const Sided<WheelState<Real>> wheels =
-        operating_point(*segment.plant, PathMotion::body_motion(point.rates, motion.u, motion.a), point.site);
+        operating_point(*segment.plant, PathMotion::body_motion(point.rates, motion.u, motion.a), point.site,
+                        *segment.rounding);
     return map_sides(wheels, [](Side, const WheelState<Real>& wheel) {
-      return WheelLoad<Real>{wheel.current_A, wheel.voltage_V, wheel.contact_force_N};
+      return WheelLoad<Real>{wheel.current_A, wheel.voltage_V, wheel.contact_force_N, wheel.power_W};
     });
   }
 }

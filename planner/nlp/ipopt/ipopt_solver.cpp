@@ -22,8 +22,8 @@ void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetIntegerValue("mumps_pivot_order", 6);
   ipopt.SetNumericValue("bound_relax_factor", 0.0);
   ipopt.SetStringValue("honor_original_bounds", "yes");
-  // MUMPS takes most of the time: as few solves as accuracy allows, and barrier problems that are solved
-  // no better than the next one needs.
+  // MUMPS takes most of the time, so the settings reduce the number of solves, and intermediate barrier
+  // problems are solved only as accurately as the next one needs.
   ipopt.SetStringValue("fast_step_computation", "yes");
   ipopt.SetIntegerValue("min_refinement_steps", 0);
   ipopt.SetNumericValue("barrier_tol_factor", 300.0);
@@ -50,7 +50,7 @@ ProgramSolution solve(const Program& program, const IpoptOptions& options) {
   }
   Ipopt::SmartPtr<Ipopt::TNLP> nlp =
       new IpoptNlp<Program>(program, solution, first_mu(options), options.near);
-  static std::mutex one_at_a_time;  // MUMPS keeps state of its own between calls
+  static std::mutex one_at_a_time;  // MUMPS keeps global state between calls
   const std::lock_guard lock(one_at_a_time);
   const Ipopt::ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
   if (Ipopt::IsValid(app->Statistics())) solution.iterations = app->Statistics()->IterationCount();

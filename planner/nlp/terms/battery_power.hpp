@@ -27,8 +27,7 @@ struct BatteryPower {
     const auto left = load_at(interval, point, Side::left);
     const auto right = load_at(interval, point, Side::right);
     using Real = typename AnyInterval::Real;
-    return Real((choice & 1 ? eta : 1.0) * (left.voltage_V * left.current_A) +
-                (choice & 2 ? eta : 1.0) * (right.voltage_V * right.current_A));
+    return Real((choice & 1 ? eta : 1.0) * left.power_W + (choice & 2 ? eta : 1.0) * right.power_W);
   }
 };
 

@@ -13,8 +13,7 @@ struct MotorPower {
   Bounds bounds(const Segment&, std::size_t) const { return within(limits.motor_power_W); }
   template <class AnyInterval>
   auto operator()(const AnyInterval& interval, std::size_t row) const {
-    const auto load = load_at(interval, point_of(row), side_of(row));
-    return typename AnyInterval::Real(load.voltage_V * load.current_A);
+    return load_at(interval, point_of(row), side_of(row)).power_W;
   }
 };
 

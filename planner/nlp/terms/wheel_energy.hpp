@@ -36,12 +36,10 @@ struct WheelEnergy {
     for (std::size_t q = 0; q < kEnergyPoints; ++q) {
       const Sided<WheelLoad<Real>> load =
           wheel_loads(interval.segment, interval.segment.energy_points[q], interval.at_energy_point(q));
-      const Real left_W = load.left.voltage_V * load.left.current_A;
-      const Real right_W = load.right.voltage_V * load.right.current_A;
       if (bus)
-        parts[q] = {half * (left_W + right_W), Real(0.0)};
+        parts[q] = {half * (load.left.power_W + load.right.power_W), Real(0.0)};
       else
-        parts[q] = {half * left_W, half * right_W};
+        parts[q] = {half * load.left.power_W, half * load.right.power_W};
     }
     return parts;
   }

@@ -27,6 +27,12 @@ using Rows = std::tuple<Acceleration, YawAcceleration, WheelAcceleration, MotorC
 inline constexpr std::size_t kYawTerm = 1, kLastLinearTerm = 2;
 static_assert(std::is_same_v<std::tuple_element_t<kYawTerm, Rows>, YawAcceleration> &&
               std::is_same_v<std::tuple_element_t<kLastLinearTerm, Rows>, WheelAcceleration>);
+template <class... Terms>
+constexpr std::size_t rows_of(const std::tuple<Terms...>*) {
+  return (Terms::rows + ...);
+}
+/// Of one segment, at most.
+inline constexpr std::size_t kMostRows = rows_of(static_cast<const Rows*>(nullptr));
 using Energy = WheelEnergy;
 using Time = Duration;
 

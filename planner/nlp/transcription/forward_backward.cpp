@@ -11,25 +11,8 @@ constexpr double kStandstill = 1e-15;  ///< a square of the rate that is roundin
 constexpr int kSweeps = 12;
 constexpr int kSlowings = 8;  ///< halvings of the rate
 
-/// alpha b0 + beta b1 <= gamma.
-struct HalfPlane {
-  double alpha{}, beta{}, gamma{};
-  std::string_view limit{};
-};
-
 /// Whether a half plane bounds b0 alone, but for rounding.
 bool ignores_next(const HalfPlane& p) { return std::abs(p.beta) <= 1e-6 * std::abs(p.alpha) + 1e-14; }
-
-struct Span {
-  double low{}, high{};
-  std::string_view low_limit{}, high_limit{};
-  void raise(double to, std::string_view limit) {
-    if (to > low) low = to, low_limit = limit;
-  }
-  void lower(double to, std::string_view limit) {
-    if (to < high) high = to, high_limit = limit;
-  }
-};
 
 double capped(const Problem& problem, std::size_t node) {
   if (node == 0) return problem.b_start;
@@ -37,8 +20,8 @@ double capped(const Problem& problem, std::size_t node) {
   return std::min(problem.cap[node].squared, kLargest);
 }
 
-std::vector<HalfPlane> half_planes(const Problem& problem, std::size_t k, const std::vector<double>& at) {
-  std::vector<HalfPlane> planes;
+void add_half_planes(const Problem& problem, std::size_t k, const std::vector<double>& at,
+                     std::vector<HalfPlane>& planes) {
   const Interval<Jet> interval = jet_interval(problem.segments[k], at[k], at[k + 1]);
   for (std::size_t i = problem.first_row[k]; i < problem.first_row[k + 1]; ++i) {
     const ActiveRow& row = problem.rows[i];
@@ -49,12 +32,12 @@ std::vector<HalfPlane> half_planes(const Problem& problem, std::size_t k, const 
     if (std::isfinite(row.bounds.low))
       planes.push_back({-g.d[0], -g.d[1], offset - row.bounds.low, row.name});
   }
-  return planes;
 }
 
 /// Values of b0 for which some b1 within `next` satisfies every half plane.
-Span project(const std::vector<HalfPlane>& planes, const Span& next, double cap, std::string_view cap_limit) {
-  Span span{0.0, cap, "", cap_limit};
+SquareSpan project(std::span<const HalfPlane> planes, const SquareSpan& next, double cap,
+                   std::string_view cap_limit, std::vector<HalfPlane>& above, std::vector<HalfPlane>& below) {
+  SquareSpan span{0.0, cap, "", cap_limit};
   // alpha b0 <= gamma bounds b0 by itself.
   const auto bound = [&span](double alpha, double gamma, std::string_view limit) {
     if (std::abs(alpha) < 1e-14) {
@@ -65,7 +48,8 @@ Span project(const std::vector<HalfPlane>& planes, const Span& next, double cap,
       span.raise(gamma / alpha, limit);
     }
   };
-  std::vector<HalfPlane> above{{0, 1, next.high, next.high_limit}}, below{{0, -1, -next.low, next.low_limit}};
+  above.assign(1, {0, 1, next.high, next.high_limit});
+  below.assign(1, {0, -1, -next.low, next.low_limit});
   for (const HalfPlane& p : planes) {
     if (ignores_next(p))
       bound(p.alpha, p.gamma - std::max(0.0, p.beta) * next.high, p.limit);
@@ -82,8 +66,8 @@ Span project(const std::vector<HalfPlane>& planes, const Span& next, double cap,
 }
 
 /// Values of b1 that are possible behind a given b0.
-Span step(const std::vector<HalfPlane>& planes, double b0, const Span& next) {
-  Span span = next;
+SquareSpan step(std::span<const HalfPlane> planes, double b0, const SquareSpan& next) {
+  SquareSpan span = next;
   for (const HalfPlane& p : planes) {
     if (ignores_next(p)) continue;
     const double gamma = p.gamma - p.alpha * b0;
@@ -95,59 +79,13 @@ Span step(const std::vector<HalfPlane>& planes, double b0, const Span& next) {
   return span;
 }
 
-Blocked blocked_at(std::size_t node, const Span& span) {
+Blocked blocked_at(std::size_t node, const SquareSpan& span) {
   const std::string_view limit = span.high_limit.empty() ? span.low_limit : span.high_limit;
   return {node, limit, span.low, std::max(0.0, span.high)};
 }
 
-RateEnvelope sweep(const Problem& problem, const std::vector<double>& at) {
-  const std::size_t last = problem.segment_count();
-  std::vector<Span> span(last + 1);
-  std::vector<std::vector<HalfPlane>> planes(last);
-  span[last] = {problem.b_end, problem.b_end, "end_speed", "end_speed"};
-  RateEnvelope envelope;
-  const RateCap& end_cap = problem.cap[last];
-  if (problem.b_end > end_cap.squared * (1 + 1e-9)) {
-    envelope.blocked = {last, end_cap.limit, problem.b_end, end_cap.squared};
-    return envelope;
-  }
-  for (std::size_t k = last; k-- > 0;) {
-    planes[k] = half_planes(problem, k, at);
-    const double cap = k == 0 ? std::min(problem.cap[0].squared, kLargest) : capped(problem, k);
-    span[k] = project(planes[k], span[k + 1], cap, problem.cap[k].limit);
-    if (span[k].high < span[k].low * (1 - 1e-9) - 1e-12 || span[k].high < 0 ||
-        (k > 0 && span[k].high <= kStandstill)) {
-      envelope.blocked = blocked_at(k, span[k]);
-      return envelope;
-    }
-  }
-  const double start = problem.b_start, slack = 1e-9 * (1 + start);
-  if (start > span[0].high + slack || start < span[0].low - slack) {
-    const bool fast = start > span[0].high;
-    envelope.blocked = {0, fast ? span[0].high_limit : span[0].low_limit, start, span[0].high};
-    if (!fast) envelope.blocked = {0, span[0].low_limit, span[0].low, start};
-    return envelope;
-  }
-  envelope.fastest.assign(1, start);
-  envelope.slowest.assign(1, start);
-  for (std::size_t k = 0; k < last; ++k) {
-    const Span up = step(planes[k], envelope.fastest[k], span[k + 1]);
-    const Span down = step(planes[k], envelope.slowest[k], span[k + 1]);
-    const double fast = std::clamp(up.high, span[k + 1].low, span[k + 1].high);
-    if (k + 1 < last && !(fast > kStandstill)) {
-      envelope.blocked = blocked_at(k + 1, up);
-      return envelope;
-    }
-    envelope.fastest.push_back(fast);
-    envelope.slowest.push_back(std::clamp(std::max(down.low, span[k + 1].low), 0.0, span[k + 1].high));
-  }
-  envelope.fastest.back() = problem.b_end;
-  envelope.slowest.back() = problem.b_end;
-  return envelope;
-}
-
-/// Whether any row is other than affine in the squares of the rates. A term that is not named here counts as
-/// one that bends.
+/// True if a row is not affine in the squares of the rates. A term that is not listed here counts as
+/// nonlinear.
 bool bends(const Problem& problem) {
   constexpr std::string_view kStraight[] = {Acceleration::name, YawAcceleration::name,
                                             WheelAcceleration::name, Traction::name};
@@ -157,44 +95,114 @@ bool bends(const Problem& problem) {
   });
 }
 
-/// The tangent of a row that bends, taken at a speed that the row forbids, may leave nothing at all (a
-/// voltage is concave in the square of the rate). Where the first sweep is blocked it is tried at slower and
-/// slower profiles before that counts.
-RateEnvelope first_sweep(const Problem& problem, std::vector<double>& at) {
-  RateEnvelope envelope = sweep(problem, at);
-  for (int i = 0; i < kSlowings && envelope.blocked; ++i) {
-    for (std::size_t k = 1; k + 1 < at.size(); ++k) at[k] *= 0.25;
-    RateEnvelope slower = sweep(problem, at);
-    if (!slower.blocked) envelope = std::move(slower);
-  }
-  return envelope;
-}
-
 }  // namespace
 
-RateEnvelope rate_envelope(const Problem& problem) {
-  std::vector<double> at(problem.node_count());
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double from_start = problem.b_start + 2 * problem.s[k];
-    const double from_end = problem.b_end + 2 * (problem.s.back() - problem.s[k]);
-    at[k] = k == 0 || k + 1 == at.size() ? capped(problem, k)
-                                         : std::min({capped(problem, k), from_start, from_end, 4.0});
+void EnvelopeSweeps::reserve(std::size_t nodes) {
+  at_.reserve(nodes);
+  planes_.reserve(2 * kMostRows * nodes);
+  first_plane_.reserve(nodes);
+  above_.reserve(2 * kMostRows + 1);
+  below_.reserve(2 * kMostRows + 1);
+  span_.reserve(nodes);
+  for (RateEnvelope* envelope : {&envelope_, &next_}) {
+    envelope->fastest.reserve(nodes);
+    envelope->slowest.reserve(nodes);
   }
-  if (!bends(problem)) return sweep(problem, at);
-  RateEnvelope envelope = first_sweep(problem, at);
-  for (int i = 0; i < kSweeps && !envelope.blocked; ++i) {
+}
+
+void EnvelopeSweeps::sweep(const Problem& problem, RateEnvelope& envelope) {
+  const std::size_t last = problem.segment_count();
+  planes_.clear();
+  first_plane_.assign(last + 1, 0);
+  span_.assign(last + 1, {});
+  span_[last] = {problem.b_end, problem.b_end, "end_speed", "end_speed"};
+  envelope.fastest.clear();
+  envelope.slowest.clear();
+  envelope.blocked = sweep_backward(problem);
+  if (!envelope.blocked) envelope.blocked = sweep_forward(problem, envelope);
+}
+
+std::span<const HalfPlane> EnvelopeSweeps::planes(std::size_t k) const {
+  return std::span(planes_).subspan(first_plane_[k + 1], first_plane_[k] - first_plane_[k + 1]);
+}
+
+std::optional<Blocked> EnvelopeSweeps::sweep_backward(const Problem& problem) {
+  const std::size_t last = problem.segment_count();
+  const RateCap& end_cap = problem.cap[last];
+  if (problem.b_end > end_cap.squared * (1 + 1e-9))
+    return Blocked{last, end_cap.limit, problem.b_end, end_cap.squared};
+  for (std::size_t k = last; k-- > 0;) {
+    add_half_planes(problem, k, at_, planes_);
+    first_plane_[k] = planes_.size();
+    const double cap = k == 0 ? std::min(problem.cap[0].squared, kLargest) : capped(problem, k);
+    span_[k] = project(planes(k), span_[k + 1], cap, problem.cap[k].limit, above_, below_);
+    if (span_[k].high < span_[k].low * (1 - 1e-9) - 1e-12 || span_[k].high < 0 ||
+        (k > 0 && span_[k].high <= kStandstill))
+      return blocked_at(k, span_[k]);
+  }
+  const double start = problem.b_start, slack = 1e-9 * (1 + start);
+  if (start > span_[0].high + slack) return Blocked{0, span_[0].high_limit, start, span_[0].high};
+  if (start < span_[0].low - slack) return Blocked{0, span_[0].low_limit, span_[0].low, start};
+  return std::nullopt;
+}
+
+std::optional<Blocked> EnvelopeSweeps::sweep_forward(const Problem& problem, RateEnvelope& envelope) const {
+  const std::size_t last = problem.segment_count();
+  envelope.fastest.assign(1, problem.b_start);
+  envelope.slowest.assign(1, problem.b_start);
+  for (std::size_t k = 0; k < last; ++k) {
+    const SquareSpan up = step(planes(k), envelope.fastest[k], span_[k + 1]);
+    const SquareSpan down = step(planes(k), envelope.slowest[k], span_[k + 1]);
+    const double fast = std::clamp(up.high, span_[k + 1].low, span_[k + 1].high);
+    if (k + 1 < last && !(fast > kStandstill)) return blocked_at(k + 1, up);
+    envelope.fastest.push_back(fast);
+    envelope.slowest.push_back(std::clamp(std::max(down.low, span_[k + 1].low), 0.0, span_[k + 1].high));
+  }
+  envelope.fastest.back() = problem.b_end;
+  envelope.slowest.back() = problem.b_end;
+  return std::nullopt;
+}
+
+void EnvelopeSweeps::first_sweep(const Problem& problem) {
+  sweep(problem, envelope_);
+  for (int i = 0; i < kSlowings && envelope_.blocked; ++i) {
+    for (std::size_t k = 1; k + 1 < at_.size(); ++k) at_[k] *= 0.25;
+    sweep(problem, next_);
+    if (!next_.blocked) std::swap(envelope_, next_);
+  }
+}
+
+const RateEnvelope& EnvelopeSweeps::run(const Problem& problem) {
+  at_.resize(problem.node_count());
+  for (std::size_t k = 0; k < at_.size(); ++k) {
+    const double from_start = problem.b_start + 2 * (problem.s[k] - problem.s.front());
+    const double from_end = problem.b_end + 2 * (problem.s.back() - problem.s[k]);
+    at_[k] = k == 0 || k + 1 == at_.size() ? capped(problem, k)
+                                           : std::min({capped(problem, k), from_start, from_end, 4.0});
+  }
+  if (!bends(problem)) {
+    sweep(problem, envelope_);
+    return envelope_;
+  }
+  first_sweep(problem);
+  for (int i = 0; i < kSweeps && !envelope_.blocked; ++i) {
     double change = 0;
-    for (std::size_t k = 1; k + 1 < at.size(); ++k) {
-      const double to = std::max(envelope.fastest[k], 1e-9);
-      change = std::max(change, std::abs(to - at[k]) / (to + at[k]));
-      at[k] = to;
+    for (std::size_t k = 1; k + 1 < at_.size(); ++k) {
+      const double to = std::max(envelope_.fastest[k], 1e-9);
+      change = std::max(change, std::abs(to - at_[k]) / (to + at_[k]));
+      at_[k] = to;
     }
     if (change < 1e-9) break;
-    RateEnvelope next = sweep(problem, at);
-    if (next.blocked) break;
-    envelope = std::move(next);
+    sweep(problem, next_);
+    if (next_.blocked) break;
+    std::swap(envelope_, next_);
   }
-  return envelope;
+  return envelope_;
+}
+
+RateEnvelope rate_envelope(const Problem& problem) {
+  EnvelopeSweeps sweeps;
+  return sweeps.run(problem);
 }
 
 }  // namespace joulepath::nlp

@@ -70,8 +70,8 @@ bool torque_is_the_same_everywhere(const ProfileRequest& request) {
 }
 
 constexpr int kLooksPerSegment = 24;
-constexpr double kSafeShare =
-    0.7;  ///< of the curvature at which a wheel stands, where only samples are known
+/// Share of the curvature at which a wheel stands; used where the curvature is only sampled.
+constexpr double kSafeShare = 0.7;
 
 /// Whether a wheel may stand or run backwards somewhere on the curve: |curvature| >= 1 / half track.
 bool wheel_may_reverse(const Curve& curve, double half_track_m) {

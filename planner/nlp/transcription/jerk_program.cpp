@@ -42,6 +42,22 @@ JerkProgram::JerkProgram(const Problem& problem, const std::vector<Tightening>& 
   acceleration_scale_ = 4 * rate_scale_ / duration_s;
 }
 
+JerkProgram::JerkProgram(const JerkProgram& program, const Problem& rounded)
+    : p_(rounded),
+      guess_(program.guess_),
+      rows_(program.rows_),
+      acceleration_(program.acceleration_),
+      jerk_(program.jerk_),
+      rate_scale_(program.rate_scale_),
+      acceleration_scale_(program.acceleration_scale_),
+      time_scale_(program.time_scale_) {}
+
+std::vector<double> JerkProgram::squares() const {
+  std::vector<double> b;
+  for (const double u : guess_.u) b.push_back(u * u);
+  return b;
+}
+
 double JerkProgram::start(std::size_t i) const {
   if (i < inner()) return guess_.u[i + 1] / rate_scale_;
   if (i < 2 * inner()) return guess_.a[i - inner() + 1] / acceleration_scale_;

@@ -48,9 +48,14 @@ class JerkProgram {
   /// `guess` need not satisfy the rows; it sets the scales. Keeps a reference to the problem.
   JerkProgram(const Problem& problem, const std::vector<Tightening>& tightenings, JerkMotion guess);
 
+  /// The same program with another rounding of kinks.
+  JerkProgram(const JerkProgram& program, const Problem& rounded);
+
   const Problem& problem() const { return p_; }
   std::size_t unknown_count() const { return 2 * inner() + p_.segment_count(); }
   double start(std::size_t i) const;
+  /// Squares of the rate at all nodes, of the guess.
+  std::vector<double> squares() const;
   Bounds unknown_bounds(std::size_t i) const;
   std::size_t row_count(std::size_t k) const { return rows_[k].size() + kOwnRows; }
   Bounds row_bounds(std::size_t k, std::size_t i) const;

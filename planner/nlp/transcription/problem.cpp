@@ -58,6 +58,8 @@ class Transcriber {
     }
     return all;
   }
+  /// One of them.
+  Segment segment(double s0, double s1) const { return segment(s0, s1, rate(s0), rate(s1)); }
 
  private:
   Segment segment(double s0, double s1, double u0, double u1) const {
@@ -110,7 +112,21 @@ class Transcriber {
   const Profile* previous_{};
 };
 
-/// Caps of a segment's two ends such that the chord between them stays below the cap inside.
+}  // namespace
+
+double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit, double from,
+                  double to) {
+  double factor = 1.0;
+  for (const Tightening& t : tightenings)
+    if (t.limit == limit && t.from < to && t.to > from) factor *= t.factor;
+  return factor;
+}
+
+Segment make_segment(const ProfileRequest& request, const PathMotion& motion, double s0, double s1,
+                     const Profile* previous) {
+  return Transcriber(request, motion, previous).segment(s0, s1);
+}
+
 void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
                 const std::vector<Tightening>& tightenings, RateCap& cap0, RateCap& cap1) {
   const double s1 = segment.s0 + segment.ds;
@@ -156,25 +172,18 @@ void set_objective(Problem& problem) {
   const PowerSupply& supply = request.plant.robot.power;
   const TimeGoal& time = request.time;
   const bool minimum_time = time.mode == TimeMode::minimum_time;
+  problem.channels = 0;
   problem.recovery_weight = 1 - supply.regeneration_efficiency;
   if (problem.recovery_weight > 0 && !minimum_time)
     problem.channels = supply.sharing == PowerSharing::bus ? 1 : 2;
   problem.energy_weight = minimum_time ? 0.0 : 1.0;
   problem.time_weight_W =
       minimum_time ? 1.0 : supply.standby_W + (time.mode == TimeMode::time_price ? time.price_W : 0.0);
+  problem.duration_row = DurationRow::none;
+  problem.duration_s = kNoLimit;
   if (minimum_time || time.mode == TimeMode::free_time || std::isinf(time.duration_s)) return;
   problem.duration_s = time.duration_s;
   problem.duration_row = time.mode == TimeMode::fixed_time ? DurationRow::equal : DurationRow::at_most;
-}
-
-}  // namespace
-
-double factor_for(const std::vector<Tightening>& tightenings, std::string_view limit, double from,
-                  double to) {
-  double factor = 1.0;
-  for (const Tightening& t : tightenings)
-    if (t.limit == limit && t.from < to && t.to > from) factor *= t.factor;
-  return factor;
 }
 
 Problem transcribe(const ProfileRequest& request, const PathMotion& motion, const std::vector<double>& s,
@@ -189,7 +198,8 @@ Problem transcribe(const ProfileRequest& request, const PathMotion& motion, cons
   problem.segments = transcriber.segments(s);
   for (std::size_t k = 0; k + 1 < s.size(); ++k)
     lower_caps(request, motion, problem.segments[k], tightenings, problem.cap[k], problem.cap[k + 1]);
-  select_rows(problem, tightenings);
+  std::vector<double> squares;
+  select_rows(problem, tightenings, squares);
   set_objective(problem);
   return problem;
 }

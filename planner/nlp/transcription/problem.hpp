@@ -63,6 +63,17 @@ struct Problem {
                                  const std::vector<double>& s, const std::vector<Tightening>& tightenings,
                                  const Profile* previous);
 
+/// One segment of a transcription.
+[[nodiscard]] Segment make_segment(const ProfileRequest& request, const PathMotion& motion, double s0,
+                                   double s1, const Profile* previous);
+
+/// Lowers the caps of a segment's two ends such that the chord between them stays below the cap inside.
+void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
+                const std::vector<Tightening>& tightenings, RateCap& cap0, RateCap& cap1);
+
+/// Sets weights, channels and duration row from the request's plant and time goal.
+void set_objective(Problem& problem);
+
 /// Value of a row with its derivatives.
 [[nodiscard]] Jet evaluate_row(const Problem& problem, const ActiveRow& row, const Interval<Jet>& interval);
 [[nodiscard]] double evaluate_row(const Problem& problem, const ActiveRow& row,

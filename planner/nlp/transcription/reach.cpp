@@ -24,8 +24,8 @@ Range intersection(const Range& x, const Range& y) {
 
 }  // namespace
 
-std::vector<double> reachable_squares(const Problem& problem) {
-  std::vector<double> b;
+void reachable_squares(const Problem& problem, std::vector<double>& b) {
+  b.clear();
   for (const RateCap& cap : problem.cap) b.push_back(cap.squared);
   b.front() = problem.b_start;
   b.back() = problem.b_end;
@@ -34,7 +34,6 @@ std::vector<double> reachable_squares(const Problem& problem) {
     b[k + 1] = std::min(b[k + 1], b[k] + 2 * problem.segments[k].ds * acceleration_limits(problem, k).high);
   for (std::size_t k = last; k-- > 1;)
     b[k] = std::min(b[k], b[k + 1] - 2 * problem.segments[k].ds * acceleration_limits(problem, k).low);
-  return b;
 }
 
 Reach reach_of(const Problem& problem, const std::vector<double>& squares, std::size_t k) {

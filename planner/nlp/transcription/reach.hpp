@@ -7,15 +7,15 @@
 
 namespace joulepath::nlp {
 
-/// What the motion can be in a segment, by the caps of the rate and by rows that are never left out: rows of
-/// the other limits are judged by it.
+/// Bounds of the motion in a segment, from the caps of the rate and from rows that are always kept; they
+/// decide whether a row of another limit is needed.
 struct Reach {
   Range b0{}, b1{};  ///< squares of the rate at the ends
   Range a{};         ///< acceleration
 };
 
 /// Largest squares of the rate at all nodes that the caps and the limits of acceleration leave.
-[[nodiscard]] std::vector<double> reachable_squares(const Problem& problem);
+void reachable_squares(const Problem& problem, std::vector<double>& b);
 
 /// For constant acceleration within a segment, by caps and limits of acceleration; `squares` from
 /// reachable_squares. As a = (b1 - b0)/(2 ds), the squares bound it, too.

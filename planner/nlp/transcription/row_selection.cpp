@@ -10,10 +10,11 @@ namespace {
 
 class RowSelection {
  public:
-  RowSelection(Problem& problem, const std::vector<Tightening>& tightenings)
+  RowSelection(Problem& problem, const std::vector<Tightening>& tightenings,
+               const std::vector<double>& squares)
       : problem_(problem),
         tightenings_(tightenings),
-        squares_(reachable_squares(problem)),
+        squares_(squares),
         steady_(!std::isfinite(problem.request->limits.jerk_m_s3) || is_turn(problem.request->piece)) {}
 
   void add_segment(std::size_t k) {
@@ -67,16 +68,17 @@ class RowSelection {
 
   Problem& problem_;
   const std::vector<Tightening>& tightenings_;
-  std::vector<double> squares_;
+  const std::vector<double>& squares_;
   bool steady_;  ///< acceleration is constant within a segment
 };
 
 }  // namespace
 
-void select_rows(Problem& problem, const std::vector<Tightening>& tightenings) {
+void select_rows(Problem& problem, const std::vector<Tightening>& tightenings, std::vector<double>& squares) {
+  reachable_squares(problem, squares);
   problem.rows.clear();
   problem.first_row.assign(1, 0);
-  RowSelection selection(problem, tightenings);
+  RowSelection selection(problem, tightenings, squares);
   for (std::size_t k = 0; k < problem.segment_count(); ++k) selection.add_segment(k);
 }
 

@@ -93,7 +93,8 @@ Collision FootprintChecker::collision_at(double s, const Pose& pose, double slac
 
 double FootprintChecker::least_slack_m(const Path& path) const {
   double least_m = std::numeric_limits<double>::infinity();
-  const double trust = is_disc() ? 1.0 : 0.4;  // a polygon's outline moves farther than its center in a turn
+  // In a turn, the outline of a polygon moves farther than its center.
+  const double trust = is_disc() ? 1.0 : 0.4;
   for (const PathPiece& piece : path.pieces) {
     const double length = piece_length(piece);
     for (double s = 0;;) {

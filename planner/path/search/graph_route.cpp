@@ -13,14 +13,6 @@ namespace {
 
 constexpr std::size_t kEntryChoices = 4;
 
-std::vector<Point2> edge_line(const RouteGraph& graph, const RouteGraph::Edge& edge) {
-  std::vector<Point2> line{{graph.nodes[edge.start].x_m, graph.nodes[edge.start].y_m}};
-  for (std::size_t i = 0; i + 1 < edge.via_m.size(); i += 2)
-    line.push_back({edge.via_m[i], edge.via_m[i + 1]});
-  line.push_back({graph.nodes[edge.end].x_m, graph.nodes[edge.end].y_m});
-  return line;
-}
-
 bool line_free(const std::vector<Point2>& line, const FootprintChecker& checker) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
     if (!checker.line_free(line[i][0], line[i][1], line[i + 1][0], line[i + 1][1])) return false;

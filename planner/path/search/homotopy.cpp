@@ -42,7 +42,7 @@ std::vector<Point2> island_points(const FreeSpace& space) {
       while (!open.empty()) {
         const Cell cell = open.back();
         open.pop_back();
-        // Free cells connect over corners, so blocked ones connect over sides alone.
+        // Free cells are connected over corners, so blocked cells are connected over sides only.
         for (const Cell& next : {Cell{cell.column + 1, cell.row}, Cell{cell.column - 1, cell.row},
                                  Cell{cell.column, cell.row + 1}, Cell{cell.column, cell.row - 1}}) {
           if (!grid.contains(next)) {

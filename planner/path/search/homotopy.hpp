@@ -6,12 +6,12 @@
 
 namespace joulepath {
 
-/// One point inside of each island: a connected part of the floor that the disc cannot enter and that does
-/// not touch the map's rim. Ways that pass an island on different sides are homotopically different.
+/// One point inside each island: a connected part of the floor that the disc cannot enter and that does not
+/// touch the border of the map. Ways that pass an island on different sides are homotopically different.
 [[nodiscard]] std::vector<Point2> island_points(const FreeSpace& space);
 
-/// Whether two polylines with the same ends can be pulled into one another: the loop of one and the
-/// reversed other winds about no island.
+/// True if two polylines with the same ends are homotopic: the loop of one and the reversed other has winding
+/// number 0 about every island.
 [[nodiscard]] bool same_homotopy_class(const std::vector<Point2>& a_m, const std::vector<Point2>& b_m,
                                        const std::vector<Point2>& islands_m);
 

@@ -6,8 +6,8 @@
 
 namespace joulepath {
 
-/// A coarse square lattice over the floor, eight neighbors, with a price per metre at each node: for quick
-/// searches that prefer other ways than earlier ones. Passages narrower than its spacing may be missed.
+/// A coarse square lattice over the floor with eight neighbors and a price per metre at each node, for quick
+/// searches that avoid earlier ways. It may miss passages narrower than its spacing.
 class Lattice {
  public:
   explicit Lattice(const FreeSpace& space, double spacing_m = 0.2);
@@ -15,7 +15,7 @@ class Lattice {
   /// The cheapest way over nodes whose connections are free (A*); empty when there is none.
   [[nodiscard]] std::vector<Point2> route(const Point2& start_m, const Point2& goal_m,
                                           const DiscLineCheck& free) const;
-  /// Adds to the price within a corridor about a polyline, except near its ends.
+  /// Increases the price within a corridor about a polyline, except near its ends.
   void make_dear(const std::vector<Point2>& line_m, double corridor_m, double except_near_ends_m,
                  double extra_price);
 

@@ -61,7 +61,7 @@ class DiscMotion : public ob::MotionValidator {
   DiscLineCheck check_;
 };
 
-/// Uniform samples whose randomness comes from our seed alone.
+/// Uniform samples; all randomness comes from the request's seed.
 class SeededSampler : public ob::RealVectorStateSampler {
  public:
   SeededSampler(const ob::StateSpace* space, std::uint64_t seed) : RealVectorStateSampler(space) {
@@ -69,7 +69,7 @@ class SeededSampler : public ob::RealVectorStateSampler {
   }
 };
 
-/// Uniform samples of the ellipse of points through which a solution can still be cheaper.
+/// Uniform samples of the ellipse of points that can still lie on a cheaper solution.
 class EllipseSampler : public ob::InformedSampler {
  public:
   EllipseSampler(const ob::ProblemDefinitionPtr& problem, unsigned max_calls, const SearchRequest& request,

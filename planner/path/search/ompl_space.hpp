@@ -8,11 +8,12 @@
 
 namespace joulepath {
 
-/// The request's search space for OMPL: R^2 within the map, disc checks, samplers seeded by the request.
+/// The search space of a request for OMPL: R^2 within the map, disc checks, samplers seeded by the request.
 [[nodiscard]] ompl::base::SpaceInformationPtr ompl_space(const FreeSpace& free_space,
                                                          const SearchRequest& request);
 
-/// Minimizes the request's travel cost; its informed sampler draws from the ellipse that can improve.
+/// Minimizes the travel cost of a request; its informed sampler draws from the ellipse of possible
+/// improvements.
 [[nodiscard]] ompl::base::OptimizationObjectivePtr ompl_objective(
     const ompl::base::SpaceInformationPtr& space, const SearchRequest& request);
 

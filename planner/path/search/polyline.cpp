@@ -34,7 +34,7 @@ std::vector<Point2> subdivided(const std::vector<Point2>& polyline_m) {
   return out;
 }
 
-/// Skips vertices in sight as long as the steps stay short: a route over cells has far too many.
+/// Skips vertices in line of sight as long as the steps stay short: a route over cells has too many vertices.
 std::vector<Point2> thinned(const std::vector<Point2>& p, const LineFree& free) {
   std::vector<Point2> out{p.front()};
   for (std::size_t i = 1; i < p.size(); ++i) {
@@ -45,8 +45,8 @@ std::vector<Point2> thinned(const std::vector<Point2>& p, const LineFree& free) 
   return out;
 }
 
-/// The cheapest way over a subset of the vertices, in their order. For each vertex the predecessors are
-/// looked at from the cheapest on until one is in sight.
+/// The cheapest way over a subset of the vertices, in their order. For each vertex, predecessors are tried in
+/// the order of cost until one is in line of sight.
 std::vector<Point2> shortcut(const std::vector<Point2>& p, const LineFree& free, const TravelCost& cost) {
   std::vector<double> cost_to(p.size(), 0.0);
   std::vector<std::size_t> from(p.size(), 0);
@@ -108,7 +108,7 @@ std::vector<Point2> without_needless(const std::vector<Point2>& p, const LineFre
   return out;
 }
 
-/// Where the lines a-b and d-c meet beyond b and beyond c; absent unless they do.
+/// The point where the lines a-b and d-c meet beyond b and beyond c; absent where there is none.
 std::optional<Point2> meeting_point(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
   const double ux = b[0] - a[0], uy = b[1] - a[1], wx = c[0] - d[0], wy = c[1] - d[1];
   const double denominator = ux * wy - uy * wx;

@@ -7,20 +7,20 @@
 
 namespace joulepath {
 
-/// Points this close are one.
+/// Points within this distance count as equal.
 inline constexpr double kSamePlace_m = 1e-6;
 
-/// Whether the robot may drive straight between two points.
+/// True if the robot may drive straight between two points.
 using LineFree = std::function<bool(const Point2& from_m, const Point2& to_m)>;
 
-/// Pulls a polyline taut: skips vertices in line of sight, then moves each vertex towards its neighbors'
-/// line as far as the line of sight allows, as long as the cost falls. The ends stay.
+/// Pulls a polyline taut: skips vertices in line of sight, then moves each vertex towards the line of its
+/// neighbors as far as the line of sight allows and as long as the cost falls. The ends stay.
 [[nodiscard]] std::vector<Point2> pull_taut(std::vector<Point2> polyline_m, const LineFree& free,
                                             const TravelCost& cost);
 
-/// Makes one corner of two neighboring ones that turn the same way, where their outer lines meet in free
-/// floor, the two are within `within_m` of each other and the way gets at most `extra_m` longer: one corner
-/// has room for a wider blend.
+/// Merges two neighboring corners that turn the same way into one, which allows a wider blend. Requires that
+/// their outer lines meet in free floor, that the corners are within `within_m` of each other, and that the
+/// way grows by at most `extra_m`.
 [[nodiscard]] std::vector<Point2> merged_corners(std::vector<Point2> polyline_m, const LineFree& free,
                                                  double within_m, double extra_m);
 

@@ -6,16 +6,16 @@
 
 namespace joulepath {
 
-/// A travel cost looked up by place and heading, filled on demand: searches query the same places a
-/// million times, and a rate may take a microsecond. It is constant over cells of 0.25 m and 22.5 degrees,
-/// which is fine for finding a way; what a way costs is scored with the exact rate. For one thread.
+/// Travel costs tabulated by place and heading, computed on demand: a search queries the same places a
+/// million times, and a rate may take a microsecond. The cost is constant over cells of 0.25 m and 22.5
+/// degrees; the search needs no more, and ways are scored with the exact rate. For one thread.
 class RateTable {
  public:
   RateTable(const TravelCost& exact, const ObstacleField::Extent& extent);
   RateTable(const RateTable&) = delete;
   RateTable& operator=(const RateTable&) = delete;
 
-  /// Refers to this table, which must outlive it; without a rate it is the exact cost itself.
+  /// A cost that refers to this table, which must outlive it; without a rate it is the exact cost.
   [[nodiscard]] TravelCost cost();
 
  private:
@@ -24,7 +24,7 @@ class RateTable {
   const TravelCost& exact_;
   ObstacleField::Extent extent_{};
   int columns_{}, rows_{};
-  std::vector<float> rates_{};  ///< negative: not asked yet
+  std::vector<float> rates_{};  ///< negative: not computed yet
 };
 
 }  // namespace joulepath

@@ -13,7 +13,8 @@
 namespace joulepath {
 namespace {
 
-/// Shaping keeps this much more away than the final check, so that it cannot fail by rounding.
+/// Shaping uses a clearance larger by this margin than the final check, so that rounding cannot fail the
+/// check.
 constexpr double kShapeMargin_m = 0.001;
 constexpr double kArrived_m = 1e-6;
 
@@ -36,7 +37,7 @@ RouteVerdict blocked(RouteStatus status, const char* what, const Collision& c) {
   return verdict;
 }
 
-/// A place outside the map gets a message of its own.
+/// Adds a special message for a place outside the map.
 RouteVerdict told_of_the_map(RouteVerdict verdict, const ObstacleField& field, const char* which) {
   const OccupancyGrid& map = field.map();
   if (map.contains(map.cell_of(verdict.x_m, verdict.y_m))) return verdict;
@@ -84,7 +85,7 @@ Path with_end_turns(const Path& inner, const RouteRequest& request) {
 }  // namespace
 
 std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request) {
-  // Where the heading is free it is enough that some heading fits: the inscribed disc.
+  // Where the heading is free, some heading must fit: the inscribed disc is checked.
   const auto check = [&](const Pose& pose, bool heading_free) -> std::optional<Collision> {
     if (!heading_free) return space.checker().pose_collision(pose);
     const double need_m = space.checker().inscribed_radius_m() + space.checker().clearance_m();
@@ -136,7 +137,8 @@ RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
   result.polyline_cost = polyline_cost(polyline_m, request.cost);
   const FootprintChecker& checker = space.checker();
   const FootprintChecker careful = checker.with_clearance(checker.clearance_m() + kShapeMargin_m);
-  // As asked; bending at the ends where there is no room to turn on the spot; stopping at every corner.
+  // Attempts: as requested; with arcs at ends that have no room for a turn in place; with a stop at every
+  // corner.
   RouteRequest bending = request, stopping = request;
   bending.blend_start = bending.blend_goal = true;
   stopping.corners = {CornerPolicy::Kind::stop_turn_go, 0};

@@ -14,9 +14,9 @@ namespace joulepath {
 
 class RouteCache;
 
-/// A floor as one robot sees it: obstacles, outline, and which places are connected. Made once per map,
-/// keep-out mask, footprint and clearance; then read-only and safe to share between threads. Routes that
-/// were searched on it are kept.
+/// A floor for one robot: obstacles, outline, and connected regions. Built once per map, keep-out mask,
+/// footprint and clearance; then read-only and safe to share between threads. Contains a cache of searched
+/// routes.
 class RouteSpace {
  public:
   ~RouteSpace();
@@ -27,16 +27,17 @@ class RouteSpace {
 
   const ObstacleField& field() const { return *field_; }
   const FootprintChecker& checker() const { return checker_; }
-  /// For a disc about the axle midpoint that holds the whole outline: free at any heading.
+  /// Free space of a disc about the axle midpoint that contains the whole outline: free at any heading.
   const FreeSpace& any_heading() const { return any_heading_; }
-  /// For the largest disc inside of the outline: what no heading can avoid. The same for round robots.
+  /// Free space of the largest disc inside the outline: where it is blocked, every heading is blocked. The
+  /// same for round robots.
   const FreeSpace& some_heading() const { return some_heading_ ? *some_heading_ : any_heading_; }
   /// A point inside of every island (homotopy.hpp) of any_heading().
   const std::vector<Point2>& islands_m() const { return islands_m_; }
   RouteCache& routes() const { return *routes_; }
 
  private:
-  std::unique_ptr<ObstacleField> field_{};  ///< its own allocation: the checker keeps a pointer to it
+  std::unique_ptr<ObstacleField> field_{};  ///< on the heap, because the checker keeps a pointer to it
   FootprintChecker checker_;
   FreeSpace any_heading_;
   std::optional<FreeSpace> some_heading_{};
@@ -49,9 +50,9 @@ struct RouteRequest {
   double goal_x_m{};
   double goal_y_m{};
   std::optional<double> goal_heading_rad{};  ///< absent: any
-  bool start_heading_free{};                 ///< start.heading_rad means nothing: begin along the path
+  bool start_heading_free{};  ///< start.heading_rad has no meaning: the robot begins along the path
   CornerPolicy corners{};
-  /// Leave the start (reach the goal) along its heading and bend, instead of turning in place, where there is
+  /// Leave the start (reach the goal) along its heading on an arc instead of turning in place, where there is
   /// room for a blend of this policy; not for CornerPolicy::Kind::stop_turn_go.
   bool blend_start{};
   bool blend_goal{};
@@ -63,9 +64,9 @@ struct RouteRequest {
 enum class RouteStatus {
   found,
   start_blocked,   ///< the robot does not fit at the start
-  goal_blocked,    ///< nor at the goal
+  goal_blocked,    ///< the robot does not fit at the goal
   no_connection,   ///< start and goal lie in parts of the floor that are not connected
-  no_room_to_turn  ///< the way is wide enough to drive, but not to turn in place where that is needed
+  no_room_to_turn  ///< the way is wide enough to drive, but not for a necessary turn in place
 };
 
 /// Why there is no route, and where.
@@ -73,17 +74,17 @@ struct RouteVerdict {
   RouteStatus status{RouteStatus::found};
   double x_m{};  ///< place of the obstruction
   double y_m{};
-  double short_by_m{};                          ///< of the clearance asked, where that applies
-  bool keepout{};                               ///< the keep-out mask obstructs, not the map
+  double short_by_m{};  ///< missing clearance, where that applies
+  bool keepout{};       ///< the obstruction belongs to the keep-out mask, not to the map
   std::optional<Point2> nearest_reachable_m{};  ///< reachable place nearest to the goal, where that applies
   std::string message{};
 };
 
 struct RouteResult {
   RouteVerdict verdict{};
-  Path path{};  ///< empty unless found (a goal at the start is an empty path too)
+  Path path{};  ///< empty unless found; also empty for a goal at the start
   std::vector<CornerReport> corners{};
-  std::vector<Point2> polyline_m{};  ///< taut, before its corners were rounded
+  std::vector<Point2> polyline_m{};  ///< pulled taut, before its corners were rounded
   double polyline_cost{};
   unsigned search_iterations{};
   std::string searched_by{};  ///< planner, "line of sight", or "lattice" where that was better
@@ -91,21 +92,21 @@ struct RouteResult {
   bool found() const { return verdict.status == RouteStatus::found; }
 };
 
-/// Why the robot cannot stand at the request's start or goal; absent when it can.
+/// The verdict where the robot cannot stand at the request's start or goal; absent when it can.
 [[nodiscard]] std::optional<RouteVerdict> blocked_ends(const RouteSpace& space, const RouteRequest& request);
 
-/// Why there can be no way at all: an end is blocked, or the ends are not connected; absent otherwise.
+/// The verdict where no way exists: an end is blocked, or the ends are not connected; absent otherwise.
 [[nodiscard]] std::optional<RouteVerdict> no_way(const RouteSpace& space, const RouteRequest& request);
 
-/// Whether the goal is where the request starts.
+/// True if the goal is the start of the request.
 [[nodiscard]] bool is_there_already(const RouteRequest& request);
 
-/// Finds a way from a pose to a place and shapes it into a path with continuous curvature that the
-/// footprint can follow with its clearance everywhere; turns in place at the ends where headings differ.
-/// The path is checked along its whole length before it is returned. Deterministic in the request.
+/// Finds a way from a pose to a place and shapes it into a path with continuous curvature. The footprint
+/// keeps its clearance along the whole path, which is checked before it is returned. Turns in place are added
+/// at the ends where headings differ. Deterministic in the request.
 [[nodiscard]] RouteResult plan_route(const RouteSpace& space, const RouteRequest& request);
 
-/// As plan_route, with the polyline given (from an earlier result or a route graph) instead of searched.
+/// As plan_route(), with a given polyline (from an earlier result or a route graph) instead of a search.
 [[nodiscard]] RouteResult shape_route(const RouteSpace& space, const RouteRequest& request,
                                       const std::vector<Point2>& polyline_m);
 

@@ -10,8 +10,8 @@
 
 namespace joulepath {
 
-/// Routes that were searched on one floor, kept for the next leg or mission between the same places. Safe to
-/// share between threads. Only searches for length are kept: another cost is another search.
+/// Cache of the routes searched on one floor, for later legs and missions between the same places. Safe to
+/// share between threads. It holds searches for length only, because another cost needs another search.
 class RouteCache {
  public:
   using Search = std::function<std::vector<PooledRoute>()>;
@@ -26,7 +26,7 @@ class RouteCache {
       const auto found = routes_.find(key);
       if (found != routes_.end()) return found->second;
     }
-    std::vector<PooledRoute> routes = search();  // the same, whichever thread comes first
+    std::vector<PooledRoute> routes = search();  // the same for every thread
     const std::lock_guard lock(mutex_);
     return routes_.try_emplace(key, std::move(routes)).first->second;
   }

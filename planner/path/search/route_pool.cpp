@@ -13,8 +13,8 @@ namespace joulepath {
 namespace {
 
 constexpr double kCorridor_m = 0.8;  // half width of the penalty zone around an earlier route
-constexpr double kNearEnd_m = 1.5;   // all routes share these neighborhoods
-constexpr double kDearer = 1.0;      // added to the price of a metre each time
+constexpr double kNearEnd_m = 1.5;   // within this distance of the ends there is no penalty
+constexpr double kDearer = 1.0;      // increase of the price of a metre per earlier route
 constexpr double kWideWithin_m = 2.5;
 constexpr double kWideExtra_m = 0.6;
 constexpr int kAttemptsPerClass = 2;
@@ -38,7 +38,8 @@ class Pool {
     add({start_, goal_}, "line of sight");
     return true;
   }
-  /// The lattice's way, or the grid's own where that is too coarse: decides which cells a way may use.
+  /// Searches the lattice, or the cells where the lattice is too coarse; determines the cells that a way may
+  /// use.
   void search_cells() {
     std::vector<Point2> line = lattice_.route(start_, goal_, DiscLineCheck(floor_, start_, goal_, cells_));
     if (line.empty()) line = floor_.cell_route(start_, goal_, cells_);

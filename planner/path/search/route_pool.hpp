@@ -7,10 +7,10 @@
 
 namespace joulepath {
 
-/// One way to go, as a taut polyline.
+/// One route, as a taut polyline.
 struct PooledRoute {
   std::vector<Point2> polyline_m{};
-  std::vector<Point2> wide_m{};  ///< with corners merged, for wider blends; empty where none can be
+  std::vector<Point2> wide_m{};  ///< with merged corners, for wider blends; empty where none can be merged
   double cost{};                 ///< of travel and corners
   std::string searched_by{};
   unsigned search_iterations{};  ///< of all OMPL searches together
@@ -18,15 +18,16 @@ struct PooledRoute {
 
 struct PoolOptions {
   int classes{4};              ///< homotopy classes kept
-  int searches{2};             ///< with OMPL, each with a seed of its own; 0: the lattice alone
-  double dearest_ratio{1.35};  ///< of the cost of a route to that of the cheapest
+  int searches{2};             ///< OMPL searches, each with a seed of its own; 0: only the lattice
+  double dearest_ratio{1.35};  ///< greatest ratio of the cost of a route to that of the cheapest
 };
 
-/// Homotopically different routes, cheapest first, of each class the cheapest that any source found: OMPL
-/// searches from several seeds, a coarse lattice, and the lattice with the neighborhood of earlier routes
-/// made dear. Routes that pass every island on the same sides are one class. Where the goal is in sight and
-/// the floor is alike everywhere, the straight line alone. Empty where no source finds a way.
-/// Requires that no_way() has no objection and that the goal is not the start. Deterministic in the request.
+/// Homotopically different routes in the order of their cost: for each class the cheapest that any source
+/// found. Sources are OMPL searches from several seeds, a coarse lattice, and the lattice with a higher price
+/// near earlier routes. Routes that pass every island on the same sides are one class. Where the goal is in
+/// line of sight and the floor is uniform, the result is the straight line. Empty where no source finds a
+/// way. Requires that no_way() is absent and that the goal differs from the start. Deterministic in the
+/// request.
 [[nodiscard]] std::vector<PooledRoute> pool_routes(const RouteSpace& space, const RouteRequest& request,
                                                    const PoolOptions& options);
 

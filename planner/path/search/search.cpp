@@ -40,7 +40,7 @@ ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, SearchPlanner 
   return nullptr;
 }
 
-/// Stops by counting: at the budget, or when the best cost has settled.
+/// Ends a search by counting iterations: at the budget, or when the best cost no longer improves.
 class Budget {
  public:
   Budget(const SearchRequest& request, const ob::PlannerPtr& planner) : request_(request) {
@@ -69,8 +69,8 @@ class Budget {
   unsigned settled_at_{};
 };
 
-/// OMPL draws the seeds of its internal random numbers from one generator per process: whoever
-/// constructs a planner sets that generator first, one at a time.
+/// OMPL draws the seeds of its internal random numbers from one generator per process. This mutex lets one
+/// thread at a time set that generator and construct a planner.
 std::mutex& seeding_mutex() {
   static std::mutex mutex;
   return mutex;

@@ -14,24 +14,24 @@ enum class SearchPlanner { bit_star, abit_star, rrt_star, informed_rrt_star };
 
 [[nodiscard]] const char* search_planner_name(SearchPlanner planner);
 
-/// What a metre of travel costs: the search minimizes the integral of `rate` along the way.
+/// Cost of a metre of travel: the search minimizes the integral of `rate` along the way.
 struct TravelCost {
   /// Cost per metre at a point, heading along the travel; absent: `least_rate` everywhere (length).
   std::function<double(double x_m, double y_m, double heading_rad)> rate{};
-  double least_rate{1.0};  ///< positive lower bound of `rate`; the closer, the faster the search
-  double per_rad{};        ///< cost of a corner per radian: ranks routes, the search itself does not see it
+  double least_rate{1.0};  ///< positive lower bound of `rate`; a tighter bound makes the search faster
+  double per_rad{};        ///< cost of a corner per radian: used to rank routes, not in the search
 };
 
 /// A search for the cheapest polyline of a disc between two points.
 struct SearchRequest {
   Point2 start_m{};
   Point2 goal_m{};
-  FreeSpace::Cells cells{FreeSpace::Cells::clear};  ///< what the disc may use
+  FreeSpace::Cells cells{FreeSpace::Cells::clear};  ///< cells that the disc may use
   SearchPlanner planner{SearchPlanner::bit_star};
   TravelCost cost{};
   std::uint64_t seed{1};
-  unsigned max_iterations{30000};  ///< of the planner's loop; the search never looks at a clock
-  unsigned patience{5000};         ///< stop when the cost has not improved by 0.2 % for so many iterations
+  unsigned max_iterations{30000};  ///< of the planner's loop; the search does not read a clock
+  unsigned patience{5000};  ///< stop after so many iterations without an improvement of the cost by 0.2 %
 };
 
 struct SearchResult {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLadderRatio = 0.75;
 constexpr double kSmallestRadius_m = 0.03;
-constexpr double kShortestStraight_m = 0.01;  // left between blends
+constexpr double kShortestStraight_m = 0.01;  // minimum length of the straight line between blends
 constexpr std::array<double, 3> kOutwardShares{0.0, 0.5, 1.0};
 
 /// A polyline with blends at its inner vertices: the state of the search over radii.
@@ -28,8 +28,8 @@ class BlendedPolyline {
   const std::vector<double>& radii_m() const { return radius_m_; }
   const Point2& point_m(std::size_t i) const { return points_[i]; }
 
-  /// Gives corner i a radius if that is free; the vertex moves outwards as little as needed. Its blend may
-  /// take a share of the lines to neighboring corners.
+  /// Gives corner i a radius if that is free; moves the vertex outwards as little as needed. The blend may
+  /// use a share of the lines to the neighboring corners.
   bool try_radius(std::size_t i, double radius_m, double share_of_line);
 
   std::vector<CurveSegment> blend(std::size_t i) const {
@@ -116,7 +116,7 @@ bool BlendedPolyline::free_around(std::size_t i) const {
 }
 
 void grow_blends(BlendedPolyline& line, double largest_m) {
-  // First each corner may use half of the lines to its neighbors, then also the length that they left.
+  // First each corner may use half of the lines to its neighbors, then the remaining length as well.
   for (const double share : {0.5, 1.0})
     for (std::size_t i = 1; i + 1 < line.size(); ++i)
       for (double radius_m = largest_m; radius_m > std::max(kSmallestRadius_m, line.radius_m(i));

@@ -12,7 +12,7 @@ namespace joulepath {
 struct CornerPolicy {
   enum class Kind {
     stop_turn_go,  ///< stop, turn in place, go
-    blend_radius,  ///< a blend of this smallest radius, or the largest below it that is free
+    blend_radius,  ///< a blend of this smallest radius, or of the largest free radius below it
     largest_blend  ///< as blend_radius with `kLargestRadius_m`
   };
   static constexpr double kLargestRadius_m = 2.0;
@@ -35,12 +35,12 @@ struct SmoothPath {
   std::vector<Point2> polyline_m{};  ///< the polyline before any vertex was moved
 };
 
-/// Rounds the corners of a polyline into a curve with continuous curvature, as far as clearance admits.
+/// Rounds the corners of a polyline into a curve with continuous curvature, as far as the clearance allows.
 ///
 /// Each corner gets the largest radius of a descending series at which the straight parts and the blends
 /// around it are free. If its inside is blocked, the vertex is moved outwards by up to the blend's deviation.
 /// A corner without a free blend becomes a turn in place. The straight parts stay exactly straight. The path
-/// starts and ends with the polyline's own headings. The sweep of turns in place is not checked here.
+/// starts and ends with the headings of the polyline. The sweep of turns in place is not checked here.
 [[nodiscard]] SmoothPath blend_corners(const std::vector<Point2>& polyline_m, const FootprintChecker& checker,
                                        const CornerPolicy& policy);
 

@@ -28,7 +28,7 @@ struct BlendShape {
 [[nodiscard]] std::vector<CurveSegment> blend_segments(const Point2& corner_m, double heading_in_rad,
                                                        const BlendShape& shape, double radius_m);
 
-/// A corner with a smaller turn is none.
+/// A smaller turn does not count as a corner.
 inline constexpr double kNoCorner_rad = 1e-9;
 /// A corner with a larger turn is too sharp for a blend.
 inline constexpr double kSharpestBlend_rad = 2.7;

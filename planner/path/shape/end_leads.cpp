@@ -12,7 +12,7 @@ bool better(const Path& path, const Path& best) {
   return less_rad > 1e-9 || (less_rad > -1e-9 && path.distance_m() < best.distance_m());
 }
 
-/// The best length of one lead, for a given other one.
+/// The best length of one lead, for a given length of the other.
 std::optional<SmoothPath> best_lead(const std::vector<Point2>& polyline_m, bool at_start, double heading_rad,
                                     const FootprintChecker& checker, const CornerPolicy& policy) {
   std::optional<SmoothPath> best;

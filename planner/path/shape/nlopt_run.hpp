@@ -8,9 +8,9 @@
 
 namespace joulepath {
 
-/// Runs an optimizer from x until it ends or fails (rounding, a forced stop, any failure of its own): x is
-/// then the best point so far. Returns the value there, none after a failure. Every caller improves a point
-/// that is already good, so a failure only costs the improvement.
+/// Runs an optimizer from x until it ends or fails (rounding, a forced stop, any internal failure); x is then
+/// the best point so far. Returns the value there, or nothing after a failure. Every caller improves a valid
+/// point, so a failure only costs the improvement.
 inline std::optional<double> optimize_as_far_as_possible(nlopt::opt& optimizer, std::vector<double>& x) {
   double value{};
   try {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLongestSpan_m = 16.0;
 constexpr double kShapeSpan_m = 0.5;  ///< spans longer than this follow shape below the tolerance
 constexpr double kShapeShare = 0.1;   ///< of the tolerance
-constexpr double kShared = 0.5;       ///< correlation of neighboring residuals that counts as shape
+constexpr double kShared = 0.5;       ///< correlation of neighboring residuals from which they count as shape
 constexpr double kRoughness = 0.05;   ///< r: length, in spans, below which the penalty smooths
 constexpr double kPinned = 1e6;       ///< weight of the ends
 constexpr int kRounds = 60;
@@ -153,7 +153,7 @@ class Fit {
       if (!misses(span, tolerance_m)) continue;
       cut[span] = true;
       if (ends_[span + 1] > ends_[span] + 1) continue;
-      // More spans around a span of one chord can help it; the span itself cannot be cut.
+      // A span of one chord cannot be cut; the spans around it are cut instead.
       for (std::size_t near = span - std::min(span, kOrder); near < std::min(spans, span + 1 + kOrder);
            ++near)
         cut[near] = true;

@@ -14,7 +14,7 @@ namespace joulepath {
 namespace {
 
 constexpr double kSamePlace_m = 1e-6;
-constexpr double kTurnsBack_rad = 1e-6;  ///< a turn this close to half a turn reverses along the line
+constexpr double kTurnsBack_rad = 1e-6;  ///< turns within this angle of half a turn are reversals on a line
 constexpr double kTurnsBackDense_rad = 2.8;
 constexpr double kLook = 5;   ///< length, in tolerances, over which the direction of dense waypoints is taken
 constexpr double kDense = 8;  ///< tolerances between neighbors
@@ -28,7 +28,7 @@ std::string metres(double value_m) {
 
 /// Rounded down to the four digits of metres(), so that a proposed value fits.
 double proposed_m(double most_m) {
-  constexpr double kClear = 1 - 1e-12;  // rounding of compared values
+  constexpr double kClear = 1 - 1e-12;  // tolerance of comparisons, against rounding
   if (!(most_m > 0)) return 0;
   const double step_m = std::pow(10.0, std::floor(std::log10(most_m)) - 3);
   return step_m * std::floor(kClear * most_m / step_m);
@@ -84,7 +84,7 @@ std::vector<BezierPoints> spline_m(const std::vector<Point2>& points_m) {
   return curves;
 }
 
-/// A corner whose blend does not fit between its neighbors'.
+/// The verdict on a corner whose blend does not fit between the neighboring blends.
 std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
                                        const std::vector<double>& radius_m) {
   const std::vector<double> chord = chords_m(points_m);

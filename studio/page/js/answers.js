@@ -30,7 +30,7 @@ onmessage = async ({data}) => {
   }
 };`;
 
-/** What a benchmark asks of drafts: {nodes, by_program}. */
+/** Settings of drafts for benchmarks: {nodes, by_program}. */
 const studio_draft = () => window.studio.draft || {};
 
 let wasm_bytes;
@@ -42,7 +42,7 @@ async function core_bytes() {
   return (await wasm_bytes).slice(0);
 }
 
-/** A planner in a thread of its own; a question that is no longer wanted ends with its thread. */
+/** A planner in a separate thread; an outdated question ends with its thread. */
 class Lane {
   async open() {
     this.worker = new Worker(URL.createObjectURL(new Blob([core_js + "\n" + kWorker], {type: "text/javascript"})));
@@ -83,11 +83,20 @@ async function in_program(text) {
   return response.text();
 }
 
+/** Stops in an order that the planner chooses: between its searches they keep the order of the last plan. */
+const is_ordered = () => !has_legs() && Array.isArray(store.mission.visit);
+function ordered_mission() {
+  const {visit, ...mission} = store.mission, latest = (name) => ((visit.find((one) => [one.pick, one.drop, one.go].includes(name)) || {}).window_s || [])[1];
+  return {...mission, legs: store.answer.plan.legs.map((leg) => ({to: leg.to, payload_kg: leg.payload_kg, dwell_s: leg.dwell_s, deadline_s: latest(leg.to)}))};
+}
+
 /** One question about the mission as it is now. */
 export async function ask(mode, extra = {}) {
-  const question = JSON.stringify({mode, page: page_name, name: store.files.name, mission: store.mission, robot: store.robot, paths: store.ways, ...extra});
+  const mission = mode !== "plan" && is_ordered() && store.answer ? ordered_mission() : store.mission;
+  const question = JSON.stringify({mode, page: page_name, name: store.files.name, mission, robot: store.robot, paths: store.ways, ...extra});
   const draft = mode === "draft";
-  const by_program = store.served && (!draft || !has_core() || studio_draft().by_program);
+  // An order is a file, which the program alone reads.
+  const by_program = store.served && (!draft || !has_core() || store.mission.order || studio_draft().by_program);
   if (!by_program && !has_core()) return {error: {message: "this page holds no planner: open the mission with joulepath studio"}};
   const text = by_program ? await in_program(question) : await in_core(mode, question, !draft);
   return JSON.parse(text);
@@ -103,15 +112,19 @@ function take(answer, state, edits) {
     if (answer.motion) {
       store.answer = answer;
       store.state = state;
-      if (has_legs() && answer.legs.length === store.mission.legs.length && edits === store.edits)
+      if (edits === store.edits && (has_legs() ? answer.legs.length === store.mission.legs.length : is_ordered()))
         store.ways = answer.legs.map((leg) => leg.path);
     }
   }
   emit("answer");
 }
 
-export const moves_stops = () => has_legs() && store.mission.legs.some((leg) => leg.to !== undefined);
-const ways_are_known = () => has_legs() && store.mission.legs.every((leg, k) => leg.to === undefined || Array.isArray(store.ways[k]));
+export const moves_stops = () => is_ordered() || (has_legs() && store.mission.legs.some((leg) => leg.to !== undefined));
+const ways_are_known = () => {
+  if (store.mission.order) return store.served;
+  if (is_ordered()) return !!store.answer && store.answer.plan.legs.every((_, k) => Array.isArray(store.ways[k]));
+  return has_legs() && store.mission.legs.every((leg, k) => leg.to === undefined || Array.isArray(store.ways[k]));
+};
 
 function working(text) { store.working = text; emit("working"); }
 
@@ -130,7 +143,7 @@ async function draft() {
 }
 
 let settled = 0;
-/** Certifies the mission as it is: along its ways at once, then with ways searched anew where stops have moved. */
+/** Certifies the present mission: at once along its ways, then with a new search of ways where stops have moved. */
 async function settle() {
   const edits = store.edits;
   const current = () => edits === store.edits;
@@ -141,7 +154,7 @@ async function settle() {
     settled = edits;
     take(answer, moves_stops() ? "certified" : "planned", edits);
   }
-  if (store.served && (moves_stops() || !has_legs())) {
+  if (store.served && (moves_stops() || !ways_are_known())) {
     working("searching ways");
     const answer = await ask("plan");
     if (!current()) return;
@@ -152,7 +165,7 @@ async function settle() {
   emit("settled");
 }
 
-// Before the listeners of the panels: they show the state that follows from an edit.
+// Registered before the listeners of the panels, which show the state that follows from an edit.
 let timer;
 on("edit", ({release}) => {
   store.classics = store.front = null;

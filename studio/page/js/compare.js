@@ -1,6 +1,6 @@
 /** Plan A beside the plan, and the classic profiles on the same ways. */
-import {button, h} from "studio/dom.js";
-import {number, signed, words} from "studio/numbers.js";
+import {button, h} from "page/dom.js";
+import {number, signed, words} from "page/numbers.js";
 import {ask} from "studio/answers.js";
 import {emit, on, store} from "studio/store.js";
 import {causes_of} from "studio/summary.js";
@@ -40,7 +40,7 @@ export function classics_panel() {
     emit("view");
   });
   const show = () => {
-    if (!store.classics) { body.replaceChildren(h("p", {class: "soft small"}, "Each on the same path in the same time; where it cannot, in the next time that it can.")); return; }
+    if (!store.classics) { body.replaceChildren(h("p", {class: "soft small"}, "Each on the same path in the same time, or in the next feasible time.")); return; }
     const plan = store.answer.plan;
     body.replaceChildren(h("table", {}, h("caption", {class: "unseen"}, "Classic profiles"), h("thead", {}, h("tr", {}, ["profile", "J", "more", "s later"].map((text, k) => h("th", {scope: "col", class: k ? "n" : null}, text)))),
       h("tbody", {}, store.classics.map((classic, k) => h("tr", {}, h("td", {}, classic.feasible ? h("label", {}, h("input", {type: "checkbox", checked: classic.shown, onchange: (event) => { classic.shown = event.target.checked; emit("view"); }, id: "classic" + k}), " ", h("i", {class: "swatch", style: `background:var(--${classic.color})`}), " " + words(classic.name)) : words(classic.name)),

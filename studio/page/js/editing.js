@@ -36,15 +36,31 @@ function set_curves(k, curves) {
   path.bezier_m = curves.map((curve) => curve.map(([x, y]) => [Number(x.toFixed(6)), Number(y.toFixed(6))]));
 }
 
-/** Paths drawn in the map that begin where a leg ends are taken along to its new end. */
-function follow(k, x, y) {
-  const next = legs()[k + 1];
-  if (!next || !next.path || next.path.frame !== "map") return;
-  const [first] = next.path.bezier_m, dx = x - first[0][0], dy = y - first[0][1];
-  first[1] = [Number((first[1][0] + dx).toFixed(6)), Number((first[1][1] + dy).toFixed(6))];
-  first[0] = [Number(x.toFixed(6)), Number(y.toFixed(6))];
-  const curves = next.path.bezier_m;
-  if (curves.length > 1) set_curves(k + 1, smooth(curves));
+const heading_at_end = (curves) => { const [, , before, end] = curves.at(-1); return Math.atan2(end[1] - before[1], end[0] - before[0]); };
+
+/**
+ * The robot begins leg k at {x_m, y_m, heading_rad}, turned by turn_rad: a path drawn in the map is taken along with its
+ * first point, and its first handle turns as much. Paths drawn from the robot pass their new ends on.
+ */
+function carry(k, pose, turn_rad = 0) {
+  for (; legs()[k] && legs()[k].path; ++k) {
+    const {path} = legs()[k];
+    if (path.frame === "map") return begin_at(k, path.bezier_m, pose, turn_rad);
+    if (pose.heading_rad === undefined) return;
+    pose = end_of(path.bezier_m, pose);
+  }
+}
+function begin_at(k, curves, {x_m, y_m}, turn_rad) {
+  const moved = curves.map((curve) => curve.map((point) => [...point])), [first] = moved;
+  const [dx, dy] = [0, 1].map((a) => first[1][a] - first[0][a]), c = Math.cos(turn_rad), s = Math.sin(turn_rad);
+  first[0] = [x_m, y_m];
+  first[1] = [x_m + c * dx - s * dy, y_m + s * dx + c * dy];
+  set_curves(k, moved.length > 1 ? smooth(moved) : moved);
+}
+/** Where a path drawn from the robot's pose ends. */
+function end_of(curves, {x_m, y_m, heading_rad}) {
+  const [x, y] = curves.at(-1)[3], c = Math.cos(heading_rad), s = Math.sin(heading_rad);
+  return {x_m: x_m + c * x - s * y, y_m: y_m + s * x + c * y, heading_rad: heading_rad + heading_at_end(curves)};
 }
 /** A chain through its joints with its first and last handle. */
 function smooth(curves) {
@@ -56,8 +72,8 @@ export function move_station(name, x_m, y_m, gesture) {
   const x = tidy(x_m), y = tidy(y_m);
   change(() => {
     Object.assign(store.mission.stations[name], {x_m: x, y_m: y});
-    if ((store.mission.start || {}).station === name) follow(-1, x, y);
-    legs().forEach((leg, k) => { if (leg.to === name) follow(k, x, y); });
+    if ((store.mission.start || {}).station === name) carry(0, start_pose());
+    legs().forEach((leg, k) => { if (leg.to === name) carry(k + 1, {x_m: x, y_m: y}); });
   }, gesture);
 }
 export function turn_station(name, heading_rad, gesture) {
@@ -71,30 +87,35 @@ export function move_start(x_m, y_m, gesture) {
   if (name) return move_station(name, x_m, y_m, gesture);
   change(() => {
     store.mission.start = {...store.mission.start, x_m: tidy(x_m), y_m: tidy(y_m)};
-    follow(-1, tidy(x_m), tidy(y_m));
+    carry(0, start_pose());
   }, gesture);
 }
 export function turn_start(heading_rad, gesture) {
   const start = store.mission.start || {};
   if (start.station && start.heading_rad === undefined) return turn_station(start.station, heading_rad, gesture);
-  change(() => { store.mission.start = {x_m: 0, y_m: 0, ...start, heading_rad: angle(heading_rad)}; }, gesture);
+  change(() => {
+    const before_rad = start_pose().heading_rad;
+    store.mission.start = {...(start.station ? {} : {x_m: 0, y_m: 0}), ...start, heading_rad: angle(heading_rad)};
+    carry(0, start_pose(), start_pose().heading_rad - before_rad);
+  }, gesture);
 }
 
 /** Moves control point `point` of curve `curve` of leg k. A chain stays smooth: its joints are waypoints of a spline. */
 export function move_handle(k, curve, point, x, y, gesture) {
   change(() => {
     const curves = curves_of(k).map((one) => one.map((p) => [...p]));
-    const last = curves.length - 1;
+    const last = curves.length - 1, heading_before = heading_at_end(curves);
     if (point === 0 && curve === 0) return;
-    // The handle before an end goes with it.
+    // The handle before an end moves with it.
     if (point === 3 && curve === last) curves[curve][2] = [0, 1].map((a) => curves[curve][2][a] + [x, y][a] - curves[curve][3][a]);
     curves[curve][point] = [x, y];
     set_curves(k, curves.length > 1 ? smooth(curves) : curves);
-    if (point === 3 && curve === last) follow(k, x, y);
+    const heading_rad = heading_at_end(curves);
+    if (curve === last && point > 1) carry(k + 1, {x_m: curves[last][3][0], y_m: curves[last][3][1], heading_rad}, heading_rad - heading_before);
   }, gesture);
 }
 
-/** A leg to a station becomes a path of its own, drawn through waypoints of the way it has now. */
+/** Turns a leg to a station into a drawn path through waypoints of its present way. */
 export function draw_by_hand(k) {
   const motion = store.answer.motion, rows = motion.leg.map((leg, row) => [leg, row]).filter(([leg]) => leg === k).map(([, row]) => row);
   const s = rows.map((row) => motion.arc_length_m[row]), length = s.at(-1);
@@ -170,7 +191,7 @@ export function remove_leg(k) {
   });
   select({kind: "none"});
 }
-/** Leg k changes places with the one before (-1) or after it (+1). */
+/** Exchanges leg k with the one before (-1) or after it (+1). */
 export function reorder(k, by) {
   const j = k + by;
   if (j < 0 || j >= legs().length) return;

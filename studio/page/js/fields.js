@@ -1,6 +1,6 @@
 /** Sliders and number boxes with units and ranges from the JSON Schemas of the files. */
-import {h} from "studio/dom.js";
-import {is_number, short, split_key} from "studio/numbers.js";
+import {h} from "page/dom.js";
+import {is_number, short, split_key} from "page/numbers.js";
 import {set_value} from "studio/editing.js";
 import {store} from "studio/store.js";
 

@@ -1,10 +1,10 @@
 /** The energy-time front of the mission as a curve: the duration is dragged along it. */
-import {button, h, sharp} from "studio/dom.js";
-import {is_number, number, short, ticks, value_at} from "studio/numbers.js";
+import {button, h, sharp} from "page/dom.js";
+import {is_number, number, short, ticks, value_at} from "page/numbers.js";
 import {ask} from "studio/answers.js";
 import {set_value} from "studio/editing.js";
 import {on, store} from "studio/store.js";
-import {color, on_theme} from "studio/theme.js";
+import {color, on_theme} from "page/theme.js";
 
 const kLeft = 50, kRight = 10, kTop = 10, kBottom = 34;
 
@@ -30,10 +30,10 @@ export function front_panel() {
   }
 
   const dwell_s = () => { const leg = (store.mission.legs || []).at(-1); return leg && leg.dwell_s ? leg.dwell_s : 0; };
-  /** The mission's deadline counts to its end; beyond the cheapest time it does not bind. */
+  /** The deadline refers to the end of the mission; beyond the cheapest time it does not bind. */
   function put(time_s, release) {
     const points = curve(), low = points[0].duration_s, value = Math.max(low * 1.0002 + 1e-3, time_s);
-    kept = store.front;
+    kept = store.front || kept;  // an edit empties the former
     set_value("mission", ["objective", "deadline_s"], Number(value.toFixed(2)), {of: "front", release});
   }
   let kept = null;

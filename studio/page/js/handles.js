@@ -1,4 +1,4 @@
-/** What can be chosen and dragged on the map: start, stops, their headings, joints and control points of drawn paths. */
+/** Handles on the map: start, stops, their headings, joints and control points of drawn paths. */
 import {curves_of, legs, move_handle, move_start, move_station, start_pose, turn_start, turn_station} from "studio/editing.js";
 import {has_legs, select, store} from "studio/store.js";
 

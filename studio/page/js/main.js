@@ -1,5 +1,6 @@
 /** The studio's page. */
-import {announce, button, h, section} from "studio/dom.js";
+import {announce, button, h} from "page/dom.js";
+import {section} from "studio/section.js";
 import {can_redo, can_undo, on, once, redo, store, undo} from "studio/store.js";
 import * as answers from "studio/answers.js";
 import {canvas, draw, show_all, view} from "studio/floor_view.js";
@@ -11,10 +12,11 @@ import {causes, collides, leg_list, status_text, tiles} from "studio/summary.js"
 import {fields_of} from "studio/fields.js";
 import {selection_panel} from "studio/selection.js";
 import {front_panel} from "studio/front.js";
+import {diagnosis_panel} from "studio/diagnosis.js";
 import {ab_panel, classics_panel} from "studio/compare.js";
 import {file_tools, page_text} from "studio/share.js";
 import {listen} from "studio/keys.js";
-import {toggle_theme} from "studio/theme.js";
+import {toggle_theme} from "page/theme.js";
 
 function top_bar() {
   const status = h("span", {class: "badge", id: "status"}), problem = h("p", {class: "problem", role: "alert"});
@@ -63,23 +65,24 @@ function robot_panel() {
 
 function start() {
   const offline = !store.served ? h("p", {class: "soft small"}, answers.has_core() ? "Without the program no new routes are searched: ways follow their stops, and drawn paths can be edited." : "This page was written by a build without WebAssembly: it shows the plan and cannot change it.") : null;
+  const diagnosis = diagnosis_panel();
   document.getElementById("app").replaceChildren(top_bar(),
     h("main", {class: "studio"},
       h("section", {class: "floor", "aria-label": "Floor"}, h("div", {class: "floor-box"}, canvas, map_tools()), timeline(), offline),
-      h("div", {class: "figures"}, tiles(), plots_panel()),
+      h("div", {class: "figures"}, tiles(), plots_panel(), diagnosis.view),
       h("aside", {class: "panel", id: "panel", "aria-label": "Panel", tabindex: "-1"},
         section("Legs", "legs", leg_list()), section("Chosen", "chosen", selection_panel()), section("Energy by cause", "causes", causes()),
-        section("Energy and time", "front", front_panel()), section("Two plans", "ab", ab_panel()), section("Classic profiles", "classics", classics_panel()), section("Robot", "robot", robot_panel()))),
+        section("Energy and time", "front", front_panel()), section("Two plans", "ab", ab_panel()), section("Classic profiles", "classics", classics_panel()), section("Robot", "robot", robot_panel()), section("Diagnosis", "diagnosis", diagnosis.panel))),
     h("footer", {}, `joulepath ${store.version_of_program || ""} studio. Keys on the map: N and P choose, arrows move, [ and ] turn, Delete removes, + and − zoom; Ctrl+Z, Ctrl+Y, Ctrl+S.`));
   listen();
   on("settled", () => { document.documentElement.dataset.ready = "true"; });
   new ResizeObserver(draw).observe(canvas.parentElement);
+  diagnosis.start();
   answers.start();
   draw();
 }
-window.studio.store = store;
 // What tests and benchmarks look at.
-Object.assign(window.studio, {answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))});
+window.studio = {store, answers, view, handles, page_text, next_draft: () => new Promise((resolve) => once("drafted", () => requestAnimationFrame(resolve)))};
 const asked = location.hash.slice(1);
 if (asked === "dark" || asked === "light") document.documentElement.dataset.theme = asked;
 start();

@@ -1,5 +1,6 @@
 /** Mouse, pen and touch on the map: drag a handle, pan, zoom, show a place of the way. */
-import {announce} from "studio/dom.js";
+import {announce} from "page/dom.js";
+import {nearest_row} from "page/floor.js";
 import {canvas, draw, view} from "studio/floor_view.js";
 import {choose_next, chosen, handle_at} from "studio/handles.js";
 import {add_stop, legs, remove_leg, remove_waypoint, turn_start, turn_station} from "studio/editing.js";
@@ -14,12 +15,8 @@ const place = (event) => { const box = canvas.getBoundingClientRect(); return [e
 function time_near(px, py) {
   if (!store.answer) return null;
   const m = store.answer.motion;
-  let best = null, least = 22 ** 2;
-  m.position_x_m.forEach((x, k) => {
-    const [qx, qy] = view.at(x, m.position_y_m[k]), d = (qx - px) ** 2 + (qy - py) ** 2;
-    if (d < least) { least = d; best = m.time_s[k]; }
-  });
-  return best;
+  const row = nearest_row(view, m.position_x_m, m.position_y_m, px, py);
+  return row < 0 ? null : m.time_s[row];
 }
 
 canvas.addEventListener("pointerdown", (event) => {
@@ -86,7 +83,7 @@ canvas.addEventListener("dblclick", (event) => {
 });
 
 const kStep_m = 0.05, kTurn_rad = Math.PI / 36;
-/** Turns what is chosen, where it has a heading. */
+/** Turns the selected handle if it has a heading. */
 function turn(by) {
   const {kind, name, of} = store.selection, station = kind === "station" ? name : kind === "heading" ? of : null;
   if (station) turn_station(station, (store.mission.stations[station].heading_rad || 0) + by, {of: "turn " + station});

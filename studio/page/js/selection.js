@@ -1,6 +1,6 @@
 /** The panel of what is chosen: a stop, a leg, the start; and the mission's own numbers. */
-import {button, h} from "studio/dom.js";
-import {is_number, with_unit} from "studio/numbers.js";
+import {button, h} from "page/dom.js";
+import {is_number, with_unit} from "page/numbers.js";
 import {number_field} from "studio/fields.js";
 import {add_stop, add_waypoint, draw_by_hand, legs, remove_leg, set_value, turn_station} from "studio/editing.js";
 import {view} from "studio/floor_view.js";
@@ -48,7 +48,7 @@ function mission_fields() {
     optional_field(["start", "battery_fraction"], "battery at the start", 1), optional_field(["clearance_m"], "clearance", 0.05)];
 }
 
-/** Rebuilt when something else is chosen or appears, not while its own sliders move. */
+/** Rebuilt when the selection or its content changes, not while its sliders move. */
 export function selection_panel() {
   const body = h("div", {class: "fields"});
   let shown = "";
@@ -57,7 +57,7 @@ export function selection_panel() {
   const build = () => {
     const {kind, name, leg, of} = store.selection, station = kind === "station" ? name : kind === "heading" && of ? of : null;
     const content = station && (store.mission.stations || {})[station] ? station_fields(station) : (kind === "leg" || kind === "handle") && has_legs() ? leg_fields(leg) : null;
-    body.replaceChildren(...(content || [h("p", {class: "soft"}, has_legs() ? "Choose a stop on the map or a leg in the list. Double-click the map to add a stop." : "This mission leaves the order of its stops to the planner: its stops can be moved, its legs not.")]).flat(3).filter(Boolean),
+    body.replaceChildren(...(content || [h("p", {class: "soft"}, has_legs() ? "Choose a stop on the map or a leg in the list. Double-click the map to add a stop." : "The planner chooses the order of stops in this mission: stops can be moved, legs cannot be edited.")]).flat(3).filter(Boolean),
       h("h3", {}, "Mission"), ...mission_fields().filter(Boolean));
     shown = shape();
   };

@@ -1,5 +1,5 @@
 /** Save, copy the command, write the page as one file. */
-import {announce, button, h} from "studio/dom.js";
+import {announce, button, h} from "page/dom.js";
 import {has_core} from "studio/answers.js";
 import {is_saved, on, set_files, store} from "studio/store.js";
 
@@ -28,7 +28,7 @@ export async function reload() {
 }
 async function look_at_disk() {
   const files = await (await fetch("files")).json();
-  if (!files.error && (files.base.mission !== store.files.base.mission || files.base.robot !== store.files.base.robot)) tell("The files were changed on the disk. Saving is refused until they are read again.", true);
+  if (!files.error && (files.base.mission !== store.files.base.mission || files.base.robot !== store.files.base.robot)) tell("The files were changed on the disk. Reload them before you save.", true);
 }
 
 const quoted = (text) => (/^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
@@ -38,7 +38,7 @@ async function copy() {
   try { await navigator.clipboard.writeText(text); tell(is_saved() ? "Copied: " + text : "Copied; save first, or the command plans the mission as it is on the disk: " + text, !is_saved()); } catch { tell(text); }
 }
 
-/** This page with the mission, the robot and the plan as they are now: it needs no program and no network. */
+/** The page with the present mission, robot and plan as one file that needs no program and no network. */
 export function page_text() {
   const copy = document.documentElement.cloneNode(true);
   const data = {files: JSON.stringify({...store.files, mission: store.mission, robot: store.robot}), floor: store.floor, schemas: store.schemas, served: false, version: store.version_of_program, answer: store.answer};

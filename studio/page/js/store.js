@@ -1,15 +1,15 @@
 /**
- * What the page knows: the mission and the robot as their files have them, the ways of the legs as the last answer
- * gave them, the last answer, what is selected. Every change goes through change(), so that all of them can be undone.
+ * State of the page: the mission and the robot as in their files, the ways of the legs from the last answer, the last
+ * answer, and the selection. Every change goes through change(), so that it can be undone.
  */
 const data = JSON.parse(document.getElementById("data").textContent);
 const files = JSON.parse(data.files);
 
 export const store = {
-  served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null,
+  served: data.served, version_of_program: data.version, floor: data.floor, schemas: data.schemas, first_answer: data.answer || null, diagnosis: data.diagnosis || null,
   files, mission: structuredClone(files.mission), robot: structuredClone(files.robot), ways: [],
-  answer: null,      // the last with a motion
-  verdict: null,     // the plan of the last answer, which may have no motion
+  answer: null,      // the last answer with a motion
+  verdict: null,     // the plan of the last answer, with or without a motion
   state: "none",     // none | draft | certified | planned: how much the last answer is worth
   problem: "",       // why there is no newer answer
   working: "",       // what is being computed
@@ -18,12 +18,12 @@ export const store = {
   kept: null,        // plan A of a comparison: {answer}
   classics: null,    // classic profiles beside the plan
   front: null,
-  edits: 0,          // counts changes: an answer to an older one is no longer wanted
+  edits: 0,          // counts changes; answers to older states are discarded
 };
 
 const listeners = {};
 export const on = (event, listener) => (listeners[event] = listeners[event] || []).push(listener);
-/** Calls a listener at the next event alone. */
+/** Calls a listener at the next event only. */
 export function once(event, listener) {
   const first = (detail) => { listeners[event].splice(listeners[event].indexOf(first), 1); listener(detail); };
   on(event, first);
@@ -37,7 +37,7 @@ function snapshot_of_files() { return JSON.stringify({mission: store.files.missi
 
 /**
  * Changes mission, robot or ways by `edit(store)`. Changes of the same gesture (a drag, a slider) are one step of undo.
- * `release`: the gesture is over, and the plan is to be certified.
+ * `release`: the gesture has ended, so the plan is certified.
  */
 export function change(edit, {of = "", release = true} = {}) {
   const before = snapshot();
@@ -68,7 +68,7 @@ export function redo() { if (future.length) { past.push(snapshot()); restore(fut
 
 export const is_saved = () => saved === JSON.stringify({mission: store.mission, robot: store.robot});
 
-/** Files as they are on the disk now. `adopt`: the page takes their values. */
+/** Present content of the files. `adopt`: the page uses their values. */
 export function set_files(next, adopt) {
   store.files = next;
   saved = snapshot_of_files();
@@ -93,5 +93,5 @@ export function set_cursor(time_s) {
   emit("cursor");
 }
 
-/** Legs whose order and number the page can edit: given as `legs:`, not left to the planner. */
+/** True if the page can edit order and number of the legs: they are given as `legs:`, not chosen by the planner. */
 export const has_legs = () => Array.isArray(store.mission.legs) && store.mission.legs.length > 0;

@@ -1,12 +1,12 @@
 /** What the plan takes: figures, joules by cause, legs. */
-import {button, h} from "studio/dom.js";
-import {number, percent, short, signed, with_unit, words} from "studio/numbers.js";
+import {button, h} from "page/dom.js";
+import {fraction, number, short, signed, with_unit, words} from "page/numbers.js";
 import {has_legs, on, select, store} from "studio/store.js";
 import {legs, remove_leg, reorder} from "studio/editing.js";
 
 const kStates = {draft: "draft", certified: "certified on these ways", planned: "", none: "planning"};
 
-/** Status in words: how good the plan is, and how much of it is certified. */
+/** Status in words: quality of the plan and extent of its certificate. */
 export const collides = () => !!store.answer && store.answer.legs.some((leg) => leg.blocked);
 export function status_text() {
   if (store.problem) return store.verdict && store.verdict.infeasibility ? "infeasible" : "no plan";
@@ -30,7 +30,7 @@ export function tiles() {
     price.value.textContent = prices.length ? with_unit(Math.max(...prices), "W", 3) : "0 W";
     price.more.textContent = prices.length ? "energy that one more second saves" : "time is free: no deadline binds";
     const end = plan.battery && plan.battery.end_fraction;
-    battery.value.textContent = percent(end, 4);
+    battery.value.textContent = fraction(end, 4);
     battery.more.textContent = plan.battery ? `${short(Math.floor(plan.battery.missions_per_charge), 7)} missions per charge` : "no capacity in the robot file";
     gap.value.textContent = draft ? "–" : with_unit(plan.optimality_gap_percent, "%", 2);
     gap.more.textContent = draft ? "drafts have no bound" : `bound ${with_unit(plan.lower_bound_J, "J", 6)}`;

@@ -1,6 +1,6 @@
 /** The clock of the animation: play, a slider, what holds at the cursor. */
-import {button, h} from "studio/dom.js";
-import {number, row_at, value_at, words} from "studio/numbers.js";
+import {button, h} from "page/dom.js";
+import {number, row_at, value_at, words} from "page/numbers.js";
 import {on, set_cursor, store} from "studio/store.js";
 
 const kRate = 8;  // seconds of the mission per second of watching

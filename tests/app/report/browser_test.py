@@ -3,6 +3,8 @@
 
 usage: browser_test.py REPORT_SAMPLES_PROGRAM [REPORT.html ...]
 
+JOULEPATH_AXE names axe.min.js (`./dev axe` installs it): every page is then searched for barriers, too.
+
 Speaks W3C WebDriver to chromedriver with the standard library alone. Exit code 77 (skipped in CTest)
 where Chromium or chromedriver is absent, unless JOULEPATH_BROWSER=required.
 """
@@ -76,6 +78,32 @@ class Browser:
                   "y": round((down - 0.5) * height)} for shift in (0, 2)]
         self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": moves}]})
 
+    def width(self, pixels, height=1000):
+        self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride",
+                                                "params": {"width": pixels, "height": height, "deviceScaleFactor": 1, "mobile": False}})
+
+    def barriers(self):
+        """Serious and critical findings of axe-core in the page as it is now; None without axe-core."""
+        if not os.environ.get("JOULEPATH_AXE"):
+            return None
+        if not self.run("return !!window.axe"):
+            self.run(pathlib.Path(os.environ["JOULEPATH_AXE"]).read_text())
+        self.call("POST", "/timeouts", {"script": 60_000})
+        return self.call("POST", "/execute/async", {"script": AXE, "args": []})
+
+    def check_barriers(self, where):
+        found = self.barriers()
+        assert not found, f"axe-core, {where}: {found}"
+
+    def drag(self, selector, begin, end):
+        """Drags the mouse between two places of an element, in fractions of its box."""
+        element = self.call("POST", "/element", {"using": "css selector", "value": selector})
+        self.run("arguments[0].scrollIntoView({block: 'center'})", element)
+        width, height = self.run("const b = arguments[0].getBoundingClientRect(); return [b.width, b.height]", element)
+        move = lambda at: {"type": "pointerMove", "duration": 20, "origin": element, "x": round((at[0] - 0.5) * width), "y": round((at[1] - 0.5) * height)}
+        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
+            move(begin), {"type": "pointerDown", "button": 0}, move(end), {"type": "pointerUp", "button": 0}]}]})
+
     def press(self, selector, key):
         element = self.call("POST", "/element", {"using": "css selector", "value": selector})
         self.call("POST", f"/element/{element[ELEMENT]}/value", {"text": key})
@@ -92,12 +120,18 @@ def chromium():
     return next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
 
 
+# Transitions are over after two frames; a finding is "rule: element | element".
+AXE = """const done = arguments[0];
+requestAnimationFrame(() => requestAnimationFrame(() => axe.run(document, {resultTypes: ['violations']}).then((result) => done(result.violations
+  .filter((one) => ['serious', 'critical'].includes(one.impact))
+  .map((one) => one.id + ': ' + one.nodes.map((node) => node.html.slice(0, 120)).join(' | '))), (error) => done([String(error)]))));"""
+
 # Pixels of a canvas that differ from its first one: 0 for a canvas that nothing was drawn on.
-DRAWN = """return [...document.querySelectorAll('.plot canvas, .map canvas')].map((canvas) => {
+DRAWN = """return [...document.querySelectorAll('.plot canvas, .floor-box canvas')].map((canvas) => {
   const p = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
   let n = 0;
   for (let k = 4; k < p.length; k += 4) n += p[k] !== p[0] || p[k + 1] !== p[1] || p[k + 3] !== p[3];
-  return [canvas.parentElement.closest('.map') ? 'map' : canvas.style.zIndex || 'plot', n];
+  return [canvas.parentElement.closest('.floor-box') ? 'map' : 'plot', n];
 });"""
 
 
@@ -107,7 +141,6 @@ def check_page(browser, file, theme, plots):
     assert not messages, f"console: {messages}"
     count = browser.run("return document.querySelectorAll('.plot').length")
     assert count >= plots, f"{count} plots, expected at least {plots}"
-    # dygraphs lays two canvases over one another: one of each pair carries the drawing.
     drawn = browser.run(DRAWN)
     with_ink = sum(n > 50 for _, n in drawn)
     assert with_ink >= count, f"canvases with ink: {drawn}"
@@ -116,11 +149,12 @@ def check_page(browser, file, theme, plots):
     unnamed = browser.run("return [...document.querySelectorAll('button, select, input, canvas[role], [role=img]')]"
                           ".filter((e) => e.offsetParent && !(e.textContent.trim() || e.ariaLabel || e.getAttribute('aria-label'))).map((e) => e.outerHTML.slice(0, 120))")
     assert not unnamed, f"controls or figures without a name: {unnamed}"
-    requests = browser.run("return performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !n.startsWith('data:'))")
+    requests = browser.run("return performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !/^(data|blob):/.test(n))")
     assert not requests, f"the page fetched {requests}"
     ground = browser.run("return getComputedStyle(document.body).backgroundColor")
     light = sum(int(part) for part in ground[4:-1].split(",")) > 380
     assert light == (theme == "light"), f"background {ground} in the {theme} theme"
+    browser.check_barriers(f"{file}, {theme}")
 
 
 def check_cursor(browser):
@@ -145,25 +179,69 @@ def check_cursor(browser):
 def check_plan(browser, file):
     check_page(browser, file, "light", 5)
     check_cursor(browser)
-    ink = "const c = document.querySelector('.map canvas'); return c.toDataURL().length + c.toDataURL().slice(-4000)"
+    ink = "const c = document.querySelector('.floor-box canvas'); return c.toDataURL().length + c.toDataURL().slice(-4000)"
     before = browser.run(ink)
     browser.hover(".plot", 0.6, 0.5)
     assert browser.run(ink) != before, "the cursor did not move on the map"
-    browser.run("document.querySelector('.map canvas').scrollIntoView()")
-    row = browser.run("return joulepath.plots[0].graph.getSelection()")
-    browser.press(".map canvas", "\ue014")  # right arrow
-    moved = browser.run("return joulepath.plots[0].graph.getSelection()")
+    browser.run("document.querySelector('.floor-box canvas').scrollIntoView()")
+    row = browser.run("return Number(document.querySelector('#cursor').value)")
+    browser.press(".floor-box canvas", "\ue014")  # right arrow
+    moved = browser.run("return Number(document.querySelector('#cursor').value)")
     assert moved > row, f"keys on the map left the plots at row {row}, {moved}"
-    time_axis = browser.run("return joulepath.plots[0].graph.xAxisRange()")
+    span = "return joulepath.plots.map((one) => one.span())"
+    time_axis = browser.run(span)
     browser.run("document.querySelector('[data-by=distance]').click()")
-    distance_axis = browser.run("return joulepath.plots[0].graph.xAxisRange()")
+    distance_axis = browser.run(span)
     assert time_axis != distance_axis, "the switch to distance changed nothing"
-    browser.run("joulepath.plots[0].graph.updateOptions({dateWindow: [0, 1]})")
+    browser.drag(".plot", (0.4, 0.5), (0.7, 0.5))
+    zoomed = browser.run(span)
+    assert all(z[1] - z[0] < 0.5 * (d[1] - d[0]) for z, d in zip(zoomed, distance_axis)), f"dragging zoomed to {zoomed}"
     browser.press("#cursor", "0")
-    assert browser.run("return joulepath.plots[0].graph.xAxisRange()") == distance_axis, "the key 0 did not show all"
+    assert browser.run(span) == distance_axis, "the key 0 did not show all"
     browser.run("document.querySelector('#theme').click()")
-    assert browser.run("return joulepath.is_dark()"), "the theme button changed nothing"
+    assert browser.run("return document.documentElement.dataset.theme") == "dark", "the theme button changed nothing"
     assert browser.console() == [], "messages while using the report"
+
+
+def check_layout(browser, file):
+    """The map comes first and is large; nothing is wider than the window, no label is cut off."""
+    for pixels, least in ((400, 360), (1280, 1100), (1920, 1000), (2560, 1300)):
+        browser.width(pixels)
+        browser.open(file, "light")
+        wide = browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+        assert wide <= 0, f"at {pixels} px the page is {wide} px wider than the window"
+        map_width = browser.run("return document.querySelector('.floor-box').clientWidth")
+        assert map_width >= least, f"the map has {map_width} of {pixels} px"
+        first = browser.run("return [...document.querySelectorAll('.tiles, .floor-box, .plot, table')].map((e) => e.className || e.tagName).slice(0, 2)")
+        assert first == ["tiles", "floor-box"], f"the page begins with {first}"
+        cut = browser.run("return [...document.querySelectorAll('.stack span, .tile *, .rows > span, .plot-head *, .key')].filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0 && getComputedStyle(e).display !== 'inline').map((e) => e.outerHTML.slice(0, 100))")
+        assert not cut, f"at {pixels} px cut off: {cut}"
+        browser.check_barriers(f"{file}, {pixels} px")
+    assert "dwell" in browser.run("return document.querySelector('.tiles').textContent"), "the duration does not say how much of it is dwell"
+    browser.width(1280)
+
+
+def check_signals(browser, file):
+    """Every measured signal of the chosen run has a plot; another run and the differences change them."""
+    browser.open(file, "light")
+    ink = "return [...document.querySelectorAll('.run-signals canvas')].map((c) => c.toDataURL().slice(-3000))"
+    titles = "return [...document.querySelectorAll('.run-signals h3')].map((e) => e.textContent)"
+    before = browser.run(ink)
+    measured = browser.run("return Object.keys(joulepath.data.runs[0].columns).filter((name) => name.startsWith('measured_')).length")
+    assert measured >= 2 and len(browser.run(titles)) == measured, f"{browser.run(titles)} for {measured} signals"
+    browser.run("const s = document.querySelector('.run-signals select'); s.value = '1'; s.dispatchEvent(new Event('change'))")
+    assert browser.run(ink) != before, "another run has the same plots"
+    browser.run("document.querySelector('[data-difference=true]').click()")
+    assert all("model less measured" in title for title in browser.run(titles)), browser.run(titles)
+
+
+def check_without_scripts(browser, file):
+    """With scripts off the numbers stand in tables."""
+    browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": True}})
+    browser.call("POST", "/url", {"url": pathlib.Path(file).resolve().as_uri()})
+    browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": False}})
+    text = browser.run("return document.querySelector('noscript').innerText || document.querySelector('noscript').textContent")
+    assert "energy J" in text and "duration s" in text, text[:300]
 
 
 def main():
@@ -178,6 +256,9 @@ def main():
         browser = Browser(folder)
         try:
             check_plan(browser, f"{folder}/plan.html")
+            check_layout(browser, f"{folder}/plan.html")
+            check_signals(browser, f"{folder}/diagnosis.html")
+            check_without_scripts(browser, f"{folder}/plan.html")
             for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 2), ("compare", 3), ("front", 5), ("batch", 0)):
                 for theme in ("dark", "light"):
                     check_page(browser, f"{folder}/{kind}.html", theme, plots)

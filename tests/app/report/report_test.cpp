@@ -24,7 +24,7 @@ TEST(Report, HoldsItsDataUnchanged) {
 TEST(Report, NamesThatLookLikeMarkupCannotCloseTheScript) {
   auto plan = sample::plan();
   plan["legs"][0]["to"] = "</script><script>alert(1)</script><!--";
-  const std::string html = plan_report_html(plan, {}, {"</title><b>", "", {}, {}, {}});
+  const std::string html = plan_report_html(plan, {}, {.title = "</title><b>"});
   EXPECT_EQ(html.find("<script>alert"), std::string::npos);
   EXPECT_EQ(html.find("</title><b>"), std::string::npos);
   EXPECT_EQ(embedded_data(html).at("plan").at("legs")[0].at("to"), plan["legs"][0]["to"]);
@@ -44,10 +44,28 @@ TEST(Report, FetchesNothing) {
     EXPECT_EQ(html.find(fetch), std::string::npos) << fetch;
 }
 
-TEST(Report, KeepsTheLibrarysLicense) {
-  const std::string html = batch_report_html(sample::batch());
-  EXPECT_NE(html.find("Permission is hereby granted, free of charge"), std::string::npos);
-  EXPECT_NE(html.find("Dan Vanderkam"), std::string::npos);
+TEST(Report, WithoutScriptsItsNumbersStandInTables) {
+  auto plan = sample::plan();
+  plan["legs"][0]["to"] = "<b>shelf</b>";
+  const std::string html = plan_report_html(plan, sample::trajectory());
+  const auto from = html.find("<noscript>"), to = html.find("</noscript>");
+  const std::string text = html.substr(from, to - from);
+  EXPECT_NE(text.find("<th scope=\"row\">energy J</th>"), std::string::npos);
+  EXPECT_NE(text.find("<td>&lt;b>shelf&lt;/b></td>"), std::string::npos);
+  EXPECT_NE(text.find("<th scope=\"col\">duration s</th>"), std::string::npos);
+  EXPECT_EQ(text.find("<script"), std::string::npos);
+}
+
+TEST(Report, SignalsOfManyRunsStaySmall) {
+  RunComparison run{"run", "diagnosis", {}};
+  for (const char* name : {"time_s", "measured_motor_power_W", "predicted_motor_power_W"})
+    for (int k = 0; k < 20'000; ++k) run.columns[name].push_back(0.01 * k);
+  const auto list = runs_json(std::vector<RunComparison>(40, run), 50'000);
+  std::size_t numbers = 0;
+  for (const auto& one : list)
+    for (const auto& column : one.at("columns")) numbers += column.size();
+  EXPECT_LT(numbers, 60'000U);
+  EXPECT_EQ(list[0].at("columns").at("time_s").back(), 0.01 * 19'999);
 }
 
 TEST(Report, SameInputGivesSameBytes) {
@@ -73,7 +91,7 @@ TEST(Report, StaysUnderThreeMegabytesForAnHourAtFiftyHertz) {
   noise.width = 2000;
   noise.height = 1000;
   noise.occupancy_percent.assign(2'000'000, 0);
-  PlanExtras extras{"", "", map_picture(noise), {}, {{"trapezoid", hour}, {"s_curve", hour}}};
+  PlanExtras extras{.map = map_picture(noise), .overlays = {{"trapezoid", hour}, {"s_curve", hour}}};
   EXPECT_LT(plan_report_html(sample::plan(), hour, extras).size(), 3'000'000U);
 }
 

@@ -214,14 +214,15 @@ json diagnosis() {
 std::vector<RunComparison> runs() {
   std::vector<RunComparison> list;
   for (int k = 0; k < 2; ++k) {
-    RunComparison run{
-        "run_0" + std::to_string(k + 1) + ".csv", k == 0 ? "diagnosis" : "validation", {}, {}, {}, {}};
+    RunComparison run{"run_0" + std::to_string(k + 1) + ".csv", k == 0 ? "diagnosis" : "validation", {}};
     for (int row = 0; row < 1200; ++row) {
       const double t = 0.02 * row, power = 20 + 8 * std::sin(0.7 * t + k);
-      run.time_s.push_back(t);
-      run.measured_power_W.push_back(power + std::sin(97.0 * t));
-      run.predicted_power_W.push_back(0.86 * power);
-      run.corrected_power_W.push_back(power);
+      run.columns["time_s"].push_back(t);
+      run.columns["measured_motor_power_W"].push_back(power + std::sin(97.0 * t));
+      run.columns["predicted_motor_power_W"].push_back(0.86 * power);
+      run.columns["corrected_motor_power_W"].push_back(power);
+      run.columns["measured_yaw_rate_rad_s"].push_back(std::cos(0.3 * t));
+      run.columns["predicted_yaw_rate_rad_s"].push_back(1.02 * std::cos(0.3 * t));
     }
     list.push_back(run);
   }

@@ -69,7 +69,7 @@ TEST(FullCalibration, OfDataWithoutNoiseGivesTheParametersBack) {
   EXPECT_GT(result.current_rms_before_A, 1e-3);
 }
 
-TEST(FullCalibration, TakesADisplacedCenterOfMassIntoAccount) {
+TEST(FullCalibration, AccountsForADisplacedCenterOfMass) {
   Robot truth = true_robot();
   Dataset dataset = dataset_of(truth, {});
   dataset.robot.geometry.center_of_mass_offset_m = truth.geometry.center_of_mass_offset_m = 0.1;
@@ -86,7 +86,7 @@ TEST(FullCalibration, TakesADisplacedCenterOfMassIntoAccount) {
   EXPECT_GT(without.current_rms_after_A, 10 * result.current_rms_after_A);
 }
 
-TEST(FullCalibration, HoldsWhatConstantSpeedsCannotSee) {
+TEST(FullCalibration, HoldsParametersThatConstantSpeedsDoNotDetermine) {
   Dataset dataset{.file = "dataset.yaml", .robot = nomad()};
   for (int k = 1; k <= 8; ++k)
     dataset.runs.push_back(synthetic_run(true_robot(), "run_" + std::to_string(k), 8, 0,
@@ -124,7 +124,7 @@ TEST(FullCalibration, WritesTheUncertaintyOfWhatItFitted) {
   EXPECT_LT(result.robot.uncertainty.at("friction_torque_Nm"), 0.05);
 }
 
-TEST(FullCalibration, IntervalsHoldTheTruthAboutAsOftenAsTheySay) {
+TEST(FullCalibration, IntervalsCoverTheTruthAtTheirRate) {
   const Robot truth = true_robot();
   int held = 0, all = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {

@@ -47,7 +47,7 @@ TEST(SplineKernel, GainsAreTheVariancesOfSmoothedNoise) {
   EXPECT_NEAR(derivative / count / kernel.derivative_gain, 1, 0.05);
 }
 
-TEST(WhiteNoise, IsToldFromSignalAndKinks) {
+TEST(WhiteNoise, IsSeparatedFromSignalAndKinks) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0, 0.03);
   std::vector<double> samples;

@@ -9,7 +9,7 @@
 namespace joulepath {
 namespace {
 
-/// Currents as a log without signs shows them, the sign then taken from the wheel's motion.
+/// Unsigned currents, with the sign derived from the wheel's motion.
 Dataset unsigned_dataset(bool told) {
   Dataset dataset{.file = "dataset.yaml", .robot = testing::nomad()};
   for (int k = 0; k < 8; ++k) {

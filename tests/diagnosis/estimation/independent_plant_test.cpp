@@ -1,4 +1,4 @@
-// The laws of the effects against runs of a plant that shares nothing with this project.
+// Compares the laws of the effects with runs of a plant that shares no code with this project.
 #include <gtest/gtest.h>
 
 #include <filesystem>

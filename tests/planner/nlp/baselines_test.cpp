@@ -68,7 +68,7 @@ TEST(Baselines, EveryShapeIsClippedToTheCornerAndKeepsDistanceAndTime) {
        {"trapezoid_max_acceleration", "trapezoid_best_tuned", "triangular", "constant_ramp", "s_curve",
         "cubic", "quintic", "sinusoidal", "minimum_time_then_wait"})
     EXPECT_TRUE(named(results, name).feasible) << name << ": " << named(results, name).reason;
-  EXPECT_EQ(named(results, "constant_speed").reason, "needs a jump of speed at the ends");
+  EXPECT_EQ(named(results, "constant_speed").reason, "needs a step of speed at the ends");
 }
 
 TEST(Baselines, NoneIsCheaperThanThePlan) {
@@ -109,7 +109,7 @@ TEST(Baselines, ASpeedZoneClipsThem) {
   EXPECT_NEAR(named(results, "quintic").profile->at_s(5).rate, 0.4, 1e-6);
 }
 
-TEST(Baselines, ATimeThatNoShapeMakesIsSaid) {
+TEST(Baselines, InfeasibleTimesAreReported) {
   ProfileRequest request = corner();
   const std::vector<BaselineResult> results = all_baselines(request, 0.99 * least_s(request));
   for (const BaselineResult& result : results) EXPECT_FALSE(result.feasible) << result.name;
@@ -117,7 +117,7 @@ TEST(Baselines, ATimeThatNoShapeMakesIsSaid) {
   EXPECT_FALSE(named(results, "sinusoidal").reason.empty());
 }
 
-TEST(Baselines, TheFastestDriveTooSlowForATimeIsComparedAtItsOwn) {
+TEST(Baselines, ATooSlowFastestDriveIsComparedAtItsOwnTime) {
   const ProfileRequest request = corner();
   const double fastest_s = least_s(request), T = 0.97 * fastest_s;
   for (const Baseline& baseline : baselines()) {
@@ -130,7 +130,7 @@ TEST(Baselines, TheFastestDriveTooSlowForATimeIsComparedAtItsOwn) {
   FAIL() << "no such baseline";
 }
 
-TEST(Baselines, NoneOfAKindIsMuchSoonerThanTheLaterOneThatIsFound) {
+TEST(Baselines, TheLaterProfileFoundIsNearlyTheSoonest) {
   const ProfileRequest request = corner();
   const double T = 0.97 * least_s(request);
   int found = 0;
@@ -144,7 +144,7 @@ TEST(Baselines, NoneOfAKindIsMuchSoonerThanTheLaterOneThatIsFound) {
   EXPECT_GE(found, 3) << "no profile keeps this time";
 }
 
-TEST(Baselines, ALittleMoreTimeDoesNotMakeTheBestTrapezoidMuchDearer) {
+TEST(Baselines, EnergyOfTheBestTrapezoidIsContinuousInTime) {
   ProfileRequest request = straight_line(1);
   request.piece = curve_through({{0, 0}, {2, 0.3}, {4, -0.5}, {6, 1}, {7, 3}}).path.pieces.front();
   const double least = least_s(request), standby_W = request.plant.robot.power.standby_W;
@@ -199,13 +199,13 @@ TEST(Baselines, ARoundedTrapezoidOnAStraightLineIsTheSCurve) {
               1e-6 * rounded.energy_J);
 }
 
-TEST(Baselines, AtSpeedFromStartToEndConstantSpeedIsOne) {
+TEST(Baselines, ConstantSpeedIsABaselineBetweenEqualEndSpeeds) {
   ProfileRequest request = straight_line(10);
   request.start_rate = request.end_rate = 0.5;
   const std::vector<BaselineResult> results = all_baselines(request, 20);
   expect_honest(request, results, 20);
   EXPECT_TRUE(named(results, "constant_speed").feasible) << named(results, "constant_speed").reason;
-  EXPECT_EQ(named(results, "triangular").reason, "runs from rest to rest only");
+  EXPECT_EQ(named(results, "triangular").reason, "defined from rest to rest only");
 }
 
 }  // namespace

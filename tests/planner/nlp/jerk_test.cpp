@@ -214,7 +214,7 @@ TEST(Jerk, FastSolverAndIpoptAgreeOnRandomProblems) {
   }
 }
 
-/// A deadline that an S-curve keeps is kept, however close; one that it misses is refused.
+/// A deadline that an S-curve meets is met, however tight; one that it misses is refused.
 TEST(Jerk, NoDeadlineThatAnSCurveMakesIsRefused) {
   ProfileRequest request = straight(3, 0.8);
   const double exact_s =

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit, ::testing::ValuesIn(kOnACur
 INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn, ::testing::ValuesIn(kInATurn),
                          [](const auto& one) { return one.param.limit; });
 
-/// Jerk has its own tests (jerk_test.cpp).
+/// Jerk is tested in jerk_test.cpp.
 TEST(EveryLimitOfTheTable, IsTightenedAbove) {
   for (const Limit& row : kLimits) {
     if (row.value == nullptr || row.name == "jerk") continue;

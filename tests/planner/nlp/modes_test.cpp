@@ -1,4 +1,5 @@
-// The promise of each mode of time, the price of a second, speeds at the ends, and the requested accuracy.
+// The specification of each mode of time, the price of a second, speeds at the ends, and the requested
+// accuracy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +57,7 @@ TEST_P(EverySolver, EveryModeOfTimeKeepsItsPromise) {
     EXPECT_GE(fixed.energy_J, free.energy_J * (1 - 1e-6));
     const Driven budget = in({.mode = TimeMode::time_budget, .duration_s = T});
     EXPECT_LE(budget.duration_s, T * (1 + 1e-7));
-    const Driven& same = share < 1 ? fixed : free;  // a tight budget is used up, a slack one is not
+    const Driven& same = share < 1 ? fixed : free;  // a tight budget is used completely, a slack one is not
     EXPECT_NEAR(budget.energy_J, same.energy_J, 1e-5 * same.energy_J) << share;
     EXPECT_NEAR(budget.duration_s, same.duration_s, 3e-3 * same.duration_s) << share;
   }
@@ -73,7 +74,8 @@ TEST_P(EverySolver, EveryModeOfTimeKeepsItsPromise) {
 
 /// dE/dT from two plans beside each other.
 TEST_P(EverySolver, ThePriceOfASecondIsTheSlopeOfTheEnergy) {
-  // On one fine grid: plans with other nodes differ by less than the accuracy asked, but so do their prices.
+  // On one fine grid: energies on different grids differ by less than the requested accuracy, but the slope
+  // would contain that difference.
   const auto in = [&](TimeGoal time) {
     ProfileRequest request = request_for(time, GetParam());
     request.nodes = 400;

@@ -109,7 +109,7 @@ TEST(Profile, TurnsInPlaceWithHeadingAsThePath) {
   EXPECT_LE(result.profile->duration_s(), 4.0 * (1 + 1e-9));
 }
 
-TEST(Profile, APlanThatKnowsOfDragIsAnotherOneAndCheaper) {
+TEST(Profile, APlanWithDragInItsModelDiffersAndTakesLessEnergy) {
   const Robot robot = testing::nomad();
   ProfileRequest nominal = straight_request(8.0, robot), knowing = nominal;
   knowing.plant =

@@ -1,4 +1,4 @@
-// Power that braking wheels return: of each wheel alone or on a common bus; wheels that turn backward.
+// Power returned by braking wheels, for each wheel separately or on a common bus; wheels that turn backward.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace joulepath {
 namespace {
 
-/// Straight, a bend of so small a radius by clothoids, straight.
+/// Straight, a tight bend with clothoids, straight.
 PathPiece corner(double radius_m) {
   std::vector<CurveSegment> segments{LinearCurvature({}, 0.8)};
   const auto append = [&](double length_m, double curvature, double slope) {
@@ -64,7 +64,7 @@ double passed_on_J(const ProfileRequest& request, const Profile& profile) {
   return sum_J;
 }
 
-TEST(Regeneration, OnABusAWheelTakesWhatTheOtherReturns) {
+TEST(Regeneration, OnABusAWheelUsesThePowerThatTheOtherReturns) {
   const ProfileRequest any = smooth_running(PowerSharing::wheel, 0);
   const Profile profile = *solve_profile(any).profile;
   const double passed_J = passed_on_J(any, profile);
@@ -96,7 +96,7 @@ TEST(Regeneration, TheOptimumCostsLessTheMoreComesBackAndLeastOnABus) {
                  bus_J = cost_J(PowerSharing::bus, efficiency, for_bus);
     EXPECT_LT(wheel_J, before_J * (1 - 1e-3)) << efficiency;
     EXPECT_LE(bus_J, wheel_J * (1 + 1e-3)) << efficiency;
-    // Each is the best under its own law, if the two differ at all.
+    // Each profile is the best under its own law, if the laws differ.
     const double margin = efficiency < 1 ? -5e-3 : 1e-3;
     EXPECT_LE(wheel_J, cost_J(PowerSharing::wheel, efficiency, for_bus) * (1 + margin)) << efficiency;
     EXPECT_LE(bus_J, cost_J(PowerSharing::bus, efficiency, for_wheel) * (1 + margin)) << efficiency;
@@ -104,8 +104,8 @@ TEST(Regeneration, TheOptimumCostsLessTheMoreComesBackAndLeastOnABus) {
   }
 }
 
-/// The Nomad's energy along a profile in plain numbers, from [P1]'s equations: forces of the body's inertia,
-/// wheel torques, currents, voltages; negative power of a wheel does not come back. Midpoint sums in time.
+/// The Nomad's energy along a profile by the equations of [P1]: forces of the body's inertia, wheel torques,
+/// currents, voltages; negative power of a wheel is lost. Midpoint sums in time.
 struct Plain {
   double energy_J{};
   double slowest_wheel_rad_s{};  ///< most negative speed of the inner (left) wheel

@@ -65,7 +65,7 @@ bool relax(ProfileRequest& r, const std::string& key, double value) {
   return true;
 }
 
-/// A relaxation plus a thousandth is enough, half of it is not.
+/// The offered value plus a thousandth is enough, half of the change is not.
 TEST(Verdicts, TheRelaxationWouldDo) {
   int tried = 0;
   for (const HopelessRequest& c : hopeless_requests()) {
@@ -87,7 +87,7 @@ TEST(Verdicts, TheRelaxationWouldDo) {
   EXPECT_GE(tried, 38);
 }
 
-/// Less than the offered value is not enough, down to 1e-6, below which nothing is offered.
+/// Less than the offered value is not enough, down to 1e-6; below that nothing is offered.
 TEST(Verdicts, NoLimitIsRaisedFurtherThanItMustBe) {
   for (const HopelessRequest& c : hopeless_requests()) {
     const ProfileResult result = solve_profile(c.request);
@@ -120,7 +120,7 @@ TEST(Verdicts, AJerkLimitTooLowForTheDeadlineNamesOneThatWouldDo) {
   EXPECT_FALSE(solve_profile(request).profile.has_value());
 }
 
-TEST(Verdicts, DegenerateButPossibleInputsJustPlan) {
+TEST(Verdicts, DegenerateButPossibleInputsArePlanned) {
   std::vector<HopelessRequest> cases;
   const auto add = [&](std::string name, ProfileRequest request) {
     cases.push_back({std::move(name), std::move(request), ""});

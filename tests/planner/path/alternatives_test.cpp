@@ -67,7 +67,7 @@ TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
   }
 }
 
-TEST(RoutePool, ACornersPriceRanksRoutesAndIsNotPartOfWhatIsKept) {
+TEST(RoutePool, TheCostOfCornersRanksRoutesAndIsNotCached) {
   OccupancyGrid map = free_grid(200, 100, 0.1);
   fill(map, 80, 35, 120, 60);
   const RouteSpace space(map, nullptr, kRound, 0.05);

@@ -161,7 +161,7 @@ TEST(BezierChain, ReportsTurningBackOnALine) {
   EXPECT_EQ(bezier_defects({{{0, 0}, {1, 0}, {1, 0}, {0, 0}}}, 0).size(), 1u);
 }
 
-TEST(BezierChain, ReportsWhatElseCannotBeDriven) {
+TEST(BezierChain, ReportsOtherDefects) {
   const double nan = std::nan("");
   EXPECT_EQ(bezier_defects({{{0, 0}, {nan, 0}, {1, 0}, {2, 0}}}, 0).at(0).kind, Kind::not_finite);
   EXPECT_EQ(bezier_defects({{{1, 1}, {1, 1}, {1, 1}, {1, 1}}}, 0).at(0).kind, Kind::no_length);

@@ -76,7 +76,7 @@ TEST(Refine, LowersTheCostAndStaysFree) {
   EXPECT_EQ(refine_path(space.checker(), initial, bending_cost).cost, refined.cost);
 }
 
-TEST(Refine, KeepsTheHeadingsThatItIsToldToKeep) {
+TEST(Refine, KeepsTheRequestedHeadings) {
   const Passage passage;
   const RouteSpace space(passage.map, nullptr, {0.25, {}}, 0.05);
   const auto led =

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/output_directory.hpp"
+#include "app/terminal.hpp"
+#include "planner/online/follow_drive.hpp"
+#include "scenarios/planned_pieces.hpp"
+#include "scenarios/robot_file.hpp"
+#include "scenarios/run_log.hpp"
+#include "scenarios/simulation_input.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = Disturbance::Kind;
+
+/// A kind of disturbance with what it is where the command line does not say.
+struct Preset {
+  const char* name;
+  const char* size_says;
+  Disturbance usual;
+};
+constexpr double kPartOfPlan = 0.3;  ///< at which a disturbance begins
+const Preset kPresets[] = {
+    {"push", "N along the heading", {Kind::push, 0, 1.0, -40.0}},
+    {"slip", "wheel travel lost to slip, m", {Kind::slip, 0, 0.0, 0.1}},
+    {"late_start", "s", {Kind::late_start, 0, 0.0, 2.0}},
+    {"payload", "times the stated payload, known for_s later", {Kind::payload, 0, 1.0, 1.3}},
+    {"obstacle", "m ahead, for for_s", {Kind::obstacle, 0, 4.0, 1.5}},
+    {"speed_limit", "m/s, for for_s", {Kind::speed_limit, 0, 5.0, 0.3}},
+};
+
+[[noreturn]] void refuse_disturbance(const std::string& found, const std::string& accepted) {
+  throw ConfigError({{"--disturb", 0, 0}, "", found, accepted, "as in push:at_s=10,for_s=1,size=-40"});
+}
+
+/// `NAME[:at_s=..,for_s=..,size=..]`.
+Disturbance parse_disturbance(const std::string& text, double plan_s) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto* preset =
+      std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return name == p.name; });
+  if (preset == std::end(kPresets))
+    refuse_disturbance("'" + name + "'", "push, slip, late_start, payload, obstacle or speed_limit");
+  Disturbance disturbance = preset->usual;
+  disturbance.at_s = kPartOfPlan * plan_s;
+  std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(',');
+    const std::string pair = rest.substr(0, comma);
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+    const std::size_t equals = pair.find('=');
+    const std::string key = pair.substr(0, equals);
+    const std::optional<double> value =
+        parse_number(equals == std::string::npos ? "" : pair.substr(equals + 1));
+    if (!value) refuse_disturbance("'" + pair + "'", "KEY=NUMBER");
+    if (key == "at_s")
+      disturbance.at_s = *value;
+    else if (key == "for_s")
+      disturbance.for_s = *value;
+    else if (key == "size")
+      disturbance.size = *value;
+    else
+      refuse_disturbance("'" + key + "'", "at_s, for_s or size");
+  }
+  return disturbance;
+}
+
+std::string follow_examples() {
+  std::string text =
+      "  joulepath follow out/warehouse_pick --robot scenarios/robots/nomad_super_scout.yaml --out "
+      "out/follow\n"
+      "  joulepath follow out/warehouse_pick --robot robot.yaml --disturb payload --disturb "
+      "obstacle:at_s=30,size=2 --out out/follow\n\nDisturbances (at_s, for_s, size):\n";
+  for (const Preset& preset : kPresets) {
+    const std::string name = preset.name;
+    text += "  " + name + std::string(13 - name.size(), ' ') + "size: " + preset.size_says + "; default " +
+            figure(preset.usual.size, 3) + "\n";
+  }
+  return text;
+}
+
+class FollowPlanCommand : public Command {
+ public:
+  FollowPlanCommand()
+      : Command({.name = "follow",
+                 .says = "drive a plan on the simulated robot by the profile follower, with disturbances",
+                 .examples = follow_examples()}) {}
+
+  void declare(CommandLine& line) override {
+    line.option("plan", directory_, "directory of a plan (trajectory.csv)").required();
+    line.option("--robot", robot_, "robot file").required();
+    line.option("--out", out_, "directory for executed.csv and follow.json").required();
+    line.option("--disturb", disturbances_, "NAME or NAME:at_s=..,for_s=..,size=.. (repeatable)")
+        .repeatable();
+    line.option("--effect", effects_,
+                "effect of the simulated robot that neither planner nor follower models, as "
+                "NAME:PARAMETER=VALUE,... (repeatable)")
+        .repeatable();
+    line.option("--period-s", settings_.period_s, "time between two commands, s")
+        .between(0.005, 0.5)
+        .shows_default();
+    line.option("--latency-s", settings_.latency_s, "time from a pose to its command's effect, s")
+        .between(0.0, 0.5)
+        .shows_default();
+    add_common_flags(line, common_, "qjf");
+  }
+
+  int run() override {
+    OutputDirectory out(out_, {"executed.csv", "follow.json"}, common_.force);
+    const Robot robot = read_robot(robot_);
+    const PlannedDrives plan = read_planned_drives(directory_, robot);
+    FollowRequest request{
+        .robot = robot, .start = plan.start, .end_s = plan.duration_s, .follower = settings_};
+    for (const std::string& text : effects_) request.effects.push_back(parse_effect(text));
+    for (const std::string& text : disturbances_)
+      request.disturbances.push_back(parse_disturbance(text, plan.duration_s));
+    for (const PlannedDrive& drive : plan.drives)
+      request.pieces.push_back({&drive.request, &drive.plan, drive.start_s, drive.end_s});
+    const FollowResult result = follow(request);
+    const Json report = report_of(plan, result);
+    out.write("executed.csv", run_log_text(result.executed));
+    out.write("follow.json", report.dump(2) + "\n");
+    out.commit();
+    if (common_.json)
+      std::cout << report.dump(2) << '\n';
+    else if (!common_.quiet)
+      print(report);
+    return result.finished == request.pieces.size() ? kDone : kInfeasibleOrFailed;
+  }
+
+ private:
+  Json report_of(const PlannedDrives& plan, const FollowResult& result) const {
+    const bool arrived = std::isfinite(result.late_s);
+    return {{"schema", "joulepath/follow/1"},
+            {"plan", directory_},
+            {"planned", {{"energy_J", plan.energy_J}, {"duration_s", plan.duration_s}}},
+            {"executed",
+             {{"energy_J", result.energy_J},
+              {"duration_s", result.duration_s},
+              {"late_s", arrived ? Json(std::max(0.0, result.late_s)) : Json(nullptr)},
+              {"pieces", result.finished},
+              {"of_pieces", plan.drives.size()},
+              {"off_path", result.off_path},
+              {"replans", result.replans},
+              {"worst_lateral_m", result.worst_lateral_m},
+              {"end_error_m", result.end_error_m},
+              {"end_error_rad", result.end_error_rad}}}};
+  }
+
+  static void print(const Json& report) {
+    const Json &planned = report["planned"], &executed = report["executed"];
+    Table table({"", "energy", "time"});
+    table.row({"planned", figure(planned["energy_J"]) + " J", figure(planned["duration_s"]) + " s"});
+    table.row({"executed", figure(executed["energy_J"]) + " J", figure(executed["duration_s"]) + " s"});
+    table.print(std::cout);
+    if (executed["off_path"])
+      std::cout << "left the path: handed over\n";
+    else if (executed["late_s"].is_null())
+      std::cout << "did not arrive: " << executed["pieces"] << " of " << executed["of_pieces"] << " pieces\n";
+    else
+      std::cout << "late by at most " << figure(executed["late_s"], 3) << " s; off by "
+                << figure(executed["end_error_m"], 3) << " m, " << figure(executed["worst_lateral_m"], 3)
+                << " m aside at most; planned again " << executed["replans"] << " times\n";
+  }
+
+  std::string directory_{};
+  std::string robot_{};
+  std::string out_{};
+  std::vector<std::string> disturbances_{};
+  std::vector<std::string> effects_{};
+  FollowerSettings settings_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_follow_command() { return std::make_unique<FollowPlanCommand>(); }
+
+}  // namespace joulepath

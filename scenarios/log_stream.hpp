@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/monitor/monitor_row.hpp"
+#include "model/kinematics.hpp"
+#include "model/trajectory.hpp"
+
+namespace joulepath {
+
+/// Rows of a log that arrives line by line: CSV with a header, or one JSON object per line. Columns have the
+/// names of the run log format; others are ignored. A header without a time or without speeds is an error.
+/// Nothing in a later line is: a cell without a number is absent, a line without any known column gives a row
+/// without a time.
+class LogLines {
+ public:
+  /// `file`: the name of the log in errors.
+  LogLines(const Geometry& geometry, std::string file) : geometry_(geometry), file_(std::move(file)) {}
+
+  /// The row of a line; nothing for a header, a comment or an empty line. Throws ConfigError for a header
+  /// that no row can be used with.
+  [[nodiscard]] std::optional<MonitorRow> row(std::string_view line);
+
+ private:
+  void read_header(std::string_view line);
+  [[nodiscard]] MonitorRow csv_row(std::string_view line) const;
+  [[nodiscard]] MonitorRow json_row(std::string_view line);
+  [[nodiscard]] MonitorRow finished(MonitorRow row, const Twist<double>& body) const;
+
+  Geometry geometry_;
+  std::string file_;
+  int line_{};
+  bool has_json_{};  ///< rows are JSON: another line is a broken row, not a header
+  char separator_{};
+  std::vector<std::size_t> column_{};  ///< of the known columns, per column of the file
+};
+
+/// Row k of a log in memory.
+[[nodiscard]] MonitorRow monitor_row(const Trajectory& log, std::size_t k);
+
+}  // namespace joulepath

@@ -1,0 +1,81 @@
+#include "app/kept_answers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/mission/mission.hpp"
+#include "scenarios/mission_file.hpp"
+#include "scenarios/plan_file.hpp"
+#include "scenarios/robot_file.hpp"
+#include "tests/support/locations.hpp"
+
+namespace joulepath {
+namespace {
+
+TEST(KeptAnswers, AnotherRobotOrFloorIsAnotherWorld) {
+  const Robot robot = read_robot(JOULEPATH_SOURCE_DIR "/tests/data/broken/good/robot.yaml");
+  MissionRequest mission{.clearance_m = 0.1};
+  MissionWorld world{.robot = robot, .map = OccupancyGrid{2, 1, 0.1, {}, {0, 100}, "map"}};
+  std::vector<ContentKey> keys;
+  const auto note = [&](const Robot& with) { keys.push_back(world_key(floor_key(mission, world), with)); };
+  note(robot);
+  Robot other = robot;
+  other.motor.right.friction_torque_Nm = std::nextafter(other.motor.right.friction_torque_Nm, 1.0);
+  note(other);
+  mission.clearance_m = 0.2;
+  note(robot);
+  world.map->occupancy_percent[0] = 1;
+  note(robot);
+  world.keepout = world.map;
+  note(robot);
+  world.speed_mask = SpeedMask{.grid = *world.map};
+  note(robot);
+  world.speed_mask->base = 50;
+  note(robot);
+  world.route_graph = RouteGraph{.nodes = {{1, 0, 0}}};
+  note(robot);
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
+}
+
+/// If no way keeps a leg's own duration, ways that stop at corners are tried: the second choice is another
+/// question to the cache.
+TEST(KeptAnswers, OtherStepsAreCachedSeparately) {
+  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
+  const MissionWorld world = read_world(mission);
+  AnswerCache kept;
+  const auto energy_J = [&](const WaySteps& steps, AnswerCache* cache) {
+    PlanOptions options{
+        .solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .steps = steps, .baselines = false};
+    options.answers.cache = cache;
+    return plan_mission(mission, world, options).energy.total_J();
+  };
+  const WaySteps plain{.corners = false, .stops = false, .refinement = false};
+  const WaySteps arcs{.stops = false, .refinement = false};
+  const double plain_J = energy_J(plain, nullptr), arcs_J = energy_J(arcs, nullptr);
+  EXPECT_NE(plain_J, arcs_J);
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_EQ(energy_J(plain, &kept), plain_J);
+    EXPECT_EQ(energy_J(arcs, &kept), arcs_J);
+  }
+}
+
+TEST(Plan, DoesNotDependOnThreadsOrCache) {
+  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
+  const MissionWorld world = read_world(mission);
+  AnswerCache kept;
+  const auto text = [&](unsigned threads, AnswerCache* cache) {
+    PlanOptions options{.solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .threads = threads};
+    options.answers.cache = cache;
+    return plan_json_text(plan_mission(mission, world, options));
+  };
+  const std::string plan = text(1, nullptr);
+  EXPECT_EQ(text(2, nullptr), plan);
+  EXPECT_EQ(text(2, &kept), plan);
+  EXPECT_EQ(text(1, &kept), plan) << "from kept answers";
+}
+
+}  // namespace
+}  // namespace joulepath

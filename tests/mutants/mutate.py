@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""Mutants: changes one operator or constant at a time and looks whether a test notices.
+
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--longest S] [--survivors] [--report] [--list]
+
+Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
+mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
+tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
+first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
+in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. --longest
+leaves out suites that take more than S seconds of CPU; a later call asks them about the survivors. The table is
+benchmarks/results/mutants.md.
+"""
+import argparse
+import hashlib
+import itertools
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import time
+
+from sites import AREAS, PER_AREA, ROOT, drawn, identity, key, mutated, with_mutants
+from verdicts import VERDICTS, equivalent, equivalents, first, known, read, report
+
+OUT = os.path.join(ROOT, "build/mutants")
+TREE = os.path.join(OUT, "tree")
+BUILD = os.path.join(TREE, "build/release")
+FORMS, SURVEY = os.path.join(OUT, "forms.json"), os.path.join(OUT, "survey.json")
+SPARE, MEMORY_BYTES, NO_LIMIT, QUICK_S = 1.3, 4 << 30, float("inf"), 0.5
+
+
+def write(path, text):
+    """Unchanged files keep their time."""
+    if not os.path.exists(path) or read(path) != text:
+        with open(path, "w") as stream:
+            stream.write(text)
+
+
+def copy_tree():
+    """A copy of the tree, so that no mutant is ever in the tree itself."""
+    files = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True).stdout.split("\n")
+    for file in filter(None, files):
+        source, target = os.path.join(ROOT, file), os.path.join(TREE, file)
+        if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            shutil.copy(source, target)
+    shared = os.path.join(ROOT, "../shared")  # data sets beside the sources: tests skip without them
+    if os.path.isdir(shared) and not os.path.islink(os.path.join(OUT, "shared")):
+        os.symlink(os.path.realpath(shared), os.path.join(OUT, "shared"))
+    if not os.path.exists(os.path.join(BUILD, "build.ninja")):
+        subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
+
+
+PROGRAMS = sorted({program for _, programs in AREAS.values() for program in programs})
+
+
+def build_error(programs):
+    """Empty after a build; else what the compiler says."""
+    done = subprocess.run(["ninja", "-j2", "-k", "0", "-C", BUILD, "blind_plant", *programs], capture_output=True, text=True, errors="replace")
+    return done.stdout + done.stderr if done.returncode else ""
+
+
+def number(sites):
+    """Each site's number, and the form that compiled in an earlier run."""
+    forms = json.loads(read(FORMS)) if os.path.exists(FORMS) else {}
+    for id, site in enumerate(sites, 1):
+        live, alone = forms.get(identity(site), [site["kind"] == "constant", False])
+        site.update(id=id, live=live, alone=alone)
+
+
+def build_all(sites, programs):
+    """Compiles all mutants at once. A site that does not compile loses its live constant, then its place."""
+    while True:
+        for file in {site["file"] for site in sites}:
+            own = [site for site in sites if site["file"] == file and not site["alone"]]
+            text = read(os.path.join(ROOT, file))
+            write(os.path.join(TREE, file), with_mutants(text, own) if own else text)
+        error = build_error(programs)
+        if not error:
+            return
+        places = {(os.path.normpath(os.path.join(BUILD, path)), int(line)) for path, line in re.findall(r"([\w./-]+\.[ch]pp):(\d+):", error)}
+        guilty = [site for site in sites if not site["alone"] and (os.path.join(TREE, site["file"]), site["line"]) in places]
+        if not guilty:
+            sys.exit(error[-4000:] + "\nmutate: the tree does not build")
+        for site in guilty:
+            print("not with the others: " + key(site), flush=True)
+            site["alone"] = not site["live"]
+            site["live"] = False
+        write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
+
+
+def limit(cpu_s):
+    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def run_tests(program, choice, mutant=0, cpu_s=600, notes=os.devnull):
+    environment = {**os.environ, "MUTANT": str(mutant), "MUTANT_REACHED": notes}
+    return subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice],
+                          capture_output=True, text=True, errors="replace", cwd=TREE, env=environment, preexec_fn=lambda: limit(cpu_s))
+
+
+def children_s():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def suites(program):
+    """Filters, one for each suite of tests; each slow test is on its own."""
+    listed = subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
+    names = [line.split()[0] for line in listed.split("\n") if re.match(r"^\S+\.( |$)", line)]
+    slow = [line for line in read(os.path.join(ROOT, "tests/slow_tests.txt")).split("\n") if line and not line.startswith("#")]
+    own = [test for test in slow if test.rsplit(".", 1)[0] + "." in names]
+    return [name + "*-" + ":".join(own) for name in names] + own
+
+
+def suites_of(program):
+    """What each suite reaches and its CPU time, with no mutant active."""
+    notes, found = os.path.join(OUT, "reached.txt"), []
+    for choice in suites(program):
+        write(notes, "")
+        start_s = children_s()
+        done = run_tests(program, choice, notes=notes)
+        if done.returncode != 0:
+            sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
+        found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
+    print("%s: %d suites take %.0f s of CPU" % (program, len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
+    return found
+
+
+def survey(programs):
+    """The suites of all programs, quick ones first. Kept for each program as long as its bytes stay."""
+    kept = json.loads(read(SURVEY)) if os.path.exists(SURVEY) else {}
+    for program in programs:
+        with open(os.path.join(BUILD, "bin", program), "rb") as stream:
+            state = hashlib.sha256(stream.read()).hexdigest()
+        if kept.get(program, {}).get("state") != state:
+            kept[program] = {"state": state, "suites": suites_of(program)}
+            write(SURVEY, json.dumps(kept))
+    return sorted((suite for program in programs for suite in kept[program]["suites"]), key=lambda suite: suite["cpu_s"])
+
+
+def joined(suites):
+    """The quickest suites of a program run together."""
+    groups = []
+    for program in sorted({suite["program"] for suite in suites}):
+        own = [suite for suite in suites if suite["program"] == program and suite["cpu_s"] < QUICK_S]
+        parts = [(suite["choice"] + "-").split("-") for suite in own]
+        choice = ":".join(part[0] for part in parts) + "-" + ":".join({part[1] for part in parts} - {""})
+        if own:
+            groups.append({"program": program, "choice": choice, "cpu_s": sum(suite["cpu_s"] for suite in own)})
+    return groups + [suite for suite in suites if suite["cpu_s"] >= QUICK_S]
+
+
+def killer(site, chosen):
+    """The first test that fails, or None."""
+    for suite in joined(chosen):
+        done = run_tests(suite["program"], suite["choice"], site["id"], int(10 + 5 * suite["cpu_s"]))
+        if done.returncode != 0:
+            failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
+            ended = "does not end" if done.returncode == -24 else "ends with code %d" % done.returncode
+            return failed.group(1) if failed else suite["choice"].split("-")[0] + " " + ended
+    return None
+
+
+def alone(site, suites, longest_s):
+    """Compiled with this mutant only; every suite of its area is asked."""
+    path = os.path.join(TREE, site["file"])
+    before = read(path)
+    try:
+        write(path, mutated(read(os.path.join(ROOT, site["file"])), site))
+        if build_error(AREAS[site["area"]][1]):
+            return {"verdict": "invalid"}
+        return asked_about({**site, "id": 0}, suites, longest_s)
+    finally:
+        write(path, before)
+
+
+def needs_own_build(site, surveyed):
+    """Not compiled with the others, or evaluated by the compiler."""
+    reached = any(site["id"] in suite["reaches"] for suite in surveyed)
+    return site["alone"] or ("constexpr" in site["source"] and not reached)
+
+
+def asked_about(site, reaching, longest_s):
+    quick = [suite for suite in reaching if suite["cpu_s"] <= longest_s]
+    by = killer(site, quick)
+    return {"verdict": "killed", "by": by} if by else {"verdict": "survived", "suites": len(quick), "left_out": len(reaching) - len(quick), "longest": longest_s}
+
+
+def verdict_on(site, surveyed, longest_s):
+    own = [suite for suite in surveyed if suite["program"] in AREAS[site["area"]][1]]
+    if needs_own_build(site, surveyed):
+        return alone(site, own, longest_s)
+    return asked_about(site, [suite for suite in own if site["id"] in suite["reaches"]], longest_s)
+
+
+def judge_all(queues, asked):
+    done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
+    again = {name for name, entry in done.items() if entry["verdict"] == "survived" and (
+        asked.survivors or (entry.get("left_out") and asked.longest > entry.get("longest", 0)))}
+    copy_tree()
+    sites = [site for queue in queues.values() for site in queue]
+    number(sites)
+    build_all(sites, PROGRAMS)
+    surveyed = survey(PROGRAMS)
+    for own_build in (False, True):  # those last: afterwards the programs have one mutant only
+        chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
+        for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
+            name = identity(site)
+            settled = equivalent(site, table) or (name in done and name not in again)
+            if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
+                continue
+            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed, asked.longest)}
+            again.discard(name)
+            with open(VERDICTS, "a") as stream:
+                stream.write(json.dumps(done[name]) + "\n")
+            print("%-9s %s  %s" % (done[name]["verdict"], key(site), done[name].get("by", "")), flush=True)
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--area", choices=AREAS, action="append")
+    arguments.add_argument("--sites", type=int, default=PER_AREA)
+    arguments.add_argument("--minutes", type=float, default=NO_LIMIT)
+    arguments.add_argument("--longest", type=float, default=NO_LIMIT)
+    for flag in ("--survivors", "--report", "--list"):
+        arguments.add_argument(flag, action="store_true")
+    asked = arguments.parse_args()
+    queues = {area: drawn(area)[:int(SPARE * PER_AREA)] for area in AREAS}
+    if asked.list:
+        print("\n".join(area + " " + key(site) + "  " + site["source"] for area in asked.area or AREAS for site in queues[area][:asked.sites]))
+        return 0
+    os.makedirs(TREE, exist_ok=True)
+    if not asked.report:
+        judge_all(queues, asked)
+    report(queues)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include "planner/online/follow_drive.hpp"
+#include "tests/planner/online/situations.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::planned;
+using testing::PlannedPiece;
+
+/// A straight, a bend to the left of 0.8 m radius by clothoids, and a straight; least energy in 1.2 times the
+/// least time.
+PlannedPiece bend(double slack = 1.3) {
+  const Robot robot = testing::nomad();
+  std::vector<CurveSegment> segments;
+  Pose pose{};
+  const auto append = [&](double length_m, double curvature, double slope) {
+    segments.emplace_back(LinearCurvature(pose, length_m, curvature, slope));
+    pose = std::get<LinearCurvature>(segments.back()).at(length_m).pose;
+  };
+  append(3, 0, 0);
+  append(1, 0, 1.25);
+  append(1, 1.25, -1.25);
+  append(3, 0, 0);
+  return *planned({.piece = Curve(std::move(segments)),
+                   .plant = make_plant(robot),
+                   .limits = *robot.limits,
+                   .payload = {4.0, 4.0}},
+                  slack);
+}
+
+PlannedPiece quarter_turn() {
+  const Robot robot = testing::nomad();
+  return *planned({.piece = TurnInPlace{{1, 2, 0.3}, -1.6},
+                   .plant = make_plant(robot),
+                   .limits = *robot.limits,
+                   .payload = {4.0, 4.0}},
+                  1.3);
+}
+
+FollowRequest request_for(const PlannedPiece& piece, std::vector<Disturbance> disturbances = {}) {
+  const double end_s = piece.plan.time_s.back();
+  return {.robot = piece.request.plant.robot,
+          .pieces = {{&piece.request, &piece.plan, 0.0, end_s}},
+          .start = piece_point(piece.request.piece, 0).pose,
+          .end_s = end_s,
+          .disturbances = std::move(disturbances)};
+}
+
+double planned_J(const PlannedPiece& piece) {
+  return testing::exact_energy_J(path_motion(piece.request), piece.plan);
+}
+
+TEST(Projection, FindsTheFootOfThePerpendicular) {
+  const PlannedPiece piece = bend();
+  PathProjection projection(piece.request.piece);
+  for (double s = 0.05; s < 7.9; s += 0.1) {
+    const Pose foot = piece_point(piece.request.piece, s).pose;
+    const double aside = 0.1 * std::sin(s);
+    const Pose pose{foot.x_m - aside * std::sin(foot.heading_rad),
+                    foot.y_m + aside * std::cos(foot.heading_rad), foot.heading_rad + 0.05};
+    const PathOffset offset = projection.look(pose, 0.1);
+    EXPECT_NEAR(offset.s, s, 1e-4);
+    EXPECT_NEAR(offset.lateral_m, aside, 1e-5);
+    EXPECT_NEAR(offset.heading_error_rad, 0.05, 1e-4);
+  }
+}
+
+TEST(Follower, ArrivesInTimeAtThePlacesAndTheJoulesOfThePlan) {
+  for (const PlannedPiece& piece : {bend(), quarter_turn()}) {
+    const FollowResult result = follow(request_for(piece));
+    EXPECT_EQ(result.finished, 1u);
+    EXPECT_LT(result.late_s, 0.8);  // standing still is waited for
+    EXPECT_LT(result.end_error_m, 0.02);
+    EXPECT_LT(result.end_error_rad, 0.03);
+    EXPECT_LT(result.worst_lateral_m, 0.02);
+    const double standby_W = piece.request.plant.robot.power.standby_W;
+    const double motion_J = result.energy_J - standby_W * result.duration_s;
+    const double planned_motion_J = planned_J(piece) - standby_W * piece.plan.time_s.back();
+    EXPECT_NEAR(motion_J / planned_motion_J, 1, is_turn(piece.request.piece) ? 0.15 : 0.04);
+  }
+}
+
+TEST(Follower, LeadsBackAfterASlipAndAPush) {
+  const PlannedPiece piece = bend();
+  for (const Disturbance& disturbance :
+       {Disturbance{Disturbance::Kind::slip, 4, 0, 0.15}, Disturbance{Disturbance::Kind::push, 4, 1, -40}}) {
+    const FollowResult result = follow(request_for(piece, {disturbance}));
+    EXPECT_EQ(result.finished, 1u);
+    EXPECT_LT(result.end_error_m, 0.03);
+    EXPECT_LT(result.late_s, 0.8);
+  }
+}
+
+/// No later than the fastest drive from the late start, which is in time for the first two.
+TEST(Follower, MakesUpForALateStart) {
+  const PlannedPiece piece = bend();
+  const FollowResult undisturbed = follow(request_for(piece));
+  const double deadline_s = piece.plan.time_s.back();
+  const double least_s = testing::judge(piece.request, 0).least_time_s;
+  for (const double late_s : {0.1, 0.3, 1.5}) {
+    const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::late_start, 0, 0, late_s}}));
+    EXPECT_EQ(result.finished, 1u);
+    EXPECT_GE(result.replans, 1u);
+    EXPECT_LT(result.late_s, std::max(0.0, late_s + least_s - deadline_s) + 0.05) << late_s;
+    EXPECT_GT(result.energy_J, undisturbed.energy_J);
+  }
+}
+
+TEST(Follower, StandsBeforeAnObstacleAndGoesOn) {
+  const PlannedPiece piece = bend(1.5);
+  const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::obstacle, 4, 8, 1.2}}));
+  EXPECT_EQ(result.finished, 1u);
+  double slowest = 1;
+  for (std::size_t i = 0; i < result.executed.size(); ++i)
+    if (result.executed.time_s[i] > 10.5 && result.executed.time_s[i] < 11.9)
+      slowest = std::min(slowest, result.executed.linear_speed_m_s[i]);
+  EXPECT_LT(slowest, 0.02);
+  EXPECT_LT(result.end_error_m, 0.03);
+}
+
+TEST(Follower, KeepsASpeedLimit) {
+  const PlannedPiece piece = bend();
+  const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::speed_limit, 3, 100, 0.25}}));
+  for (std::size_t i = 0; i < result.executed.size(); ++i)
+    if (result.executed.time_s[i] > 6) {
+      EXPECT_LT(result.executed.linear_speed_m_s[i], 0.27);
+    }
+  EXPECT_EQ(result.finished, 1u);
+}
+
+TEST(Follower, HandsOverFarFromThePath) {
+  const PlannedPiece piece = bend();
+  const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::slip, 4, 0, 1.5}}));
+  EXPECT_TRUE(result.off_path);
+  EXPECT_EQ(result.finished, 0u);
+  EXPECT_LT(std::abs(result.executed.linear_speed_m_s.back()), 0.05);
+}
+
+}  // namespace
+}  // namespace joulepath

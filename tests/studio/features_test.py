@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+"""Each part of the studio as people use it: collisions while dragging, plan A, classic profiles, the front, touch, a diagnosis.
+
+usage: features_test.py JOULEPATH
+
+Exit code 77 (skipped in CTest) where Chromium or chromedriver is absent, unless JOULEPATH_BROWSER=required.
+"""
+import json
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+
+from studio_page import SOURCE, Served, StudioPage, chromium, write_mission
+
+HEAD = """\
+schema: joulepath/mission/1
+robot: robot.yaml
+map: hall.yaml
+stations:
+  dock: {x_m: 1.0, y_m: 1.0, heading_rad: 0.0}
+  a: {x_m: 6.8, y_m: 1.0}
+  b: {x_m: 6.8, y_m: 4.8}
+start: {station: dock, battery_fraction: 0.8}
+"""
+LEGS = HEAD + """\
+legs:
+  - {to: a, payload_kg: 2, dwell_s: 3}
+  - {to: b, payload_kg: 5}
+objective: {minimize: energy, deadline_s: 40}
+"""
+VISIT = HEAD + "visit:\n  - {pick: a, payload_kg: 2}\n  - {go: b}\n"
+# Control point `point` of a place, moved without letting go; gives what the draft shows.
+DRAFT = """
+const [name, dx, dy, release, done] = arguments;
+const handle = studio.handles().find((one) => one.name === name), drafted = studio.next_draft();
+handle.drag(handle.x + dx, handle.y + dy, {of: 'test', release: false});
+drafted.then(() => done({state: studio.store.state, problem: studio.store.problem, status: document.getElementById('status').textContent,
+  energy_J: studio.store.answer.plan.energy_J, collides: document.querySelectorAll('.legs .badge.bad').length}));
+"""
+INK = "return document.querySelector(arguments[0]).toDataURL()"
+
+
+def write_hall(folder, text):
+    """A hall of 8 m x 6 m with a block in its middle, and a mission there."""
+    folder = pathlib.Path(folder)
+    cells = [[0 if 3.2 < 0.05 * x < 5.2 and 2.2 < 0.05 * y < 6.0 or x in (0, 159) or y in (0, 119) else 254 for x in range(160)] for y in reversed(range(120))]
+    (folder / "hall.pgm").write_bytes(b"P5\n160 120\n255\n" + bytes(value for row in cells for value in row))
+    (folder / "hall.yaml").write_text("image: hall.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
+    shutil.copy(SOURCE / "scenarios/robots/nomad_super_scout.yaml", folder / "robot.yaml")
+    (folder / "hall_round.yaml").write_text(text)
+    return folder / "hall_round.yaml"
+
+
+def draft(page, name, dx, dy):
+    page.call("POST", "/timeouts", {"script": 120_000})
+    return page.call("POST", "/execute/async", {"script": DRAFT, "args": [name, dx, dy, False]})
+
+
+def release(page):
+    page.run("const h = studio.handles()[0]; h.drag(h.x, h.y, {of: 'test', release: true})")
+    page.settle()
+
+
+def click(page, text):
+    page.run("[...document.querySelectorAll('button')].find((one) => one.textContent === arguments[0]).click()", text)
+
+
+def check_collisions(page):
+    """A stop in the block: the draft says so while it is dragged; the search then finds no way, and undo leads back."""
+    seen = draft(page, "stop b", -1.8, -0.3)
+    assert seen["state"] == "draft" and seen["collides"] >= 1, seen
+    ink = page.run(INK, "#floor")
+    release(page)
+    assert page.run("return !!studio.store.problem"), "a stop inside of a wall was planned"
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+    assert not page.run("return studio.store.problem") and page.run(INK, "#floor") != ink
+
+
+def check_limits_and_battery(page):
+    legend = page.run("return document.querySelector('.legend').textContent")
+    assert "Active limit" in legend and "%" in legend, legend
+    before = page.run(INK, "#floor")
+    click(page, "Speed")
+    page.until("return new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(() => go(true))))")
+    assert page.run(INK, "#floor") != before, "the way has the same colors by speed as by the active limit"
+    click(page, "Active limit")
+    colors = page.run("""const m = studio.store.answer.motion; return new Set(m.limit).size""")
+    assert colors >= 3, f"{colors} kinds of limits along the way"
+    assert page.run("return document.getElementById('price').textContent") == "0 W"
+    battery = page.run("return parseFloat(document.getElementById('battery').textContent)")
+    assert 70 < battery < 80, f"battery at the end {battery}"
+
+
+def check_plan_a(page):
+    before = page.run("return studio.store.answer.plan.energy_J")
+    page.run("document.getElementById('keep').click()")
+    page.run("studio.store.robot.power.standby_W += 0; const box = [...document.querySelectorAll('#robot input[type=number]')].find((one) => one.closest('.field').textContent.startsWith('standby'));"
+             " box.value = Number(box.value) + 10; box.dispatchEvent(new Event('change', {bubbles: true}))")
+    page.settle()
+    after = page.run("return studio.store.answer.plan.energy_J")
+    assert after > before + 50, f"{before} J, with 10 W more standby {after} J"
+    text = page.run("return document.getElementById('ab').textContent + document.querySelector('.tiles').textContent + document.querySelector('.causes').textContent")
+    assert "B − A" in text and text.count("against A") >= 3, text
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+    click(page, "Forget A")
+
+
+def check_classics(page):
+    click(page, "Compare with classic profiles")
+    page.until("return studio.store.classics !== null", 120)
+    listed = page.run("return studio.store.classics.map((one) => [one.name, one.feasible, one.energy_J || 0])")
+    planned = page.run("return studio.store.answer.plan.energy_J")
+    feasible = [energy for _, possible, energy in listed if possible]
+    assert len(listed) >= 5 and feasible and min(feasible) >= planned * (1 - 1e-9), (planned, listed)
+    before = page.run(INK, ".plot canvas")
+    page.run("document.querySelectorAll('#classics input[type=checkbox]')[1].click()")
+    page.until(f"return document.querySelector('.plot canvas').toDataURL() !== {json.dumps(before)}", 10)
+
+
+def check_front(page):
+    click(page, "Compute the front")
+    page.until("return studio.store.front !== null", 120)
+    energies = page.run("return studio.store.front.map((one) => one.energy_J)")
+    assert len(energies) >= 8 and energies == sorted(energies, reverse=True), energies
+    page.run("document.querySelector('.front canvas').scrollIntoView({block: 'center'})")
+    x, y, width, height = page.run("const b = document.querySelector('.front canvas').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]")
+    before = page.run("return studio.store.mission.objective.deadline_s")
+    page.drag((round(x + 0.3 * width), round(y + 0.5 * height)), (round(x + 0.4 * width), round(y + 0.5 * height)))
+    page.settle()
+    deadline = page.run("return studio.store.mission.objective.deadline_s")
+    duration = page.run("return studio.store.answer.plan.duration_s")
+    assert deadline != before and abs(duration - deadline) < 0.02 * deadline, f"deadline {before} -> {deadline} s, plan {duration} s"
+    price = page.run("return document.getElementById('price').textContent")
+    assert price.endswith("W") and not price.startswith("0"), f"price of a second {price} under a deadline"
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+    assert page.run("return studio.store.mission.objective.deadline_s") == before, "a drag on the front is more than one step of undo"
+
+
+def check_animation(page):
+    page.run("const c = document.getElementById('clock'); c.value = 0; c.dispatchEvent(new Event('input'))")
+    before = page.run(INK, "#floor")
+    page.run("document.getElementById('play').click()")
+    page.until("return studio.store.cursor_s > 1", 30)
+    assert page.run(INK, "#floor") != before, "the robot does not move"
+    page.run("document.getElementById('play').click()")
+
+
+def touch(page, *fingers):
+    """Fingers that go from one place to another at once."""
+    actions = []
+    for k, (begin, end) in enumerate(fingers):
+        moves = [{"type": "pointerMove", "duration": 20, "x": round(begin[0] + (end[0] - begin[0]) * n / 5), "y": round(begin[1] + (end[1] - begin[1]) * n / 5)} for n in range(1, 6)]
+        actions.append({"type": "pointer", "id": f"finger{k}", "parameters": {"pointerType": "touch"}, "actions": [
+            {"type": "pointerMove", "duration": 0, "x": begin[0], "y": begin[1]}, {"type": "pointerDown", "button": 0}, *moves, {"type": "pointerUp", "button": 0}]})
+    page.call("POST", "/actions", {"actions": actions})
+
+
+def check_touch(page):
+    page.run("document.getElementById('floor').scrollIntoView({block: 'center'}); window.scrollBy(0, 0)")
+    places = {name: (x, y) for name, x, y in page.places()}
+    x, y = places["stop a"]
+    before = page.run("return studio.store.mission.stations.a.y_m")
+    touch(page, ((x + 8, y - 6), (x + 8, y - 46)))  # a finger beside the handle
+    page.settle()
+    assert page.run("return studio.store.mission.stations.a.y_m") > before, "a finger did not drag the stop"
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+    box = page.run("const b = document.getElementById('floor').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]")
+    cx, cy = map(round, box)
+    scale = page.run("return studio.view.scale")
+    touch(page, ((cx - 40, cy), (cx - 120, cy)), ((cx + 40, cy), (cx + 120, cy)))
+    assert page.run("return studio.view.scale") > 1.5 * scale, "two fingers did not zoom"
+    click(page, "All")
+
+
+def check_legs(page):
+    """Reorder, remove, add; every step has its undo, also by keys."""
+    order = "return studio.store.mission.legs.map((leg) => leg.to).join(' ')"
+    page.run("document.querySelector('[aria-label=\"leg 1 later\"]').click()")
+    page.settle()
+    assert page.run(order) == "b a" and not page.run("return studio.store.problem")
+    page.run("document.querySelector('[aria-label=\"remove leg 1\"]').click()")
+    page.settle()
+    assert page.run(order) == "a"
+    page.run("document.getElementById('floor').focus()")
+    page.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": "\ue009"}, *[{"type": kind, "value": "z"} for kind in ("keyDown", "keyUp") * 2], {"type": "keyUp", "value": "\ue009"}]}]})
+    page.settle()
+    assert page.run(order) == "a b", page.run(order)
+
+
+def check_diagnosis(page, folder):
+    """A diagnosis.json with signals: a plot for each, from the numbers of the file."""
+    t = [0.1 * k for k in range(200)]
+    columns = {"time_s": t}
+    for name, size in (("motor_power_W", 20), ("yaw_rate_rad_s", 0.4)):
+        for look, factor in (("measured", 1.2), ("predicted", 1.0), ("corrected", 1.19)):
+            columns[f"{look}_{name}"] = [size * factor * (1 + 0.01 * k) for k in range(200)]
+    file = folder / "diagnosis.json"
+    found = {"schema": "joulepath/diagnosis/1", "verdict": "explained", "sentence": "A sentence.", "gap": {"energy": {"before_percent": 16.7, "after_percent": 0.8, "noise_floor_percent": 0.5}},
+             "causes": [{"effect": "rolling_resistance", "probability": 0.99}], "signals": [{"name": "run_1", "use": "validation", "columns": columns}]}
+    file.write_text(json.dumps(found))
+    page.press("#diagnosis-file", str(file))
+    page.until("return document.querySelectorAll('.run-signals canvas').length === 2", 10)
+    text = page.run("return document.getElementById('diagnosis').textContent")
+    assert "explained" in text and "rolling resistance" in text and "16.7" in text, text
+    page.run("document.querySelector('.run-signals .plot').scrollIntoView({block: 'center'})")
+    page.hover(".run-signals .plot", 0.5, 0.5)
+    now = page.run("return document.querySelector('.run-signals .now').textContent.split(' · ').map(parseFloat)")
+    assert len(now) == 3 and abs(now[0] / now[1] - 1.2) < 0.01 and abs(now[2] / now[1] - 1.19) < 0.01, now
+    del found["signals"]
+    file.write_text(json.dumps(found))
+    page.press("#diagnosis-file", str(file))
+    page.until("return document.getElementById('diagnosis').textContent.includes('--signals')", 10)
+
+
+def check_visit(page):
+    """Stops in an order of the planner's choice: drafts follow a drag, the search then orders anew."""
+    first = page.run("return studio.store.answer.plan.energy_J")
+    seen = draft(page, "stop a", -1.0, 0.0)
+    assert seen["state"] == "draft" and not seen["problem"] and seen["energy_J"] != first, seen
+    release(page)
+    assert page.run("return studio.store.state") == "planned" and not page.run("return studio.store.problem"), page.run("return studio.store.problem")
+
+
+def check_order(page):
+    """A VDA 5050 order is a file that the program reads: its drafts come from there."""
+    first = page.run("return studio.store.answer.plan.duration_s")
+    page.call("POST", "/timeouts", {"script": 120_000})
+    seen = page.call("POST", "/execute/async", {"script": """
+      const done = arguments[0], slider = document.querySelector('[aria-label^="speed in m/s"]'), drafted = studio.next_draft();
+      slider.value = 0.6 * slider.value; slider.dispatchEvent(new Event('input'));
+      drafted.then(() => done([studio.store.state, studio.store.problem, studio.store.answer.plan.duration_s]));""", "args": []})
+    assert seen[0] == "draft" and not seen[1] and seen[2] > 1.02 * first, (first, seen)
+
+
+def check_mixed_frames(page):
+    """The start's heading turns paths drawn from the robot; the path in the map behind them is taken along."""
+    heading = "heading of the start"
+    for angle in (0.4, -0.9):
+        page.run("const h = studio.handles().find((one) => one.name === arguments[0]); const [x, y] = h.from; h.drag(x + Math.cos(arguments[1]), y + Math.sin(arguments[1]), {of: 'turn', release: true})", heading, angle)
+        page.settle()
+        assert not page.run("return studio.store.problem"), f"start turned to {angle} rad: {page.run('return studio.store.problem')}"
+        assert abs(page.run("return studio.store.mission.start.heading_rad") - angle) < 1e-3
+
+
+def main():
+    if not chromium() or not shutil.which("chromedriver"):
+        print("Chromium or chromedriver is not installed (Debian: chromium chromium-driver)")
+        return 1 if os.environ.get("JOULEPATH_BROWSER") == "required" else 77
+    program = sys.argv[1]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        page = StudioPage(name)
+        try:
+            for mission, checks in ((lambda: write_hall(folder, LEGS), (check_limits_and_battery, check_animation, check_collisions, check_plan_a, check_classics, check_front, check_touch,
+                                                                        check_legs, lambda one: check_diagnosis(one, folder))),
+                                    (lambda: write_hall(folder, VISIT), (check_visit,)), (lambda: write_mission(folder), (check_mixed_frames,)),
+                                    (lambda: SOURCE / "scenarios/missions/warehouse_order.yaml", (check_order,))):
+                served = Served(program, mission())
+                try:
+                    page.show(served.address)
+                    page.settle()
+                    for check in checks:
+                        check(page)
+                        told = page.messages()
+                        assert not told, f"after {check.__name__}: {told}"
+                        print("ok:", check.__name__.replace("<lambda>", "check_diagnosis"))
+                finally:
+                    served.close()
+        finally:
+            page.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
