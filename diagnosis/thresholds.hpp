@@ -187,7 +187,8 @@ inline constexpr double kStandInLoss = 6.0;
 inline constexpr std::size_t kMostRivals = 100;
 /// Prior widths that leave an amplitude to the data. Chosen.
 inline constexpr double kFreeAmplitude = 30.0;
-/// A less likely effect or unknown term is not named. Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
+/// A less likely effect, group or unknown term is not named; a group without a member as likely is ambiguous.
+/// Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
 inline constexpr double kLeastProbabilityNamed = 0.7;
 /// A less likely effect is not listed. Declared.
 inline constexpr double kLeastProbabilityRanked = 1e-4;
@@ -197,8 +198,6 @@ inline constexpr std::size_t kLongestRanking = 12;
 inline constexpr double kSurest = 0.97;
 /// The same from fewer than kRunsForSmallEffects, same command.
 inline constexpr double kSurestOfFewRuns = 0.85;
-/// A name less probable than this leaves the verdict ambiguous. Chosen.
-inline constexpr double kSureEnough = 0.6;
 
 // An all-clear.
 

@@ -41,21 +41,24 @@ Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
   return fit_effects(x.runs.diagnosis, x.id, named, 2, unknowns);
 }
 
-/// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range.
+/// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range. The
+/// evidence for them stays: without any name left the gap is unexplained.
 void fit_what_can_be_told(const Examination& x, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
-  const bool any_named = !named.empty();
+  std::string dropped;
   v.fitted = fit_names(x, named);
   for (std::size_t e = named.size(); e-- > 0;) {
     if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
-    v.judgment.notes.push_back(
-        named[e].candidate.label() + " is not named: its size " +
-        (is_told_from_zero(v.fitted, e) ? "lies outside what is physical" : "cannot be told from 0"));
+    const std::string why =
+        is_told_from_zero(v.fitted, e) ? "size lies outside what is physical" : "size cannot be told from 0";
+    v.judgment.notes.push_back(named[e].candidate.label() + " is not named: its " + why);
+    dropped = "goes with " + named[e].candidate.label() + ", whose " + why;
     named.erase(named.begin() + static_cast<std::ptrdiff_t>(e));
     v.fitted = fit_names(x, named);
   }
-  if (!any_named || !named.empty()) return;  // the verdict stays what the race says
-  v.judgment.verdict = v.judgment.unknowns.empty() ? Verdict::no_gap : Verdict::unexplained;
+  if (dropped.empty() || !named.empty()) return;  // the verdict stays what the race says
+  v.judgment.verdict = Verdict::unexplained;
+  if (v.judgment.unknowns.empty()) v.judgment.depends_on = dropped;
 }
 
 JudgedModel with_nominal_constants(JudgedModel model) {

@@ -165,6 +165,22 @@ std::vector<int> members_to_add(const Equations& equations, const Explanation& f
   return members;
 }
 
+/// Each set of the beam with one more member, not yet evaluated; sets seen before are left out.
+std::vector<Explanation> grown_by_one(const Equations& equations, const std::vector<Explanation>& beam,
+                                      const SearchOptions& options, std::set<std::vector<int>>& seen) {
+  std::vector<Explanation> grown;
+  const int laws = static_cast<int>(equations.candidates.size());
+  for (const Explanation& from : beam)
+    for (int member : members_to_add(equations, from, options)) {
+      Explanation next{.candidates = from.candidates, .unknowns = from.unknowns};
+      member < laws ? insert_sorted(next.candidates, member) : insert_sorted(next.unknowns, member - laws);
+      std::vector<int> key = next.candidates;
+      for (int u : next.unknowns) key.push_back(laws + u);
+      if (seen.insert(key).second) grown.push_back(std::move(next));
+    }
+  return grown;
+}
+
 }  // namespace
 
 double ghost_share(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
@@ -212,20 +228,12 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
   std::vector<Explanation> met{evaluate(problem, equations, {}, {}, options, empty_evidence)};
   std::vector<Explanation> beam = met;
   std::set<std::vector<int>> seen;
-  const int laws = static_cast<int>(equations.candidates.size());
   for (int depth = 0; depth < options.most_members; ++depth) {
-    std::vector<Explanation> next;
-    for (const Explanation& from : beam)
-      for (int member : members_to_add(equations, from, options)) {
-        std::vector<int> candidates = from.candidates, unknowns = from.unknowns;
-        member < laws ? insert_sorted(candidates, member) : insert_sorted(unknowns, member - laws);
-        std::vector<int> key = candidates;
-        for (int u : unknowns) key.push_back(laws + u);
-        if (!seen.insert(key).second) continue;
-        Explanation grown =
-            evaluate(problem, equations, std::move(candidates), std::move(unknowns), options, empty_evidence);
-        if (grown.score > -1e200) next.push_back(std::move(grown));
-      }
+    std::vector<Explanation> next = grown_by_one(equations, beam, options, seen);
+    parallel_for(next.size(), [&](std::size_t k) {
+      next[k] = evaluate(problem, equations, next[k].candidates, next[k].unknowns, options, empty_evidence);
+    });
+    std::erase_if(next, [](const Explanation& e) { return e.score < -1e200; });
     std::stable_sort(next.begin(), next.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
     const std::ptrdiff_t width = depth == 0 ? std::ssize(next) : kBeamWidth;  // every pair is solved
@@ -235,9 +243,10 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
   std::stable_sort(met.begin(), met.end(),
                    [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
   if (std::isfinite(options.small_effect_evidence))
-    for (std::size_t k = 0; k < std::min(met.size(), kMostReconsidered); ++k)
+    parallel_for(std::min(met.size(), kMostReconsidered), [&](std::size_t k) {
       if (!met[k].material)
         met[k].material = beyond_doubt(problem, equations, met[k], options, empty_evidence);
+    });
   return met;
 }
 

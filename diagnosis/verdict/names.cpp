@@ -77,6 +77,12 @@ double evidence_of(const Examination& x, const UnknownTerm& term) {
   return evidence(x.best().columns) - evidence(kept);
 }
 
+/// A term below the materiality floor is a cause only if it brings as much evidence as a pliable law must.
+bool is_beyond_doubt(const Examination& x, double size, double evidence) {
+  return size >= kLeastSize &&
+         evidence - kUnknownCost >= x.id.options.small_pliable_evidence / std::sqrt(size);
+}
+
 /// The unknown terms of the best set that are sure enough: causes, or small effects below the materiality
 /// floor.
 void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& names) {
@@ -84,13 +90,14 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
   for (int u : x.best().unknowns) {
     const UnknownTerm& term = x.id.equations.unknowns[static_cast<std::size_t>(u)];
     const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
-                 share = share_lost(x, nothing, term.columns), size = size_of(x, term);
+                 share = share_lost(x, nothing, term.columns), size = size_of(x, term),
+                 evidence = evidence_of(x, term);
     if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
     const double stated = std::min(names.surest, probability);
-    if (size >= 1)
+    if (size >= 1 || is_beyond_doubt(x, size, evidence))
       names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
     else
-      names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence_of(x, term), size});
+      names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence, size});
   }
   std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }

@@ -63,7 +63,7 @@ Judgment judge(const Examination& x, const Names& names) {
     return judgment;
   }
   const bool sure = std::ranges::any_of(judgment.named, [&](const ActiveEffect& effect) {
-    return probability_of(names, effect) >= kSureEnough;
+    return probability_of(names, effect) >= kLeastProbabilityNamed;
   });
   judgment.verdict = names.named.empty()       ? Verdict::unexplained
                      : !names.unknowns.empty() ? Verdict::partly_explained

@@ -59,6 +59,24 @@ INSTANTIATE_TEST_SUITE_P(Catalog, EffectTakenOut,
                                            TakenOut{"wheel_radius_error", 0.05, "goes with wheel_radius_m"}),
                          [](const auto& taken) { return taken.param.effect; });
 
+/// An effect that no law of the catalog describes, at 0.7 of a large size, as an option of the plant.
+class ForeignEffect : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ForeignEffect, WithEvidenceIsNoAllClear) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d =
+      diagnose(testing::blind_day("--share 0.7 --protocol 24 --effect " + GetParam()), {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_TRUE(d.leftover_significant);
+}
+
+// The first differs between the runs more than any friction law; the second is 0.4 of the materiality floor.
+INSTANTIATE_TEST_SUITE_P(Development, ForeignEffect,
+                         ::testing::Values("cold_grease --level 1 --seed 774797932166278282",
+                                           "driver_foldback --level 0 --seed 7341457183477400737"),
+                         [](const auto& one) { return one.param.substr(0, one.param.find(' ')); });
+
 TEST(ShrinkInterval, FromOneHeldOutRunIsNotAPoint) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(testing::blind_day("rolling_resistance", 0.01, 0, 6, 31), {.bootstrap = 200});
