@@ -107,6 +107,8 @@ void choose_correction(const Examination& x, Validation& v) {
     return;
   }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out energy gap: none is written");
+  if (before > kMaterialGap_percent && v.judgment.verdict == Verdict::explained)
+    v.judgment.verdict = Verdict::partly_explained;
   if (!(gap_percent(x, v.model) > before + kMaterialGap_percent)) return;
   v.judgment.notes.push_back(labels_of(v.judgment.named) +
                              " widens the held-out energy gap: no name is given");
