@@ -27,6 +27,7 @@ namespace joulepath {
   COMMAND(studio)                   \
   COMMAND(check)                    \
   COMMAND(calibrate)                \
+  COMMAND(drift)                    \
   COMMAND(schema)                   \
   COMMAND(completion)
 

@@ -12,7 +12,7 @@ PlanResults plan_results(MissionRequest mission, MissionWorld world, Plan plan) 
   const SolveStatus status = results.plan.status;
   results.valid = status == SolveStatus::optimal || status == SolveStatus::feasible;
   if (results.valid) results.trajectory = plan_trajectory(results.plan, make_plant(results.world.robot));
-  results.json = plan_json_text(results.plan);
+  results.json = plan_json_text(results.plan, plan_robot(results.world.robot));
   return results;
 }
 

@@ -53,7 +53,7 @@ int guarded(Command& command) {
 
 }  // namespace
 
-int program_main(int argc, char** argv) {
+int program_main(int argc, char** argv) try {
   const Commands commands = all_commands();
   const ParsedCommandLine parsed = parse_command_line(argc, argv, commands, JOULEPATH_VERSION);
   if (!parsed.error.empty()) return tell(parsed.error, parsed.exit_code, parsed.hint);
@@ -62,6 +62,8 @@ int program_main(int argc, char** argv) {
   std::cout.flush();
   if (!std::cout) return tell("cannot write to the standard output", kEnvironment);
   return parsed.exit_code;
+} catch (const std::bad_alloc&) {  // of the command line; guarded() reports those of a command
+  return tell("not enough memory", kEnvironment);
 }
 
 }  // namespace joulepath

@@ -33,4 +33,15 @@ EnergyByCause& EnergyByCause::operator+=(const EnergyByCause& other) {
   return *this;
 }
 
+std::map<std::string, double> named_causes_J(const EnergyByCause& energy) {
+  std::map<std::string, double> causes{{"copper", energy.copper_J},
+                                       {"coulomb_friction", energy.coulomb_friction_J},
+                                       {"viscous_friction", energy.viscous_friction_J},
+                                       {"kinetic", energy.kinetic_J},
+                                       {"not_recovered", energy.not_recovered_J},
+                                       {"standby", energy.standby_J}};
+  causes.insert(energy.effects_J.begin(), energy.effects_J.end());
+  return causes;
+}
+
 }  // namespace joulepath

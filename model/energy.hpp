@@ -26,4 +26,7 @@ struct EnergyByCause {
   EnergyByCause& operator+=(const EnergyByCause& other);
 };
 
+/// Joules by the name of the cause, those of effects beside the others.
+[[nodiscard]] std::map<std::string, double> named_causes_J(const EnergyByCause& energy);
+
 }  // namespace joulepath

@@ -103,6 +103,8 @@ FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options
 
 FileSummary summary_of_study(const Document& document, const ReadOptions& options) {
   const Study study = study_from(document, options);
+  if (std::filesystem::is_regular_file(study.missions.front()))
+    check_designs(study, Document::load(study.missions.front()), options);
   return {"study",
           counted(study.designs.size(), "design") + " of " + counted(study.targets.size(), "parameter"),
           {}};

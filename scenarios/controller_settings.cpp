@@ -10,10 +10,14 @@ namespace {
 
 using Field = std::optional<double> ControllerFile::*;
 
-/// A scalar parameter. Its sign is ignored, because decelerations are written as negative numbers.
+/// Decelerations are written as negative numbers.
+enum class Sign { positive, negative };
+
+/// A scalar parameter.
 struct Parameter {
   const char* key;
   Field field;
+  Sign sign{Sign::positive};
 };
 constexpr Parameter kParameters[] = {
     {"desired_linear_vel", &ControllerFile::speed_m_s},  // RPP
@@ -22,37 +26,44 @@ constexpr Parameter kParameters[] = {
     {"vx_max", &ControllerFile::speed_m_s},  // MPPI
     {"wz_max", &ControllerFile::yaw_rate_rad_s},
     {"ax_max", &ControllerFile::acceleration_m_s2},
-    {"ax_min", &ControllerFile::deceleration_m_s2},
+    {"ax_min", &ControllerFile::deceleration_m_s2, Sign::negative},
     {"az_max", &ControllerFile::yaw_acceleration_rad_s2},
     {"max_vel_x", &ControllerFile::speed_m_s},  // DWB
     {"max_vel_theta", &ControllerFile::yaw_rate_rad_s},
     {"acc_lim_x", &ControllerFile::acceleration_m_s2},
-    {"decel_lim_x", &ControllerFile::deceleration_m_s2},
+    {"decel_lim_x", &ControllerFile::deceleration_m_s2, Sign::negative},
     {"acc_lim_theta", &ControllerFile::yaw_acceleration_rad_s2},
-    {"decel_lim_theta", &ControllerFile::yaw_deceleration_rad_s2},
+    {"decel_lim_theta", &ControllerFile::yaw_deceleration_rad_s2, Sign::negative},
 };
 
 /// A parameter [x, y, theta] of the velocity smoother.
 struct Triple {
   const char* key;
   Field along, about;
+  Sign sign{Sign::positive};
 };
 constexpr Triple kTriples[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
     {"max_accel", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
-    {"max_decel", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2},
+    {"max_decel", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
+     Sign::negative},
 };
 
 /// A parameter of linear: x: or angular: z: of diff_drive_controller.
 struct Axis {
   const char* key;
   Field along, about;
+  Sign sign{Sign::positive};
 };
 constexpr Axis kAxes[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
     {"max_acceleration", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
-    {"max_deceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2},
+    {"max_deceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
+     Sign::negative},
 };
+
+/// Sizes beyond these have a wrong unit or digit.
+constexpr double kLeastSize = 1e-3, kMostSize = 100;
 
 class ControllerReader {
  public:
@@ -69,9 +80,13 @@ class ControllerReader {
   }
 
  private:
-  void take_least(Field field, const Node& value) {
-    const double size = std::abs(value.number());
-    if (!(size > 0)) return;  // 0 means no limit
+  void take_least(Field field, Sign sign, const Node& value) {
+    const bool down = sign == Sign::negative;
+    const double size = down ? -value.number() : value.number();
+    if (size == 0) return;  // no limit
+    if (!(size >= kLeastSize && size <= kMostSize))
+      value.fail(down ? "from -100 to -0.001 (SI units; decelerations are negative), or 0: no limit"
+                      : "from 0.001 to 100 (SI units), or 0: no limit");
     std::optional<double>& known = settings_.*field;
     known = std::min(known.value_or(size), size);
     settings_.read.push_back(value.path());
@@ -79,7 +94,7 @@ class ControllerReader {
 
   void read_number(const std::string& key, const Node& value) {
     for (const Parameter& parameter : kParameters)
-      if (key == parameter.key) take_least(parameter.field, value);
+      if (key == parameter.key) take_least(parameter.field, parameter.sign, value);
   }
 
   void read_triple(const std::string& key, const Node& value) {
@@ -87,8 +102,8 @@ class ControllerReader {
       if (key != triple.key) continue;
       const std::vector<Node> items = value.items();
       if (items.size() != 3) value.fail("[x, y, theta]");
-      take_least(triple.along, items[0]);
-      take_least(triple.about, items[2]);
+      take_least(triple.along, triple.sign, items[0]);
+      take_least(triple.about, triple.sign, items[2]);
     }
   }
 
@@ -98,7 +113,7 @@ class ControllerReader {
     if (!axis || axis->kind() != Value::Kind::map) return;
     for (const Axis& parameter : kAxes)
       if (const auto value = axis->find(parameter.key))
-        take_least(along ? parameter.along : parameter.about, *value);
+        take_least(along ? parameter.along : parameter.about, parameter.sign, *value);
   }
 
   ControllerFile settings_{};

@@ -25,6 +25,7 @@ const std::vector<FileKind>& file_kinds() {
       {"controller", controller_schema, "result of export --to controller"},
       {"edges", edges_schema, "result of export --to edges as JSON"},
       {"loss", loss_schema, "energy lost by the settings of an export"},
+      {"drift", drift_schema, "result of drift --json"},
   };
   return kinds;
 }

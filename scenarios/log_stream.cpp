@@ -1,7 +1,6 @@
 #include "scenarios/log_stream.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,36 +8,6 @@
 
 namespace joulepath {
 namespace {
-
-struct StreamColumn {
-  const char* name;
-  double& (*field)(MonitorRow&, Twist<double>&);
-};
-
-#define JOULEPATH_STREAM(column, member)                                          \
-  StreamColumn {                                                                  \
-    column, [](MonitorRow& row, Twist<double>&) -> double& { return row.member; } \
-  }
-const std::array kStreamColumns{
-    JOULEPATH_STREAM("time_s", time_s),
-    JOULEPATH_STREAM("wheel_speed_left_rad_s", wheel_speed_rad_s.left),
-    JOULEPATH_STREAM("wheel_speed_right_rad_s", wheel_speed_rad_s.right),
-    JOULEPATH_STREAM("motor_voltage_left_V", motor_voltage_V.left),
-    JOULEPATH_STREAM("motor_voltage_right_V", motor_voltage_V.right),
-    JOULEPATH_STREAM("motor_current_left_A", motor_current_A.left),
-    JOULEPATH_STREAM("motor_current_right_A", motor_current_A.right),
-    JOULEPATH_STREAM("motor_power_left_W", motor_power_W.left),
-    JOULEPATH_STREAM("motor_power_right_W", motor_power_W.right),
-    JOULEPATH_STREAM("battery_voltage_V", battery_voltage_V),
-    JOULEPATH_STREAM("battery_current_A", battery_current_A),
-    JOULEPATH_STREAM("heading_rad", heading_rad),
-    JOULEPATH_STREAM("payload_kg", payload_kg),
-    StreamColumn{"linear_speed_m_s",
-                 [](MonitorRow&, Twist<double>& body) -> double& { return body.speed_m_s; }},
-    StreamColumn{"angular_speed_rad_s",
-                 [](MonitorRow&, Twist<double>& body) -> double& { return body.yaw_rate_rad_s; }},
-};
-#undef JOULEPATH_STREAM
 
 std::string_view trimmed_cell(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n\"";
@@ -58,13 +27,9 @@ void for_each_cell(std::string_view line, char separator, Use&& use) {
   }
 }
 
-std::size_t stream_column(std::string_view name) {
-  const auto* found = std::find_if(kStreamColumns.begin(), kStreamColumns.end(),
-                                   [&](const StreamColumn& column) { return name == column.name; });
-  return static_cast<std::size_t>(found - kStreamColumns.begin());
+double at(const std::vector<double>& values, std::size_t k) {
+  return k < values.size() ? values[k] : kAbsent;
 }
-
-constexpr Twist<double> kNoTwist{kAbsent, kAbsent};
 
 }  // namespace
 
@@ -86,9 +51,10 @@ void LogLines::read_header(std::string_view line) {
   separator_ = ',';
   for (const char candidate : {';', '\t'})
     if (line.find(candidate) != std::string_view::npos) separator_ = candidate;
-  for_each_cell(line, separator_,
-                [&](std::size_t, std::string_view name) { column_.push_back(stream_column(name)); });
-  const auto has = [&](const char* name) { return std::ranges::count(column_, stream_column(name)) > 0; };
+  for_each_cell(line, separator_, [&](std::size_t, std::string_view name) {
+    column_.push_back(find_log_column(std::string(name)));
+  });
+  const auto has = [&](const char* name) { return std::ranges::count(column_, find_log_column(name)) > 0; };
   const bool has_wheels = has("wheel_speed_left_rad_s") && has("wheel_speed_right_rad_s");
   if (has("time_s") && (has_wheels || (has("linear_speed_m_s") && has("angular_speed_rad_s")))) return;
   throw ConfigError(
@@ -100,49 +66,52 @@ void LogLines::read_header(std::string_view line) {
        ""});
 }
 
-MonitorRow LogLines::csv_row(std::string_view line) const {
-  MonitorRow row;
-  Twist<double> body = kNoTwist;
+MonitorRow LogLines::csv_row(std::string_view line) {
+  clear();
   for_each_cell(line, separator_, [&](std::size_t index, std::string_view cell) {
-    if (index >= column_.size() || column_[index] >= kStreamColumns.size()) return;
-    kStreamColumns[column_[index]].field(row, body) = parse_number(cell).value_or(kAbsent);
+    if (index < column_.size() && column_[index])
+      column_[index]->channel(row_).assign(1, parse_number(cell).value_or(kAbsent));
   });
-  return finished(row, body);
+  return finished();
 }
 
 MonitorRow LogLines::json_row(std::string_view line) {
-  MonitorRow row;
-  Twist<double> body = kNoTwist;
   has_json_ = true;
+  clear();
   const auto json = nlohmann::json::parse(line, nullptr, false);
-  if (!json.is_object()) return row;
-  for (const StreamColumn& column : kStreamColumns)
+  if (!json.is_object()) return {};
+  for (const LogColumn& column : log_columns())
     if (const auto found = json.find(column.name); found != json.end() && found->is_number())
-      column.field(row, body) = found->get<double>();
-  return finished(row, body);
+      column.channel(row_).assign(1, found->get<double>());
+  return finished();
 }
 
-/// Wheel speeds of the body's, where a log has only those.
-MonitorRow LogLines::finished(MonitorRow row, const Twist<double>& body) const {
+void LogLines::clear() {
+  for (const LogColumn& column : log_columns()) column.channel(row_).clear();
+}
+
+/// The row, with wheel speeds of the body's, where a log has only those.
+MonitorRow LogLines::finished() const {
+  MonitorRow row = monitor_row(row_, 0);
   if (std::isnan(row.wheel_speed_rad_s.left + row.wheel_speed_rad_s.right))
-    row.wheel_speed_rad_s = wheel_speeds_rad_s(geometry_, body.speed_m_s, body.yaw_rate_rad_s);
+    row.wheel_speed_rad_s =
+        wheel_speeds_rad_s(geometry_, at(row_.linear_speed_m_s, 0), at(row_.angular_speed_rad_s, 0));
   return row;
 }
 
 MonitorRow monitor_row(const Trajectory& log, std::size_t k) {
-  const auto at = [&](const std::vector<double>& values) { return k < values.size() ? values[k] : kAbsent; };
   const auto both = [&](const Sided<std::vector<double>>& values) {
-    return Sided<double>{at(values.left), at(values.right)};
+    return Sided<double>{at(values.left, k), at(values.right, k)};
   };
-  return {.time_s = at(log.time_s),
+  return {.time_s = at(log.time_s, k),
           .wheel_speed_rad_s = both(log.wheel_speed_rad_s),
           .motor_voltage_V = both(log.motor_voltage_V),
           .motor_current_A = both(log.motor_current_A),
           .motor_power_W = both(log.motor_power_W),
-          .battery_voltage_V = at(log.battery_voltage_V),
-          .battery_current_A = at(log.battery_current_A),
-          .heading_rad = at(log.heading_rad),
-          .payload_kg = at(log.payload_kg)};
+          .battery_voltage_V = at(log.battery_voltage_V, k),
+          .battery_current_A = at(log.battery_current_A, k),
+          .heading_rad = at(log.heading_rad, k),
+          .payload_kg = at(log.payload_kg, k)};
 }
 
 }  // namespace joulepath

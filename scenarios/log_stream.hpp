@@ -7,6 +7,7 @@
 
 #include "diagnosis/monitor/monitor_row.hpp"
 #include "model/kinematics.hpp"
+#include "model/log_columns.hpp"
 #include "model/trajectory.hpp"
 
 namespace joulepath {
@@ -26,16 +27,18 @@ class LogLines {
 
  private:
   void read_header(std::string_view line);
-  [[nodiscard]] MonitorRow csv_row(std::string_view line) const;
+  [[nodiscard]] MonitorRow csv_row(std::string_view line);
   [[nodiscard]] MonitorRow json_row(std::string_view line);
-  [[nodiscard]] MonitorRow finished(MonitorRow row, const Twist<double>& body) const;
+  void clear();
+  [[nodiscard]] MonitorRow finished() const;
 
   Geometry geometry_;
   std::string file_;
   int line_{};
   bool has_json_{};  ///< rows are JSON: another line is a broken row, not a header
   char separator_{};
-  std::vector<std::size_t> column_{};  ///< of the known columns, per column of the file
+  std::vector<const LogColumn*> column_{};  ///< per column of the file; null for one that no log has
+  Trajectory row_{};                        ///< of one sample: the line that is read
 };
 
 /// Row k of a log in memory.

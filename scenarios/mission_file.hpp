@@ -20,6 +20,13 @@ namespace joulepath {
 [[nodiscard]] MissionWorld read_world(const MissionRequest& request, const ReadOptions& options = {},
                                       const Robot* robot = nullptr);
 
+/// read_world() without its checks of the robot against the mission: for many missions with the same files.
+[[nodiscard]] MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& options = {},
+                                            const Robot* robot = nullptr);
+
+/// Without an outline, nothing can be checked against a map. Throws ConfigError.
+void check_footprint(const MissionRequest& request, const Robot& robot);
+
 /// All files that the plan of a mission depends on, except the mission's own: robot, order, route graph, and
 /// maps with their images. Throws ConfigError if a map file cannot be read.
 [[nodiscard]] std::vector<std::string> files_read_by(const MissionRequest& request,

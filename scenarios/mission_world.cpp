@@ -25,7 +25,8 @@ void check_payloads(const MissionRequest& request, const Robot& robot) {
   for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
 }
 
-/// Without an outline, nothing can be checked against a map.
+}  // namespace
+
 void check_footprint(const MissionRequest& request, const Robot& robot) {
   if (has_footprint(robot) || request.map_file.empty()) return;
   throw ConfigError({{request.robot_file, 1, 1},
@@ -35,13 +36,17 @@ void check_footprint(const MissionRequest& request, const Robot& robot) {
                      "every path is checked against the map"});
 }
 
-}  // namespace
-
 MissionWorld read_world(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
+  const NamedBy named_by(request.marks.at("robot"), "robot");
+  const Robot used = robot ? *robot : read_robot(request.robot_file, named_by);
+  check_payloads(request, used);
+  check_footprint(request, used);
+  return read_named_files(request, options, &used);
+}
+
+MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& options, const Robot* robot) {
   const auto named = [&](const char* key) { return NamedBy(request.marks.at(key), key); };
   MissionWorld world{.robot = robot ? *robot : read_robot(request.robot_file, named("robot"))};
-  check_payloads(request, world.robot);
-  check_footprint(request, world.robot);
   if (!request.map_file.empty()) world.map = read_map(request.map_file, named("map"), options);
   if (!request.keepout_file.empty())
     world.keepout = read_map(request.keepout_file, named("keepout"), options);

@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/csv_table.hpp"
-#include "scenarios/log_columns.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/plan_robot.hpp"
+#include "scenarios/planned_trajectory.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
@@ -15,23 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kNormal95 = 1.96;
-
-Trajectory read_trajectory(const std::string& file) {
-  const CsvTable table =
-      read_csv(file, [](const std::string& name) { return find_log_column(name) != nullptr; });
-  Trajectory trajectory;
-  for (const LogColumn& column : log_columns())
-    if (const std::vector<double>* values = table.find(column.name)) column.channel(trajectory) = *values;
-  for (const auto* needed : {&trajectory.time_s, &trajectory.wheel_speed_rad_s.left,
-                             &trajectory.wheel_speed_rad_s.right, &trajectory.energy_J})
-    if (needed->size() < 2)
-      throw ConfigError({{file, 1, 1},
-                         "",
-                         "no plan",
-                         "time_s, wheel_speed_left_rad_s, wheel_speed_right_rad_s and energy_J",
-                         "name the directory that `joulepath plan` wrote"});
-  return trajectory;
-}
 
 double sigma_of(const Json& interval) {
   if (!interval.is_array() || interval.size() != 2) return 0.0;
@@ -136,9 +120,12 @@ std::string event_text(const LegExecuted& c) {
 
 }  // namespace
 
-PlannedCourse read_planned_course(const std::string& directory, const Geometry& geometry) {
+PlannedCourse read_planned_course(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
   const std::filesystem::path folder = directory;
-  PlannedCourse course = planned_course(geometry, read_trajectory((folder / "trajectory.csv").string()));
+  PlannedCourse course = planned_course(
+      robot.geometry, read_planned_trajectory(directory, {"time_s", "wheel_speed_left_rad_s",
+                                                          "wheel_speed_right_rad_s", "energy_J"}));
   const std::string file = (folder / "plan.json").string();
   if (!std::filesystem::exists(file)) return course;
   const Json plan = Json::parse(read_text_file(file), nullptr, false);

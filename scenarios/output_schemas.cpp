@@ -105,6 +105,11 @@ Schema cause_schema() {
 Schema plan_schema() {
   return open(
       map({required("schema", text()), required("status", plan_status()),
+           optional("robot",
+                    open(map({required("name", text()),
+                              required("fingerprint", text(),
+                                       "of the robot file's values but its name and its uncertainty")})),
+                    "that the plan is for"),
            optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
@@ -177,7 +182,29 @@ Schema shard_schema() {
                    required("title", text()),
                    required("list", text(), "digest of the missions or designs and the options"),
                    required("files", dictionary(text()), "digest of each file that was read"),
-                   optional("study_file", text()), optional("study_text", text())}));
+                   required("results", text(), "digest of results.jsonl"), optional("study_file", text()),
+                   optional("study_text", text())}));
+}
+
+Schema drift_schema() {
+  return open(
+      map({required("schema", text()), required("days", list(text()), "oldest first"),
+           required("false_alarm_rate", number(kFraction), "of a night without drift"),
+           required("drifted", list(text()), "names of constants"),
+           required("parameters",
+                    list(open(map({required("name", text()), required("unit", text()),
+                                   required("reference", result(), "on the first day"),
+                                   required("value", result(), "mean from the day `since` to the last one"),
+                                   required("change_percent", result()),
+                                   required("standard_error_percent", result(), "of the change"),
+                                   required("since", text(), "the day from which on the change shows most"),
+                                   required("days", number(), "that determine it, without the first"),
+                                   required("statistic", result(), "change over its standard error"),
+                                   required("threshold", result(), "of the statistic"),
+                                   required("detectable_percent", result(),
+                                            "a step on the second day that is found with 80 %"),
+                                   required("drifted", boolean())})))),
+           required("not_compared", list(text()), "not determined by the first or by the last day")}));
 }
 
 }  // namespace joulepath

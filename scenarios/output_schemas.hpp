@@ -12,5 +12,6 @@ namespace joulepath {
 [[nodiscard]] Schema controller_schema();
 [[nodiscard]] Schema edges_schema();
 [[nodiscard]] Schema loss_schema();
+[[nodiscard]] Schema drift_schema();
 
 }  // namespace joulepath

@@ -199,9 +199,10 @@ void add_results(const Plan& plan, Json& json) {
 
 }  // namespace
 
-std::string plan_json_text(const Plan& plan) {
+std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot) {
   Json json{
       {"schema", "joulepath/plan/1"}, {"mission", plan.mission}, {"status", solve_status_name(plan.status)}};
+  if (robot) json["robot"] = {{"name", robot->name}, {"fingerprint", robot->fingerprint}};
   if (!plan.message.empty()) json["message"] = plan.message;
   if (plan.infeasibility || plan.status == SolveStatus::failed) json["legs"] = Json::array();
   if (plan.infeasibility)
@@ -210,5 +211,7 @@ std::string plan_json_text(const Plan& plan) {
     add_results(plan, json);
   return json.dump(1) + "\n";
 }
+
+std::string cause_json_text(const EnergyByCause& energy) { return cause_json(energy).dump(); }
 
 }  // namespace joulepath

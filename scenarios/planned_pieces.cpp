@@ -1,13 +1,11 @@
 #include "scenarios/planned_pieces.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "model/limit_table.hpp"
-#include "scenarios/csv_table.hpp"
+#include "scenarios/plan_robot.hpp"
+#include "scenarios/planned_trajectory.hpp"
 
 namespace joulepath {
 namespace {
@@ -17,39 +15,30 @@ constexpr double kSlow_m_s = 0.03;  ///< where a leg ends: a stop between two sa
 constexpr double kCurvatureError_per_m = 5e-4;
 constexpr std::size_t kMostSamples = 400;  ///< of one line of curvature
 
-constexpr std::array<const char*, 9> kColumns{"time_s",       "linear_speed_m_s", "angular_speed_rad_s",
-                                              "position_x_m", "position_y_m",     "heading_rad",
-                                              "payload_kg",   "arc_length_m",     "curvature_per_m"};
+const std::vector<std::string> kPieceColumns{"time_s",       "linear_speed_m_s", "angular_speed_rad_s",
+                                             "position_x_m", "position_y_m",     "heading_rad",
+                                             "payload_kg",   "arc_length_m",     "curvature_per_m"};
 
-/// The columns of a trajectory that are needed.
-struct Samples {
-  explicit Samples(const CsvTable& table) {
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      const std::vector<double>* column = table.find(kColumns[i]);
-      if (!column)
-        throw ConfigError({{table.file, 1, 1}, kColumns[i], "nothing", "the trajectory.csv of a plan", ""});
-      columns[i] = column;
-    }
-    leg = table.find("leg");
-    energy_J = table.find("energy_J");
-    heading_rad = *columns[5];
-    for (std::size_t i = 1; i < heading_rad.size(); ++i)
-      heading_rad[i] = heading_rad[i - 1] + wrapped_angle_rad(heading_rad[i] - heading_rad[i - 1]);
+/// The samples of a plan's trajectory.
+class Samples {
+ public:
+  explicit Samples(const Trajectory& planned) : t_(planned), heading_rad_(planned.heading_rad) {
+    for (std::size_t i = 1; i < heading_rad_.size(); ++i)
+      heading_rad_[i] = heading_rad_[i - 1] + wrapped_angle_rad(heading_rad_[i] - heading_rad_[i - 1]);
   }
-  double time_s(std::size_t i) const { return (*columns[0])[i]; }
-  double speed(std::size_t i) const { return (*columns[1])[i]; }
-  double yaw_rate(std::size_t i) const { return (*columns[2])[i]; }
-  Pose pose(std::size_t i) const { return {(*columns[3])[i], (*columns[4])[i], heading_rad[i]}; }
-  double payload_kg(std::size_t i) const { return (*columns[6])[i]; }
-  double arc_m(std::size_t i) const { return (*columns[7])[i]; }
-  double curvature(std::size_t i) const { return (*columns[8])[i]; }
-  double leg_of(std::size_t i) const { return leg ? (*leg)[i] : 0.0; }
-  std::size_t size() const { return columns[0]->size(); }
+  double time_s(std::size_t i) const { return t_.time_s[i]; }
+  double speed(std::size_t i) const { return t_.linear_speed_m_s[i]; }
+  double yaw_rate(std::size_t i) const { return t_.angular_speed_rad_s[i]; }
+  Pose pose(std::size_t i) const { return {t_.position_x_m[i], t_.position_y_m[i], heading_rad_[i]}; }
+  double payload_kg(std::size_t i) const { return t_.payload_kg[i]; }
+  double arc_m(std::size_t i) const { return t_.arc_length_m[i]; }
+  double curvature(std::size_t i) const { return t_.curvature_per_m[i]; }
+  double leg_of(std::size_t i) const { return t_.leg.empty() ? 0.0 : t_.leg[i]; }
+  std::size_t size() const { return t_.size(); }
 
-  std::array<const std::vector<double>*, kColumns.size()> columns{};
-  const std::vector<double>* leg{};
-  const std::vector<double>* energy_J{};
-  std::vector<double> heading_rad{};  ///< without the jumps of a full turn
+ private:
+  const Trajectory& t_;
+  std::vector<double> heading_rad_;  ///< without the jumps of a full turn
 };
 
 /// What happens between sample i and the next: 0 rest, +-1 a curve, +-2 a turn in place.
@@ -135,17 +124,11 @@ PlannedDrive drive_of(const Samples& t, std::size_t first, std::size_t last, int
 
 }  // namespace
 
-PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot) {
-  const std::string file = (std::filesystem::path(directory) / "trajectory.csv").string();
-  const CsvTable table = read_csv(file, [](const std::string& name) {
-    return name == "leg" || name == "energy_J" ||
-           std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end();
-  });
-  const Samples t(table);
-  if (t.size() < 2) throw ConfigError({{file, 1, 1}, "time_s", "fewer than 2 rows", "a trajectory", ""});
+PlannedDrives planned_drives(const Trajectory& planned, const Robot& robot) {
+  const Samples t(planned);
   PlannedDrives plan{.start = t.pose(0),
                      .duration_s = t.time_s(t.size() - 1),
-                     .energy_J = t.energy_J ? t.energy_J->back() : 0.0};
+                     .energy_J = planned.energy_J.empty() ? 0.0 : planned.energy_J.back()};
   std::size_t first = 0;
   for (std::size_t i = 0; i + 1 < t.size();) {
     const int kind = kind_of(t, i);
@@ -155,6 +138,11 @@ PlannedDrives read_planned_drives(const std::string& directory, const Robot& rob
     if (longer) plan.drives.push_back(drive_of(t, first, i, kind, robot));
   }
   return plan;
+}
+
+PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot) {
+  check_plan_robot(directory, robot);
+  return planned_drives(read_planned_trajectory(directory, kPieceColumns), robot);
 }
 
 }  // namespace joulepath

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "model/trajectory.hpp"
 #include "planner/values/profile.hpp"
 #include "planner/values/profile_request.hpp"
 
@@ -25,8 +26,10 @@ struct PlannedDrives {
   double energy_J{};
 };
 
-/// Reads trajectory.csv of a plan's directory: curves as lines of linear curvature through its samples, turns
-/// in place, and rest between them. Limits and effects are the robot's. Throws ConfigError.
+/// The pieces of a planned trajectory: curves as lines of linear curvature through its samples, turns in
+/// place, and rest between them. Limits and effects are the robot's.
+[[nodiscard]] PlannedDrives planned_drives(const Trajectory& planned, const Robot& robot);
+/// Those of trajectory.csv in a plan's directory. Throws ConfigError, also for a plan of another robot.
 [[nodiscard]] PlannedDrives read_planned_drives(const std::string& directory, const Robot& robot);
 
 }  // namespace joulepath

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "scenarios/mission_file.hpp"
 #include "scenarios/physical_bounds.hpp"
@@ -13,6 +14,20 @@ std::array<double, 2> read_point(const Node& node) {
   for (std::size_t i = 0; i < 2; ++i)
     if (std::abs(xy[i].number()) > kFarthest_m) xy[i].fail("at most 1e6 m from the origin");
   return {xy[0].number(), xy[1].number()};
+}
+
+constexpr double kSlowest_m_s = 1e-3, kFastest_m_s = 100;
+
+/// The limit of speed in an edge's metadata.
+std::optional<double> read_speed_limit(const Node& properties) {
+  const auto metadata = properties.find("metadata");
+  if (!metadata || metadata->kind() != Value::Kind::map) return std::nullopt;
+  const auto limit = metadata->find("abs_speed_limit");
+  if (!limit) return std::nullopt;
+  const double speed_m_s = limit->number();
+  if (!(speed_m_s >= kSlowest_m_s && speed_m_s <= kFastest_m_s))
+    limit->fail("from 0.001 to 100 m/s", "leave the key out where there is no limit");
+  return speed_m_s;
 }
 
 class GraphReader {
@@ -30,10 +45,9 @@ class GraphReader {
   void add_edge(const Node& properties, const Node& geometry) {
     RouteGraph::Edge edge{.id = properties["id"].integer(),
                           .start = index(properties["startid"]),
-                          .end = index(properties["endid"])};
-    if (const auto metadata = properties.find("metadata"))
-      if (metadata->kind() == Value::Kind::map)
-        edge.speed_limit_m_s = metadata->optional_number("abs_speed_limit");
+                          .end = index(properties["endid"]),
+                          .speed_limit_m_s = read_speed_limit(properties)};
+    if (!edge_ids_.insert(edge.id).second) properties["id"].fail("an id that no other edge has");
     std::vector<std::vector<Node>> lines;
     const Node coordinates = geometry["coordinates"];
     if (geometry["type"].text() == "MultiLineString")
@@ -63,6 +77,7 @@ class GraphReader {
 
   RouteGraph graph_{};
   std::map<long, std::size_t> index_of_{};
+  std::set<long> edge_ids_{};
 };
 
 }  // namespace

@@ -136,17 +136,25 @@ SimulationInput read_simulation_input(const std::string& path, const std::string
   return from_mission(path, robot_file, options, planning);
 }
 
-EffectSetting parse_effect(const std::string& text) {
+NamedSettings split_settings(const std::string& text) {
   const std::size_t colon = text.find(':');
-  EffectSetting setting{.name = text.substr(0, colon)};
+  NamedSettings named{.name = text.substr(0, colon)};
   std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
     const std::string pair = rest.substr(0, comma);
     rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
     const std::size_t equals = pair.find('=');
-    const std::string key = pair.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
+    named.settings.emplace_back(pair.substr(0, equals),
+                                equals == std::string::npos ? "" : pair.substr(equals + 1));
+  }
+  return named;
+}
+
+EffectSetting parse_effect(const std::string& text) {
+  const NamedSettings named = split_settings(text);
+  EffectSetting setting{.name = named.name};
+  for (const auto& [key, value] : named.settings) {
     if (key == "side") {
       if (value != "left" && value != "right")
         refuse("--effect", setting.name + ".side", value, "left or right");

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/motions.hpp"
@@ -40,6 +41,13 @@ struct SimulationInput {
 [[nodiscard]] SimulationRequest simulation_request(const SimulationInput& input,
                                                    const std::vector<EffectSetting>& effects,
                                                    bool ideal_sensors, std::uint64_t seed);
+
+/// A text `NAME:KEY=VALUE,...`; the value is empty for a key without `=`.
+struct NamedSettings {
+  std::string name{};
+  std::vector<std::pair<std::string, std::string>> settings{};
+};
+[[nodiscard]] NamedSettings split_settings(const std::string& text);
 
 /// `NAME:PARAMETER=VALUE,...` as an effect of the catalog; `side=left` for effects with a side.
 /// Throws ConfigError.

@@ -32,6 +32,8 @@ Schema sampling_schema() {
 SweepParameter parameter_from(const std::string& name, const Node& node) {
   SweepParameter parameter{.name = name};
   if (const auto values = node.find("values")) {
+    for (const char* key : {"to", "count", "scale"})
+      if (node.has(key)) node[key].fail("this key together with from, not with values");
     for (const Node& value : values->items()) parameter.levels.push_back(value.text());
     return parameter;
   }
@@ -60,6 +62,9 @@ DesignTable designs_from(const Node& root, std::vector<SweepParameter> parameter
     return DesignTable::latin_hypercube(std::move(parameters),
                                         static_cast<std::size_t>((*sampling)["designs"].integer()),
                                         static_cast<std::uint64_t>(sampling->number_or("seed", 1)));
+  if (sampling)
+    for (const char* key : {"designs", "seed"})
+      if (sampling->has(key)) (*sampling)[key].fail("this key with method: latin_hypercube");
   double designs = 1;
   for (const SweepParameter& parameter : parameters)
     designs *= static_cast<double>(parameter.is_range() ? parameter.count : parameter.levels.size());
@@ -88,14 +93,54 @@ void read_goals(const Node& root, Study& study) {
     for (const auto& [name, bounds] : constraints->entries()) {
       check_result_name(*constraints, name, study.designs, false);
       if (!bounds.has("min") && !bounds.has("max")) bounds.fail("min, max or both");
-      study.constraints.push_back({name, bounds.optional_number("min"), bounds.optional_number("max")});
+      const StudyConstraint& made = study.constraints.emplace_back(
+          StudyConstraint{name, bounds.optional_number("min"), bounds.optional_number("max")});
+      if (made.min && made.max && *made.min > *made.max) bounds["min"].fail("a number <= max");
     }
   if (const auto objectives = root.find("objectives"))
     for (const auto& [name, direction] : objectives->entries()) {
       check_result_name(*objectives, name, study.designs, true);
+      for (const SweepParameter& parameter : study.designs.parameters())
+        for (const std::string& level : parameter.levels)
+          if (parameter.name == name && !parse_number(level))
+            direction.fail_found(name + ", a parameter with the value " + level,
+                                 "a result, or a parameter whose values are numbers");
       study.objectives.push_back({name, direction.text() == "maximize"});
     }
   if (study.objectives.empty()) study.objectives.push_back({"energy_J", false});
+}
+
+/// The keys and items of a path: `legs`, `[0]`, `payload_kg`.
+std::vector<std::string> steps_of_key(const std::string& path) {
+  std::vector<std::string> steps{""};
+  for (const char c : path) {
+    if ((c == '.' || c == '[') && !steps.back().empty()) steps.emplace_back();
+    if (c != '.') steps.back() += c;
+  }
+  return steps;
+}
+
+/// True if two targets have a value in common: `legs[*].payload_kg` and `legs[0].payload_kg`.
+bool overlap(const StudyTarget& a, const StudyTarget& b) {
+  if (a.in_robot != b.in_robot) return false;
+  const std::vector<std::string> one = steps_of_key(a.path), other = steps_of_key(b.path);
+  for (std::size_t k = 0; k < std::min(one.size(), other.size()); ++k) {
+    const bool items = one[k].front() == '[' && other[k].front() == '[';
+    if (one[k] != other[k] && !(items && (one[k] == "[*]" || other[k] == "[*]"))) return false;
+  }
+  return true;
+}
+
+/// Refuses names that are other columns of sweep.csv, and a value that two parameters change.
+void check_parameter(const std::string& name, const Node& node, const Study& study,
+                     const std::vector<SweepParameter>& others) {
+  for (const auto* columns : {&sweep_results(), &kColumnsBefore, &kColumnsAfter})
+    if (std::ranges::find(*columns, name) != columns->end())
+      node.fail_found("the name " + name, "a name that no other column of sweep.csv has");
+  for (std::size_t p = 0; p < others.size(); ++p)
+    if (overlap(study.targets[p], study.targets.back()))
+      node["key"].fail("a value that no other parameter changes",
+                       "the parameter " + others[p].name + " changes it, too");
 }
 
 /// `motor.gear_ratio` of `motor[0].gear_ratio`: a path without its items.
@@ -157,6 +202,13 @@ Schema study_schema() {
                 "at the motor's shaft, so that it grows at the wheel with the ratio")});
 }
 
+Study read_study(const std::string& file, const ReadOptions& options) {
+  std::string text = read_text_file(file);
+  Study study = study_from(Document::parse(text, file), options);
+  study.text = std::move(text);
+  return study;
+}
+
 Study study_from(const Document& document, const ReadOptions& options) {
   check_document(document, "study", study_schema());
   const Node root = document.root();
@@ -172,10 +224,9 @@ Study study_from(const Document& document, const ReadOptions& options) {
   }
   std::vector<SweepParameter> parameters;
   for (const auto& [name, node] : root["parameters"].entries()) {
-    if (std::ranges::find(sweep_results(), name) != sweep_results().end())
-      node.fail_found("the name " + name, "a name that no result has");
-    parameters.push_back(parameter_from(name, node));
     study.targets.push_back(target_from(node["key"]));
+    check_parameter(name, node, study, parameters);
+    parameters.push_back(parameter_from(name, node));
   }
   if (parameters.empty()) root["parameters"].fail("at least one parameter");
   study.designs = designs_from(root, std::move(parameters));

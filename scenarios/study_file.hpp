@@ -36,6 +36,7 @@ enum class FrictionHeld { wheel, motor };
 /// A study file: its designs, its missions, and its objectives.
 struct Study {
   std::string file{};
+  std::string text{};  ///< of the file; empty: the study was read from a document
   std::string name{};
   std::vector<std::string> missions{};  ///< files and folders
   std::string robot_file{};             ///< empty: the missions' own
@@ -54,8 +55,16 @@ struct Study {
 
 [[nodiscard]] Schema study_schema();
 
+/// The columns of a row of sweep.csv that are neither a parameter nor a result: before and after the
+/// parameters.
+inline const std::vector<std::string> kColumnsBefore{"design", "mission"};
+inline const std::vector<std::string> kColumnsAfter{"status", "meets_constraints", "reason"};
+
 /// The study of a parsed document; missions and robots are resolved, not read. Throws ConfigError.
 [[nodiscard]] Study study_from(const Document& document, const ReadOptions& options = {});
+
+/// Reads a study file once: later changes of the file change nothing. Throws ConfigError.
+[[nodiscard]] Study read_study(const std::string& file, const ReadOptions& options = {});
 
 /// The robot of a design: `robot` with the design's values. Throws ConfigError at the study's parameter.
 [[nodiscard]] Robot robot_of_design(const Study& study, const Document& robot,
@@ -65,5 +74,10 @@ struct Study {
 [[nodiscard]] MissionRequest mission_of_design(const Study& study, const Document& mission,
                                                const std::vector<std::string>& design,
                                                const ReadOptions& options = {});
+
+/// Throws ConfigError where the first or the last design of a mission cannot be read, or where a value of one
+/// parameter is invalid in itself (of a range: its ends), so that a mistake in the study is reported once and
+/// not per design.
+void check_designs(const Study& study, const Document& mission, const ReadOptions& options = {});
 
 }  // namespace joulepath

@@ -2,7 +2,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/jobs/finish.hpp"
+#include "app/jobs/job_results.hpp"
 #include "app/jobs/mission_planner.hpp"
 #include "app/plan_options.hpp"
 #include "model/printable.hpp"

@@ -58,7 +58,7 @@ class ExportCommand : public Command {
     line.option("--out", out_, "file to write; further files use its name").required();
     line.option("--rate", rate_Hz_, "samples per second, for formats with samples").between(0.1, 1000.0);
     line.option("--corner-radius", corner_radius_m_,
-                "route_graph: radius of the arcs that the robot drives in corners; 0: it stops and turns")
+                "route_graph: radius of the arcs that the robot drives in corners, m; 0: it stops and turns")
         .not_negative()
         .shows_default();
     line.flag("--expand-turns", expand_turns_,
@@ -137,6 +137,7 @@ class ExportCommand : public Command {
     write_files(result.files);
     if (common_.quiet) return kDone;
     std::cout << result.nodes << " nodes, " << result.edges << " edges\n";
+    if (!result.arcs.empty()) std::cout << result.arcs << "\n";
     const TurnAttribution& turns = result.attribution;
     if (turns.corners > 0)
       std::cout << "corners: " << turns.corners << ", mean " << figure(turns.mean_J, 3)

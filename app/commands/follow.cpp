@@ -26,41 +26,55 @@ struct Preset {
   const char* name;
   const char* size_says;
   Disturbance usual;
+  double least{}, most{};  ///< of the size
 };
 constexpr double kPartOfPlan = 0.3;  ///< at which a disturbance begins
+constexpr double kLongest_s = 100;   ///< the simulation ends 120 s after the plan
 const Preset kPresets[] = {
-    {"push", "N along the heading", {Kind::push, 0, 1.0, -40.0}},
-    {"slip", "wheel travel lost to slip, m", {Kind::slip, 0, 0.0, 0.1}},
-    {"late_start", "s", {Kind::late_start, 0, 0.0, 2.0}},
-    {"payload", "times the stated payload, known for_s later", {Kind::payload, 0, 1.0, 1.3}},
-    {"obstacle", "m ahead, for for_s", {Kind::obstacle, 0, 4.0, 1.5}},
-    {"speed_limit", "m/s, for for_s", {Kind::speed_limit, 0, 5.0, 0.3}},
+    {"push", "N along the heading", {Kind::push, 0, 1.0, -40.0}, -1e4, 1e4},
+    {"slip", "wheel travel lost to slip, m", {Kind::slip, 0, 0.0, 0.1}, 0, 10},
+    {"late_start", "s", {Kind::late_start, 0, 0.0, 2.0}, 0, kLongest_s},
+    {"payload", "times the stated payload, known for_s later", {Kind::payload, 0, 1.0, 1.3}, 0, 10},
+    {"obstacle", "m ahead, for for_s", {Kind::obstacle, 0, 4.0, 1.5}, 0, 1000},
+    {"speed_limit", "m/s, for for_s", {Kind::speed_limit, 0, 5.0, 0.3}, 1e-3, 100},
 };
 
 [[noreturn]] void refuse_disturbance(const std::string& found, const std::string& accepted) {
   throw ConfigError({{"--disturb", 0, 0}, "", found, accepted, "as in push:at_s=10,for_s=1,size=-40"});
 }
 
+void check_range(const std::string& key, double value, double least, double most, const char* why) {
+  if (value >= least && value <= most) return;
+  refuse_disturbance(key + "=" + figure(value, 6),
+                     figure(least, 6) + " to " + figure(most, 6) + " (" + why + ")");
+}
+
+/// Numbers that a drive can meet.
+void check_disturbance(const Disturbance& disturbance, const Preset& preset, const Robot& robot,
+                       const PlannedDrives& plan) {
+  check_range("at_s", disturbance.at_s, 0, plan.duration_s, "s; within the plan");
+  check_range("for_s", disturbance.for_s, 0, kLongest_s, "s; the simulation ends 120 s after the plan");
+  check_range("size", disturbance.size, preset.least, preset.most, preset.size_says);
+  double most_kg = 0;
+  for (const PlannedDrive& drive : plan.drives)
+    most_kg = std::max({most_kg, drive.request.payload.from_kg, drive.request.payload.to_kg});
+  if (disturbance.kind == Kind::push)
+    check_range("size", std::abs(disturbance.size), 0, kGravity_m_s2 * robot.total_mass_kg(most_kg),
+                "N; no more than the robot weighs");
+}
+
 /// `NAME[:at_s=..,for_s=..,size=..]`.
-Disturbance parse_disturbance(const std::string& text, double plan_s) {
-  const std::size_t colon = text.find(':');
-  const std::string name = text.substr(0, colon);
-  const auto* preset =
-      std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return name == p.name; });
+Disturbance parse_disturbance(const std::string& text, const Robot& robot, const PlannedDrives& plan) {
+  const NamedSettings named = split_settings(text);
+  const auto* preset = std::find_if(std::begin(kPresets), std::end(kPresets),
+                                    [&](const Preset& p) { return named.name == p.name; });
   if (preset == std::end(kPresets))
-    refuse_disturbance("'" + name + "'", "push, slip, late_start, payload, obstacle or speed_limit");
+    refuse_disturbance("'" + named.name + "'", "push, slip, late_start, payload, obstacle or speed_limit");
   Disturbance disturbance = preset->usual;
-  disturbance.at_s = kPartOfPlan * plan_s;
-  std::string rest = colon == std::string::npos ? "" : text.substr(colon + 1);
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    const std::string pair = rest.substr(0, comma);
-    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
-    const std::size_t equals = pair.find('=');
-    const std::string key = pair.substr(0, equals);
-    const std::optional<double> value =
-        parse_number(equals == std::string::npos ? "" : pair.substr(equals + 1));
-    if (!value) refuse_disturbance("'" + pair + "'", "KEY=NUMBER");
+  disturbance.at_s = kPartOfPlan * plan.duration_s;
+  for (const auto& [key, text_of] : named.settings) {
+    const std::optional<double> value = parse_number(text_of);
+    if (!value) refuse_disturbance("'" + key + (text_of.empty() ? "" : "=" + text_of) + "'", "KEY=NUMBER");
     if (key == "at_s")
       disturbance.at_s = *value;
     else if (key == "for_s")
@@ -70,6 +84,7 @@ Disturbance parse_disturbance(const std::string& text, double plan_s) {
     else
       refuse_disturbance("'" + key + "'", "at_s, for_s or size");
   }
+  check_disturbance(disturbance, *preset, robot, plan);
   return disturbance;
 }
 
@@ -121,7 +136,7 @@ class FollowPlanCommand : public Command {
         .robot = robot, .start = plan.start, .end_s = plan.duration_s, .follower = settings_};
     for (const std::string& text : effects_) request.effects.push_back(parse_effect(text));
     for (const std::string& text : disturbances_)
-      request.disturbances.push_back(parse_disturbance(text, plan.duration_s));
+      request.disturbances.push_back(parse_disturbance(text, robot, plan));
     for (const PlannedDrive& drive : plan.drives)
       request.pieces.push_back({&drive.request, &drive.plan, drive.start_s, drive.end_s});
     const FollowResult result = follow(request);
@@ -139,6 +154,9 @@ class FollowPlanCommand : public Command {
  private:
   Json report_of(const PlannedDrives& plan, const FollowResult& result) const {
     const bool arrived = std::isfinite(result.late_s);
+    Json limits = Json::array();
+    for (const LimitUse& use : result.limits)
+      limits.push_back({{"limit", use.limit}, {"largest_fraction", use.fraction}, {"at_s", use.at_s}});
     return {{"schema", "joulepath/follow/1"},
             {"plan", directory_},
             {"planned", {{"energy_J", plan.energy_J}, {"duration_s", plan.duration_s}}},
@@ -152,7 +170,8 @@ class FollowPlanCommand : public Command {
               {"replans", result.replans},
               {"worst_lateral_m", result.worst_lateral_m},
               {"end_error_m", result.end_error_m},
-              {"end_error_rad", result.end_error_rad}}}};
+              {"end_error_rad", result.end_error_rad}}},
+            {"command_limits", limits}};
   }
 
   static void print(const Json& report) {
@@ -169,6 +188,11 @@ class FollowPlanCommand : public Command {
       std::cout << "late by at most " << figure(executed["late_s"], 3) << " s; off by "
                 << figure(executed["end_error_m"], 3) << " m, " << figure(executed["worst_lateral_m"], 3)
                 << " m aside at most; planned again " << executed["replans"] << " times\n";
+    std::string uses;
+    for (const Json& use : report["command_limits"])
+      uses += (uses.empty() ? "" : ", ") + use["limit"].get<std::string>() + " " +
+              figure(100 * use["largest_fraction"].get<double>(), 3) + " %";
+    std::cout << "largest use of the limits by the commands: " << uses << "\n";
   }
 
   std::string directory_{};

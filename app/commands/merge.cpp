@@ -1,36 +1,29 @@
+#include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/jobs/finish.hpp"
+#include "app/jobs/content_hash.hpp"
+#include "app/jobs/job_results.hpp"
 
 namespace joulepath {
 namespace {
 
-[[noreturn]] void refuse_line(const std::string& file, int line, const std::string& found,
-                              const std::string& accepted) {
-  throw ConfigError({{file, line, 0}, "", found, accepted, "run this shard again"});
-}
-
 /// Puts the lines of one shard at their indices.
 void take_lines(const std::string& directory, const ShardManifest& manifest, std::vector<std::string>& all) {
-  const std::string file = directory + "/results.jsonl";
+  const std::string file = directory + "/results.jsonl", text = read_text_file(file);
+  const auto refuse = [&](const std::string& found, const std::string& accepted) {
+    throw ConfigError({{file, 0, 0}, "", found, accepted, "run this shard again"});
+  };
+  if (ContentHash().mix(text).text() != manifest.results_digest)
+    refuse("lines that were changed or cut", "the lines that the shard wrote");
   const std::vector<std::size_t> indices = manifest.shard.indices(manifest.jobs);
-  std::ifstream in(file);
-  std::size_t count = 0;
-  for (std::string line; std::getline(in, line); ++count) {
-    const int number = static_cast<int>(count) + 1;
-    if (count >= indices.size())
-      refuse_line(file, number, "a line too many", std::to_string(indices.size()) + " lines");
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("status") || json.value("index", json) != indices[count])
-      refuse_line(file, number, "no result of job " + std::to_string(indices[count]),
-                  "the shard's own lines");
-    all[indices[count]] = std::move(line);
-  }
-  if (count < indices.size())
-    refuse_line(file, 0, std::to_string(count) + " lines", std::to_string(indices.size()) + " lines");
+  const auto count = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  if (count != indices.size())
+    refuse(std::to_string(count) + " lines", std::to_string(indices.size()) + " lines");
+  std::istringstream lines(text);
+  for (const std::size_t index : indices) std::getline(lines, all[index]);
 }
 
 class MergeCommand : public Command {
@@ -41,7 +34,8 @@ class MergeCommand : public Command {
                  .examples =
                      "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
                      "The results have the same bytes as those of one run. Shards of other inputs or of "
-                     "another version of the\nprogram are rejected, and so is an incomplete set.\n"}) {}
+                     "another version of the\nprogram are rejected, and so are an incomplete set and results "
+                     "that were changed after the run.\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DIR", directories_, "directories written with --shard").required().existing_path();

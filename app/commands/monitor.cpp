@@ -41,7 +41,7 @@ class MonitorCommand : public Command {
 
   int run() override {
     const Robot robot = read_robot(robot_);
-    Monitor monitor(robot, read_planned_course(directory_, robot.geometry), options_);
+    Monitor monitor(robot, read_planned_course(directory_, robot), options_);
     if (log_ == "-") {
       follow(monitor, robot, std::cin);
     } else if (is_bag(log_)) {
@@ -56,7 +56,7 @@ class MonitorCommand : public Command {
     if (monitor.status().rows.used == 0)
       throw ConfigError(
           {{log_name(), 0, 0}, "", "no row with a time and speeds", "a log of the plan's drive", ""});
-    tell({monitor.last_leg(), monitor.status()});
+    tell({monitor.leg_executed(), monitor.status()});
     return other_cause_ ? kInfeasibleOrFailed : kDone;
   }
 

@@ -1,10 +1,10 @@
 #include <chrono>
 #include <iostream>
 
+#include "app/cache_choice.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/kept_answers.hpp"
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_results.hpp"

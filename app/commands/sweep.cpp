@@ -5,7 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/jobs/finish.hpp"
+#include "app/jobs/job_results.hpp"
 #include "app/jobs/sweep_jobs.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/output_directory.hpp"
@@ -43,7 +43,7 @@ class SweepCommand : public Command {
   }
 
   int run() override {
-    const Study study = study_from(Document::load(source_), {.untrusted = options_.common.untrusted});
+    const Study study = read_study(source_, {.untrusted = options_.common.untrusted});
     const JobRun run = job_run(options_, "designs");
     if (evaluations_ > 0 && !run.shard.is_whole())
       throw UsageError("--optimize: found together with --shard, accepted: a sweep without shards");
@@ -58,7 +58,7 @@ class SweepCommand : public Command {
                    .shard = run.shard,
                    .title = title_of(study),
                    .study_file = study.file,
-                   .study_text = read_text_file(study.file)});
+                   .study_text = study.text});
     } else {
       const std::vector<std::string> lines = lines_of(*results);
       const std::vector<std::string> optimized =
@@ -78,7 +78,7 @@ class SweepCommand : public Command {
     const auto& parameters = study.designs.parameters();
     std::vector<std::size_t> ranges;
     for (std::size_t p = 0; p < parameters.size(); ++p)
-      if (parameters[p].to > parameters[p].from) ranges.push_back(p);
+      if (parameters[p].has_ends()) ranges.push_back(p);
     const std::vector<DesignTotal> totals = design_totals(study, lines);
     const auto best = std::ranges::min_element(totals, {}, [](const DesignTotal& total) {
       return std::tuple(!total.is_within(), total.objectives[0]);
@@ -106,7 +106,10 @@ class SweepCommand : public Command {
           const DesignTotal total = total_of(fractions);
           return DesignValue{total.planned, total.objectives[0], total.excess};
         });
-    return lines_of(jobs.plan_design(design_at(found.best), study.designs.size()));
+    // The start is rounded on its way through fractions: a plan with other ways may take more.
+    const bool is_better =
+        found.value.planned && found.value.excess <= 0.0 && found.value.objective < best->objectives[0];
+    return lines_of(jobs.plan_design(is_better ? design_at(found.best) : best->values, study.designs.size()));
   }
 
   std::string source_{};

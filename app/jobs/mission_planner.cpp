@@ -14,6 +14,7 @@
 #include "model/printable.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/robot_check.hpp"
 
 namespace joulepath {
 namespace {
@@ -117,32 +118,39 @@ std::string MissionPlanner::digest_of(const std::vector<MissionItem>& items) con
   return hash.text();
 }
 
-std::string MissionPlanner::fingerprint(const MissionItem& item, const std::string& extra_file) try {
+std::string MissionPlanner::fingerprint(const MissionItem& item, const MissionVariant* variant) try {
   ContentHash hash;
   for (const std::string& part : {std::string(JOULEPATH_VERSION), item.name, item.text, text_of(options_)})
     hash.mix(part);
-  const MissionRequest mission = mission_from(document_of(item), reading_);
-  std::vector<std::string> files = files_read_by(mission, reading_);
+  std::vector<std::string> files = files_read_by(mission_of(item, variant), reading_);
   if (item.text.empty()) files.push_back(item.file);
-  if (!extra_file.empty()) files.push_back(extra_file);
   for (const std::string& file : files) hash.mix(file + "=" + content_digest(file));
   return hash.text();
 } catch (const std::exception&) {
   return "";  // planning reports the reason
 }
 
+MissionRequest MissionPlanner::mission_of(const MissionItem& item, const MissionVariant* variant) const {
+  const Document document = document_of(item);
+  MissionRequest mission = variant != nullptr ? variant->mission(document) : mission_from(document, reading_);
+  if (variant == nullptr && !item.text.empty() && !document.root().has("name")) mission.name = item.name;
+  return mission;
+}
+
 const MissionPlanner::Place& MissionPlanner::place_of(const MissionRequest& mission) {
-  std::string key;
-  for (const std::string& part :
-       {mission.robot_file, mission.map_file, mission.keepout_file, mission.route_graph_file,
-        mission.speed_mask ? mission.speed_mask->file : std::string(), std::to_string(mission.clearance_m)})
-    key += part + "\n";
+  ByteWriter key;
+  key(mission.robot_file, mission.map_file, mission.keepout_file, mission.route_graph_file,
+      mission.clearance_m, mission.speed_mask.has_value());
+  if (mission.speed_mask) {
+    const auto& [file, kind, base, multiplier] = *mission.speed_mask;
+    key(file, kind, base, multiplier);
+  }
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<Place>& place = places_[key];
+  std::unique_ptr<Place>& place = places_[key.bytes()];
   if (!place) {
     auto made = std::make_unique<Place>();
-    made->world = read_world(mission, reading_);
-    made->space = route_space(mission, made->world);
+    made->world = read_named_files(mission, reading_);
+    if (has_footprint(made->world.robot)) made->space = route_space(mission, made->world);
     made->floor = floor_key(mission, made->world);
     place = std::move(made);
   }
@@ -158,11 +166,13 @@ Plan MissionPlanner::plan_of(const MissionRequest& mission, const MissionVariant
     options.answers = {answers_.get(), world_key(place.floor, robot)};
   };
   if (variant == nullptr) {
+    check_footprint(mission, place.world.robot);
     share(place.world.robot);
     return plan_mission(mission, place.world, options, space);
   }
   MissionWorld world = place.world;
   world.robot = variant->robot(mission.robot_file);
+  check_footprint(mission, world.robot);
   share(world.robot);
   const Footprint &asked = world.robot.footprint, &known = place.world.robot.footprint;
   const bool same_outline = asked.radius_m == known.radius_m && asked.polygon_m == known.polygon_m;
@@ -173,10 +183,8 @@ JobResult MissionPlanner::plan(const MissionItem& item, std::size_t index, Json 
                                const MissionVariant* variant) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    const Document document = document_of(item);
-    const MissionRequest mission =
-        variant != nullptr ? variant->mission(document) : mission_from(document, reading_);
-    if (variant == nullptr && (item.text.empty() || document.root().has("name"))) json["name"] = mission.name;
+    const MissionRequest mission = mission_of(item, variant);
+    if (variant == nullptr) json["name"] = mission.name;
     json.update(plan_line(plan_of(mission, variant)));
   } catch (const ConfigError& error) {
     json["status"] = "bad_input";

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cache_choice.hpp"
 #include "app/jobs/run_jobs.hpp"
-#include "app/kept_answers.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/document.hpp"
 
@@ -46,7 +46,8 @@ class MissionVariant {
 /// answers about equal legs are shared as well. Safe to call from several threads, except fingerprint().
 class MissionPlanner {
  public:
-  MissionPlanner(PlanOptions options, ReadOptions reading, const CacheChoice& cache = {.none = true})
+  MissionPlanner(const PlanOptions& options, const ReadOptions& reading,
+                 const CacheChoice& cache = {.none = true})
       : options_(options), reading_(reading), answers_(answer_cache(cache)) {}
 
   /// The result line: `line` with the plan's figures, or the reason why there is none.
@@ -54,8 +55,7 @@ class MissionPlanner {
                                const MissionVariant* variant = nullptr);
 
   /// Identifies a mission and everything on which its result depends; empty when a file cannot be read.
-  /// `extra_file`: read in addition to those that the mission names.
-  [[nodiscard]] std::string fingerprint(const MissionItem& item, const std::string& extra_file = {});
+  [[nodiscard]] std::string fingerprint(const MissionItem& item, const MissionVariant* variant = nullptr);
 
   [[nodiscard]] const std::map<std::string, std::string>& files_read() const { return digests_; }
   /// Digest of missions, without the files that they name, and of the options.
@@ -67,6 +67,7 @@ class MissionPlanner {
     std::optional<RouteSpace> space{};
     ContentKey floor{};
   };
+  [[nodiscard]] MissionRequest mission_of(const MissionItem& item, const MissionVariant* variant) const;
   const Place& place_of(const MissionRequest& mission);
   [[nodiscard]] Plan plan_of(const MissionRequest& mission, const MissionVariant* variant);
   [[nodiscard]] const std::string& content_digest(const std::string& file);
@@ -82,7 +83,7 @@ class MissionPlanner {
 /// The missions of a batch.
 class MissionJobs : public JobList {
  public:
-  MissionJobs(std::vector<MissionItem> items, PlanOptions options, ReadOptions reading,
+  MissionJobs(std::vector<MissionItem> items, const PlanOptions& options, const ReadOptions& reading,
               const CacheChoice& cache = {.none = true})
       : items_(std::move(items)), planner_(options, reading, cache) {}
 

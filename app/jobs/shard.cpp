@@ -52,13 +52,15 @@ Shard shard_from(const std::string& text) {
   if (!number || !of || *number < 1 || *of < *number || *of > static_cast<double>(kMostShards) ||
       !is_count(*number) || !is_count(*of))
     throw UsageError("--shard: found " + text + ", accepted: K/N with 1 <= K <= N, 2/8 for example");
-  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of), true};
 }
 
 std::string manifest_text(const ShardManifest& manifest) {
-  Json json{{"schema", "joulepath/shard/1"},  {"command", manifest.command},  {"version", manifest.version},
-            {"shard", manifest.shard.number}, {"of", manifest.shard.of},      {"jobs", manifest.jobs},
-            {"title", manifest.title},        {"list", manifest.list_digest}, {"files", manifest.files}};
+  Json json{{"schema", "joulepath/shard/1"}, {"command", manifest.command},
+            {"version", manifest.version},   {"shard", manifest.shard.number},
+            {"of", manifest.shard.of},       {"jobs", manifest.jobs},
+            {"title", manifest.title},       {"list", manifest.list_digest},
+            {"files", manifest.files},       {"results", manifest.results_digest}};
   if (!manifest.study_file.empty()) {
     json["study_file"] = manifest.study_file;
     json["study_text"] = manifest.study_text;
@@ -74,10 +76,11 @@ ShardManifest read_manifest(const std::string& directory) {
       .command = root["command"].text(),
       .version = root["version"].text(),
       .shard = {static_cast<std::size_t>(root["shard"].integer()),
-                static_cast<std::size_t>(root["of"].integer())},
+                static_cast<std::size_t>(root["of"].integer()), true},
       .jobs = static_cast<std::size_t>(root["jobs"].integer()),
       .title = root["title"].text(),
       .list_digest = root["list"].text(),
+      .results_digest = root["results"].text(),
       .study_file = root.text_or("study_file", ""),
       .study_text = root.text_or("study_text", ""),
   };

@@ -12,8 +12,9 @@ namespace joulepath {
 struct Shard {
   std::size_t number{1};  ///< 1 to `of`
   std::size_t of{1};
+  bool is_asked_for{};  ///< by --shard: even 1/1 is a directory for merge
 
-  [[nodiscard]] bool is_whole() const { return of == 1; }
+  [[nodiscard]] bool is_whole() const { return !is_asked_for; }
   [[nodiscard]] std::vector<std::size_t> indices(std::size_t jobs) const;
 };
 
@@ -29,6 +30,7 @@ struct ShardManifest {
   std::string title{};                         ///< of the report
   std::string list_digest{};                   ///< of the jobs without the files that they name
   std::map<std::string, std::string> files{};  ///< digest of each file that this shard's jobs read
+  std::string results_digest{};                ///< of the result lines
   std::string study_file{}, study_text{};      ///< of a sweep
 };
 

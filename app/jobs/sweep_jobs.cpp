@@ -39,19 +39,12 @@ Json json_value(const std::string& text) {
 
 }  // namespace
 
-SweepJobs::SweepJobs(const Study& study, PlanOptions options, ReadOptions reading, const CacheChoice& cache)
-    : study_(study),
-      study_text_(read_text_file(study.file)),
-      reading_(reading),
-      planner_(options, reading, cache) {
+SweepJobs::SweepJobs(const Study& study, const PlanOptions& options, const ReadOptions& reading,
+                     const CacheChoice& cache)
+    : study_(study), reading_(reading), planner_(options, reading, cache) {
   for (const std::string& source : study.missions)
     for (MissionItem& item : mission_items(source)) missions_.push_back(std::move(item));
-  for (const std::size_t k : {std::size_t{0}, study.designs.size() - 1}) {
-    const std::vector<std::string> design = study.designs.at(k);
-    const DesignVariant variant(study, design, reading);
-    const MissionRequest mission = variant.mission(document_of(missions_.front()));
-    static_cast<void>(variant.robot(mission.robot_file));
-  }
+  check_designs(study, document_of(missions_.front()), reading);
 }
 
 Json SweepJobs::line_of(const MissionItem& mission, const std::vector<std::string>& design,
@@ -86,12 +79,14 @@ std::vector<JobResult> SweepJobs::plan_design(const std::vector<std::string>& de
 }
 
 std::string SweepJobs::fingerprint(std::size_t index) {
-  const std::string mission = planner_.fingerprint(missions_[index % missions_.size()], study_.robot_file);
-  return mission.empty() ? "" : ContentHash().mix(mission).mix(study_text_).text();
+  const std::vector<std::string> design = study_.designs.at(index / missions_.size());
+  const DesignVariant variant(study_, design, reading_);  // its values may name files
+  const std::string mission = planner_.fingerprint(missions_[index % missions_.size()], &variant);
+  return mission.empty() ? "" : ContentHash().mix(mission).mix(study_.text).text();
 }
 
 std::string SweepJobs::digest() const {
-  return ContentHash().mix(planner_.digest_of(missions_)).mix(study_text_).text();
+  return ContentHash().mix(planner_.digest_of(missions_)).mix(study_.text).text();
 }
 
 }  // namespace joulepath

@@ -13,9 +13,8 @@ namespace joulepath {
 /// number, the mission's name, the parameters, and the plan's figures.
 class SweepJobs : public JobList {
  public:
-  /// Throws ConfigError where the first or the last design cannot be read, so that a mistake in a parameter's
-  /// key is reported once and not per design.
-  SweepJobs(const Study& study, PlanOptions options, ReadOptions reading,
+  /// Throws ConfigError: check_designs() of the first mission.
+  SweepJobs(const Study& study, const PlanOptions& options, const ReadOptions& reading,
             const CacheChoice& cache = {.none = true});
 
   [[nodiscard]] std::size_t size() const override { return study_.designs.size() * missions_.size(); }
@@ -39,7 +38,6 @@ class SweepJobs : public JobList {
                                   std::size_t number, std::size_t index);
 
   const Study& study_;
-  std::string study_text_;
   std::vector<MissionItem> missions_{};
   ReadOptions reading_;
   MissionPlanner planner_;

@@ -29,6 +29,22 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// A result that the study uses and that the plan does not have; null: it has all.
+const std::string* missing_result(const Study& study, const Json& line) {
+  const auto is_missing = [&](const std::string& result) {
+    return std::ranges::find(sweep_results(), result) != sweep_results().end() && !line.contains(result);
+  };
+  for (const StudyConstraint& constraint : study.constraints)
+    if (is_missing(constraint.result)) return &constraint.result;
+  for (const StudyObjective& objective : study.objectives)
+    if (is_missing(objective.result)) return &objective.result;
+  return nullptr;
+}
+
+std::string unknown(const std::string& result) {
+  return result + " is unknown: the robot file lacks its source";
+}
+
 double excess_of(const StudyConstraint& constraint, double value) {
   const auto relative = [&](double beyond, double bound) { return beyond / std::max(std::abs(bound), 1e-9); };
   double excess = 0.0;
@@ -50,7 +66,7 @@ double objective_value(const Study& study, const StudyObjective& objective, cons
 }
 
 void add_line(const Study& study, const Json& line, DesignTotal& total) {
-  total.planned = total.planned && has_plan(line);
+  total.planned = total.planned && has_plan(line) && missing_result(study, line) == nullptr;
   for (const std::string& result : sweep_results()) {
     if (!line.contains(result)) continue;
     const double value = line[result];
@@ -58,12 +74,9 @@ void add_line(const Study& study, const Json& line, DesignTotal& total) {
     if (!is_first)
       sum->second = result == kLeastOfMissions ? std::min(sum->second, value) : sum->second + value;
   }
-  for (const StudyConstraint& constraint : study.constraints) {
+  for (const StudyConstraint& constraint : study.constraints)
     if (line.contains(constraint.result))
       total.excess = std::max(total.excess, excess_of(constraint, line[constraint.result]));
-    else
-      total.planned = false;
-  }
 }
 
 Json parameters_json(const Study& study, const std::vector<std::string>& values) {
@@ -146,6 +159,8 @@ Json reason_counts(const Study& study, const std::vector<std::string>& lines) {
     const std::string status = line["status"];
     if (!has_plan(line))
       ++count[status + (line.contains("constraint") ? ": " + line["constraint"].get<std::string>() : "")];
+    else if (const std::string* missing = missing_result(study, line))
+      ++count[unknown(*missing)];
     else
       for (const StudyConstraint& constraint : study.constraints)
         if (excess_of(constraint, line[constraint.result]) > 0)
@@ -158,9 +173,8 @@ Json reason_counts(const Study& study, const std::vector<std::string>& lines) {
 
 std::string reason_of(const Study& study, const Json& line) {
   if (!has_plan(line)) return line.value("message", line.value("status", "no plan"));
+  if (const std::string* missing = missing_result(study, line)) return unknown(*missing);
   for (const StudyConstraint& constraint : study.constraints) {
-    if (!line.contains(constraint.result))
-      return constraint.result + " is unknown: the robot file lacks its source";
     const double value = line[constraint.result];
     if (excess_of(constraint, value) <= 0) continue;
     const bool above = constraint.max && value > *constraint.max;
@@ -188,10 +202,13 @@ std::vector<DesignTotal> design_totals(const Study& study, const std::vector<std
 }
 
 std::string sweep_csv(const Study& study, const std::vector<std::string>& lines) {
-  std::string csv = "design,mission";
-  for (const SweepParameter& parameter : study.designs.parameters()) csv += "," + csv_field(parameter.name);
-  csv += ",status,meets_constraints,reason";
-  for (const std::string& result : sweep_results()) csv += "," + result;
+  std::vector<std::string> columns = kColumnsBefore;
+  for (const SweepParameter& parameter : study.designs.parameters())
+    columns.push_back(csv_field(parameter.name));
+  columns.insert(columns.end(), kColumnsAfter.begin(), kColumnsAfter.end());
+  columns.insert(columns.end(), sweep_results().begin(), sweep_results().end());
+  std::string csv;
+  for (const std::string& column : columns) csv += (csv.empty() ? "" : ",") + column;
   csv += "\n";
   for (const std::string& text : lines) {
     const Json line = Json::parse(text);

@@ -36,18 +36,6 @@ std::vector<NamedColumns> baseline_motions(const Plan& plan, const Plant& plant)
   return motions;
 }
 
-/// Joules by cause with the names of plan.json, effects beside the others.
-std::map<std::string, double> named(const EnergyByCause& energy) {
-  std::map<std::string, double> causes{{"copper", energy.copper_J},
-                                       {"coulomb_friction", energy.coulomb_friction_J},
-                                       {"viscous_friction", energy.viscous_friction_J},
-                                       {"kinetic", energy.kinetic_J},
-                                       {"not_recovered", energy.not_recovered_J},
-                                       {"standby", energy.standby_J}};
-  for (const auto& [name, joules] : energy.effects_J) causes[name] += joules;
-  return causes;
-}
-
 /// What the plan saves against every baseline that keeps its times.
 std::vector<Saving> savings_of(const Plan& plan) {
   std::vector<Saving> list;
@@ -58,7 +46,7 @@ std::vector<Saving> savings_of(const Plan& plan) {
     const auto add = [&](const StretchPlan& stretch, const Profile& profile, double sign) {
       const EnergyByCause energy = energy_by_cause(path_motion(stretch.request), profile);
       saving.saved_J += sign * energy.total_J();
-      for (const auto& [name, joules] : named(energy)) saving.by_cause_J[name] += sign * joules;
+      for (const auto& [name, joules] : named_causes_J(energy)) saving.by_cause_J[name] += sign * joules;
     };
     for (std::size_t leg = 0; leg < plan.legs.size(); ++leg)
       for (std::size_t k = 0; k < plan.legs[leg].stretches.size(); ++k) {

@@ -58,7 +58,7 @@ def executed(design, file, robot, scratch, planned_share=1.0):
     mission = plans.SCENARIOS / f"missions/{MISSION}.yaml"
     plans.program("plan", mission, "--robot", robot_at, "--out", folder, "--without", "baselines", "--solver", "fast")
     file["motor"]["max_voltage_V"] = real_V
-    return {**plans.drive(folder, robot, file, tracked=True), "voltage_use": plans.voltage_use(folder, file)}
+    return {**plans.drive(folder, robot, file), "voltage_use": plans.voltage_use(folder, file)}
 
 
 def ranks(values):

@@ -6,10 +6,10 @@ from pathlib import Path as File
 
 import plans
 from common import PROBLEMS, package, spread, table
-from mujoco_peer import WORLDS
+from mujoco_peer import WORLDS, pose_controller, wheels_alone
 
 ROBOTS = ("nomad_super_scout", "amr_150kg", "tug_600kg")
-CONTROLS = {"wheels alone": False, "pose controller": True}
+CONTROLS = {"wheels alone": wheels_alone, "pose controller": pose_controller}
 CHECKED_EVERY = 5  # periods
 
 
@@ -53,8 +53,8 @@ def run(size):
             turning += sum(turns(folder) for _, folder in missions)
             for world, changes in WORLDS.items():
                 drives = {
-                    control: [measured(folder, robot, file, points[floor], tracked, changes) for floor, folder in missions]
-                    for control, tracked in CONTROLS.items()
+                    control: [measured(folder, robot, file, points[floor], guided, changes) for floor, folder in missions]
+                    for control, guided in CONTROLS.items()
                 }
                 rows.append([name, world, len(missions), *cells(drives)])
                 total += len(missions)
@@ -86,8 +86,8 @@ def turns(folder):
     return any((abs(c[:, 3]) < 1e-9) [abs(c[:, 4]) > 1e-3].any() for _, c, _ in plans.legs_of(folder))
 
 
-def measured(folder, robot, file, points, tracked, world):
-    drive = plans.drive(folder, robot, file, tracked, **world)
+def measured(folder, robot, file, points, guided, world):
+    drive = plans.drive(folder, robot, file, guided, **world)
     wanted, driven = drive.pop("poses")[0]
     for key, poses in (("planned_gap_m", wanted), ("gap_m", driven)):
         drive[key] = plans.gap_m(poses[::CHECKED_EVERY], file["footprint"], points)

@@ -69,8 +69,26 @@ def followed(pose, wanted, speeds):
     return v * math.cos(turn) + TRACKING_PER_S * ahead, omega + ACROSS_PER_M2 * v * aside + TRACKING_PER_S * math.sin(turn)
 
 
-def execute(robot, payload_kg, most_V, poses, speeds, tracked=False, payload_factor=1.0, grade=0.0):
-    """Watts of each motor and poses at the ends of the periods; references are poses and (v, omega) at the same instants."""
+def wheels_alone(_, speeds):
+    """A guide that knows the reference speeds only."""
+    return lambda i, pose, twist: speeds[i]
+
+
+def pose_controller(poses, speeds):
+    """A guide that corrects the reference speeds by the pose."""
+    return lambda i, pose, twist: followed(pose, poses[max(0, i - RESPONSE_PERIODS)], speeds[i])
+
+
+def pose_of(data):
+    q = data.qpos[3:7]
+    return (*data.qpos[:2], math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2)))
+
+
+def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, grade=0.0, disturb=None):
+    """Watts of each motor and poses at the ends of `count` periods, from the pose `start` at rest.
+
+    guide(i, pose, (v, omega)): the reference (v, omega) of period i. disturb(i, model, data): changes the world before it.
+    """
     mujoco = package("mujoco")
     model = mujoco.MjModel.from_xml_string(model_text(robot, payload_kg * payload_factor, grade))
     data = mujoco.MjData(model)
@@ -82,7 +100,7 @@ def execute(robot, payload_kg, most_V, poses, speeds, tracked=False, payload_fac
     inertia = mass * r * r / 2 + robot["wheel_axle_inertia_kg_m2"]
     gain = BANDWIDTH_PER_S * inertia * ohm / K  # PI that cancels the motor's own pole
     integral_gain = gain * (K * Kv / ohm + np.array(motor["viscous_friction_Nm_s_rad"])) / inertia
-    x, y, heading = poses[0]
+    x, y, heading = start
     turned_by = [math.cos(heading / 2), 0, 0, math.sin(heading / 2)]
     data.qpos[:2], data.qpos[3:7] = (x, y), turned_by
     mujoco.mj_step(model, data, 100)  # the casters settle
@@ -90,21 +108,22 @@ def execute(robot, payload_kg, most_V, poses, speeds, tracked=False, payload_fac
     wheel_at = [model.jnt_qposadr[mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n)] for n in ("left", "right")]
     step_rad, arms, wheels = 2 * math.pi / ENCODER_STEPS, np.array([-l, l]), data.qpos[wheel_at].copy()
     seen, integral, pending = np.floor(wheels / step_rad) * step_rad, np.zeros(2), [np.zeros(2)] * LATENCY_PERIODS
-    watts, driven = np.empty((len(poses), 2)), np.empty((len(poses), 3))
-    pose = poses[0]
-    for i, (v, omega) in enumerate(speeds):
-        if tracked:
-            v, omega = followed(pose, poses[max(0, i - RESPONSE_PERIODS)], (v, omega))
+    watts, driven = np.empty((count, 2)), np.empty((count, 3))
+    pose, rates = start, np.zeros(2)
+    for i in range(count):
+        v, omega = guide(i, pose, (r * rates.mean(), r * (rates[1] - rates[0]) / (2 * l)))
         now = np.floor(data.qpos[wheel_at] / step_rad) * step_rad
-        error = (v + arms * omega) / r - (now - seen) / PERIOD_S
+        rates = (now - seen) / PERIOD_S
+        error = (v + arms * omega) / r - rates
         seen, integral = now, integral + error * PERIOD_S
         pending.append(np.clip(gain * error + integral_gain * integral, -most_V, most_V))
         data.ctrl[:] = volts = pending.pop(0)
+        if disturb:
+            disturb(i, model, data)
         mujoco.mj_step(model, data, SUBSTEPS)
         turned, wheels = data.qpos[wheel_at] - wheels, data.qpos[wheel_at].copy()
         watts[i] = volts * (volts - Kv * turned / PERIOD_S) / ohm  # mean of V i at constant V, exact
-        q = data.qpos[3:7]
-        driven[i] = pose = (*data.qpos[:2], math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2)))
+        driven[i] = pose = pose_of(data)
     return watts, driven
 
 
@@ -119,15 +138,10 @@ def drive(problem, solution, **world):
     robot, path, reference = problem["robot_values"], Path(problem), Reference(problem, solution)
     times = (np.arange(math.ceil((reference.duration + SETTLE_S) / PERIOD_S)) + 1) * PERIOD_S
     s, v = reference.at(times)
-    poses = np.zeros((len(times), 3))  # the wheels' references alone are used
-    watts, driven = execute(
-        robot,
-        problem["payload_kg"],
-        problem["limits"].get("max_voltage_V", math.inf),
-        poses,
-        np.stack([v, path.curvature(s) * v], 1),
-        **world,
-    )
+    speeds = np.stack([v, path.curvature(s) * v], 1)
+    guide = wheels_alone(None, speeds)
+    most_V = problem["limits"].get("max_voltage_V", math.inf)
+    watts, driven = execute(robot, problem["payload_kg"], most_V, (0, 0, 0), len(times), guide, **world)
     return judge_drive(problem, path, reference, watts, driven[:, :2], times)
 
 

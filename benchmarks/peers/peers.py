@@ -20,6 +20,7 @@ import driving
 import economy
 import figure
 import floors
+import following
 import speed
 
 SECTIONS = {
@@ -31,6 +32,7 @@ SECTIONS = {
     "costs": ("What other planners minimize", economy.costs),
     "driving": ("Driven by an independent simulator", driving.run),
     "walls": ("Missions between walls, driven", floors.run),
+    "following": ("The profile follower, driven", following.run),
     "designs": ("The ranking of designs, driven", designs.run),
     "diagnosis": ("The diagnosis against regressions", diagnosis.run),
 }

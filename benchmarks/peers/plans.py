@@ -45,9 +45,9 @@ def voltage_use(folder, file):
     return max(volts) / file["motor"]["max_voltage_V"]
 
 
-def drive(folder, robot, file, tracked, **world):
+def drive(folder, robot, file, guided=mujoco_peer.pose_controller, **world):
     """Joules and lateness of a plan as driven, and the poses of each leg; the robot knows its place at each stop."""
-    plan, power = json.loads((folder / "plan.json").read_text()), file["power"]
+    plan = json.loads((folder / "plan.json").read_text())
     late_s, motors_J, poses = [], 0.0, []
     for times, columns, payload_kg in legs_of(folder):
         moves = np.nonzero(abs(columns[:, 3:]).sum(1) > 1e-9)[0]
@@ -55,15 +55,20 @@ def drive(folder, robot, file, tracked, **world):
         at = (np.arange(math.ceil((moving_s + SETTLE_S) / PERIOD_S)) + 1) * PERIOD_S
         wanted = np.stack([np.interp(at, times - times[0], column) for column in columns.T], 1)
         wanted[at > moving_s, 3:] = 0
-        watts, driven = mujoco_peer.execute(
-            robot, payload_kg, file["motor"]["max_voltage_V"], wanted[:, :3], wanted[:, 3:], tracked, **world
-        )
+        guide = guided(wanted[:, :3], wanted[:, 3:])
+        watts, driven = mujoco_peer.execute(robot, payload_kg, file["motor"]["max_voltage_V"], wanted[0, :3], len(at), guide, **world)
         late_s.append(mujoco_peer.last_motion(driven[:, :2], at) - mujoco_peer.last_motion(wanted[:, :2], at))
-        drawn = mujoco_peer.drawn_W(watts, power["regeneration_efficiency"], power.get("sharing", "wheel"))
-        motors_J += drawn[at <= moving_s + max(0.0, late_s[-1])].sum() * PERIOD_S
+        motors_J += drawn_J(file, watts, moving_s + max(0.0, late_s[-1]))
         poses.append((wanted[:, :3], driven))
-    energy_J = float(motors_J + power["standby_W"] * (plan["duration_s"] + sum(max(0.0, late) for late in late_s)))
+    energy_J = motors_J + file["power"]["standby_W"] * (plan["duration_s"] + sum(max(0.0, late) for late in late_s))
     return {"energy_J": energy_J, "planned_J": plan["energy_J"], "late_s": max(late_s), "poses": poses}
+
+
+def drawn_J(file, watts, until_s):
+    """What the motors take from the supply until a time."""
+    power = file["power"]
+    drawn = mujoco_peer.drawn_W(watts, power["regeneration_efficiency"], power.get("sharing", "wheel"))
+    return float(drawn[(np.arange(len(drawn)) + 1) * PERIOD_S <= until_s].sum() * PERIOD_S)
 
 
 def walls(name):

@@ -15,7 +15,7 @@ import distributed
 
 from joulepath import Robot, cluster
 
-NODES = ("--nodes", "20")
+OPTIONS = ("--nodes", "20", "--no-cache")  # no run begins with the answers of another
 CORES, GOAL, SHARDS = 64, 1_000_000, 1024
 
 
@@ -62,7 +62,7 @@ def growth(program, most):
     rows, count = [], 100
     while count <= most:
         file, out = write_missions(count), pathlib.Path(f"one_{count}")
-        cost, = wait([start([program, "batch", file, "--out", out, "-j", "1", "--quiet", "--force", *NODES])])
+        cost, = wait([start([program, "batch", file, "--out", out, "-j", "1", "--quiet", "--force", *OPTIONS])])
         rows.append((count, cost, sum(f.stat().st_size for f in out.iterdir()) / 2**20, (out / "results.jsonl").stat().st_size / 2**20))
         print(rows[-1], file=sys.stderr, flush=True)
         count *= 10
@@ -72,7 +72,7 @@ def growth(program, most):
 def sharded(program, count, processes):
     """As many processes as shards, and the merge."""
     shards = [pathlib.Path(f"shard_{k}") for k in range(1, processes + 1)]
-    costs = wait([start([program, "batch", f"missions_{count}.jsonl", "--out", shard, "-j", "1", "--quiet", "--force", *NODES,
+    costs = wait([start([program, "batch", f"missions_{count}.jsonl", "--out", shard, "-j", "1", "--quiet", "--force", *OPTIONS,
                          "--shard", f"{k}/{processes}"]) for k, shard in enumerate(shards, 1)])
     merge, = wait([start([program, "merge", *shards, "--out", "merged", "--quiet", "--force"])])
     same = pathlib.Path("merged/results.jsonl").read_bytes() == pathlib.Path(f"one_{count}/results.jsonl").read_bytes()
@@ -83,10 +83,10 @@ def beside_planning(program, count, planned, shards=4):
     """What `count` missions cost beside their planning: a batch that plans none of them, and the merge of lines like real ones."""
     file = write_missions(count)
     pathlib.Path("held.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(count)))
-    words = [program, "batch", file, "-j", "1", "--quiet", "--force", *NODES, "--quarantine", "held.jsonl", "--out"]
+    words = [program, "batch", file, "-j", "1", "--quiet", "--force", *OPTIONS, "--quarantine", "held.jsonl", "--out"]
     books, = wait([start([*words, "books"])])
     pathlib.Path("few.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(0, count, SHARDS)))
-    listing, = wait([start([program, "batch", file, "-j", "1", "--quiet", "--force", *NODES, "--quarantine", "few.jsonl", "--shard", f"1/{SHARDS}",
+    listing, = wait([start([program, "batch", file, "-j", "1", "--quiet", "--force", *OPTIONS, "--quarantine", "few.jsonl", "--shard", f"1/{SHARDS}",
                             "--out", "listing"])])
     known = [json.loads(line) for line in pathlib.Path(f"one_{planned}/results.jsonl").read_text().splitlines()]
     folders = [pathlib.Path(f"again_{k}") for k in range(shards)]
@@ -105,7 +105,7 @@ def on_dask(count, workers, shards):
     with distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None) as made:
         with distributed.Client(made) as client:
             begin = time.monotonic()
-            cluster.run(f"missions_{count}.jsonl", client, out, shards=shards, options=NODES)
+            cluster.run(f"missions_{count}.jsonl", client, out, shards=shards, options=OPTIONS)
             wall_s = time.monotonic() - begin
             peaks = client.run(lambda: int(re.search(r"VmHWM:\s*(\d+)", pathlib.Path("/proc/self/status").read_text())[1]) / 1024)
     same = (out / "results.jsonl").read_bytes() == pathlib.Path(f"one_{count}/results.jsonl").read_bytes()
@@ -115,7 +115,7 @@ def on_dask(count, workers, shards):
 def task_cost():
     """CPU and wall time of a shard's process that has one mission to plan."""
     words = [sys.executable, "-m", "joulepath", "batch", "missions_100.jsonl", "--shard", "1/100", "-j", "1", "--quiet", "--force",
-             "--out", "tiny", *NODES]
+             "--out", "tiny", *OPTIONS]
     return min((wait([start(words)])[0] for _ in range(5)), key=lambda cost: cost.cpu_s)
 
 
@@ -148,11 +148,12 @@ def main():
     result = pathlib.Path(result).resolve()
     os.chdir(folder)
     Robot.example().save("robot.yaml")
+    load = os.getloadavg()[0]
     rows = growth(program, int(most))
     count = min(1000, int(most))
     of_one = next(cost for missions, cost, *_ in rows if missions == count)
-    lines = ["# Many plans", "", header, f"Load average before the measurement: {os.getloadavg()[0]:.2f}; CPU time counts, wall time is what the load left. "
-             "Missions along given curves, 20 nodes, `batch -j 1`.", "", "## Growth, one process", "",
+    lines = ["# Many plans", "", header, f"Load average before the measurement: {load:.2f}; CPU time counts, wall time is what the load left. "
+             "Missions along given curves, 20 nodes, `batch -j 1 --no-cache`.", "", "## Growth, one process", "",
              "| missions | CPU, s | missions per CPU-minute | wall, s | peak memory, MiB | results.jsonl, MiB | all files, MiB |",
              "|---:|---:|---:|---:|---:|---:|---:|"]
     lines += [f"| {n:,} | {c.cpu_s:.1f} | {60 * n / c.cpu_s:.0f} | {c.wall_s:.0f} | {c.peak_MiB:.0f} | {lines_MiB:.2f} | {all_MiB:.2f} |"

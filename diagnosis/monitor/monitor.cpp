@@ -134,8 +134,6 @@ void Monitor::finish_legs() {
   leg_planned_begin_J_ = progress_.energy_J();
 }
 
-LegExecuted Monitor::last_leg() const { return leg_executed(); }
-
 MonitorStatus Monitor::status() const {
   const double whole_J = course_.energy_J.back(), planned_J = progress_.energy_J();
   MonitorStatus status{.time_s = last_s_,

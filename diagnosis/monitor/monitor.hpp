@@ -81,14 +81,14 @@ class Monitor {
   /// What the row of the log completes; valid until the next call.
   [[nodiscard]] const std::vector<MonitorEvent>& add(const MonitorRow& logged);
   [[nodiscard]] MonitorStatus status() const;
-  [[nodiscard]] LegExecuted last_leg() const;
+  /// The present leg so far.
+  [[nodiscard]] LegExecuted leg_executed() const;
 
  private:
   [[nodiscard]] bool is_usable(const MonitorRow& row);
   [[nodiscard]] bool is_on_the_clock(double time_s);
   [[nodiscard]] MonitorEvent told(const CauseChange& change, double stated_kg) const;
   void finish_legs();
-  [[nodiscard]] LegExecuted leg_executed() const;
 
   Robot robot_;
   PlannedCourse course_;

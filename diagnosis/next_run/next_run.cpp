@@ -88,6 +88,26 @@ std::vector<Manoeuvre> library(const Robot& robot) {
   };
 }
 
+void cap(std::optional<double>& value, double limit) {
+  if (value) value = std::min(*value, limit);
+}
+
+/// The manoeuvre's motions, slower where the robot's limits with this payload require it. An arc of radius r
+/// at speed v has lateral acceleration v^2/r, yaw rate v/r and yaw acceleration a/r.
+std::vector<PrescribedMotion> within(const Limits& limits, std::vector<PrescribedMotion> motions) {
+  for (PrescribedMotion& motion : motions) {
+    cap(motion.speed_m_s, limits.speed_m_s);
+    cap(motion.acceleration_m_s2, std::min(limits.acceleration_m_s2, limits.deceleration_m_s2));
+    cap(motion.yaw_rate_rad_s, limits.yaw_rate_rad_s);
+    cap(motion.yaw_acceleration_rad_s2, limits.yaw_acceleration_rad_s2);
+    if (!motion.radius_m) continue;
+    cap(motion.speed_m_s, std::min(limits.yaw_rate_rad_s * *motion.radius_m,
+                                   std::sqrt(limits.lateral_acceleration_m_s2 * *motion.radius_m)));
+    cap(motion.acceleration_m_s2, limits.yaw_acceleration_rad_s2 * *motion.radius_m);
+  }
+  return motions;
+}
+
 RunSignals signals_of(const std::vector<PrescribedMotion>& motions, const Robot& robot, double payload_kg,
                       double time_of_day_s) {
   const TimedMotion timed = timed_motion(robot, motions, {.payload_kg = payload_kg});
@@ -162,14 +182,16 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
   for (const Manoeuvre& manoeuvre : library(robot)) {
     try {
       const double payload_kg = manoeuvre.load * heaviest_kg;
-      const RunSignals signals = signals_of(manoeuvre.motions, robot, payload_kg, 0.0);
+      const std::vector<PrescribedMotion> motions =
+          within(limits_for_payload(robot, payload_kg), manoeuvre.motions);
+      const RunSignals signals = signals_of(motions, robot, payload_kg, 0.0);
       double smallest = 1e300;
       for (std::size_t a = 0; a < states.size(); ++a)
         for (std::size_t b = a + 1; b < states.size(); ++b)
           smallest = std::min(smallest, evidence_between(id, robot, signals, states[a], states[b]));
       if (smallest <= next.expected_evidence) continue;
       next.expected_evidence = smallest;
-      next.motions = manoeuvre.motions;
+      next.motions = motions;
       next.payload_kg = payload_kg;
       next.why = manoeuvre.why;
     } catch (const ConfigError&) {

@@ -14,6 +14,7 @@ namespace {
 constexpr int kHalf = 36;     ///< angles from 0 to pi
 constexpr int kDrivenOn = 1;  ///< number of angles at which the robot does not stop
 constexpr std::size_t kNodes = 60;
+constexpr double kSmaller = 0.9;  ///< next radius to try where one does not fit
 
 /// Energy and time of a path whose pieces are each driven from rest to rest in the time of least energy.
 class DriveCost {
@@ -44,13 +45,20 @@ class DriveCost {
   double payload_kg_{};
 };
 
+std::vector<Point2> corner_points(double angle_rad, double leg_m) {
+  return {{-leg_m, 0}, {0, 0}, {leg_m * std::cos(angle_rad), leg_m * std::sin(angle_rad)}};
+}
+
+bool arc_fits(double angle_rad, double radius_m, double leg_m) {
+  return !lines_between(corner_points(angle_rad, leg_m), {0, radius_m, 0}).defect;
+}
+
+/// With an arc of the radius, or of the largest one that fits; else with a turn in place.
 Path corner_path(double angle_rad, double radius_m, double leg_m) {
-  const std::vector<Point2> points{
-      {-leg_m, 0}, {0, 0}, {leg_m * std::cos(angle_rad), leg_m * std::sin(angle_rad)}};
-  if (radius_m > 0 && std::abs(angle_rad) < std::numbers::pi - 1e-6) {
-    const WaypointPath rounded = lines_between(points, {0, radius_m, 0});
-    if (!rounded.defect) return rounded.path;
-  }
+  const bool back = std::abs(angle_rad) >= std::numbers::pi - 1e-6;
+  for (double radius = back ? 0.0 : radius_m; radius >= kLeastCornerRadius_m; radius *= kSmaller)
+    if (const WaypointPath way = lines_between(corner_points(angle_rad, leg_m), {0, radius, 0}); !way.defect)
+      return way.path;
   Path path{{straight_piece({-leg_m, 0, 0}, leg_m)}};
   append_turn_to(path, path.end(), angle_rad);
   path.pieces.push_back(straight_piece({0, 0, angle_rad}, leg_m));
@@ -71,6 +79,11 @@ CornerTable::CornerTable(const Plant& plant, const Limits& limits, double payloa
     const Cost corner = drive.of(corner_path(i * std::numbers::pi / kHalf, radius_m, leg_m));
     costs_.push_back({corner.energy_J - straight.energy_J, corner.time_s - straight.time_s});
   }
+  const auto angle = [](int i) { return i * std::numbers::pi / kHalf; };
+  int fits = kHalf;
+  if (radius_m > 0)
+    for (fits = kDrivenOn; fits + 1 < kHalf && arc_fits(angle(fits + 1), radius_m, leg_m);) ++fits;
+  fits_up_to_rad_ = angle(fits);
 }
 
 CornerTable::Cost CornerTable::at(double angle_rad) const {

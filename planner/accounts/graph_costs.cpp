@@ -28,10 +28,11 @@ class GraphPricer {
         plant_(make_plant(robot)),
         limits_(limits_for_payload(robot, payload_kg)),
         payload_kg_(payload_kg),
-        corners_(plant_, limits_, payload_kg, corner_radius_m, typical_leg_m(graph)) {}
+        leg_m_(typical_leg_m(graph)),
+        corners_(plant_, limits_, payload_kg, corner_radius_m, leg_m_) {}
 
   GraphCosts price() const {
-    GraphCosts costs;
+    GraphCosts costs{.typical_leg_m = leg_m_, .fits_up_to_rad = corners_.fits_up_to_rad()};
     for (const RouteGraph::Edge& edge : graph_.edges) costs.edges.push_back(edge_cost(edge));
     add_corners(costs);
     attribute(costs);
@@ -108,17 +109,18 @@ class GraphPricer {
   }
 
   /// Attribution of corner costs to edges: the fit corner(in, out) = end of `in` + start of `out` of least
-  /// squares over the corners. It iterates averages, which converge for every pattern of pairs.
+  /// squares over the corners, none below its floor. It iterates averages, each no lower than its floor:
+  /// exact minimization over one half of the unknowns at a time, which converges under such bounds.
   void attribute(GraphCosts& costs) const {
     const std::size_t count = graph_.edges.size();
     std::vector<double> end_J(count, 0.0), start_J(count, 0.0), end_s(count, 0.0), start_s(count, 0.0);
-    fit(costs.corners, &CornerCost::energy_J, end_J, start_J);
-    fit(costs.corners, &CornerCost::time_s, end_s, start_s);
+    fit(costs, &CornerCost::energy_J, &EdgeCost::energy_J, end_J, start_J);
+    fit(costs, &CornerCost::time_s, &EdgeCost::time_s, end_s, start_s);
     costs.with_turns = costs.edges;
     for (std::size_t e = 0; e < count; ++e) {
       EdgeCost& cost = costs.with_turns[e];
-      cost.energy_J = std::max(kLeast_J, cost.energy_J + start_J[e] + end_J[e]);
-      cost.time_s = std::max(kLeast_J, cost.time_s + start_s[e] + end_s[e]);
+      cost.energy_J += start_J[e] + end_J[e];
+      cost.time_s += start_s[e] + end_s[e];
     }
     TurnAttribution& result = costs.attribution;
     result.corners = costs.corners.size();
@@ -135,25 +137,40 @@ class GraphPricer {
     result.rms_J = std::sqrt(squares / corners);
   }
 
-  static void fit(const std::vector<CornerCost>& corners, double CornerCost::*cost, std::vector<double>& end,
-                  std::vector<double>& start) {
+  /// Least share of each edge's end (or start): 0, or half of the greatest saving of its corners, and never
+  /// more than a quarter of the edge.
+  static std::vector<double> floors(const GraphCosts& costs, std::size_t CornerCost::*at,
+                                    double CornerCost::*cost, double EdgeCost::*whole) {
+    std::vector<double> least(costs.edges.size(), 0.0);
+    for (const CornerCost& corner : costs.corners)
+      least[corner.*at] = std::min(least[corner.*at], 0.5 * corner.*cost);
+    for (std::size_t e = 0; e < least.size(); ++e)
+      least[e] = std::max(least[e], -0.25 * costs.edges[e].*whole);
+    return least;
+  }
+
+  static void fit(const GraphCosts& costs, double CornerCost::*cost, double EdgeCost::*whole,
+                  std::vector<double>& end, std::vector<double>& start) {
+    const std::vector<double> least_end = floors(costs, &CornerCost::in, cost, whole);
+    const std::vector<double> least_start = floors(costs, &CornerCost::out, cost, whole);
     std::vector<double> sum(end.size()), count(end.size());
     const auto sweep = [&](std::size_t CornerCost::*to, std::vector<double>& mine,
-                           std::size_t CornerCost::*other, const std::vector<double>& theirs, double share) {
+                           std::size_t CornerCost::*other, const std::vector<double>& theirs,
+                           const std::vector<double>& least, double share) {
       std::fill(sum.begin(), sum.end(), 0.0);
       std::fill(count.begin(), count.end(), 0.0);
-      for (const CornerCost& corner : corners) {
+      for (const CornerCost& corner : costs.corners) {
         sum[corner.*to] += share * (corner.*cost - theirs[corner.*other]);
         count[corner.*to] += 1;
       }
       for (std::size_t e = 0; e < mine.size(); ++e)
-        if (count[e] > 0) mine[e] = sum[e] / count[e];
+        if (count[e] > 0) mine[e] = std::max(least[e], sum[e] / count[e]);
     };
     // Equal halves first: no edge gets the whole cost of a node.
-    sweep(&CornerCost::in, end, &CornerCost::out, start, 0.5);
+    sweep(&CornerCost::in, end, &CornerCost::out, start, least_end, 0.5);
     for (int i = 0; i < kFitSweeps; ++i) {
-      sweep(&CornerCost::out, start, &CornerCost::in, end, 1.0);
-      sweep(&CornerCost::in, end, &CornerCost::out, start, 1.0);
+      sweep(&CornerCost::out, start, &CornerCost::in, end, least_start, 1.0);
+      sweep(&CornerCost::in, end, &CornerCost::out, start, least_end, 1.0);
     }
   }
 
@@ -161,6 +178,7 @@ class GraphPricer {
   Plant plant_;
   Limits limits_;
   double payload_kg_{};
+  double leg_m_{};
   CornerTable corners_;
 };
 

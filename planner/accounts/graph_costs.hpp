@@ -33,13 +33,18 @@ struct TurnAttribution {
 
 /// Costs of a route graph for one robot with one payload.
 struct GraphCosts {
-  std::vector<EdgeCost> edges{};       ///< without the corners at their ends
-  std::vector<EdgeCost> with_turns{};  ///< each corner's cost split over its two edges
-  std::vector<CornerCost> corners{};   ///< all pairs but those that lead straight back
+  std::vector<EdgeCost> edges{};  ///< without the corners at their ends
+  /// Each corner's cost split over its two edges. None costs less than in `edges`, but for half of what the
+  /// corners at its ends save (arcs are shorter than their corners).
+  std::vector<EdgeCost> with_turns{};
+  std::vector<CornerCost> corners{};  ///< all pairs but those that lead straight back
   TurnAttribution attribution{};
+  double typical_leg_m{};   ///< between two corners, on which these are planned
+  double fits_up_to_rad{};  ///< greatest corner at which the arc as asked for fits such legs
 };
 
-/// `corner_radius_m`: radius of the arcs at corners; 0: the robot stops and turns.
+/// `corner_radius_m`: radius of the arcs at corners, the largest that fits where that one is too long; 0: the
+/// robot stops and turns.
 [[nodiscard]] GraphCosts graph_costs(const RouteGraph& graph, const Robot& robot, double payload_kg,
                                      double corner_radius_m);
 

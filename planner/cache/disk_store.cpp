@@ -39,13 +39,27 @@ struct KeptFile {
   std::uint64_t bytes{};
 };
 
-/// Every file of the folder, without those that other processes delete meanwhile.
+/// True for files that a store wrote: `FF/` and 30 hexadecimal digits, a draft with `.PID.NUMBER.new` behind.
+bool is_own_file(const fs::path& file) {
+  const auto is_hex = [](const std::string& text, std::size_t size) {
+    return text.size() == size && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+  };
+  const std::string name = file.filename().string();
+  return is_hex(file.parent_path().filename().string(), 2) && is_hex(name.substr(0, 30), 30) &&
+         (name.size() == 30 || (name[30] == '.' && file.extension() == ".new"));
+}
+
+/// Every file of the store in the folder, without those that other processes delete meanwhile. The user may
+/// have named a folder with other files: they are none of the store's.
 std::vector<KeptFile> files_in(const std::string& folder) {
   std::vector<KeptFile> files;
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator at(folder, options, error), end; !error && at != end;
+       at.increment(error)) {
+    if (at.depth() > 0) at.disable_recursion_pending();
     std::error_code gone;
-    if (!at->is_regular_file(gone) || gone) continue;
+    if (at.depth() != 1 || !is_own_file(at->path()) || !at->is_regular_file(gone) || gone) continue;
     KeptFile file{at->path(), at->last_write_time(gone), 0};
     if (!gone) file.bytes = at->file_size(gone);
     if (!gone) files.push_back(std::move(file));

@@ -13,7 +13,8 @@ namespace joulepath {
 /// Answers as files of one folder that processes share: one file per key with a checksum of its content,
 /// written under a temporary name and renamed. A file that is missing, damaged or of another key counts as no
 /// answer, and the next answer replaces it. Answers that cannot be written (no space, no permission) are
-/// dropped. When the folder exceeds its limit, the least recently used files are deleted.
+/// dropped. When these files exceed the limit, the least recently used ones are deleted; other files of the
+/// folder stay.
 ///
 /// Safe to share between threads.
 class DiskStore {

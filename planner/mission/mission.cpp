@@ -54,13 +54,15 @@ void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
   }
   const double wait_s = std::max(0.0, duration_s - leg.duration_s);
   if (wait_s > kNoWait * duration_s) {
+    const double waiting_J = plant.robot.power.standby_W * wait_s;
     leg.duration_s += wait_s;
-    leg.energy.standby_J += plant.robot.power.standby_W * wait_s;
-  }
-  if (wait_s > kNoWait * duration_s && !leg.stretches.empty()) {
-    leg.stretches.back().profile.wait_s += wait_s;
-    leg.stretches.back().energy.standby_J += plant.robot.power.standby_W * wait_s;
-    leg.stretches.back().replay.energy_J += plant.robot.power.standby_W * wait_s;
+    leg.energy.standby_J += waiting_J;
+    if (!leg.stretches.empty()) {
+      StretchPlan& last = leg.stretches.back();
+      last.profile.wait_s += wait_s;
+      last.energy.standby_J += waiting_J;
+      last.replay.energy_J += waiting_J;
+    }
   }
   leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
 }

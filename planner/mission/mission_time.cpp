@@ -6,16 +6,22 @@
 namespace joulepath {
 namespace {
 
-/// Price at which a leg alone takes a given time. A long time has a negative price, down to nearly minus the
-/// standby power (where a second has no price, the time is unbounded); there the robot waits instead.
+/// The price of a second that passes in any case. Where a second had no price at all, the time would be
+/// unbounded.
+double waiting_price_W(double standby_W) { return -0.9999 * standby_W; }
+
+/// Price at which a leg alone takes a given time. A long time has a negative price, down to that at which the
+/// robot waits instead.
 double price_for_duration(LegTiming& leg, double duration_s, double standby_W, SolverChoice solver) {
+  const double free_W = waiting_price_W(standby_W);
   const TimeSplit split =
       split_time({.legs = 1,
                   .duration_s = [&](std::size_t, double price_W) { return leg.duration_s(price_W, solver); },
                   .latest_arrival_s = {duration_s},
                   .earliest_arrival_s = {0.0},
                   .dwell_s = {0.0},
-                  .lowest_price_W = -0.9999 * standby_W});
+                  .lowest_price_W = free_W,
+                  .waiting_price_W = free_W});
   return split.late ? kNoLimit : split.price_W.front();
 }
 
@@ -30,7 +36,8 @@ TimeSplit share_once(PreparedLegs& prepared, const MissionRequest& mission, doub
                            .latest_arrival_s = std::vector<double>(count, kNoLimit),
                            .earliest_arrival_s = std::vector<double>(count, 0.0),
                            .dwell_s = {},
-                           .lowest_price_W = std::isinf(floor_W) ? 0.0 : floor_W};
+                           .lowest_price_W = std::isinf(floor_W) ? 0.0 : floor_W,
+                           .waiting_price_W = waiting_price_W(standby_W)};
   for (std::size_t k = 0; k < count; ++k) {
     const LegRequest& leg = mission.legs[k];
     request.dwell_s.push_back(leg.dwell_s);

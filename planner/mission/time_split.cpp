@@ -12,31 +12,31 @@ namespace {
 constexpr double kHighestPrice_W = 1e7;
 constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
 
-/// Arrival at the end of `last` when all legs from `first` pay one price.
+/// Arrival at the end of `last`, before any wait there, when all legs from `first` pay one price.
 double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
                  double price_W) {
   double time_s = departure_s;
   for (std::size_t leg = first; leg <= last; ++leg) {
-    time_s = std::max(time_s + request.duration_s(leg, price_W), request.earliest_arrival_s[leg]);
-    if (leg < last) time_s += request.dwell_s[leg];
+    time_s += request.duration_s(leg, price_W);
+    if (leg < last) time_s = std::max(time_s, request.earliest_arrival_s[leg]) + request.dwell_s[leg];
   }
   return time_s;
 }
 
-/// Smallest price at which the legs first..last arrive in time; empty if there is none.
+/// Smallest price, at least `lowest_W`, at which the legs first..last arrive by `due_s`; empty if there is
+/// none.
 std::optional<double> price_of(const TimeSplitRequest& request, std::size_t first, std::size_t last,
-                               double departure_s) {
-  const double latest_s = request.latest_arrival_s[last];
+                               double departure_s, double due_s, double lowest_W) {
   // The search runs over the logarithm of the distance to the lowest price.
-  const auto price_at = [&](double x) { return request.lowest_price_W + std::expm1(x); };
+  const auto price_at = [&](double x) { return lowest_W + std::expm1(x); };
   const auto late_s = [&](double x) {
-    return arrival_s(request, first, last, departure_s, price_at(x)) - latest_s;
+    return arrival_s(request, first, last, departure_s, price_at(x)) - due_s;
   };
   double low = 0.0;
   double late_low_s = late_s(low);
-  if (late_low_s <= 0) return request.lowest_price_W;
+  if (late_low_s <= 0) return lowest_W;
   // Far above the minimum time: the lowest price is enough.
-  if (arrival_s(request, first, last, departure_s, kNoLimit) > latest_s * (1 + kClearlyLate))
+  if (arrival_s(request, first, last, departure_s, kNoLimit) > due_s * (1 + kClearlyLate))
     return std::nullopt;
   const double highest = std::log1p(kHighestPrice_W);
   double high = 0.5;
@@ -48,7 +48,7 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
     late_high_s = late_s(high);
   }
   if (late_high_s > 0)
-    return arrival_s(request, first, last, departure_s, kNoLimit) <= latest_s * (1 + 1e-9) + 1e-9
+    return arrival_s(request, first, last, departure_s, kNoLimit) <= due_s * (1 + 1e-9) + 1e-9
                ? std::optional(kNoLimit)
                : std::nullopt;
   std::uintmax_t iterations = 60;
@@ -56,6 +56,44 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   const auto bracket =
       boost::math::tools::toms748_solve(late_s, low, high, late_low_s, late_high_s, close, iterations);
   return price_at(bracket.second);
+}
+
+/// Legs from the first that is not settled yet to `last`, with one price.
+struct Block {
+  double price_W{};
+  std::size_t last{};
+};
+
+/// A deadline demands at least a price of all legs before it, the opening of a window at most one. The scan
+/// ends where a demand contradicts an earlier one: that one binds, and its price holds up to its stop.
+Block next_block(const TimeSplitRequest& request, std::size_t first, double departure_s, TimeSplit& split) {
+  const std::size_t end = request.legs - 1;
+  Block least{-kNoLimit, end}, most{kNoLimit, end};
+  const bool windows = std::any_of(request.earliest_arrival_s.begin() + static_cast<std::ptrdiff_t>(first),
+                                   request.earliest_arrival_s.end(), [](double s) { return s > 0; });
+  const double floor_W = windows ? request.waiting_price_W : request.lowest_price_W;
+  for (std::size_t last = first; last <= end; ++last) {
+    if (std::isfinite(request.latest_arrival_s[last])) {
+      const std::optional<double> price_W =
+          price_of(request, first, last, departure_s, request.latest_arrival_s[last], floor_W);
+      if (!price_W) {
+        split.late = {
+            last, arrival_s(request, first, last, departure_s, kNoLimit) - request.latest_arrival_s[last]};
+        return {kNoLimit, last};
+      }
+      if (*price_W > most.price_W) return most;
+      if (*price_W > std::max(least.price_W, floor_W)) least = {*price_W, last};
+    }
+    if (request.earliest_arrival_s[last] > 0) {
+      const std::optional<double> price_W =
+          price_of(request, first, last, departure_s, request.earliest_arrival_s[last], floor_W);
+      if (price_W && *price_W < least.price_W) return least;
+      if (price_W && *price_W < most.price_W) most = {*price_W, last};
+    }
+  }
+  if (least.price_W > request.lowest_price_W) return least;
+  if (most.price_W < request.lowest_price_W) return most;
+  return {request.lowest_price_W, end};
 }
 
 }  // namespace
@@ -66,28 +104,14 @@ TimeSplit split_time(const TimeSplitRequest& request) {
                   .arrival_s = std::vector<double>(request.legs, 0.0)};
   double departure_s = 0.0;
   for (std::size_t first = 0; first < request.legs;) {
-    std::size_t binding = request.legs - 1;
-    double highest_W = request.lowest_price_W;
-    for (std::size_t last = first; last < request.legs && !split.late; ++last) {
-      if (!std::isfinite(request.latest_arrival_s[last])) continue;
-      const std::optional<double> price_W = price_of(request, first, last, departure_s);
-      if (!price_W) {
-        split.late = {
-            last, arrival_s(request, first, last, departure_s, kNoLimit) - request.latest_arrival_s[last]};
-        highest_W = kNoLimit;
-        binding = last;
-      } else if (*price_W > highest_W) {
-        highest_W = *price_W;
-        binding = last;
-      }
-    }
-    for (std::size_t leg = first; leg <= binding; ++leg) {
-      split.price_W[leg] = highest_W;
-      split.duration_s[leg] = request.duration_s(leg, highest_W);
+    const Block block = next_block(request, first, departure_s, split);
+    for (std::size_t leg = first; leg <= block.last; ++leg) {
+      split.price_W[leg] = block.price_W;
+      split.duration_s[leg] = request.duration_s(leg, block.price_W);
       split.arrival_s[leg] = std::max(departure_s + split.duration_s[leg], request.earliest_arrival_s[leg]);
       departure_s = split.arrival_s[leg] + request.dwell_s[leg];
     }
-    first = binding + 1;
+    first = block.last + 1;
   }
   return split;
 }

@@ -16,7 +16,8 @@ struct TimeSplitRequest {
   std::vector<double> latest_arrival_s{};    ///< per leg; infinite where there is no deadline
   std::vector<double> earliest_arrival_s{};  ///< per leg; 0 if there is none: the robot waits at the stop
   std::vector<double> dwell_s{};             ///< per leg, after arrival
-  double lowest_price_W{};                   ///< the price without a binding deadline
+  double lowest_price_W{};                   ///< the price without a binding deadline or window
+  double waiting_price_W{};  ///< the price where the robot waits in any case: minus the standby power, nearly
 };
 
 /// The price of a second on each leg, and the resulting times.
@@ -31,13 +32,15 @@ struct TimeSplit {
   std::optional<Late> late{};  ///< set when a deadline cannot be met at any price
 };
 
-/// Shares the deadlines of a chain of legs so that the sum of the legs' energies is least: legs that can
-/// trade time have the same price of a second, and the price falls only after a deadline that binds.
+/// Shares deadlines and windows of a chain of legs so that the sum of the legs' energies and of the standby
+/// energy while waiting is least: legs that can trade time have the same price of a second, the price falls
+/// only after a deadline that binds, and rises only after a window whose opening binds.
 ///
-///   minimize sum E_j(T_j)   subject to   arrival_k <= latest_k
+///   minimize sum E_j(T_j) + P0 sum wait_j + floor arrival_n   subject to   earliest_k <= arrival_k <=
+///   latest_k
 ///
-/// With convex E_j the multipliers are dE_j/dT_j = -sum over k >= j of mu_k, mu_k >= 0. The deadline with the
-/// highest price for all legs before it binds; the same step is repeated for the legs after it.
+/// With convex E_j the multipliers are dE_j/dT_j = -price_j, and prices differ across a stop by the
+/// multiplier of its bound only: the path of the arrivals is a taut string between the bounds.
 [[nodiscard]] TimeSplit split_time(const TimeSplitRequest& request);
 
 }  // namespace joulepath

@@ -27,6 +27,7 @@ double supply_at(const PathMotion& motion, const ProfileState& state) {
 
 constexpr int kChecks = 8;             ///< of a segment, equal in time
 constexpr std::size_t kPlaces = 4000;  ///< about as many along a path, where its parts are few
+constexpr double kLeastStep = 1e-12;   ///< of a segment's duration
 constexpr double kEdge = 1e-7;         ///< of a part: its law may change at its ends, so looks are inside
 
 /// Places between which neither curvature nor caps change much: some of every smooth part of the path.
@@ -61,6 +62,12 @@ struct Replayer {
                        });
   }
 
+  void mark_unresolved(double s) {
+    result.worst_violation = kNoLimit;
+    result.limit = "yaw_acceleration";
+    result.s = s;
+  }
+
   /// Integrates one segment, in which the acceleration is a smooth function of time.
   void drive(const Profile& profile, std::size_t k, State& state) {
     const double start_s = profile.time_s[k], duration_s = profile.time_s[k + 1] - start_s;
@@ -73,6 +80,19 @@ struct Replayer {
       dx = {x[1], a, supply_at(motion, {t, x[0], std::max(0.0, x[1]), a})};
     };
     auto stepper = odeint::make_controlled(1e-10, 1e-8, odeint::runge_kutta_dopri5<State>());
+    const double least_step_s = kLeastStep * duration_s;
+    // A kink of the path that no step resolves: power without bound, which no robot has.
+    const auto integrate = [&](double from_s, double to_s) {
+      double step_s = to_s - from_s;
+      for (double t = from_s; to_s - t > least_step_s;) {
+        step_s = std::min(step_s, to_s - t);
+        if (stepper.try_step(system, state, t, step_s) == odeint::success) continue;
+        if (step_s > least_step_s) continue;
+        mark_unresolved(state[0]);
+        return false;
+      }
+      return true;
+    };
     // At a segment's ends the path's law may change: the state is evaluated inside.
     const double edge = 1e-7 * (profile.s[k + 1] - profile.s[k]);
     const auto inside = [&](double t, double shift) {
@@ -82,7 +102,7 @@ struct Replayer {
     for (int i = 0; i < kChecks; ++i) {
       const double from_s = start_s + duration_s * i / kChecks,
                    to_s = start_s + duration_s * (i + 1) / kChecks;
-      odeint::integrate_adaptive(stepper, system, state, from_s, to_s, duration_s / kChecks);
+      if (!integrate(from_s, to_s)) return;
       inside(to_s, i + 1 == kChecks ? -edge : 0.0);
     }
   }

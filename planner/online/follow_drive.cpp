@@ -27,11 +27,12 @@ class FollowRun {
   explicit FollowRun(const FollowRequest& request)
       : request_(request),
         controller_(request.controller, request.robot),
+        audit_(make_plant(request.robot)),
         integrator_(Drive(make_plant(request.robot, request.effects), 0.0), standing_at(request.start), {}) {}
 
   FollowResult drive() {
     const double period_s = request_.controller.period_s;
-    const double most_s = request_.end_s + kMostOvertime_s;
+    const double most_s = plan_end_s() + kMostOvertime_s;
     std::size_t tick = 0, sample = 0, look = 0;
     while (integrator_.time_s() < most_s && !done()) {
       const double t = integrator_.time_s();
@@ -48,9 +49,13 @@ class FollowRun {
 
  private:
   bool done() const {
-    return result_.off_path ? integrator_.at_rest() || integrator_.time_s() > request_.end_s
-                            : piece_ >= request_.pieces.size() && integrator_.time_s() >= request_.end_s;
+    return result_.off_path ? integrator_.at_rest() || integrator_.time_s() > plan_end_s()
+                            : piece_ >= request_.pieces.size() && integrator_.time_s() >= plan_end_s();
   }
+
+  /// The plan's time on the simulation's clock, which begins with the first pose.
+  double clock_s(double plan_s) const { return plan_s + request_.follower.latency_s; }
+  double plan_end_s() const { return clock_s(request_.end_s); }
 
   Pose pose() const {
     const DriveState& state = integrator_.state();
@@ -61,7 +66,7 @@ class FollowRun {
   void for_each_active(Disturbance::Kind kind, double t, Use&& use) {
     for (std::size_t i = 0; i < request_.disturbances.size(); ++i) {
       const Disturbance& d = request_.disturbances[i];
-      if (d.kind == kind && t >= d.at_s && t < d.at_s + d.for_s) use(d, i);
+      if (d.kind == kind && t >= clock_s(d.at_s) && t < clock_s(d.at_s + d.for_s)) use(d, i);
     }
   }
 
@@ -74,7 +79,8 @@ class FollowRun {
 
   double payload_factor(double t, bool as_known) const {
     for (const Disturbance& d : request_.disturbances)
-      if (d.kind == Disturbance::Kind::payload && t >= d.at_s + (as_known ? d.for_s : 0.0)) return d.size;
+      if (d.kind == Disturbance::Kind::payload && t >= clock_s(d.at_s + (as_known ? d.for_s : 0.0)))
+        return d.size;
     return 1.0;
   }
 
@@ -88,7 +94,7 @@ class FollowRun {
     const DriveState& state = integrator_.state();
     const FollowedPiece& piece = request_.pieces[piece_];
     const PathMotion motion = path_motion(*piece.request);
-    Measurement m{.time_s = t - piece.start_s,
+    Measurement m{.time_s = t - clock_s(piece.start_s),
                   .pose = pose(),
                   .speed_m_s = state[kVelocity + kTravel],
                   .yaw_rate_rad_s = state[kVelocity + kTurn],
@@ -105,24 +111,25 @@ class FollowRun {
   }
 
   void command(double t) {
-    if (piece_ >= request_.pieces.size() || result_.off_path || t < late_start_s()) return;
+    if (piece_ >= request_.pieces.size() || t < late_start_s()) return;
     const FollowedPiece& piece = request_.pieces[piece_];
     if (!follower_) {
-      if (t < piece.start_s - kSameInstant_s) return;
+      if (t < piece.start_s - kSameInstant_s) return;  // a latency before the piece is due
       follower_ = std::make_unique<Follower>(*piece.request, *piece.plan, piece.deadline_s - piece.start_s,
                                              request_.follower);
       last_ = {};
     }
-    last_ = follower_->command(measured(t));
+    const Measurement now = measured(t);
+    last_ = follower_->command(now);
     result_.replans += last_.replanned;
     result_.worst_lateral_m = std::max(result_.worst_lateral_m, std::abs(last_.lateral_m));
-    pending_.push_back({t + request_.follower.latency_s, last_});
+    pending_.push_back({t + request_.follower.latency_s, last_, now.payload_kg});
     if (last_.state == FollowState::off_path) result_.off_path = true;
     if (last_.state == FollowState::finished) arrive(t);
   }
 
   void arrive(double t) {
-    result_.late_s = std::max(result_.late_s, t - request_.pieces[piece_].deadline_s);
+    result_.late_s = std::max(result_.late_s, t - clock_s(request_.pieces[piece_].deadline_s));
     result_.arrived_s = t;
     ++result_.finished;
     ++piece_;
@@ -133,13 +140,11 @@ class FollowRun {
     while (!pending_.empty() && pending_.front().at_s <= t + kSameInstant_s) {
       active_ = pending_.front().command;
       active_since_s_ = pending_.front().at_s;
+      audit_.add(active_since_s_, active_.speed_m_s, active_.yaw_rate_rad_s, pending_.front().payload_kg);
       pending_.pop_front();
     }
-    if (result_.off_path && pending_.empty()) active_ = {};
-    const auto held = [&](double value, double slope) {
-      const double now = value + (t - active_since_s_) * slope;
-      return value * now < 0 ? 0.0 : now;  // a stop is not driven through
-    };
+    const double since_s = std::min(t - active_since_s_, request_.follower.period_s);
+    const auto held = [&](double value, double slope) { return value + since_s * slope; };
     const BodyMotion<double> motion{
         held(active_.speed_m_s, active_.acceleration_m_s2), active_.acceleration_m_s2,
         held(active_.yaw_rate_rad_s, active_.yaw_acceleration_rad_s2), active_.yaw_acceleration_rad_s2};
@@ -161,7 +166,7 @@ class FollowRun {
     slipped_.resize(request_.disturbances.size());
     for (std::size_t i = 0; i < request_.disturbances.size(); ++i) {
       const Disturbance& d = request_.disturbances[i];
-      if (d.kind != Disturbance::Kind::slip || slipped_[i] || t < d.at_s) continue;
+      if (d.kind != Disturbance::Kind::slip || slipped_[i] || t < clock_s(d.at_s)) continue;
       slipped_[i] = true;
       integrator_.displace(-d.size, d.size / 3);
     }
@@ -192,6 +197,7 @@ class FollowRun {
   FollowResult finish() {
     result_.energy_J = integrator_.state()[kBatteryEnergy];
     result_.duration_s = integrator_.time_s();
+    result_.limits = audit_.uses();
     if (request_.pieces.empty()) return std::move(result_);
     const PathPiece& last = request_.pieces.back().request->piece;
     const Pose end = piece_point(last, piece_length(last)).pose;
@@ -204,10 +210,12 @@ class FollowRun {
   struct Pending {
     double at_s{};
     FollowCommand command{};
+    double payload_kg{};  ///< as measured
   };
 
   const FollowRequest& request_;
   WheelController controller_;
+  CommandAudit audit_;
   DriveIntegrator integrator_;
   std::unique_ptr<Follower> follower_{};
   std::deque<Pending> pending_{};

@@ -7,6 +7,7 @@
 #include "model/simulation/integrator.hpp"
 #include "model/trajectory.hpp"
 #include "planner/online/follower.hpp"
+#include "planner/online/limit_use.hpp"
 
 namespace joulepath {
 
@@ -55,12 +56,14 @@ struct FollowResult {
   double end_error_m{};
   double end_error_rad{};
   std::size_t replans{};
-  std::size_t finished{};  ///< pieces
-  bool off_path{};         ///< handed over; nothing is driven afterwards
+  std::size_t finished{};          ///< pieces
+  std::vector<LimitUse> limits{};  ///< the largest uses by the commands
+  bool off_path{};                 ///< handed over; nothing is driven afterwards
 };
 
 /// Drives planned pieces by the Follower on the simulated robot: commands take effect after the follower's
-/// latency and go on with their accelerations for its period, wheel-speed loops follow them.
+/// latency and go on with their accelerations for its period, wheel-speed loops follow them. The plan's time
+/// begins when the first command takes effect.
 [[nodiscard]] FollowResult follow(const FollowRequest& request);
 
 }  // namespace joulepath

@@ -12,8 +12,17 @@ constexpr double kSamePayload_kg = 0.05;
 constexpr double kArrived = 0.01;    ///< m or rad
 constexpr double kPatience_s = 0.4;  ///< after the profile's end
 constexpr double kAtRest = 0.02;     ///< m/s or rad/s
+/// Commands may use so much of the limits of acceleration: a plan uses them whole, and corrections of place
+/// and course need the rest.
+constexpr double kForCorrections = 1.15;
 
 double sinc(double x) { return std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x; }
+
+CommandedMotion first_command(const ProfileRequest& request, const Profile& plan) {
+  const double rate = plan.rate.front();
+  if (is_turn(request.piece)) return {.yaw_rate_rad_s = turn_sign(request.piece) * rate};
+  return {.rate = rate, .yaw_rate_rad_s = rate * piece_point(request.piece, 0).curvature_per_m};
+}
 
 }  // namespace
 
@@ -21,42 +30,31 @@ Follower::Follower(const ProfileRequest& request, const Profile& plan, double de
                    const FollowerSettings& settings)
     : request_(request),
       settings_(settings),
+      limits_(request.plant.robot, request.limits, request.payload),
       replanner_(request_, plan),
       plan_(plan),
       profile_(&plan_),
       deadline_s_(deadline_s),
       projection_(request_.piece),
+      shaper_(request.plant, travel_sign(request_.piece), first_command(request_, plan)),
       last_payload_kg_(request.payload.from_kg) {}
 
 FollowCommand Follower::command(const Measurement& measured) {
   FollowCommand command;
-  look(measured, command);
+  const double elapsed_s = last_time_s_ ? std::max(0.0, measured.time_s - *last_time_s_) : 0.0;
+  shaper_.advance(std::min(elapsed_s, settings_.period_s));
+  look(measured, elapsed_s, command);
+  advance_clock(measured, elapsed_s, command.s);
   const bool turn = is_turn(request_.piece);
-  if (std::abs(command.lateral_m) > settings_.off_path_m ||
+  if (handed_over_ || std::abs(command.lateral_m) > settings_.off_path_m ||
       (!turn && std::abs(command.heading_error_rad) > settings_.off_path_rad)) {
     hand_over(measured, command);
     return command;
   }
-  advance_clock(measured);
-  const Profile& now = *profile_;
-  // The clock is drawn to the place: a robot that is held back does not run out of profile.
-  if (profile_time_s_ < now.time_s.back())
-    profile_time_s_ +=
-        kClockGain_per_s * settings_.period_s *
-        (now.at_s(std::clamp(command.s, now.s.front(), now.s.back())).time_s - profile_time_s_);
-  profile_time_s_ = std::clamp(profile_time_s_, 0.0, now.time_s.back() + kPatience_s);
-  shift_s_ = measured.time_s + now.time_s.back() - profile_time_s_ - deadline_s_;
+  shift_s_ = measured.time_s + profile_->time_s.back() - profile_time_s_ - deadline_s_;
   if (has_to_replan(measured)) replan(measured, command);
   command.late_s = std::isfinite(deadline_s_) ? std::max(0.0, shift_s_) : 0.0;
   steer(measured, command);
-  const bool to_end = !last_stop_m_ && profile_->s.back() >= replanner_.length() - kArrived;
-  const double over_s = profile_time_s_ - profile_->time_s.back();
-  const bool there = command.s >= replanner_.length() - kArrived;
-  if (to_end && request_.end_rate == 0 && over_s >= (there ? -1e-9 : kPatience_s - 1e-9)) {
-    command.speed_m_s = command.yaw_rate_rad_s = 0;
-    command.acceleration_m_s2 = command.yaw_acceleration_rad_s2 = 0;
-    if (rate_of(measured) < kAtRest) command.state = FollowState::finished;
-  }
   return command;
 }
 
@@ -71,17 +69,23 @@ double Follower::rate_of(const Measurement& measured) const {
   return std::max(0.0, rate);
 }
 
-void Follower::look(const Measurement& measured, FollowCommand& command) {
-  const double elapsed_s = last_time_s_ ? measured.time_s - *last_time_s_ : 0.0;
-  const PathOffset offset = projection_.look(measured.pose, rate_of(measured) * std::max(0.0, elapsed_s));
+void Follower::look(const Measurement& measured, double elapsed_s, FollowCommand& command) {
+  const PathOffset offset = projection_.look(measured.pose, rate_of(measured) * elapsed_s);
   command.s = offset.s;
   command.lateral_m = offset.lateral_m;
   command.heading_error_rad = offset.heading_error_rad;
 }
 
-void Follower::advance_clock(const Measurement& measured) {
-  if (last_time_s_) profile_time_s_ += std::max(0.0, measured.time_s - *last_time_s_);
+/// The clock is drawn to the place: a robot that is held back does not run out of profile.
+void Follower::advance_clock(const Measurement& measured, double elapsed_s, double s) {
+  if (!last_time_s_) profile_time_s_ = std::clamp(measured.time_s, -settings_.latency_s, 0.0);
   last_time_s_ = measured.time_s;
+  profile_time_s_ += elapsed_s;
+  const Profile& now = *profile_;
+  if (profile_time_s_ > 0 && profile_time_s_ < now.time_s.back())
+    profile_time_s_ += kClockGain_per_s * settings_.period_s *
+                       (now.at_s(std::clamp(s, now.s.front(), now.s.back())).time_s - profile_time_s_);
+  profile_time_s_ = std::min(profile_time_s_, now.time_s.back() + kPatience_s);
 }
 
 bool Follower::has_to_replan(const Measurement& measured) const {
@@ -92,73 +96,130 @@ bool Follower::has_to_replan(const Measurement& measured) const {
     const bool stopped_short = profile_->s.back() < replanner_.length() - kArrived && !last_stop_m_;
     return stopped_short && profile_time_s_ >= end_s;
   }
-  const ProfileState due = profile_->at_time(profile_time_s_);
-  return shift_s_ > settings_.late_s || std::abs(due.rate - rate_of(measured)) > off_rate();
+  const ProfileState due = profile_->at_time(std::max(0.0, profile_time_s_));
+  return shift_s_ > accepted_s_ + settings_.late_s || std::abs(due.rate - rate_of(measured)) > off_rate();
 }
 
 void Follower::replan(const Measurement& measured, FollowCommand& command) {
-  const ProfileState due = profile_->at_time(std::min(profile_time_s_, profile_->time_s.back()));
+  const ProfileState due = profile_->at_time(std::clamp(profile_time_s_, 0.0, profile_->time_s.back()));
   const double measured_rate = rate_of(measured);
-  // Small differences are the drives' business: the profile goes on smoothly from what is due.
+  // Small differences are the drives' business: the profile goes on from what is due.
   const bool off = std::abs(due.rate - measured_rate) > off_rate();
+  const double rate = off ? measured_rate : due.rate, s = off ? command.s : due.s;
   const SpeedCap cap{0, replanner_.length(), measured.speed_limit_m_s.value_or(0)};
-  Situation situation{.s = command.s,
-                      .rate = off ? measured_rate : due.rate,
+  Situation situation{.s = s,
+                      .rate = rate,
                       .acceleration = due.acceleration,
                       .payload_kg = measured.payload_kg,
-                      .time_left_s = deadline_s_ - measured.time_s,
-                      .stop_at = measured.stop_at_m.value_or(kNoLimit)};
+                      .time_left_s = deadline_s_ - measured.time_s};
+  if (measured.stop_at_m) situation.stop_at = std::max(s, *measured.stop_at_m - lost_to_jerk(measured, rate));
   if (measured.speed_limit_m_s) situation.speed_caps = {&cap, 1};
   const Replan& fresh = replanner_.replan(situation, settings_.budget);
   profile_ = fresh.profile;
   profile_time_s_ = 0;
   shift_s_ = measured.time_s + fresh.duration_s - deadline_s_;
+  accepted_s_ = std::max(0.0, shift_s_);
   last_limit_m_s_ = measured.speed_limit_m_s;
   last_stop_m_ = measured.stop_at_m;
   last_payload_kg_ = measured.payload_kg;
   command.replanned = true;
 }
 
-/// Kinematic control about the path: with e the lateral and h the heading error, l the convergence length,
-///   omega = kappa u cos h/(1 - kappa e) - v e sinc(h)/l^2 - 2 |v| h/l,
-/// for which e^2/l^2 + h^2 never grows.                    [Samson 1993, path following of a unicycle]
-void Follower::steer(const Measurement& measured, FollowCommand& command) const {
-  const double end_s = profile_->time_s.back();
-  const double ahead_s = profile_time_s_ + settings_.latency_s;
-  const ProfileState due = profile_->at_time(std::min(profile_time_s_, end_s));
-  ProfileState next = profile_->at_time(std::min(ahead_s, end_s));
-  if (ahead_s >= end_s) next.acceleration = 0;
-  double rate = std::max(0.0, next.rate + kPlaceGain_per_s * (due.s - command.s));
-  if (measured.speed_limit_m_s && !is_turn(request_.piece) && next.rate <= *measured.speed_limit_m_s)
-    rate = std::min(rate, *measured.speed_limit_m_s);
-  if (is_turn(request_.piece)) {
-    command.yaw_rate_rad_s = turn_sign(request_.piece) * rate;
-    command.yaw_acceleration_rad_s2 = turn_sign(request_.piece) * next.acceleration;
-    return;
-  }
-  const PathPoint place = piece_point(request_.piece, next.s);
-  const double v = travel_sign(request_.piece) * rate, e = command.lateral_m, h = command.heading_error_rad;
-  const double l = settings_.convergence_m;
-  const double foot = std::max(0.2, 1 - travel_sign(request_.piece) * place.curvature_per_m * e);
-  double yaw_rate =
-      place.curvature_per_m * rate * std::cos(h) / foot - v * e * sinc(h) / (l * l) - 2 * std::abs(v) * h / l;
-  const double most = request_.limits.yaw_rate_rad_s;
-  const double share = std::abs(yaw_rate) > most ? most / std::abs(yaw_rate) : 1.0;
-  command.speed_m_s = share * v;
-  command.yaw_rate_rad_s = share * yaw_rate;
-  command.acceleration_m_s2 = travel_sign(request_.piece) * next.acceleration;
-  command.yaw_acceleration_rad_s2 =
-      place.curvature_per_m * next.acceleration + place.curvature_slope_per_m2 * rate * rate;
+/// Way (m) by which a stop at the limit of deceleration is longer while the deceleration grows at the limit
+/// of jerk: v d/(2 j).
+double Follower::lost_to_jerk(const Measurement& measured, double rate) const {
+  const Limits limits = limits_for(measured);
+  const bool counts = std::isfinite(limits.jerk_m_s3) && !is_turn(request_.piece);
+  return counts ? rate * limits.deceleration_m_s2 / (2 * limits.jerk_m_s3) : 0.0;
 }
 
-/// Brakes on the present course at the limit of deceleration.
-void Follower::hand_over(const Measurement& measured, FollowCommand& command) const {
+Limits Follower::limits_for(const Measurement& measured) const {
+  Limits limits = limits_.between(measured.payload_kg, measured.payload_kg);
+  for (double* limit : {&limits.acceleration_m_s2, &limits.deceleration_m_s2, &limits.jerk_m_s3,
+                        &limits.yaw_acceleration_rad_s2})
+    *limit *= kForCorrections;
+  return limits;
+}
+
+/// The profile has led to the end: what is left is standing.
+bool Follower::ends(const FollowCommand& command) const {
+  const bool to_end = !last_stop_m_ && profile_->s.back() >= replanner_.length() - kArrived;
+  const double over_s = profile_time_s_ - profile_->time_s.back();
+  const bool there = command.s >= replanner_.length() - kArrived;
+  return to_end && request_.end_rate == 0 && over_s >= (there ? -1e-9 : kPatience_s - 1e-9);
+}
+
+/// On the profile when the coming command ends.
+double Follower::ahead_s() const { return profile_time_s_ + settings_.latency_s + settings_.period_s; }
+
+/// Rates that are due at the end of the coming period and, under a jerk limit, thereafter.
+std::span<const double> Follower::wanted_rates(const Measurement& measured, const FollowCommand& command,
+                                               double spacing_s) {
+  const Profile& now = *profile_;
+  const double end_s = now.time_s.back();
+  const double due = now.at_time(std::clamp(profile_time_s_, 0.0, end_s)).s;
+  const bool to_stand = command.state == FollowState::off_path || ends(command);
+  const std::size_t count = spacing_s > 0 ? wanted_.size() : 1;
+  for (std::size_t m = 0; m < count; ++m) {
+    const double at_s = ahead_s() + static_cast<double>(m) * spacing_s;
+    const double rate = now.at_time(std::min(at_s, end_s)).rate;
+    wanted_[m] = to_stand ? 0.0 : std::max(0.0, rate + kPlaceGain_per_s * (due - command.s));
+    if (measured.speed_limit_m_s && !is_turn(request_.piece) && rate <= *measured.speed_limit_m_s)
+      wanted_[m] = std::min(wanted_[m], *measured.speed_limit_m_s);
+  }
+  return {wanted_.data(), count};
+}
+
+/// Kinematic control about the path: with e the lateral and h the heading error, l the convergence length,
+///   omega/|v| = kappa cos h/(1 - kappa e) -+ e sinc(h)/l^2 - 2 h/l,
+/// for which e^2/l^2 + h^2 never grows.                    [Samson 1993, path following of a unicycle]
+double Follower::yaw_per_meter(const FollowCommand& command) const {
+  const ProfileState next = profile_->at_time(std::clamp(ahead_s(), 0.0, profile_->time_s.back()));
+  const double kappa = piece_point(request_.piece, next.s).curvature_per_m;
+  const double e = command.lateral_m, h = command.heading_error_rad, l = settings_.convergence_m;
+  const int sign = travel_sign(request_.piece);
+  const double foot = std::max(0.2, 1 - sign * kappa * e);
+  return kappa * std::cos(h) / foot - sign * e * sinc(h) / (l * l) - 2 * h / l;
+}
+
+void Follower::steer(const Measurement& measured, FollowCommand& command) {
+  const Limits limits = limits_for(measured);
+  const double period_s = settings_.period_s;
+  if (is_turn(request_.piece)) {
+    shaper_.turn(limits, turn_sign(request_.piece) * wanted_rates(measured, command, 0).front(), period_s);
+  } else {
+    const std::span<const double> wanted =
+        wanted_rates(measured, command, CommandShaper::spacing_s(limits, period_s));
+    const double per_m = yaw_per_meter(command);
+    wanted_[0] = std::min(wanted_[0], limits.yaw_rate_rad_s / std::max(1e-9, std::abs(per_m)));
+    shaper_.turn(limits, shaper_.accelerate(limits, wanted, period_s) * per_m, period_s);
+  }
+  send(measured, limits, command);
+  if (ends(command) && shaper_.at_rest() && rate_of(measured) < kAtRest)
+    command.state = FollowState::finished;
+}
+
+void Follower::send(const Measurement& measured, const Limits& limits, FollowCommand& command) {
+  shaper_.keep_drives(limits, measured.payload_kg, settings_.period_s);
+  const CommandedMotion& now = shaper_.now();
+  const int sign = travel_sign(request_.piece);
+  command.speed_m_s = sign * now.rate;
+  command.acceleration_m_s2 = sign * now.acceleration_m_s2;
+  command.yaw_rate_rad_s = now.yaw_rate_rad_s;
+  command.yaw_acceleration_rad_s2 = now.yaw_acceleration_rad_s2;
+}
+
+/// Brakes on the present course.
+void Follower::hand_over(const Measurement& measured, FollowCommand& command) {
   command.state = FollowState::off_path;
-  const double rate = std::abs(measured.speed_m_s);
-  const double lost = request_.limits.deceleration_m_s2 * (settings_.period_s + settings_.latency_s);
-  const double share = rate > lost ? 1 - lost / rate : 0.0;
-  command.speed_m_s = share * measured.speed_m_s;
-  command.yaw_rate_rad_s = share * measured.yaw_rate_rad_s;
+  handed_over_ = true;
+  const Limits limits = limits_for(measured);
+  const double period_s = settings_.period_s;
+  const double spacing_s = is_turn(request_.piece) ? 0 : CommandShaper::spacing_s(limits, period_s);
+  const double rate = shaper_.now().rate, yaw_rate_rad_s = shaper_.now().yaw_rate_rad_s;
+  const double then = shaper_.accelerate(limits, wanted_rates(measured, command, spacing_s), period_s);
+  shaper_.turn(limits, rate > 0 ? yaw_rate_rad_s * then / rate : 0.0, period_s);
+  send(measured, limits, command);
 }
 
 }  // namespace joulepath

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "planner/online/command_shaper.hpp"
+#include "planner/online/loaded_limits.hpp"
 #include "planner/online/projection.hpp"
 #include "planner/online/replanner.hpp"
 
@@ -41,7 +44,7 @@ struct FollowCommand {
   FollowState state{FollowState::driving};
   double speed_m_s{};
   double yaw_rate_rad_s{};
-  double acceleration_m_s2{};  ///< of the profile, from when the command takes effect
+  double acceleration_m_s2{};  ///< from when the command takes effect, for a period
   double yaw_acceleration_rad_s2{};
   double s{};          ///< projection of the pose
   double lateral_m{};  ///< to the left of the path
@@ -52,7 +55,9 @@ struct FollowCommand {
 
 /// Leads a robot along a planned piece: from its pose to the speed and yaw rate that it should have when the
 /// command takes effect. The place on the path decides what is due, and a clock that runs along the profile:
-/// a robot that falls behind is not chased, its rest is planned again. Allocates nothing after construction.
+/// a robot that falls behind is not chased, its rest is planned again. Commands continue each other within
+/// the limits, the jerk's too, with room for corrections (decision 0380). Allocates nothing after
+/// construction.
 class Follower {
  public:
   /// `deadline_s`: of the piece's end, from the time at which its start was due; none for kNoLimit.
@@ -66,27 +71,41 @@ class Follower {
   const Profile& profile() const { return *profile_; }
 
  private:
-  void look(const Measurement& measured, FollowCommand& command);
-  void advance_clock(const Measurement& measured);
+  void look(const Measurement& measured, double elapsed_s, FollowCommand& command);
+  void advance_clock(const Measurement& measured, double elapsed_s, double s);
   [[nodiscard]] bool has_to_replan(const Measurement& measured) const;
   void replan(const Measurement& measured, FollowCommand& command);
-  void steer(const Measurement& measured, FollowCommand& command) const;
-  void hand_over(const Measurement& measured, FollowCommand& command) const;
+  void steer(const Measurement& measured, FollowCommand& command);
+  void send(const Measurement& measured, const Limits& limits, FollowCommand& command);
+  [[nodiscard]] bool ends(const FollowCommand& command) const;
+  [[nodiscard]] std::span<const double> wanted_rates(const Measurement& measured,
+                                                     const FollowCommand& command, double spacing_s);
+  [[nodiscard]] double yaw_per_meter(const FollowCommand& command) const;
+  void hand_over(const Measurement& measured, FollowCommand& command);
+  /// With room for corrections.
+  [[nodiscard]] Limits limits_for(const Measurement& measured) const;
+  [[nodiscard]] double lost_to_jerk(const Measurement& measured, double rate) const;
   [[nodiscard]] double rate_of(const Measurement& measured) const;
   [[nodiscard]] double off_rate() const;
+  [[nodiscard]] double ahead_s() const;
 
   ProfileRequest request_;
   FollowerSettings settings_;
+  LoadedLimits limits_;
   Replanner replanner_;
   Profile plan_;
   const Profile* profile_{};
   double deadline_s_{};
   PathProjection projection_;
-  double profile_time_s_{};  ///< on the profile
+  CommandShaper shaper_;
+  std::array<double, CommandShaper::kLook> wanted_{};
+  double profile_time_s_{};  ///< on the profile; before the first command takes effect, negative
   std::optional<double> last_time_s_{};
   std::optional<double> last_limit_m_s_{}, last_stop_m_{};
   double last_payload_kg_{};
-  double shift_s_{};  ///< expected end of the profile less the deadline
+  bool handed_over_{};
+  double shift_s_{};     ///< expected end of the profile less the deadline
+  double accepted_s_{};  ///< lateness that the last new profile could not avoid
 };
 
 }  // namespace joulepath

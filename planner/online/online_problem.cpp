@@ -66,7 +66,8 @@ void OnlineProblem::take_limits(const Situation& situation) {
 /// The situation's place, the table's nodes behind it, and the borders of the caps.
 void OnlineProblem::place_nodes(const Situation& situation) {
   const double length = motion_.length(), shortest = kShortest * length;
-  const double begin = std::clamp(situation.s, 0.0, length - 2 * shortest);  // one segment is left at the end, too
+  const double begin =
+      std::clamp(situation.s, 0.0, length - 2 * shortest);  // one segment is left at the end, too
   const double end = std::clamp(situation.stop_at, begin + 2 * shortest, length);
   borders_.clear();
   for (std::size_t i = 0; i < std::min(situation.speed_caps.size(), kMostCaps); ++i) {

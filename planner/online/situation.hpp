@@ -36,7 +36,7 @@ enum class ReplanStatus {
 /// A new profile from the situation on. Refers to storage of the Replanner, until its next call.
 struct Replan {
   ReplanStatus status{ReplanStatus::stopping};
-  const Profile* profile{};  ///< s from the situation's place, time from 0
+  const Profile* profile{};  ///< s from the situation's place on, time from 0
   double duration_s{};
   double energy_J{};         ///< at the battery's terminals, standby included, as the grid counts it
   double gap_percent{};      ///< bound of (energy - least energy on the grid)/energy; no number if unknown

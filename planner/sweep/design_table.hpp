@@ -16,6 +16,8 @@ struct SweepParameter {
   bool logarithmic{};   ///< the range is divided by equal ratios; both ends are then positive
 
   [[nodiscard]] bool is_range() const { return levels.empty(); }
+  /// True for a range, even after a grid divided it into levels.
+  [[nodiscard]] bool has_ends() const { return to > from; }
   /// The value at a fraction of the range, 0 to 1.
   [[nodiscard]] double at(double fraction) const;
   [[nodiscard]] double fraction_of(double value) const;

@@ -12,6 +12,7 @@ void bind_stop(nb::module_& module);
 void bind_arrays(nb::module_& module);
 void bind_robot(nb::module_& module);
 void bind_plan(nb::module_& module);
+void bind_online(nb::module_& module);
 void bind_program(nb::module_& module);
 void bind_simulation(nb::module_& module);
 void bind_diagnosis(nb::module_& module);

@@ -37,17 +37,6 @@ SimulationValue simulated(const SimulationInput& input, const std::string& effec
   return {simulate(request)};
 }
 
-std::map<std::string, double> causes_J(const EnergyByCause& energy) {
-  std::map<std::string, double> causes{{"copper", energy.copper_J},
-                                       {"coulomb_friction", energy.coulomb_friction_J},
-                                       {"viscous_friction", energy.viscous_friction_J},
-                                       {"kinetic", energy.kinetic_J},
-                                       {"not_recovered", energy.not_recovered_J},
-                                       {"standby", energy.standby_J}};
-  for (const auto& [name, effect_J] : energy.effects_J) causes[name] = effect_J;
-  return causes;
-}
-
 EnergyEstimate energy_of(const RobotValue& robot, const Numbers& t, const Numbers& v, const Numbers& w,
                          const Numbers& payload_kg) {
   const Trajectory motion{.time_s = vector_of(t),
@@ -81,7 +70,7 @@ void bind_simulation(nb::module_& module) {
       .def_prop_ro("battery_loss_J", [](const EnergyEstimate& self) { return self.battery_loss_J; })
       .def_prop_ro("distance_m", [](const EnergyEstimate& self) { return self.distance_m; })
       .def_prop_ro("duration_s", [](const EnergyEstimate& self) { return self.duration_s; })
-      .def("causes_J", [](const EnergyEstimate& self) { return causes_J(self.by_cause); })
+      .def("causes_J", [](const EnergyEstimate& self) { return named_causes_J(self.by_cause); })
       .def("power", [](const EnergyEstimate& self) { return Log{self.power}; });
   module.def("energy", &energy_of, nb::arg("robot"), nb::arg("t"), nb::arg("v"), nb::arg("w"),
              nb::arg("payload_kg"));

@@ -17,12 +17,14 @@ from .diagnosis import Diagnosis, Run, diagnose
 from .energies import Energy, energy
 from .logs import Log
 from .mapping import map  # noqa: A004
+from .online import Command, Drive, Follower, Replan, Replanner, drives
 from .paths import Path
 from .plans import Plan, Profile, plan, profile
 from .robots import Robot
 from .simulation import Simulation, simulate
 
 __all__ = [
-    "ConfigError", "Diagnosis", "Energy", "Infeasible", "Log", "Path", "Plan", "PlanningError", "Profile", "Record",
-    "Robot", "Run", "Simulation", "__version__", "diagnose", "energy", "map", "plan", "profile", "simulate",
+    "Command", "ConfigError", "Diagnosis", "Drive", "Energy", "Follower", "Infeasible", "Log", "Path", "Plan",
+    "PlanningError", "Profile", "Record", "Replan", "Replanner", "Robot", "Run", "Simulation", "__version__",
+    "diagnose", "drives", "energy", "map", "plan", "profile", "simulate",
 ]

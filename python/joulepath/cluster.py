@@ -54,9 +54,8 @@ class _Shard:
 
     def blame(self, deaths: Counter[tuple[int, int]], reason: str) -> None:
         """Counts a killed process for the first job without a result (with one thread, the planned one); quarantines it at the limit."""
-        files = [self.file(name) for name in ("results.partial.jsonl", "quarantine.jsonl")]
-        lines = "\n".join(file.read_text() for file in files if file.exists()).splitlines()
-        known = {int(found[1]) for line in lines if (found := re.match(r'{"index": ?(\d+),.*}$', line))}
+        known = {int(found[1]) for name in ("results.partial.jsonl", "quarantine.jsonl") if self.file(name).exists()
+                 for line in self.file(name).read_text().splitlines() if (found := re.match(r'{"index": ?(\d+),.*}$', line))}
         index = next(k for k in range(self.number - 1, sys.maxsize, self.of) if k not in known)
         deaths[self.number, index] += 1
         if deaths[self.number, index] >= TRIES:
@@ -116,18 +115,19 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     ``out`` gets the bytes that one process would write. ``options`` are those of the command (``("--nodes", "100")``),
     ``memory_MiB`` limits each process (0: no limit), ``progress`` is called with the numbers of finished and of all shards.
     A job that kills its process twice gets a line with the status ``quarantined`` and the reason. Ctrl-C ends all shards.
-    ``resume=True`` keeps the finished jobs of a run that was ended. Raises ClusterError, ConfigError.
+    ``resume=True`` keeps the finished jobs of a run that was ended; inputs must not have changed. Raises ClusterError, ConfigError.
     """
     target, folder = FilePath(out).absolute(), FilePath(f"{FilePath(out).absolute()}.shards")
-    if target.exists():
-        raise refused("out", f"{target}, which exists", "a new name")
+    held = sum(entry.name.isdigit() for entry in folder.glob("*"))  # shards of an unfinished run
+    if target.exists() or (held and not (resume and shards in (None, held))):
+        raise refused("out", f"{folder if held else target}, which exists", "a new name, or resume=True with as many shards")
     builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
     if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
         raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
-    count = whole("shards", shards or 4 * len(client.nthreads()), 1, 1_000_000)
+    count = whole("shards", shards or held or 4 * len(client.nthreads()), 1, 1_000_000)
     is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(os.fspath(study)))
     words = ("sweep" if is_study else "batch", os.fspath(study), *options)
-    shutil.rmtree(folder / "cancelled" if resume else folder, ignore_errors=True)
+    shutil.rmtree(folder / "cancelled", ignore_errors=True)
     common = (words, os.getcwd(), folder, memory_MiB, build_id())
     parts = [_Shard(k, count, *common) for k in range(1, count + 1)]
     for part in parts:

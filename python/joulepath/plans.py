@@ -175,10 +175,7 @@ class Profile(Plan):
 
 
 def _solver_options(solver: Any, nodes: Any, accuracy: Any) -> tuple[str, int, float]:
-    """The options as the compiled part takes them; those that need no conversion cost no further calls."""
-    if (type(solver) is str and solver in SOLVERS and type(nodes) is int and 10 <= nodes <= 20000
-            and type(accuracy) is float and 0.0 < accuracy < math.inf):
-        return solver, nodes, accuracy
+    """The options as the compiled part takes them."""
     return one_of("solver", solver, SOLVERS), whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0)
 
 
@@ -193,13 +190,19 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     ``xy``: waypoints, shape (N, 2) in m, or a Path. ``time_s``: duration; None is that of least energy.
     ``solver``: ``ipopt`` (reference) or ``fast``. The GIL is released meanwhile. Raises Infeasible, ConfigError.
     """
-    path = xy if isinstance(xy, Path) else Path(xy)
-    value, driven = _core.profile(
-        robot._value if type(robot) is Robot else robot_of(robot)._value, path._value, number("payload_kg", payload_kg, least=0.0),
-        None if time_s is None else number("time_s", time_s, above=0.0), *_solver_options(solver, nodes, accuracy))
+    if not (type(robot) is Robot and type(xy) is Path and type(payload_kg) is float and 0.0 <= payload_kg < math.inf
+            and (time_s is None or type(time_s) is float and 0.0 < time_s < math.inf)
+            and type(solver) is str and solver in SOLVERS and type(nodes) is int and 10 <= nodes <= 20000
+            and type(accuracy) is float and 0.0 < accuracy < math.inf):  # else no call and no conversion is needed
+        robot, xy = robot_of(robot), xy if isinstance(xy, Path) else Path(xy)
+        payload_kg = number("payload_kg", payload_kg, least=0.0)
+        time_s = None if time_s is None else number("time_s", time_s, above=0.0)
+        solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
+    result = Profile.__new__(Profile)  # before the solver fills the caches with its own data
+    result._value, driven = _core.profile(robot._value, xy._value, payload_kg, time_s, solver, nodes, accuracy)
     if not driven:
-        raise _failure(Profile(value))
-    return Profile(value)
+        raise _failure(result)
+    return result
 
 
 def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | str | os.PathLike[str] | None = None,

@@ -190,8 +190,16 @@ def test_an_interrupted_run_ends_its_processes_and_continues(client, missions, t
     while shard_processes(tmp_path):
         pass
     assert not pathlib.Path("many").exists() and pathlib.Path("many.shards").exists()
-    found = cluster.run(missions, client, "many", shards=8, resume=True)
+    with pytest.raises(jp.ConfigError, match="many.shards, which exists"):  # it would be deleted
+        cluster.run(missions, client, "many")
+    with pytest.raises(jp.ConfigError, match="with as many shards"):
+        cluster.run(missions, client, "many", shards=3, resume=True)
+    found = cluster.run(missions, client, "many", resume=True)
     assert_same(one_process("batch", missions), found)
+
+
+def test_one_shard_is_a_run_too(client, missions):
+    assert_same(one_process("batch", missions), cluster.run(missions, client, "many", shards=1))
 
 
 def test_a_mistake_in_the_options_ends_the_run(client, missions):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "scenarios/bags/byte_reader.hpp"
 #include "scenarios/bags/message_numbers.hpp"
@@ -47,9 +48,21 @@ class Suggestion {
     add("battery_current_A", topic, "powerSupply.batteryCurrent");
   }
 
+  /// The columns that the schema of power messages names, under their own names.
+  void power(const BagTopic& topic) {
+    const auto schema = nlohmann::json::parse(topic.channel.schema, nullptr, false);
+    if (!schema.is_object() || !schema.contains("properties") || !schema["properties"].is_object()) return;
+    for (const auto& [name, value] : schema["properties"].items()) {
+      const bool has_heading = name == "heading_rad" && columns_.contains("orientation_w");
+      if (name != "time_s" && !has_heading && find_log_column(name)) add(name, topic, name);
+    }
+  }
+
   void of_topic(const BagTopic& topic) {
     const std::string type = short_type(topic);
-    if (type == kStateType) {
+    if (topic.channel.type == kPowerType) {
+      power(topic);
+    } else if (type == kStateType) {
       if (columns_.empty()) state(topic);  // one robot only
     } else if (type == "nav_msgs/Odometry") {
       add("linear_speed_m_s", topic, "twist.twist.linear.x");

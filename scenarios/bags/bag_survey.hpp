@@ -8,6 +8,9 @@
 
 namespace joulepath {
 
+/// The messages beside the motion of an exported log or plan: JSON with the columns of logs.
+inline constexpr const char* kPowerType = "joulepath/power/1";
+
 /// A topic of a bag and its possible columns of a run.
 struct BagTopic {
   BagChannel channel{};
@@ -27,7 +30,7 @@ struct BagSurvey {
 
 /// The columns that the types of a bag's topics suggest: speeds and pose of the first Odometry, wheels of the
 /// first JointState whose joints are called left and right, battery, gyro and commands. Currents are not
-/// among them: an effort may be a torque.
+/// among them: an effort may be a torque. Power messages suggest all of their columns.
 [[nodiscard]] ColumnSources suggested_columns(const BagSurvey& survey);
 
 /// A dataset file for a bag, with the suggested columns, for the user to confirm.

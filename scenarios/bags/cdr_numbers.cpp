@@ -118,6 +118,7 @@ class CdrNumbers : public MessageNumbers {
     values_ = &ignored;
     ByteReader in = body(data);
     message(in, *layout_, nullptr, nullptr);
+    values_ = nullptr;
     for (const std::string_view name : names_) names.emplace_back(name);
     return names;
   }

@@ -5,6 +5,7 @@
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
+#include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/bags/mcap_writer.hpp"
 #include "scenarios/bags/ros_definitions.hpp"
 #include "scenarios/export/exports.hpp"
@@ -77,7 +78,7 @@ using Json = nlohmann::ordered_json;
 std::string power_schema(const std::vector<std::string>& columns) {
   Json properties = Json::object();
   for (const std::string& column : columns) properties[column] = {{"type", "number"}};
-  return Json{{"title", "joulepath/power/1"}, {"type", "object"}, {"properties", properties}}.dump();
+  return Json{{"title", kPowerType}, {"type", "object"}, {"properties", properties}}.dump();
 }
 
 std::string power(const Trajectory& motion, const std::vector<std::string>& columns, std::size_t k) {
@@ -93,7 +94,7 @@ std::string bag_of(const Trajectory& motion, const std::string& prefix,
   const auto path_channel = bag.channel(ros_channel(prefix + "/path", "nav_msgs/msg/Path"));
   const auto odometry_channel = bag.channel(ros_channel(prefix + "/odom", "nav_msgs/msg/Odometry"));
   const auto power_channel = bag.channel({.topic = prefix + "/power",
-                                          .type = "joulepath/power/1",
+                                          .type = kPowerType,
                                           .schema_encoding = "jsonschema",
                                           .schema = power_schema(power_columns),
                                           .encoding = "json"});

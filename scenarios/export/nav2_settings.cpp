@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "planner/controller/leg_settings.hpp"
@@ -34,7 +35,8 @@ std::string loses(const ControllerLoss& loss, const Plan& plan) {
   const LossAtTime& own = loss.own_time;
   std::snprintf(text, sizeof text,
                 "%.1f s (plan: %.1f s), %.0f J; the plan takes %.0f J in that time: %.0f J lost",
-                own.duration_s, plan.duration_s, own.energy_J, own.optimum_J, own.lost_J());
+                own.duration_s, plan.duration_s, own.energy_J, own.optimum_J,
+                std::abs(own.lost_J()) < 0.5 ? 0.0 : own.lost_J());
   return text;
 }
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "model/limit_table.hpp"
+#include "planner/accounts/corner_table.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/mission_file.hpp"
 
@@ -163,9 +166,33 @@ void check_costs(const RouteGraph& graph, const std::vector<EdgeCost>& costs) {
                          ""});
 }
 
+void check_radius(double radius_m) {
+  if (radius_m == 0 || radius_m >= kLeastCornerRadius_m) return;
+  char found[32];
+  std::snprintf(found, sizeof found, "%g m", radius_m);
+  throw ConfigError({{"--corner-radius", 0, 0},
+                     "",
+                     found,
+                     "0, or from 0.01 m on",
+                     "0: the robot stops and turns in place"});
+}
+
+std::string arcs_told(const GraphCosts& costs, double radius_m) {
+  constexpr double kSharp_rad = 2.3;  // arcs at sharper corners are rarely asked for
+  if (radius_m == 0 || costs.fits_up_to_rad > kSharp_rad) return {};
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "arcs of %g m fit corners up to %.0f degrees on edges of %.3g m (median): sharper corners have "
+      "the largest arcs that fit",
+      radius_m, costs.fits_up_to_rad * 180 / std::numbers::pi, costs.typical_leg_m);
+  return text;
+}
+
 }  // namespace
 
 RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& robot) {
+  check_radius(order.corner_radius_m);
   const RouteGraph graph = read_route_graph(order.graph_file);
   if (graph.edges.empty())
     throw ConfigError(
@@ -183,7 +210,8 @@ RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& r
     for (const std::size_t i : line_features(json))
       add_metadata(json["features"][i]["properties"], metadata_of(costs.with_turns[edge++], most_m_s));
   }
-  RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution};
+  RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution,
+                          .arcs = arcs_told(costs, order.corner_radius_m)};
   for (const Json& feature : json["features"]) ++(is_line(feature) ? result.edges : result.nodes);
   const std::filesystem::path out(order.out_file);
   result.files.push_back({order.out_file, json.dump(1) + "\n"});

@@ -13,7 +13,7 @@ struct RouteGraphOrder {
   std::string graph_file{};
   std::string out_file{};
   double payload_kg{};
-  double corner_radius_m{};  ///< 0: the robot stops and turns in corners
+  double corner_radius_m{};  ///< 0: the robot stops and turns in corners; else at least kLeastCornerRadius_m
   bool expand_turns{};
 };
 
@@ -24,6 +24,7 @@ struct RouteGraphExport {
   std::vector<ExportFile> files{};
   TurnAttribution attribution{};
   std::size_t nodes{}, edges{};  ///< of the written graph
+  std::string arcs{};            ///< where the arcs at corners are smaller than asked for; else empty
 };
 
 /// Throws ConfigError for a broken graph, or a robot that cannot drive it.

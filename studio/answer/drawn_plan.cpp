@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 constexpr double kBinds = 0.995;  ///< share of a limit from which it counts as binding; an optimum at the
                                   ///< limit uses this much between nodes
-constexpr double kJustBefore_s = 1e-6;
+constexpr double kJust_s = 1e-6;  ///< beside a step of what is drawn
 constexpr std::size_t kLeastSamples = 6;  ///< per stretch
 
 struct TightestLimit {
@@ -57,6 +57,11 @@ TightestLimit tightest(const LegPlan& leg, const LegMotion& motion, double elaps
   return {};
 }
 
+/// A rest from one instant to another: nothing binds there, and the next motion begins with a step.
+void add_rest(std::vector<double>& times_s, double from_s, double to_s) {
+  for (double time_s : {from_s, from_s + kJust_s, to_s - kJust_s, to_s}) times_s.push_back(time_s);
+}
+
 void add_evenly(std::vector<double>& times_s, double from_s, double to_s, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k)
     times_s.push_back(from_s + (to_s - from_s) * static_cast<double>(k) / static_cast<double>(count));
@@ -70,7 +75,6 @@ std::vector<double> drawn_times_s(const Plan& plan, std::size_t count) {
   const auto samples = [&](double duration_s) {
     return std::max(kLeastSamples, static_cast<std::size_t>(duration_s / step_s));
   };
-  double end_s = 0.0;
   for (const LegPlan& leg : plan.legs) {
     double time_s = leg.start_s;
     for (const StretchPlan& stretch : leg.stretches) {
@@ -78,15 +82,14 @@ std::vector<double> drawn_times_s(const Plan& plan, std::size_t count) {
       if (duration_s <= 0) continue;
       add_evenly(times_s, time_s, time_s + duration_s, samples(duration_s));
       time_s += duration_s;
+      if (stretch.profile.wait_s > 0) add_rest(times_s, time_s - stretch.profile.wait_s, time_s);
     }
     if (leg.prescribed)
       add_evenly(times_s, leg.start_s, leg.start_s + leg.duration_s, samples(leg.duration_s));
-    end_s = leg.start_s + leg.duration_s;
+    const double end_s = leg.start_s + leg.duration_s;
     times_s.push_back(end_s);
     if (leg.dwell_s <= 0) continue;
-    end_s += leg.dwell_s;
-    times_s.push_back(end_s - kJustBefore_s);  // at rest until then: the next leg begins with a step
-    times_s.push_back(end_s);
+    add_rest(times_s, end_s, end_s + leg.dwell_s);
   }
   std::sort(times_s.begin(), times_s.end());
   const auto same = [](double a_s, double b_s) { return b_s - a_s < 1e-9; };

@@ -6,6 +6,7 @@
 #include "planner/baselines/comparison.hpp"
 #include "planner/legs/floor_check.hpp"
 #include "planner/mission/plan_front.hpp"
+#include "planner/motion/motion_energy.hpp"
 #include "scenarios/plan_file.hpp"
 #include "studio/answer/asked.hpp"
 #include "studio/answer/drawn_plan.hpp"
@@ -69,6 +70,18 @@ json front_json(const Plan& plan, std::size_t points) {
   return list;
 }
 
+/// Joules by cause of a plan whose stretches got other profiles.
+EnergyByCause energy_of(const Plan& driven, const Plant& plant) {
+  EnergyByCause sum;
+  for (const LegPlan& leg : driven.legs) {
+    if (leg.prescribed) sum += leg.energy;
+    for (const StretchPlan& stretch : leg.stretches)
+      sum += energy_by_cause(path_motion(stretch.request), stretch.profile);
+    sum.standby_J += plant.robot.power.standby_W * leg.dwell_s;
+  }
+  return sum;
+}
+
 /// Each classic profile driven in place of the plan's, with its motion where it can be driven.
 json classics_json(const Plan& plan, const Plant& plant, std::size_t samples) {
   json list = json::array();
@@ -83,6 +96,7 @@ json classics_json(const Plan& plan, const Plant& plant, std::size_t samples) {
       std::size_t next = 0;
       for (LegPlan& leg : driven.legs)
         for (StretchPlan& stretch : leg.stretches) stretch.profile = classic.profiles.at(next++);
+      entry["energy_by_cause_J"] = json::parse(cause_json_text(energy_of(driven, plant)));
       entry["motion"] = drawn_motion(driven, plant, drawn_times_s(driven, samples));
     } else {
       entry["reason"] = classic.total.reason;

@@ -62,6 +62,17 @@ TEST_F(Sweep, OptimizedGearRatioIsThatOfTheClosedForm) {
   EXPECT_NE(text_of(scratch.at("out/sweep.json")).find("motor's shaft"), std::string::npos);
 }
 
+TEST_F(Sweep, ASearchWithoutABetterDesignKeepsTheBestOne) {
+  ASSERT_EQ(
+      sweep("missions: mission.yaml\nhold_friction: motor\nsampling: {method: latin_hypercube, designs: 9}\n"
+            "parameters: {gear: {key: robot.motor.gear_ratio, from: 7, to: 61, scale: log}}\n",
+            "--optimize 1")
+          .code,
+      0);
+  EXPECT_EQ(result()["optimized"]["parameters"], result()["best"]["parameters"]);
+  EXPECT_EQ(result()["optimized"]["energy_J"], result()["best"]["energy_J"]);
+}
+
 /// With friction held at the wheel, only the copper heat of acceleration depends on the ratio, as 1/n².
 TEST_F(Sweep, FrictionHeldAtTheWheelLeavesTheHeatOfAcceleration) {
   ASSERT_EQ(
@@ -101,7 +112,8 @@ TEST_F(Sweep, DesignsThatFailHaveTheirReason) {
   const Json json = result();
   EXPECT_EQ(json["designs"], 6);
   const std::string csv = text_of(scratch.at("out/sweep.csv"));
-  EXPECT_NE(csv.find("infeasible,no,"), std::string::npos) << csv;       // 6 m in 8 s at 0.5 m/s
+  EXPECT_NE(csv.find("infeasible,no,"), std::string::npos) << csv;  // 6 m in 8 s at 0.5 m/s
+  EXPECT_EQ(csv.find("bad_input"), std::string::npos) << csv;
   EXPECT_NE(csv.find("the payload exceeds"), std::string::npos) << csv;  // 30 kg
   EXPECT_NE(json["not_counted"].dump().find("infeasible"), std::string::npos) << json["not_counted"];
   for (const auto& design : json["pareto"]) EXPECT_LE(design["energy_J"], 60.0);
@@ -120,7 +132,61 @@ TEST_F(Sweep, AMistakeInTheStudyIsToldAtItsPlace) {
   refused("  a: {key: 'mission.legs[7].payload_kg', values: [1]}\n", "study.yaml:3", "counted from 0");
   refused("  a: {key: limits.speed_m_s, values: [1]}\n", "study.yaml:3", "robot.limits.speed_m_s");
   refused("  a: {key: robot.limits.speed_m_s, from: 2, to: 1}\n", "study.yaml:3", "> from");
-  refused("  energy_J: {key: robot.limits.speed_m_s, values: [1]}\n", "study.yaml:3", "energy_J");
+  for (const std::string column : {"energy_J", "design", "mission", "status", "meets_constraints", "reason"})
+    refused("  " + column + ": {key: robot.limits.speed_m_s, values: [1]}\n", "study.yaml:3", column);
+  const std::string payload = "  a: {key: 'mission.legs[*].payload_kg', values: [1]}\n";
+  refused(payload + "  b: {key: 'mission.legs[0].payload_kg', values: [2]}\n", "study.yaml:4", "parameter a");
+  refused(payload + "  b: {key: 'mission.legs[*].payload_kg', values: [2]}\n", "study.yaml:4", "parameter a");
+  refused("  a: {key: robot.motor.gear_ratio, values: [1, 2], to: 3}\n", "study.yaml:3", "a.to");
+  refused("  a: {key: robot.motor.gear_ratio, values: [1, 2], scale: log}\n", "study.yaml:3", "a.scale");
+  const std::string mass = "  a: {key: robot.inertia.chassis_mass_kg, ";
+  refused(mass + "values: [20, -3, 30]}\n", "study.yaml:3", "-3");
+  refused(mass + "values: [20, 25, 30], from: 3}\n", "study.yaml:3", "values");
+  const std::string range = mass + "from: -1, to: 90}\n";
+  refused(range + "sampling: {method: latin_hypercube, designs: 9}\n", "study.yaml:3", "-1 for inertia");
+  const std::string good = mass + "from: 10, to: 90, count: 2}\n";
+  refused(good + "sampling: {method: grid, designs: 9}\n", "study.yaml:4", "latin_hypercube");
+  refused(good + "constraints: {duration_s: {min: 9, max: 8}}\n", "study.yaml:4", "<= max");
+  refused("  kind: {key: mission.objective.minimize, values: [time, energy]}\nobjectives: {kind: minimize}\n",
+          "study.yaml:4", "a parameter with the value time");
+}
+
+TEST_F(Sweep, CheckFindsTheMistakesOfTheDesigns) {
+  const std::string file = scratch.write(
+      "study.yaml", "missions: mission.yaml\nparameters: {a: {key: robot.motor.gear_ration, values: [1]}}\n");
+  const auto done = run_program(scratch, "check " + file);
+  EXPECT_EQ(done.code, 2) << done.err;
+  EXPECT_NE(done.err.find("gear_ratio"), std::string::npos) << done.err;
+}
+
+TEST_F(Sweep, AResultThatIsUnknownIsTheReason) {
+  scratch.write("robot.yaml", kSimpleRobot.substr(0, kSimpleRobot.find("battery:")));
+  const std::string study =
+      "missions: mission.yaml\nparameters: {gear: {key: robot.motor.gear_ratio, values: [10, 20]}}\n";
+  for (const std::string use : {"constraints: {battery_end_fraction: {min: 0.1}}\n",
+                                "objectives: {battery_end_fraction: maximize}\n"}) {
+    const auto done = sweep(study + use);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(result()["not_counted"].dump(),
+              R"({"battery_end_fraction is unknown: the robot file lacks its source":2})");
+    EXPECT_FALSE(result().contains("best"));
+  }
+}
+
+/// The robot of a design decides what it may carry, whatever is planned first.
+TEST_F(Sweep, APayloadIsHeldAgainstTheDesignsRobot) {
+  const std::string study =
+      "missions: mission.yaml\nparameters:\n"
+      "  payload: {key: 'mission.legs[*].payload_kg', values: [30, 0]}\n"
+      "  most: {key: robot.limits.max_payload_kg, values: [10, 40]}\n";
+  ASSERT_EQ(sweep(study).code, 0);
+  const std::string csv = text_of(scratch.at("out/sweep.csv"));
+  EXPECT_NE(csv.find("\n0,mission,30,10,infeasible,no,the payload exceeds"), std::string::npos) << csv;
+  for (const char* row : {"\n1,mission,30,40,", "\n2,mission,0,10,", "\n3,mission,0,40,"}) {
+    const auto at = csv.find(row);
+    ASSERT_NE(at, std::string::npos) << csv;
+    EXPECT_EQ(csv.substr(at, csv.find('\n', at + 1) - at).find(",no,"), std::string::npos) << csv;
+  }
 }
 
 class Shards : public Sweep {
@@ -173,6 +239,57 @@ TEST_F(Shards, SweepsMergeToo) {
         << file;
 }
 
+/// Maps and masks are shared by missions: no line may depend on the missions before it.
+TEST_F(Shards, ALineDoesNotDependOnTheLinesBefore) {
+  scratch.write("half.pgm", "P2\n2 1\n255\n128 128\n");
+  scratch.write("half.yaml",
+                "image: half.pgm\nmode: scale\nresolution: 10\norigin: [0, -5, 0]\nnegate: 0\n"
+                "occupied_thresh: 1.0\nfree_thresh: 0.0\n");
+  const std::string along =
+      R"("robot": "robot.yaml", "legs": [{"path": {"bezier_m": [[[0, 0], [1, 0], [2, 0], [3, 0]]]}, )";
+  source = scratch.write(
+      "m.jsonl",
+      "{" + along + R"("payload_kg": 0}]})" + "\n{" + along + R"("payload_kg": 30}]})" + "\n{" + along +
+          R"("payload_kg": 1}], "speed_mask": {"file": "half.yaml", "kind": "absolute", "base": 2, "multiplier": -0.02}})" +
+          "\n{" + along +
+          R"("payload_kg": 1}], "speed_mask": {"file": "half.yaml", "kind": "absolute", "base": 1, "multiplier": -0.01}})" +
+          "\n");
+  ASSERT_EQ(batch("whole", "-j 1").code, 0);
+  std::string directories;
+  for (const char* k : {"1", "2", "3", "4"}) {
+    ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/4").code, 0);
+    directories += std::string(" s") + k;
+  }
+  ASSERT_EQ(merge(directories, "all").code, 0);
+  EXPECT_EQ(text_of(scratch.at("all/results.jsonl")), text_of(scratch.at("whole/results.jsonl")));
+}
+
+TEST_F(Shards, OneShardOfOneIsMergedToo) {
+  ASSERT_EQ(batch("whole").code, 0);
+  ASSERT_EQ(batch("s1", "--shard 1/1").code, 0);
+  ASSERT_EQ(merge("s1", "all").code, 0);
+  EXPECT_EQ(text_of(scratch.at("all/results.jsonl")), text_of(scratch.at("whole/results.jsonl")));
+}
+
+/// The value of a parameter may name a file.
+TEST_F(Shards, FilesThatADesignNamesAreInputs) {
+  for (const char* name : {"a.yaml", "b.yaml"}) scratch.write(name, kSimpleRobot);
+  const std::string file = scratch.write(
+      "study.yaml",
+      "missions: mission.yaml\nparameters:\n  robot: {key: mission.robot, values: [a.yaml, b.yaml]}\n"
+      "  payload: {key: 'mission.legs[*].payload_kg', values: [0, 1]}\n");
+  const auto shard = [&](const std::string& k) {
+    return run_program(
+        scratch, "sweep " + file + " -q --nodes 20 --out " + scratch.at("s" + k) + " --shard " + k + "/2");
+  };
+  ASSERT_EQ(shard("1").code, 0);
+  scratch.write("b.yaml", kSimpleRobot + "# the same robot\n");
+  ASSERT_EQ(shard("2").code, 0);
+  const auto done = merge("s1 s2", "all");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("b.yaml with another content"), std::string::npos) << done.err;
+}
+
 TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   for (const char* k : {"1", "2", "3"})
     ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/3").code, 0);
@@ -206,6 +323,15 @@ TEST_F(Shards, ACutShardIsRefused) {
   EXPECT_EQ(merge("s1 s2", "all").code, 2);
   scratch.write("s1/results.jsonl", lines + lines);
   EXPECT_EQ(merge("s1 s2", "all").code, 2);
+  std::string edited = lines;
+  char& digit = edited[edited.find("\"energy_J\":") + 11];
+  digit = digit == '9' ? '8' : '9';
+  scratch.write("s1/results.jsonl", edited);
+  const auto done = merge("s1 s2", "all");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("changed or cut"), std::string::npos) << done.err;
+  scratch.write("s1/results.jsonl", lines);
+  EXPECT_EQ(merge("s1 s2", "all").code, 0);
 }
 
 }  // namespace

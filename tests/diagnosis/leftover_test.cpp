@@ -11,13 +11,13 @@ namespace joulepath {
 namespace {
 
 /// Two candidates, one column each, whose signatures have this cosine.
-Equations pair_with_cosine(double cosine, LinearProblem& problem) {
+Equations pair_with_cosine(double cosine, LinearProblem& problem, double unit = 3) {
   Equations equations;
   equations.candidates = {Candidate{.shape = {.name = "viscous_friction"}},
                           Candidate{.shape = {.name = "quadratic_drag"}}};
   equations.columns = {{Column::Kind::amplitude, 0, 0, 1.0, 0.0}, {Column::Kind::amplitude, 1, 0, 1.0, 0.0}};
-  problem.gram = Eigen::MatrixXd::Identity(2, 2) * 9;
-  problem.gram(0, 1) = problem.gram(1, 0) = 9 * cosine;
+  problem.gram = Eigen::MatrixXd::Identity(2, 2) * unit * unit;
+  problem.gram(0, 1) = problem.gram(1, 0) = unit * unit * cosine;
   return equations;
 }
 
@@ -32,6 +32,15 @@ TEST(GhostShare, IsWhatOthersCanDrawOfASignature) {
   EXPECT_EQ(ghost_share(problem, alike, both, 1), 1.0);
   const Explanation alone{.candidates = {1}, .columns = {1}};
   EXPECT_EQ(ghost_share(problem, alike, alone, 1), 0.0);
+}
+
+TEST(GhostShare, DoesNotDependOnTheUnitsOfAmplitudes) {
+  const Explanation both{.candidates = {0, 1}, .columns = {0, 1}};
+  for (const double unit : {1e-3, 1e3}) {
+    LinearProblem problem;
+    const Equations near = pair_with_cosine(0.25, problem, unit);
+    EXPECT_NEAR(ghost_share(problem, near, both, 1), 0.25, 1e-3) << unit;
+  }
 }
 
 /// A true effect outside of the catalog, and a word of the expected answer.

@@ -127,9 +127,9 @@ TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
 TEST(Diagnosis, NeverNamesAnEffectRemovedFromTheCatalog) {
   if (!std::filesystem::exists(path_of("p14_floor_patch_rough")))
     GTEST_SKIP() << "no practice sets beside the sources";
-  using Pair = std::pair<const char*, const char*>;
-  for (const auto& [folder, effect] :
-       {Pair{"p14_floor_patch_rough", "floor_patch"}, Pair{"p10_time_misalignment", "time_misalignment"}}) {
+  using SetAndEffect = std::pair<const char*, const char*>;
+  for (const auto& [folder, effect] : {SetAndEffect{"p14_floor_patch_rough", "floor_patch"},
+                                       SetAndEffect{"p10_time_misalignment", "time_misalignment"}}) {
     const Diagnosis d = diagnose(read_dataset(path_of(folder)), {.bootstrap = 20, .without = {effect}});
     for (const Cause& cause : d.causes) {
       EXPECT_NE(cause.effect.name, effect);

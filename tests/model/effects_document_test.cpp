@@ -1,10 +1,11 @@
+#include "model/effects/effects_document.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "model/effects/catalog.hpp"
-#include "model/effects/effects_document.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath {

@@ -207,6 +207,25 @@ TEST(AnswerCache, AFolderThatCannotBeWrittenKeepsNothing) {
   EXPECT_EQ(store.find(key_of(1)), std::nullopt);
 }
 
+TEST(AnswerCache, OtherFilesOfTheFolderAreNeverDeleted) {
+  const ScratchDirectory scratch;
+  const std::string hex(30, 'a');
+  const std::vector<std::string> others{
+      "holiday.raw",     "notes.new", "photos/holiday.raw", "ab/notes.txt", "ab/" + hex + ".new.txt",
+      "photos/ab/" + hex};
+  for (const std::string& name : others) {
+    const fs::path file = scratch.at("cache/" + name);
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << std::string(20'000, 'x');
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(10'000));
+  }
+  DiskStore store(scratch.at("cache"), 10'000);
+  for (std::size_t k = 0; k < 30; ++k) store.keep(key_of(k), std::string(1000, 'x'));
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(scratch.at("cache/" + name))) << name;
+  EXPECT_TRUE(store.find(key_of(29))) << "they do not count against the limit";
+  EXPECT_LE(kept_files(scratch.at("cache")).size(), others.size() + 11);
+}
+
 TEST(AnswerCache, LeastRecentlyUsedFilesAreDeletedFirst) {
   const ScratchDirectory scratch;
   const auto now = fs::file_time_type::clock::now();

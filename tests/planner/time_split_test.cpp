@@ -28,7 +28,8 @@ TimeSplitRequest request_of(const std::vector<Leg>& legs, std::vector<double> la
           .latest_arrival_s = std::move(latest_s),
           .earliest_arrival_s = std::vector<double>(legs.size(), 0.0),
           .dwell_s = std::vector<double>(legs.size(), 0.0),
-          .lowest_price_W = 0.0};
+          .lowest_price_W = 0.0,
+          .waiting_price_W = -1.999};
 }
 
 TEST(TimeSplit, WithoutDeadlinesThePriceOfTimeIsTheLowest) {
@@ -99,6 +100,63 @@ TEST(TimeSplit, NoRandomFeasibleSplitIsCheaper) {
       }
     }
   }
+}
+
+/// A window that opens late leaves time: the legs before it share it, and the price rises behind it.
+TEST(TimeSplit, LegsBeforeAWindowUseTheTimeUntilItOpens) {
+  TimeSplitRequest request = request_of({{100, 1}, {50, 1}, {50, 1}}, {kNone, kNone, kNone});
+  request.earliest_arrival_s[1] = 20.0;
+  const TimeSplit split = split_time(request);
+  const double roots = 10 + std::sqrt(50.0);
+  EXPECT_NEAR(split.price_W[0], std::pow(roots / 20, 2) - 2, 1e-6);
+  EXPECT_EQ(split.price_W[1], split.price_W[0]);
+  EXPECT_NEAR(split.duration_s[0] + split.duration_s[1], 20.0, 1e-6);
+  EXPECT_EQ(split.price_W[2], 0.0);
+}
+
+/// Random deadlines and windows, and feasible plans near the split: none costs less, its waits included.
+TEST(TimeSplit, NoRandomPlanWithWindowsIsCheaper) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int waiting = 0, compared = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Leg> legs;
+    std::vector<double> latest_s, earliest_s;
+    double total_s = 0;
+    for (int k = 0; k < 5; ++k) {
+      legs.push_back({10 + 200 * uniform(random), 0.5});
+      total_s += 0.6 + 15 * uniform(random);
+      latest_s.push_back(uniform(random) < 0.4 ? total_s : kNone);
+      earliest_s.push_back(uniform(random) < 0.5 ? (0.3 + 0.7 * uniform(random)) * total_s : 0.0);
+    }
+    TimeSplitRequest request = request_of(legs, latest_s);
+    request.earliest_arrival_s = earliest_s;
+    const TimeSplit split = split_time(request);
+    ASSERT_FALSE(split.late) << trial;
+    // Standby of 2 W is paid until the last arrival, waits included; nothing for a plan that is late.
+    const auto cost_J = [&](const std::vector<double>& durations_s) {
+      double sum_J = 0, arrival_s = 0;
+      for (std::size_t k = 0; k < legs.size(); ++k) {
+        arrival_s = std::max(arrival_s + durations_s[k], earliest_s[k]);
+        if (arrival_s > latest_s[k] * (1 + 1e-9)) return kNone;
+        sum_J += legs[k].c / durations_s[k];
+      }
+      return sum_J + 2.0 * arrival_s;
+    };
+    const double best_J = cost_J(split.duration_s);
+    ASSERT_TRUE(std::isfinite(best_J)) << trial;
+    for (std::size_t k = 0; k < legs.size(); ++k) waiting += split.price_W[k] < 0;
+    for (int shake = 0; shake < 400; ++shake) {
+      const double size = shake % 2 ? 0.5 : 0.02;
+      std::vector<double> other_s = split.duration_s;
+      for (double& d : other_s) d = std::max(0.5, d * (1 + size * (uniform(random) - 0.5)));
+      const double other_J = cost_J(other_s);
+      compared += std::isfinite(other_J);
+      EXPECT_GE(other_J, best_J * (1 - 1e-7)) << trial;
+    }
+  }
+  EXPECT_GT(waiting, 100);
+  EXPECT_GT(compared, 10000);
 }
 
 }  // namespace

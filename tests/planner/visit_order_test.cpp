@@ -103,6 +103,33 @@ TEST(VisitOrder, TheWaitForAWindowIsPartOfThePlan) {
   EXPECT_NEAR(sum_J, plan.energy.total_J(), 1e-6 * sum_J);
 }
 
+/// The time until a window opens is used: no other duration of the leg before it, followed by a wait, takes
+/// less.
+TEST(VisitOrder, ALegBeforeAWindowDrivesAsSlowlyAsPays) {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  for (const double opens_s : {40.0, 600.0}) {
+    MissionRequest mission = round_trip();
+    mission.visit = {{.kind = VisitRequest::Kind::pass, .station = "far", .window_s = {{opens_s, 900.0}}}};
+    const Plan plan = visit_plan(mission, robot);
+    ASSERT_EQ(plan.status, SolveStatus::optimal) << plan.message;
+    MissionRequest leg = mission;
+    leg.visit.clear();
+    leg.legs = {{.to = "far", .payload = {}}};
+    const double free_s = visit_plan(leg, robot).duration_s;
+    ASSERT_LT(1.1 * free_s, opens_s);
+    const double taken_J = plan.legs[0].energy.total_J();
+    double best_J = kNoLimit;
+    for (double duration_s = free_s; duration_s <= opens_s; duration_s *= 1.3) {
+      leg.legs[0].duration_s = duration_s;
+      const Plan given = visit_plan(leg, robot);
+      best_J = std::min(best_J, given.energy.total_J() + 10 * (opens_s - given.duration_s));
+    }
+    EXPECT_LE(taken_J, best_J * (1 + 1e-4)) << opens_s;
+    EXPECT_NEAR(plan.legs[0].duration_s, opens_s, 1e-3);
+  }
+}
+
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;

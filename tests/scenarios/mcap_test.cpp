@@ -64,6 +64,10 @@ TEST_F(Bags, ALogThatIsWrittenAsABagReadsBackToTheLastBit) {
   EXPECT_EQ(again.wheel_speed_rad_s.right, log.wheel_speed_rad_s.right);
   EXPECT_EQ(again.motor_current_A.left, log.motor_current_A.left);
   EXPECT_EQ(again.battery_voltage_V, log.battery_voltage_V);
+  const Trajectory alone = read_run_log(file, geometry).trajectory;  // no columns are named
+  EXPECT_EQ(alone.motor_current_A.left, log.motor_current_A.left);
+  EXPECT_EQ(alone.battery_voltage_V, log.battery_voltage_V);
+  EXPECT_EQ(alone.wheel_speed_rad_s.left, log.wheel_speed_rad_s.left);
   const double expected_m_s =
       body_twist(geometry, Sided<double>{log.wheel_speed_rad_s.left[70], log.wheel_speed_rad_s.right[70]})
           .speed_m_s;

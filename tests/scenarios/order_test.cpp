@@ -44,6 +44,14 @@ const Path& path_of(const MissionRequest& mission, std::size_t leg = 0) {
   return *mission.legs.at(leg).path->ready;
 }
 
+TEST(Order, AMissionWithAnOrderNeedsNoMap) {
+  const ScratchDirectory scratch;
+  (void)scratch.write("order.json", order(node(0, 0, 0) + "," + node(2, 3, 0), edge(1)));
+  const std::string file =
+      scratch.write("mission.yaml", "schema: joulepath/mission/1\nrobot: robot.yaml\norder: order.json\n");
+  EXPECT_EQ(read_mission(file).legs.size(), 1u);
+}
+
 TEST(Order, BothVersionsGiveTheSameMission) {
   const ScratchDirectory scratch;
   const std::string v2 = scratch.write(

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/path/geometry/path.hpp"
+#include "scenarios/plan_robot.hpp"
 #include "scenarios/robot_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -90,6 +91,30 @@ TEST(PlannedDrives, AreThePiecesBetweenStops) {
   EXPECT_NEAR(wrapped_angle_rad(pose.heading_rad - written.pose.heading_rad), 0, 2e-3);
   EXPECT_NEAR(pose.x_m, written.pose.x_m, 3e-3);
   EXPECT_NEAR(pose.y_m, written.pose.y_m, 3e-3);
+}
+
+TEST(PlannedDrives, OfAnotherRobotAreRefused) {
+  Written written;
+  written.straight(2, 5);
+  const ScratchDirectory directory;
+  const std::string folder =
+      std::filesystem::path(directory.write("trajectory.csv", written.text())).parent_path().string();
+  const std::string robots = JOULEPATH_SOURCE_DIR "/scenarios/robots/";
+  const Robot robot = read_robot(robots + "nomad_super_scout.yaml");
+  const PlanRobot said = plan_robot(robot);
+  (void)directory.write("plan.json", R"({"schema": "joulepath/plan/1", "robot": {"name": ")" + said.name +
+                                         R"(", "fingerprint": ")" + said.fingerprint + R"("}})");
+  EXPECT_EQ(read_planned_drives(folder, robot).drives.size(), 1u);
+  Robot renamed = robot;
+  renamed.name = "number 7";
+  renamed.uncertainty["payload_kg"] = 0.5;
+  EXPECT_EQ(read_planned_drives(folder, renamed).drives.size(), 1u) << "the same robot";
+  Robot changed = robot;
+  changed.geometry.wheel_radius_m.left *= 1.001;
+  EXPECT_THROW((void)read_planned_drives(folder, changed), ConfigError);
+  EXPECT_THROW((void)read_planned_drives(folder, read_robot(robots + "amr_150kg.yaml")), ConfigError);
+  (void)directory.write("plan.json", R"({"schema": "joulepath/plan/1"})");
+  EXPECT_EQ(read_planned_drives(folder, changed).drives.size(), 1u) << "written without its robot";
 }
 
 }  // namespace

@@ -173,6 +173,72 @@ TEST(RouteGraph, TheSettingsNameTheGraphAndTheTag) {
   EXPECT_NE(result.files[1].content.find("graph_filepath: energy.geojson"), std::string::npos);
 }
 
+/// A star with a slip road: corners of very different costs meet in one node, which a fit by least squares
+/// without bounds pays with negative shares.
+std::string star() {
+  return collection({point(1, 0, 0), point(2, 4, 0), point(3, 4, 4), point(4, 4, -4), point(5, 8, 0.1),
+                     point(6, 4.2, 0.3), line(10, 1, 2), line(11, 2, 3), line(12, 2, 4), line(13, 2, 5),
+                     line(14, 2, 6), line(15, 3, 2), line(16, 4, 2), line(17, 5, 2), line(18, 6, 2),
+                     line(19, 6, 5)});
+}
+
+TEST(RouteGraph, NoEdgeIsCheaperThanItsStraightDrive) {
+  const ScratchDirectory directory;
+  const RouteGraph graph = read_route_graph(directory.write("graph.geojson", star()));
+  const GraphCosts costs = graph_costs(graph, testing::nomad(), 5, 0);
+  double worst_J = 0;
+  for (const CornerCost& corner : costs.corners) EXPECT_GE(corner.energy_J, 0);
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    EXPECT_GE(costs.with_turns[e].energy_J, costs.edges[e].energy_J) << graph.edges[e].id;
+    EXPECT_GE(costs.with_turns[e].time_s, costs.edges[e].time_s) << graph.edges[e].id;
+  }
+  for (const CornerCost& corner : costs.corners) worst_J = std::max(worst_J, corner.energy_J);
+  EXPECT_LE(costs.attribution.worst_J, worst_J);
+  EXPECT_GT(costs.attribution.rms_J, 0);
+}
+
+TEST(RouteGraph, ArcsThatAreTooLongAreTheLargestThatFit) {
+  const ScratchDirectory directory;
+  const RouteGraph graph = read_route_graph(directory.write("graph.geojson", square()));
+  const GraphCosts fits = graph_costs(graph, testing::nomad(), 5, 0.5);
+  const GraphCosts too_long = graph_costs(graph, testing::nomad(), 5, 30);
+  const GraphCosts turns = graph_costs(graph, testing::nomad(), 5, 0);
+  EXPECT_GT(fits.fits_up_to_rad, 1.6);
+  EXPECT_LT(too_long.fits_up_to_rad, 1.5);
+  for (std::size_t i = 0; i < turns.corners.size(); ++i) {
+    if (turns.corners[i].energy_J < 1) continue;
+    EXPECT_LT(too_long.corners[i].energy_J, fits.corners[i].energy_J) << "longer arcs are cheaper";
+    EXPECT_LT(fits.corners[i].energy_J, turns.corners[i].energy_J);
+  }
+  const std::string file = directory.write("graph.geojson", square());
+  const auto exported = [&](double radius_m) {
+    return export_route_graph({file, directory.at("o"), 0, radius_m, false}, testing::nomad());
+  };
+  EXPECT_EQ(exported(0.3).arcs, "");
+  EXPECT_NE(exported(30).arcs, "");
+  EXPECT_THROW((void)exported(1e-9), ConfigError);
+}
+
+TEST(RouteGraph, AbsurdLimitsAndDoubleIdsAreRefused) {
+  const ScratchDirectory directory;
+  const auto refusal = [&](const std::string& edges) -> std::string {
+    try {
+      (void)read_route_graph(
+          directory.write("graph.geojson", R"({"type": "FeatureCollection", "features": [)" + point(1, 0, 0) +
+                                               "," + point(2, 8, 0) + "," + edges + "]}"));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(line(10, 1, 2, R"({"abs_speed_limit": 0.5})")), "");
+  for (const char* limit : {"-1", "0", "1e-9", "1e9"}) {
+    const std::string text = refusal(line(10, 1, 2, std::string(R"({"abs_speed_limit": )") + limit + "}"));
+    EXPECT_NE(text.find("abs_speed_limit"), std::string::npos) << limit;
+  }
+  EXPECT_NE(refusal(line(10, 1, 2) + "," + line(10, 2, 1)).find("id"), std::string::npos);
+}
+
 TEST(RouteGraph, AGraphWithoutEdgesIsRefused) {
   const ScratchDirectory directory;
   const std::string file = directory.write("graph.geojson", collection({point(1, 0, 0)}));

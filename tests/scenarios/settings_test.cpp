@@ -55,6 +55,7 @@ TEST(HeavyRobot, SettingsAreNotLate) {
 TEST(Nav2Settings, ReadBackAsWhatTheyWereWrittenFrom) {
   const ScratchDirectory directory;
   const Export written = export_nav2_settings(heavy().input("settings.yaml"));
+  EXPECT_EQ(written.files.at(0).content.find(" -0 J"), std::string::npos);
   const ControllerFile file =
       read_controller_settings(directory.write("settings.yaml", written.files.at(0).content));
   ASSERT_TRUE(file.speed_m_s && file.acceleration_m_s2 && file.deceleration_m_s2);
@@ -90,6 +91,18 @@ TEST(ControllerFile, SlowerSettingsTakeLonger) {
                                         "p.yaml", "FollowPath: {desired_linear_vel: " + speed + "}\n")));
   };
   EXPECT_GT(drive("0.2").duration_s, drive("0.6").duration_s + 5);
+}
+
+TEST(ControllerFile, AbsurdSizesAndWrongSignsAreRefused) {
+  const ScratchDirectory directory;
+  const auto read = [&](const std::string& text) {
+    return read_controller_settings(directory.write("p.yaml", text + "\n"));
+  };
+  for (const char* text :
+       {"a: {vx_max: 1e-12}", "a: {vx_max: -0.5}", "a: {vx_max: 1e9}", "a: {max_decel: [0.4, 0.0, -1.0]}",
+        "a: {ax_min: 0.3}", "a: {linear: {x: {max_velocity: 1e-12}}}", "a: {max_accel: [-0.4, 0.0, 1.0]}"})
+    EXPECT_THROW((void)read(text), ConfigError) << text;
+  EXPECT_EQ(read("a: {max_decel: [-0.4, 0.0, -1.0], max_velocity: [0.0, 0.0, 1.0]}").deceleration_m_s2, 0.4);
 }
 
 TEST(ControllerFile, AFileWithoutSpeedsIsRefused) {

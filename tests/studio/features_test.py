@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
-"""Each part of the studio as people use it: collisions while dragging, plan A, classic profiles, the front, touch, a diagnosis.
+"""Each part of the studio as people use it: collisions while dragging, plan A, classic profiles, the front, touch, a diagnosis, a dataset.
 
 usage: features_test.py JOULEPATH
 
 Exit code 77 (skipped in CTest) where Chromium or chromedriver is absent, unless JOULEPATH_BROWSER=required.
 """
 import json
-import os
 import pathlib
 import shutil
+import subprocess
 import sys
-import tempfile
 
-from studio_page import SOURCE, Served, StudioPage, chromium, write_mission
+from studio_page import SOURCE, Served, run_in_browser, write_mission
 
 HEAD = """\
 schema: joulepath/mission/1
@@ -116,6 +115,11 @@ def check_classics(page):
     planned = page.run("return studio.store.answer.plan.energy_J")
     feasible = [energy for _, possible, energy in listed if possible]
     assert len(listed) >= 5 and feasible and min(feasible) >= planned * (1 - 1e-9), (planned, listed)
+    page.run("document.querySelector('#classics [aria-label^=keep]').click()")
+    rows = dict(page.run("return [...document.querySelectorAll('#ab tbody tr')].map((row) => [row.cells[0].textContent, parseFloat(row.cells[3].textContent.replace('\u2212', '-'))])"))
+    saved, by_cause = rows.pop("energy, J"), sum(joules for name, joules in rows.items() if name.endswith(", J"))
+    assert abs(saved - (planned - feasible[0])) < 0.02 * abs(saved) and abs(by_cause - saved) < 0.05 * abs(saved), rows
+    click(page, "Forget A")
     before = page.run(INK, ".plot canvas")
     page.run("document.querySelectorAll('#classics input[type=checkbox]')[1].click()")
     page.until(f"return document.querySelector('.plot canvas').toDataURL() !== {json.dumps(before)}", 10)
@@ -179,8 +183,28 @@ def check_touch(page):
 
 
 def check_legs(page):
-    """Reorder, remove, add; every step has its undo, also by keys."""
+    """Add, reorder, remove; every step has its undo, also by keys."""
     order = "return studio.store.mission.legs.map((leg) => leg.to).join(' ')"
+    page.run("document.querySelector('.legs button.link').click()")
+    click(page, "Add a stop behind")
+    page.settle()
+    added = page.run(order).split()
+    assert added[0] == "a" and added[2] == "b" and page.run("return studio.store.mission.stations[arguments[0]].x_m", added[1]) > 0, added
+    page.run("document.getElementById('undo').click()")
+    page.settle()
+    assert page.run(order) == "a b", page.run(order)
+    page.run("document.querySelector('.legs button.link').click()")
+    click(page, "Draw by hand")
+    page.settle()
+    curves = "return studio.store.mission.legs[0].path.bezier_m.length"
+    drawn = page.run(curves)
+    click(page, "Add a waypoint")
+    page.settle()
+    assert page.run(curves) == drawn + 1 and not page.run("return studio.store.problem"), page.run("return [studio.store.mission.legs[0], studio.store.problem]")
+    for _ in range(2):
+        page.run("document.getElementById('undo').click()")
+        page.settle()
+    assert page.run(order) == "a b", page.run(order)
     page.run("document.querySelector('[aria-label=\"leg 1 later\"]').click()")
     page.settle()
     assert page.run(order) == "b a" and not page.run("return studio.store.problem")
@@ -248,34 +272,62 @@ def check_mixed_frames(page):
         assert abs(page.run("return studio.store.mission.start.heading_rad") - angle) < 1e-3
 
 
-def main():
-    if not chromium() or not shutil.which("chromedriver"):
-        print("Chromium or chromedriver is not installed (Debian: chromium chromium-driver)")
-        return 1 if os.environ.get("JOULEPATH_BROWSER") == "required" else 77
-    program = sys.argv[1]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        page = StudioPage(name)
-        try:
-            for mission, checks in ((lambda: write_hall(folder, LEGS), (check_limits_and_battery, check_animation, check_collisions, check_plan_a, check_classics, check_front, check_touch,
-                                                                        check_legs, lambda one: check_diagnosis(one, folder))),
-                                    (lambda: write_hall(folder, VISIT), (check_visit,)), (lambda: write_mission(folder), (check_mixed_frames,)),
-                                    (lambda: SOURCE / "scenarios/missions/warehouse_order.yaml", (check_order,))):
-                served = Served(program, mission())
-                try:
-                    page.show(served.address)
-                    page.settle()
-                    for check in checks:
-                        check(page)
-                        told = page.messages()
-                        assert not told, f"after {check.__name__}: {told}"
-                        print("ok:", check.__name__.replace("<lambda>", "check_diagnosis"))
-                finally:
-                    served.close()
-        finally:
-            page.close()
-    return 0
+def signals_of(program, folder):
+    """Runs of the mission on a robot with more rolling resistance than its file says; the dataset's file."""
+    subprocess.run([program, "simulate", write_mission(folder), "--repeat", "4", "--effect", "rolling_resistance:coefficient=0.015", "--out", folder / "runs", "--force", "-q"], check=True)
+    subprocess.run([program, "diagnose", folder / "runs/dataset.yaml", "--signals", "--out", folder / "found", "--force", "-q"], check=True)
+    return folder / "runs/dataset.yaml"
+
+
+def check_dataset(page, found):
+    """`studio --dataset`: each run that is chosen is drawn with the numbers of `joulepath diagnose`, before and after its correction."""
+    page.run("document.querySelector('.run-signals').scrollIntoView()")
+    listed = page.run("return [...document.querySelectorAll('.run-signals option')].map((one) => one.textContent.split(' ')[0])")
+    assert listed == [run["name"] for run in found["signals"]] and len(listed) == 4, listed
+    pictures = []
+    for chosen, run in enumerate(found["signals"]):
+        page.run("const s = document.querySelector('.run-signals select'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", chosen)
+        columns, power = run["columns"], run["columns"]["measured_motor_power_W"]
+        row = power.index(max(power))
+        page.run("const c = document.querySelector('.run-signals .cursor input'); c.value = arguments[0]; c.dispatchEvent(new Event('input'))", row)
+        shown = dict(page.run("return [...document.querySelectorAll('.run-signals .plot-block')].map((one) => [one.querySelector('h3').textContent, one.querySelector('.now').textContent])"))
+        names = [name.removeprefix("measured_") for name in columns if name.startswith("measured_")]
+        assert len(shown) == len(names) >= 6, (list(shown), names)
+        texts = shown["motor power"].replace("\u2212", "-").split("·")
+        assert len(texts) == 3, texts
+        for look, text in zip(("measured", "predicted", "corrected"), texts):
+            value = columns[f"{look}_motor_power_W"][row]
+            assert abs(float(text.split("\u202f")[0]) - value) <= 1e-3 * abs(value), f"{look} motor power {text}, the diagnosis says {value} W"
+        off = {look: sum(abs(a - b) for a, b in zip(columns[f"{look}_motor_power_W"], power)) for look in ("predicted", "corrected")}
+        assert off["corrected"] < 0.3 * off["predicted"], off
+        pictures.append(page.run(INK, ".run-signals canvas"))
+    assert len(set(pictures)) == 4, "runs have the same plots"
+    assert found["verdict"] in page.run("return document.getElementById('diagnosis').textContent")
+
+
+HALL = (check_limits_and_battery, check_animation, check_collisions, check_plan_a, check_classics, check_front, check_touch, check_legs)
+
+
+def check_all(program, folder, page):
+    def served(mission, checks, *options):
+        with Served(program, mission, *options) as server:
+            page.show(server.address)
+            page.settle()
+            for name, check in checks:
+                check(page)
+                told = page.messages()
+                assert not told, f"after {name}: {told}"
+                print("ok:", name)
+
+    named = lambda *checks: [(check.__name__, check) for check in checks]
+    served(write_hall(folder, LEGS), [*named(*HALL), ("check_diagnosis", lambda one: check_diagnosis(one, folder))])
+    served(write_hall(folder, VISIT), named(check_visit))
+    served(write_mission(folder), named(check_mixed_frames))
+    served(SOURCE / "scenarios/missions/warehouse_order.yaml", named(check_order))
+    dataset = signals_of(program, folder)
+    found = json.loads((folder / "found/diagnosis.json").read_text())
+    served(folder / "mission.yaml", [("check_dataset", lambda one: check_dataset(one, found))], "--dataset", dataset)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_in_browser(check_all))

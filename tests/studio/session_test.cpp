@@ -116,6 +116,39 @@ TEST(Session, MotionEndsWithThePlansEnergyAndNamesLimitsThatBind) {
   EXPECT_TRUE(binds);
 }
 
+TEST(Session, CausesOfAClassicProfileAddUpToItsEnergy) {
+  json question = room_question("classics");
+  question["paths"] = paths_of(room_plan());
+  const json answer = answer_to(question, room());
+  std::size_t driven = 0;
+  for (const json& classic : answer.at("classics")) {
+    if (!classic.at("feasible").get<bool>()) continue;
+    ++driven;
+    double sum_J = 0;
+    for (const auto& [name, joules] : classic.at("energy_by_cause_J").items())
+      if (joules.is_number()) sum_J += joules.get<double>();
+    EXPECT_NEAR(sum_J, classic.at("energy_J").get<double>(), 1e-6 * sum_J) << classic.at("name");
+  }
+  EXPECT_GE(driven, 4u);
+}
+
+TEST(Session, NothingBindsAndNothingIsDrawnDuringADwell) {
+  const json &answer = room_plan(), &motion = answer.at("motion"), &leg = answer.at("plan").at("legs")[1];
+  const double from_s = leg.at("start_s").get<double>() + leg.at("duration_s").get<double>();
+  double first_s = -1;
+  for (std::size_t row = 0; row < motion.at("time_s").size(); ++row) {
+    const double time_s = motion.at("time_s")[row].get<double>();
+    if (time_s <= from_s + 1e-9) continue;
+    if (first_s < 0) first_s = time_s;
+    EXPECT_EQ(motion.at("limit")[row], -1) << time_s;
+    for (const char* key :
+         {"linear_speed_m_s", "linear_acceleration_m_s2", "wheel_torque_left_Nm", "wheel_torque_right_Nm"})
+      EXPECT_EQ(motion.at(key)[row].get<double>(), 0.0) << key << " at " << time_s;
+  }
+  EXPECT_NEAR(first_s, from_s, 1e-5) << "lines to the dwell's end would show a torque that is not there";
+  EXPECT_NEAR(motion.at("time_s").back().get<double>(), from_s + 5, 1e-9);
+}
+
 TEST(Session, PathsThatWerePlannedGiveThePlanAgain) {
   const MissionWorld floor = room();
   const json& plan = room_plan();

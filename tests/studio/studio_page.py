@@ -1,16 +1,17 @@
 """Serves a mission with `joulepath studio` and uses its page in headless Chromium, as a test or a benchmark does."""
 import json
+import os
 import pathlib
-import random
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "app" / "report"))
-from browser_test import Browser, ELEMENT, chromium  # noqa: E402  (the driver that the reports' test has)
+from browser_test import SKIPPED, Browser, chromium  # noqa: E402  (the driver that the reports' test has)
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 MISSION = """\
@@ -59,6 +60,12 @@ class Served:
         self.process.terminate()
         self.process.wait(10)
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
 
 class StudioPage(Browser):
     """The page in a browser."""
@@ -106,4 +113,18 @@ class StudioPage(Browser):
         return [told for told in self.console() if "beforeunload" not in told] + self.run("return joulepath.errors")
 
 
-__all__ = ["Served", "StudioPage", "chromium", "write_mission", "random", "SOURCE", "MISSION"]
+def run_in_browser(check):
+    """The exit code of a test: check(program, folder, page) with a folder of its own and a page in a browser."""
+    if not chromium() or not shutil.which("chromedriver"):
+        print("Chromium or chromedriver is not installed (Debian: chromium chromium-driver)")
+        return 1 if os.environ.get("JOULEPATH_BROWSER") == "required" else SKIPPED
+    with tempfile.TemporaryDirectory() as name:
+        page = StudioPage(name)
+        try:
+            check(sys.argv[1], pathlib.Path(name), page)
+        finally:
+            page.close()
+    return 0
+
+
+__all__ = ["Served", "StudioPage", "run_in_browser", "write_mission", "SOURCE", "MISSION"]

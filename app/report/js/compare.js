@@ -8,6 +8,10 @@ import "report/plots.js";
 const kSeriesColors = ["plan", "second", "third", "fourth", "fifth", "sixth"];
 const kSteps = 1200;  // places of the cursor
 const kDashes = [null, [6, 3], [2, 2], [9, 3, 2, 3], [12, 4], [4, 4]];
+/** The look of the k-th line; lines of the same color have different dashes. */
+const look_of = (k) => ({color: kSeriesColors[k % 6], dash: kDashes[(k + Math.floor(k / 6)) % 6]});
+/** The same beside a line of the first look. */
+const look_beside = (k) => ({color: kSeriesColors[1 + k % 5], dash: kDashes[1 + (k + Math.floor(k / 5)) % 5]});
 
 /** A profile's name, with the seconds by which it is later than what it stands beside. */
 jp.profile_name = (one) => words(one.name) + (one.later_s ? `, ${number(one.later_s, 2)} s later` : "");
@@ -21,7 +25,7 @@ jp.overlaid_profiles = function (profiles) {
   const cursor = jp.cursor(kSteps, (row) => `${axis.label()} ${number(x()[row])}`);
   axis = jp.axis(cursor);
   const make = (title, unit, column) => {
-    const series = drawn.map((one, k) => one.columns[column] && {name: jp.profile_name(one), xs: () => axis.of(one.columns), values: one.columns[column], color: kSeriesColors[k % 6], dash: kDashes[Math.floor(k / 6) % 6] || kDashes[k % 6]}).filter(Boolean);
+    const series = drawn.map((one, k) => one.columns[column] && {name: jp.profile_name(one), xs: () => axis.of(one.columns), values: one.columns[column], ...look_of(k)}).filter(Boolean);
     return series.length ? jp.plot({title, unit, series, x, cursor}).element : null;
   };
   const plots = [make("Speed", "m/s", "linear_speed_m_s"), make("Acceleration", "m/s²", "linear_acceleration_m_s2"), make("Power", "W", "battery_power_W"), make("Energy", "J", "energy_J")].filter(Boolean);
@@ -64,7 +68,7 @@ jp.draw_front = function (data) {
     return `${number(x[row])} s` + (one ? ` · ${with_unit(one.energy_J, "J")}` + (is_number(one.price_of_time_W) ? ` · value of a second ${with_unit(one.price_of_time_W, "W")}` : "") : "");
   });
   const make = (title, key) => jp.plot({title, unit: "J", x: () => x, x_label: () => "duration, s", cursor, tall: true, fitted: true, series: [{name: "optimal", values: find(points, key), color: "plan", points: 3},
-    ...names.map((name, k) => ({name: words(name), values: find(near.filter((one) => one.name === name), key), color: kSeriesColors[1 + k % 5], dash: kDashes[1 + k % 5], points: 2}))]});
+    ...names.map((name, k) => ({name: words(name), values: find(near.filter((one) => one.name === name), key), ...look_beside(k), points: 2}))]});
   const plots = [make("Energy at the battery, with standby", "energy_J")];
   if (points.some((one) => is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
   const over = jp.overlaid_profiles(data.profiles || []);

@@ -91,24 +91,28 @@ jp.floor_cell = function (entry) {
   return {x_min_m, x_max_m, y_min_m, y_max_m, share: entry.share_of_gap};
 };
 
+const cell_text = (cell) => `${short(cell.x_min_m, 3)}…${short(cell.x_max_m, 3)}, ${short(cell.y_min_m, 3)}…${short(cell.y_max_m, 3)}`;
+const share_text = (entry) => (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u202f%" : fraction(entry.share_of_gap, 3) + (is_number(entry.energy_J) ? ` · ${with_unit(entry.energy_J, "J", 3)}` : "")) + (is_number(entry.bias_percent) ? ` · bias ${percent(entry.bias_percent)}` : "");
+
+/** Shares of the gap along one axis: phases, speeds, runs, cells of the floor ...; the largest of them. */
+jp.axis_block = function (where, axis) {
+  const every = where.filter((entry) => entry.axis === axis), by_share = axis === "floor" || axis === "run";
+  const entries = every.slice().sort((a, b) => (by_share ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
+  const name = (entry) => { const cell = axis === "floor" ? jp.floor_cell(entry) : null; return cell ? cell_text(cell) : axis === "run" ? String(entry.value) : words(entry.value); };
+  return h("div", {}, h("h3", {}, axis === "floor" ? "floor: x, y in m" : words(axis)),
+    jp.bar_rows(entries.map((entry) => ({label: name(entry), value: entry.share_of_gap, interval: entry.interval_95, text: share_text(entry)})), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
+    every.length > entries.length ? h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
+};
+
 jp.where_section = function (data) {
   const where = data.diagnosis.where || [];
   if (!where.length) return null;
   const axes = [...new Set(where.map((entry) => entry.axis))];
-  const blocks = axes.map((axis) => {
-    const every = where.filter((entry) => entry.axis === axis), entries = every.slice().sort((a, b) => (axis === "floor" || axis === "run" ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
-    return h("div", {}, h("h3", {}, words(axis)), jp.bar_rows(entries.map((entry) => {
-      const cell = axis === "floor" ? jp.floor_cell(entry) : null;
-      return {label: cell ? `x ${short(cell.x_min_m, 3)}…${short(cell.x_max_m, 3)}, y ${short(cell.y_min_m, 3)}…${short(cell.y_max_m, 3)} m` : axis === "run" ? String(entry.value) : words(entry.value),
-        value: entry.share_of_gap, interval: entry.interval_95, text: (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u202f%" : fraction(entry.share_of_gap, 3)) + (Math.abs(entry.share_of_gap) >= 1e-4 && is_number(entry.energy_J) ? ` · ${with_unit(entry.energy_J, "J", 3)}` : "") + (is_number(entry.bias_percent) ? ` · bias ${percent(entry.bias_percent)}` : "")};
-    }), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
-    every.length > entries.length ? h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
-  });
-  const cells = where.filter((entry) => entry.axis === "floor").map(jp.floor_cell).filter(Boolean);
+  const blocks = axes.filter((axis) => axis !== "floor").map((axis) => jp.axis_block(where, axis)), cells = where.filter((entry) => entry.axis === "floor").map(jp.floor_cell).filter(Boolean);
   if (cells.length) {
     const map = jp.floor_map({grid: data.map, cells, label: "Floor map of the gap"});
     const ramp = h("span", {class: "ramp", style: "background:linear-gradient(90deg, transparent, var(--second))"});
-    blocks.push(h("div", {}, h("h3", {}, "on the floor"), map.element, h("div", {class: "scale"}, "0", ramp, fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap")));
+    blocks.push(h("div", {class: "columns"}, jp.axis_block(where, "floor"), h("div", {}, h("h3", {}, "on the floor"), map.element, h("div", {class: "scale"}, "0", ramp, fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap"))));
   }
   const section = jp.section("Where", h("p", {class: "soft"}, "Shares of the summed absolute power gap, with the expected noise subtracted. The shares of one axis add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted minus measured, relative to the cell's own energy."), h("div", {class: "columns"}, blocks));
   section.classList.add("long");

@@ -34,7 +34,7 @@ function draw_marks(context, view, marks) {
     if (mark.kind === "turn") { context.arc(px, py, 8, -0.4, 4.6); context.stroke(); }
     else if (mark.kind === "problem") draw_cross(context, view, mark.x, mark.y);
     else { context.rect(px - 5, py - 5, 10, 10); context.fill(); context.stroke(); }
-    if (mark.text) draw_text(context, view, mark.text, px, py, taken);
+    if (mark.text) draw_text(context, view, mark.text, px + (mark.kind === "problem" ? 9 : 0), py, taken);  // beside the cross
   }
 }
 

@@ -142,7 +142,7 @@ jp.trust_section = function (plan) {
   if (plan.replay) rows.push(["energy by the replay (its own integrator)", with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${words(plan.replay.limit)})` : "")]);
   if (plan.solver) rows.push(["solver", `${plan.solver.name}, ${plan.solver.iterations} iterations`]);
-  return jp.section("Verification", jp.table(["", ""], rows));
+  return rows.length > 1 ? jp.section("Verification", jp.table(["", ""], rows)) : null;
 };
 
 /** Plots of the motion with the baselines beside it, and limits. */

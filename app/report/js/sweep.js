@@ -1,6 +1,6 @@
 /** `joulepath sweep`: the best design, the Pareto front, the effect of each parameter, the reasons why designs do not count. */
 import {h, key} from "page/dom.js";
-import {fraction, number, percent, short, with_unit, words} from "page/numbers.js";
+import {fraction, number, percent, short, ticks, with_unit, words} from "page/numbers.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
 
@@ -18,17 +18,14 @@ jp.design_cloud = function (sweep) {
   const y = (value) => height - bottom - (height - bottom - top) * (value - e[0]) / (e[1] - e[0]);
   const svg = (tag, attributes, text) => { const node = document.createElementNS("http://www.w3.org/2000/svg", tag); Object.entries(attributes).forEach(([key, value]) => node.setAttribute(key, value)); if (text) node.textContent = text; return node; };
   const picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${dots.length} designs, energy against duration; ${front.length} on the Pareto front`, style: `width:100%;max-width:${width}px;height:auto`});
-  [0, 0.25, 0.5, 0.75, 1].forEach((part) => {
-    const at_t = t[0] + part * (t[1] - t[0]), at_e = e[0] + part * (e[1] - e[0]);
-    picture.append(svg("line", {x1: left, x2: width - right, y1: y(at_e), y2: y(at_e), stroke: "var(--grid)"}),
-      svg("text", {x: left - 8, y: y(at_e) + 4, "text-anchor": "end", "font-size": 13, fill: "var(--soft)"}, number(at_e, 4)),
-      svg("text", {x: x(at_t), y: height - bottom + 18, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, number(at_t, 4)));
-  });
-  picture.append(svg("text", {x: (left + width) / 2, y: height - 6, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)"}, "duration of all missions, s"),
-    svg("text", {x: 14, y: (height - bottom) / 2, "text-anchor": "middle", "font-size": 13, fill: "var(--soft)", transform: `rotate(-90 14 ${(height - bottom) / 2})`}, "energy, J"));
+  const text = (attributes, content) => svg("text", {"font-size": 13, fill: "var(--soft)", ...attributes}, content);
+  for (const at of ticks(...e, 5)) picture.append(svg("line", {x1: left, x2: width - right, y1: y(at), y2: y(at), stroke: "var(--grid)"}), text({x: left - 8, y: y(at) + 4, "text-anchor": "end"}, short(at, 5)));
+  for (const at of ticks(...t, width / 110)) picture.append(text({x: x(at), y: height - bottom + 18, "text-anchor": "middle"}, short(at, 5)));
+  picture.append(text({x: (left + width) / 2, y: height - 6, "text-anchor": "middle"}, "duration of all missions, s"),
+    text({x: 14, y: (height - bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 14 ${(height - bottom) / 2})`}, "energy, J"));
   dots.forEach(([time, energy, within]) => picture.append(svg("circle", {cx: x(time), cy: y(energy), r: 3, fill: within ? "var(--sixth)" : "none", stroke: within ? "none" : "var(--soft)", "fill-opacity": 0.7})));
   front.forEach(([time, energy]) => picture.append(svg("circle", {cx: x(time), cy: y(energy), r: 5, fill: "var(--second)"})));
-  return h("div", {}, h("p", {class: "small"}, key("Pareto front", "var(--second)", "box"), key("within the constraints", "var(--sixth)", "box"), key("outside", "var(--soft)", "box")), picture);
+  return h("div", {}, h("p", {class: "small"}, key("Pareto front", "var(--second)", "box"), key("within the constraints", "var(--sixth)", "box"), dots.some(([, , within]) => !within) ? key("outside", "var(--soft)", "box") : null), picture);
 };
 
 /** The effect of a parameter: the mean of each level, and its share of the variance. */
@@ -37,7 +34,7 @@ jp.sweep_effects = function (effects, unit) {
   const means = effects.main.map((one) => {
     const values = one.levels.map((level) => level.mean), low = Math.min(...values), high = Math.max(...values);
     return h("div", {}, h("h3", {}, one.parameter), jp.table(["level", {n: `mean, ${unit}`}, {n: "against the best level"}, {n: "designs"}],
-      one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high > low ? "+" + percent(100 * (level.mean / low - 1), 3) : "–"}, {n: String(level.designs)}])));
+      one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high === low ? "–" : level.mean === low ? "best" : "+" + percent(100 * (level.mean / low - 1), 3)}, {n: String(level.designs)}])));
   });
   const pairs = effects.interactions.filter((one) => one.share_of_variance > 1e-4).slice(0, 10);
   return [h("h3", {}, "Share of the variance"), shares,
@@ -54,7 +51,7 @@ jp.draw_sweep = function (data) {
   const reasons = Object.entries(sweep.not_counted || {});
   jp.page(jp.header(data.title || "Sweep", `${short(sweep.designs, 9)} designs`, best ? `${short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
     best ? h("div", {class: "tiles"}, jp.tile("Best energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
-    h("div", {class: "notice"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
+    h("div", {class: "notice aside"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
     sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
     sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,

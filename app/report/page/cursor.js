@@ -43,8 +43,8 @@ export function cursor(count, describe) {
  * x(), x_label(), cursor, tall, fitted}. x() is the axis of the cursor's rows; a series may have its own.
  */
 export function row_plot({title, unit, series, limits = [], cursor: shared, x, x_label, tall, fitted}) {
-  const keys = series.map((one) => key(one.name, `var(--${one.color})`, one.dash ? "dash" : ""));
-  if (limits.length) keys.push(key("limit", "var(--limit)", "dash"));
+  const keys = series.map((one) => key(one.name, `var(--${one.color})`, one.dash || ""));
+  if (limits.length) keys.push(key("limit", "var(--limit)", [7, 4]));
   const xs_of = (one) => (one.xs || x)();
   const now = (at) => series.map((one) => number(one.xs ? value_at(xs_of(one), one.values, at) : one.values[shared.row], 4)).join(" · ") + "\u202f" + unit;
   const content = () => {

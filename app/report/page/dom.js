@@ -18,7 +18,17 @@ export function announce(text) {
   live.textContent = text;
 }
 
-export const key = (text, color, style = "") => h("span", {class: "key"}, h("i", {class: style, style: style === "box" ? `background:${color}` : `border-color:${color}`}), text);
+/** A dash pattern of a canvas as a background. */
+function dashes(color, pattern) {
+  let at = 0;
+  const stops = pattern.map((length, k) => { const from = at; at += length; return `${k % 2 ? "transparent" : color} ${from}px ${at}px`; });
+  return `background:repeating-linear-gradient(90deg, ${stops.join(", ")})`;
+}
+/** An entry of a legend; `look`: "" a line, "box", or the dash pattern of the line. */
+export const key = (text, color, look = "") => {
+  const dashed = Array.isArray(look);
+  return h("span", {class: "key"}, h("i", {class: dashed ? "dash" : look, style: dashed ? dashes(color, look) : look === "box" ? `background:${color}` : `border-color:${color}`}), text);
+};
 export const button = (text, onclick, attributes = {}) => h("button", {type: "button", onclick, ...attributes}, text);
 
 /** A canvas of its element's size in sharp pixels; {context, width, height} in CSS pixels. */

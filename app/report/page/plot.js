@@ -68,7 +68,8 @@ function draw_band(context, {X, bottom}, {xs, color_of}) {
 
 function draw_content(context, frame, shown, height) {
   context.save();
-  context.beginPath(); context.rect(kLeft, 0, frame.width - kLeft - kRight, height); context.clip();
+  const beside = shown.span ? 0 : 4;  // dots at the ends of the axis are not cut
+  context.beginPath(); context.rect(kLeft - beside, 0, frame.width - kLeft - kRight + 2 * beside, height); context.clip();
   if (shown.band) draw_band(context, frame, shown.band);
   draw_limits(context, frame, shown.limits || []);
   for (const line of shown.lines) draw_line(context, frame, line);

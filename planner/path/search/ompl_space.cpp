@@ -33,7 +33,7 @@ double cost_between(const Point2& a, const Point2& b, const TravelCost& cost) {
 
 class DiscValidity : public ob::StateValidityChecker {
  public:
-  DiscValidity(const ob::SpaceInformationPtr& space, DiscLineCheck check)
+  DiscValidity(const ob::SpaceInformationPtr& space, const DiscLineCheck& check)
       : StateValidityChecker(space), check_(check) {}
   bool isValid(const ob::State* state) const override { return check_.point_free(point_of(state)); }
 
@@ -44,7 +44,7 @@ class DiscValidity : public ob::StateValidityChecker {
 /// Checks motions cell by cell.
 class DiscMotion : public ob::MotionValidator {
  public:
-  DiscMotion(const ob::SpaceInformationPtr& space, DiscLineCheck check)
+  DiscMotion(const ob::SpaceInformationPtr& space, const DiscLineCheck& check)
       : MotionValidator(space), check_(check) {}
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     return check_(point_of(from), point_of(to));

@@ -10,8 +10,9 @@ namespace {
 
 using Kind = BezierFinding::Kind;
 
-// |B'| below this share of the control polygon's length counts as vanishing.
-constexpr double kVanishing = 1e-5;
+// |B'| below this share of the control polygon's length counts as vanishing: the curve's radius there is
+// about the square of it.
+constexpr double kVanishing = 1e-3;
 constexpr int kSamples = 128;
 
 BezierFinding finding(Kind kind, const BezierPoints& p, std::size_t curve, double t, const char* what) {

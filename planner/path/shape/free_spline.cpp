@@ -8,10 +8,9 @@ namespace {
 
 constexpr double kShortestChord_m = 1e-3;
 constexpr double kShortestHandle_m = 1e-3;
-constexpr double kStandstill_m = 1e-6;  ///< shorter tangents have no direction
-constexpr int kCells = 16;
-constexpr int kDeepest = 12;
-constexpr double kCellTurn_rad = 0.3;  ///< a cell that turns less has nearly its average curvature everywhere
+constexpr double kStandstill_m = 1e-9;  ///< shorter tangents have no direction
+constexpr double kSlowest = 0.1;  ///< least |B'|, as a share of what a span has at its ends and of its chord
+constexpr int kDeepest = 16;
 
 double norm(const Point2& v) { return std::hypot(v[0], v[1]); }
 
@@ -42,18 +41,60 @@ std::vector<Point2> derivatives(const FreeSpline& spline, const std::vector<doub
   return m;
 }
 
-/// Whether a span bends more tightly than allowed: cells are halved until each turns only slightly.
-bool too_tight(const BezierPoints& span, double from_t, double to_t, int depth) {
-  const BezierDerivatives a = bezier_derivatives(span, from_t), b = bezier_derivatives(span, to_t);
-  if (std::min(norm(a.first_m), norm(b.first_m)) < kStandstill_m) return true;
-  const double dot = a.first_m[0] * b.first_m[0] + a.first_m[1] * b.first_m[1];
-  const double cross = a.first_m[0] * b.first_m[1] - a.first_m[1] * b.first_m[0];
-  const double turn_rad = std::abs(std::atan2(cross, dot));
-  const double length_m = norm({b.position_m[0] - a.position_m[0], b.position_m[1] - a.position_m[1]});
-  if (turn_rad <= kCellTurn_rad) return turn_rad > kTightest_per_m * length_m;
-  if (depth == 0) return true;
+double dot(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }
+double cross(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// A span's derivative between two parameters as a quadratic Bezier curve with control points h: its hull
+/// bounds the derivative's size and direction from below and above.
+struct Hodograph {
+  Point2 h[3];
+  double step{};  ///< between the parameters
+
+  Hodograph(const BezierPoints& span, double from_t, double to_t) : step(to_t - from_t) {
+    const BezierDerivatives from = bezier_derivatives(span, from_t), to = bezier_derivatives(span, to_t);
+    for (std::size_t k = 0; k < 2; ++k) {
+      h[0][k] = from.first_m[k];
+      h[1][k] = from.first_m[k] + 0.5 * step * from.second_m[k];
+      h[2][k] = to.first_m[k];
+    }
+  }
+  /// Lower bound of |B'|; negative where the hull surrounds the origin.
+  double least_m() const {
+    const Point2 sum{h[0][0] + h[2][0], h[0][1] + h[2][1]};
+    const double size = std::max(norm(sum), kStandstill_m);
+    return std::min({dot(h[0], sum), dot(h[1], sum), dot(h[2], sum)}) / size;
+  }
+  /// Upper bound of |B' x B''|: the largest of its Bernstein coefficients.
+  double most_bend_m2() const {
+    return 2 / step *
+           std::max(
+               {std::abs(cross(h[0], h[1])), 0.5 * std::abs(cross(h[0], h[2])), std::abs(cross(h[1], h[2]))});
+  }
+};
+
+/// Whether a span bends more tightly than allowed or nearly stands still in its parameter, which bends it at
+/// one place. Parts are halved until the hull of the derivative proves that they do not, or a place does.
+///   kappa = |B' x B''| / |B'|^3
+bool too_tight(const BezierPoints& span, double least_m, double from_t, double to_t, int depth) {
+  const Hodograph part(span, from_t, to_t);
+  const double hull_m = part.least_m();
+  if (hull_m >= least_m && part.most_bend_m2() <= kTightest_per_m * hull_m * hull_m * hull_m) return false;
+  const BezierDerivatives end = bezier_derivatives(span, to_t);
+  const double end_m = norm(end.first_m);
+  if (depth == 0 || end_m < least_m ||
+      std::abs(cross(end.first_m, end.second_m)) > kTightest_per_m * end_m * end_m * end_m)
+    return true;
   const double middle_t = 0.5 * (from_t + to_t);
-  return too_tight(span, from_t, middle_t, depth - 1) || too_tight(span, middle_t, to_t, depth - 1);
+  return too_tight(span, least_m, from_t, middle_t, depth - 1) ||
+         too_tight(span, least_m, middle_t, to_t, depth - 1);
+}
+
+/// |B'| may not fall far below its values at the ends and the chord.
+double least_derivative_m(const BezierPoints& span) {
+  const double start_m = 3 * norm({span[1][0] - span[0][0], span[1][1] - span[0][1]}),
+               goal_m = 3 * norm({span[3][0] - span[2][0], span[3][1] - span[2][1]}),
+               chord_m = norm({span[3][0] - span[0][0], span[3][1] - span[0][1]});
+  return kSlowest * std::min({start_m, goal_m, chord_m});
 }
 
 }  // namespace
@@ -87,8 +128,7 @@ std::optional<Path> free_spline_path(const FreeSpline& spline) {
   std::vector<CurveSegment> segments;
   const std::vector<BezierPoints> spans = spline_spans(spline);
   for (const BezierPoints& span : spans)
-    for (int cell = 0; cell < kCells; ++cell)
-      if (too_tight(span, cell / double{kCells}, (cell + 1) / double{kCells}, kDeepest)) return std::nullopt;
+    if (too_tight(span, least_derivative_m(span), 0, 1, kDeepest)) return std::nullopt;
   for (const BezierPoints& span : spans) segments.push_back(BezierSegment(span));
   return Path{{Curve(std::move(segments))}};
 }

@@ -10,7 +10,8 @@ import {store} from "studio/store.js";
 function finding(d) {
   const energy = (d.gap || {}).energy || {}, causes = (d.causes || []).map((cause) => `${words(cause.effect)} (${fraction(cause.probability, 3)})`);
   const after = causes.length && typeof energy.after_percent === "number" ? `, ${percent(energy.after_percent)} after the correction` : "";
-  return [h("p", {}, h("b", {}, words(d.verdict)), d.sentence ? `: ${d.sentence}` : ""), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
+  const verdict = words(d.verdict), sentence = (d.sentence || "").replace(new RegExp(`^${verdict}: `, "i"), "");
+  return [h("p", {}, h("b", {}, verdict), sentence ? `: ${sentence}` : ""), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
     typeof energy.before_percent === "number" ? h("p", {class: "small"}, `Energy gap ${percent(energy.before_percent)}${after}, noise floor ${number(energy.noise_floor_percent, 3)}\u202f%`) : null];
 }
 
@@ -31,6 +32,7 @@ export function diagnosis_panel() {
     let d = null;
     try { d = JSON.parse(await chosen.text()); } catch { /* said below */ }
     if (!d || !String(d.schema).startsWith("joulepath/diagnosis/")) return tell(`${chosen.name} is no diagnosis.json of joulepath.`, true);
+    store.diagnosis = d;
     show(d);
     tell("Opened " + chosen.name);
   }

@@ -68,7 +68,8 @@ export function fields_of(file, value, path = []) {
 function label_of(path, parent) {
   const key = path.at(-1);
   if (key === "left" || key === "right") return `${split_key(path.at(-2)).words}, ${key}`;
-  if (path.includes("by_payload") && key !== "payload_kg") return `${split_key(key).words} at ${short(parent.payload_kg)} kg`;
+  if (path.includes("by_payload") && key === "payload_kg") return `payload, row ${path.at(-2) + 1}`;
+  if (path.includes("by_payload")) return `${split_key(key).words} at ${short(parent.payload_kg)} kg`;
   return split_key(String(key)).words;
 }
 /** Unit of sided values: that of the key above. */

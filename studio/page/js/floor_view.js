@@ -6,7 +6,7 @@ import {on, store} from "studio/store.js";
 import {color, free_color, is_dark, limit_color, on_theme, ramp} from "page/theme.js";
 import {handles} from "studio/handles.js";
 
-const kOccupied_percent = 65;
+const kOccupied_percent = 65, kTools_px = 40;  // the buttons over the top of the map
 
 /** Free, unknown, occupied, kept out, slowed. */
 function picture() {
@@ -22,11 +22,15 @@ export const view = Object.assign(floor_view(), {by: "limit"});
 
 export const canvas = h("canvas", {id: "floor", tabindex: "0", role: "application", "aria-roledescription": "map editor",
   "aria-label": "Map with the mission. N and P choose a stop or handle, arrow keys move it, brackets turn it, plus and minus zoom."});
-let drawn, drawn_dark, shown = false;
+let drawn, drawn_dark, shown = false, fitted = "";
+const window_of = () => [view.scale, view.x_m, view.y_m].join();
 
 export function show_all() {
   const m = store.answer && store.answer.motion, grid = store.floor.map, marks = handles();
   show_places(view, [...(m ? m.position_x_m : []), ...marks.map((mark) => mark.x)], [...(m ? m.position_y_m : []), ...marks.map((mark) => mark.y)], grid);
+  view.scale *= 1 - kTools_px / Math.max(view.height, 2 * kTools_px);
+  view.y_m += kTools_px / 2 / view.scale;
+  fitted = window_of();
 }
 
 function draw_map(context) {
@@ -74,7 +78,7 @@ export function draw() {
     const {context, width, height} = sharp(canvas);
     const grew = width !== view.width || height !== view.height;
     view.width = width; view.height = height;
-    if (!shown && (store.answer || store.floor.map)) { show_all(); shown = !!store.answer; } else if (grew && !shown) show_all();
+    if (!shown && (store.answer || store.floor.map)) { show_all(); shown = !!store.answer; } else if (grew && window_of() === fitted) show_all();  // unless it was moved
     context.fillStyle = color(store.floor.map ? "map-unknown" : "map-free"); context.fillRect(0, 0, width, height);
     draw_map(context);
     if (store.kept) draw_motion(context, store.kept.answer, true);

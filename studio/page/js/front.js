@@ -25,15 +25,13 @@ export function front_panel() {
     if (answer.superseded) return;
     if (answer.error || !answer.front || !answer.front.length) { text.textContent = answer.error ? answer.error.message : "no front"; return; }
     if (edits !== store.edits) return;
-    store.front = answer.front;
+    store.front = kept = answer.front;
     show();
   }
 
-  const dwell_s = () => { const leg = (store.mission.legs || []).at(-1); return leg && leg.dwell_s ? leg.dwell_s : 0; };
   /** The deadline refers to the end of the mission; beyond the cheapest time it does not bind. */
   function put(time_s, release) {
     const points = curve(), low = points[0].duration_s, value = Math.max(low * 1.0002 + 1e-3, time_s);
-    kept = store.front || kept;  // an edit empties the former
     set_value("mission", ["objective", "deadline_s"], Number(value.toFixed(2)), {of: "front", release});
   }
   let kept = null;
@@ -49,7 +47,8 @@ export function front_panel() {
     context.clearRect(0, 0, width, height);
     if (!points.length || !store.answer) return;
     const xs = points.map((p) => p.duration_s), ys = points.map((p) => p.energy_J), plan = store.answer.plan;
-    const x0 = xs[0], x1 = Math.max(xs.at(-1), plan.duration_s), low = Math.min(...ys, plan.energy_J), high = Math.max(...ys, plan.energy_J), pad = 0.08 * (high - low) || 1;
+    const x0 = xs[0], x1 = Math.max(xs.at(-1), plan.duration_s), classics = (store.classics || []).filter((one) => one.feasible && one.duration_s < x1 + 1e-3);
+    const drawn_J = [...ys, plan.energy_J, ...classics.map((one) => one.energy_J)], low = Math.min(...drawn_J), high = Math.max(...drawn_J), pad = 0.08 * (high - low) || 1;
     const X = (x) => kLeft + (width - kLeft - kRight) * (x - x0) / Math.max(1e-9, x1 - x0), Y = (y) => kTop + (height - kTop - kBottom) * (high + pad - y) / (high - low + 2 * pad);
     frame = {back: (px) => x0 + (px - kLeft) * (x1 - x0) / (width - kLeft - kRight), x0, x1};
     context.font = "11px system-ui, sans-serif"; context.fillStyle = color("soft"); context.strokeStyle = color("grid"); context.textAlign = "right"; context.textBaseline = "middle";
@@ -59,7 +58,7 @@ export function front_panel() {
     context.fillText("duration, s — energy, J", width / 2, height - 14);
     context.strokeStyle = color("plan"); context.lineWidth = 2; context.setLineDash(store.front ? [] : [5, 4]);
     context.beginPath(); xs.forEach((x, k) => context.lineTo(X(x), Y(ys[k]))); context.stroke(); context.setLineDash([]);
-    for (const classic of store.classics || []) if (classic.feasible) mark(context, X(classic.duration_s), Y(classic.energy_J), color(classic.color), 4);
+    for (const classic of classics) mark(context, X(classic.duration_s), Y(classic.energy_J), color(classic.color), 4);
     if (store.kept) mark(context, X(store.kept.answer.plan.duration_s), Y(store.kept.answer.plan.energy_J), color("soft"), 5);
     mark(context, X(plan.duration_s), Y(plan.energy_J), color("focus"), 7);
     slider.value = Math.round(1000 * (plan.duration_s - x0) / Math.max(1e-9, x1 - x0));

@@ -31,7 +31,7 @@ const kPlots = [
 function lines_of({series, step}) {
   const line = (motion, column, stroke, look) => ({xs: abscissa(motion), ys: motion[column], stroke, step, ...look});
   const shown = (store.classics || []).filter((classic) => classic.shown && classic.motion);
-  return [...shown.map((classic) => line(classic.motion, series[0][0], color(classic.color), {dash: [5, 3], width: 1.3})),
+  return [...shown.map((classic) => line(classic.motion, series[0][0], color(classic.color), {dash: classic.dash, width: 1.3})),
     ...(store.kept ? series.map(([column]) => line(store.kept.answer.motion, column, color("soft"), {dash: [2, 3], width: 1.5})) : []),
     ...series.map(([column, name]) => line(store.answer.motion, column, color(name), {width: 1.8}))];
 }
@@ -52,11 +52,16 @@ function plot_of(one, redraw) {
   return plot({title: one.title, unit: one.unit, keys: one.series.filter(([, , name]) => name).map(([, stroke, name]) => key(name, `var(--${stroke})`)), content, point, zoom});
 }
 
-/** Share of the time for each limit that binds. */
+/** Share of the driving time for each limit that binds. */
 function legend_of(answer) {
-  const m = answer.motion, end = m.time_s.at(-1) || 1, share = {};
-  for (let k = 0; k + 1 < m.time_s.length; ++k) if (m.limit[k] >= 0) share[answer.limits[m.limit[k]]] = (share[answer.limits[m.limit[k]]] || 0) + m.time_s[k + 1] - m.time_s[k];
-  return ["Active limit: ", ...Object.entries(share).sort((a, b) => b[1] - a[1]).map(([name, time_s]) => key(`${words(name)} ${short(100 * time_s / end, 2)} %`, limit_color(name), "box")),
+  const m = answer.motion, share = {}, moves = (k) => m.linear_speed_m_s[k] !== 0 || m.angular_speed_rad_s[k] !== 0;
+  let driven_s = 0;
+  for (let k = 0; k + 1 < m.time_s.length; ++k) {
+    const step_s = m.time_s[k + 1] - m.time_s[k], name = answer.limits[m.limit[k]];
+    if (moves(k) || moves(k + 1)) driven_s += step_s;
+    if (name) share[name] = (share[name] || 0) + step_s;
+  }
+  return ["Active limit: ", ...Object.entries(share).sort((a, b) => b[1] - a[1]).map(([name, time_s]) => key(`${words(name)} ${short(100 * time_s / driven_s, 2)} %`, limit_color(name), "box")),
     key("none: energy decides", free_color(), "box")];
 }
 

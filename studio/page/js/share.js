@@ -41,7 +41,8 @@ async function copy() {
 /** The page with the present mission, robot and plan as one file that needs no program and no network. */
 export function page_text() {
   const copy = document.documentElement.cloneNode(true);
-  const data = {files: JSON.stringify({...store.files, mission: store.mission, robot: store.robot}), floor: store.floor, schemas: store.schemas, served: false, version: store.version_of_program, answer: store.answer};
+  const data = {files: JSON.stringify({...store.files, mission: store.mission, robot: store.robot}), floor: store.floor, schemas: store.schemas, served: false, version: store.version_of_program, answer: store.answer,
+    diagnosis: store.diagnosis, beside: {kept: store.kept, classics: store.classics, front: store.front}};
   for (const mark of ["ready", "state"]) delete copy.dataset[mark];
   copy.querySelector("#app").replaceChildren();
   copy.querySelectorAll("script[type=importmap], script[type=module], .unseen[aria-live]").forEach((element) => element.remove());

@@ -15,9 +15,10 @@ export const store = {
   working: "",       // what is being computed
   selection: {kind: "none"},
   cursor_s: 0,
-  kept: null,        // plan A of a comparison: {answer}
+  kept: null,        // plan A of a comparison: {answer, name}
   classics: null,    // classic profiles beside the plan
   front: null,
+  ...data.beside,    // these three of a page that was shared
   edits: 0,          // counts changes; answers to older states are discarded
 };
 

@@ -27,6 +27,20 @@ using testing::straight_run;
 using testing::turn_run;
 using testing::within;
 
+/// The tangent of this curve nearly vanishes at t = 1/3: its curvature has no bound there, and no step of an
+/// integrator resolves it.
+TEST(Replay, EndsAtAKinkThatNoStepResolves) {
+  for (const double aside_m : {1e-9, 1e-7, 1e-5}) {
+    ProfileRequest request = straight_run(1.0);
+    request.piece =
+        Curve({BezierSegment({{{0, 0}, {1.0 / 3, aside_m}, {-1.0 / 3, 3 * aside_m}, {1, aside_m}}})});
+    const double length_m = piece_length(request.piece);
+    const ReplayResult result = replay(
+        request, profile_from_squares({0, 0.1 * length_m, 0.9 * length_m, length_m}, {0, 0.3, 0.3, 0}));
+    EXPECT_GT(result.worst_violation, 1.0) << aside_m;
+  }
+}
+
 TEST(Verdicts, EveryHopelessInputSaysWhichWhereAndHowMuch) {
   const std::vector<HopelessRequest> cases = hopeless_requests();
   EXPECT_GE(cases.size(), 40u);

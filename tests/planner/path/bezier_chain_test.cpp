@@ -154,6 +154,13 @@ TEST(BezierChain, ReportsACuspWithItsPlace) {
   EXPECT_NEAR(defects[0].y_m, 0.75, 1e-6);
 }
 
+TEST(BezierChain, ReportsAStandstillThatDoesNotTurnBack) {
+  const auto defects = bezier_defects({{{0, 0}, {1.0 / 3, 1e-4}, {-1.0 / 3, 3e-4}, {1, 1e-4}}}, 0);
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].kind, Kind::cusp);
+  EXPECT_NEAR(defects[0].t, 1.0 / 3, 1e-3);
+}
+
 TEST(BezierChain, ReportsTurningBackOnALine) {
   const auto defects = bezier_defects({{{0, 0}, {3, 0}, {-2, 0}, {1, 0}}}, 0);
   ASSERT_EQ(defects.size(), 2u);

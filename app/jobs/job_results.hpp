@@ -3,29 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "app/command.hpp"
-#include "app/jobs/run_jobs.hpp"
-#include "app/kept_answers.hpp"
+#include "app/jobs/job_options.hpp"
 #include "app/output_directory.hpp"
 #include "scenarios/study_file.hpp"
 
 namespace joulepath {
-
-class CommandLine;
-
-/// Options of batch and sweep.
-struct JobOptions {
-  std::string out{};
-  std::string shard{};
-  std::string quarantine{};
-  unsigned jobs{};
-  bool resume{};
-  CacheChoice cache{};
-  CommonOptions common{};
-};
-
-void add_job_options(CommandLine& line, JobOptions& options, const std::string& files);
-[[nodiscard]] JobRun job_run(const JobOptions& options, const std::string& noun);
 
 /// The files of a whole run; a shard writes kShardFiles.
 inline const std::vector<std::string> kBatchFiles{"results.jsonl", "timings.jsonl", "report.html"};

@@ -1,4 +1,4 @@
-#include "app/kept_answers.hpp"
+#include "app/cache_choice.hpp"
 
 #include <cstdlib>
 #include <fstream>

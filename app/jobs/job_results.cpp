@@ -1,13 +1,11 @@
-#include "app/jobs/finish.hpp"
+#include "app/jobs/job_results.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
-#include "app/command_line.hpp"
-#include "app/jobs/quarantine.hpp"
+#include "app/jobs/content_hash.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
@@ -56,31 +54,6 @@ void print_sweep(const Json& json) {
 
 }  // namespace
 
-void add_job_options(CommandLine& line, JobOptions& options, const std::string& files) {
-  options.jobs = std::max(1u, std::thread::hardware_concurrency());
-  line.option("--out", options.out, "directory for " + files).required();
-  line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
-  line.option("--shard", options.shard,
-              "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
-  line.option("--quarantine", options.quarantine,
-              "file of JSON lines {index, reason}: jobs to skip, because they killed their process");
-  line.flag("--resume", options.resume,
-            "continue an interrupted run; finished plans with unchanged inputs are not repeated");
-  add_cache_options(line, options.cache);
-  add_common_flags(line, options.common, "qjfu");
-}
-
-JobRun job_run(const JobOptions& options, const std::string& noun) {
-  return {.directory = options.out,
-          .threads = options.jobs,
-          .resume = options.resume,
-          .force = options.common.force,
-          .quiet = options.common.quiet,
-          .noun = noun,
-          .shard = shard_from(options.shard),
-          .quarantine = read_quarantine(options.quarantine)};
-}
-
 OutputDirectory job_output(const JobOptions& options, const Shard& shard,
                            const std::vector<std::string>& files) {
   return {options.out, shard.is_whole() ? files : kShardFiles, options.common.force || options.resume};
@@ -110,7 +83,9 @@ void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<Jo
   about.jobs = jobs.size();
   about.list_digest = jobs.digest();
   about.files = jobs.files_read();
-  out.write("results.jsonl", joined(lines_of(results)));
+  const std::string lines = joined(lines_of(results));
+  about.results_digest = ContentHash().mix(lines).text();
+  out.write("results.jsonl", lines);
   add_timings(out, results);
   out.write("shard.json", manifest_text(about));
   out.commit();

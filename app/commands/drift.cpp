@@ -1,0 +1,105 @@
+#include "diagnosis/calibration/drift.hpp"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "scenarios/dataset_file.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double percent_of(double part, double whole) { return 100 * part / std::abs(whole); }
+
+class DriftCommand : public Command {
+ public:
+  DriftCommand()
+      : Command({.name = "drift",
+                 .says = "name the constants that changed since the calibrated day",
+                 .examples =
+                     "  joulepath drift days/monday.yaml days/tuesday.yaml days/wednesday.yaml\n"
+                     "  joulepath drift calibrated.yaml tonight.yaml --false-alarm-rate 0.001 --json\n\n"
+                     "The exit code is 1 where a constant of the last day differs from the first day's.\n"}) {
+  }
+
+  void declare(CommandLine& line) override {
+    line.option("DAY", days_, "datasets or logs, oldest first; the first is the calibrated day").required();
+    line.option("--robot", robot_, "robot file; replaces the datasets'");
+    line.option("--false-alarm-rate", settings_.false_alarm_rate,
+                "probability that a night without drift ends with 1")
+        .between(1e-3, 0.5)
+        .shows_default();
+    add_common_flags(line, common_, "qju");
+  }
+
+  int run() override {
+    if (days_.size() < 2) throw UsageError("drift needs the calibrated day and at least one day after it");
+    std::vector<std::vector<CalibratedParameter>> estimates;
+    for (const std::string& day : days_)
+      estimates.push_back(
+          calibrate(read_dataset_or_log(day, {common_.untrusted}, robot_), CalibrationMethod::full)
+              .parameters);
+    const DriftResult result = find_drift(estimates, settings_);
+    if (common_.json)
+      std::cout << json_of(result).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    else if (!common_.quiet)
+      print(result);
+    return result.drifted() ? kInfeasibleOrFailed : kDone;
+  }
+
+ private:
+  Json json_of(const DriftResult& result) const {
+    Json json{{"schema", "joulepath/drift/1"},
+              {"days", days_},
+              {"false_alarm_rate", settings_.false_alarm_rate},
+              {"drifted", Json::array()},
+              {"parameters", Json::array()},
+              {"not_compared", result.not_compared}};
+    for (const ParameterDrift& p : result.parameters) {
+      if (p.drifted) json["drifted"].push_back(p.name);
+      json["parameters"].push_back({{"name", p.name},
+                                    {"unit", p.unit},
+                                    {"reference", p.reference},
+                                    {"value", p.value},
+                                    {"change_percent", percent_of(p.value - p.reference, p.reference)},
+                                    {"standard_error_percent", percent_of(p.standard_error, p.reference)},
+                                    {"since", days_[p.since]},
+                                    {"days", p.days},
+                                    {"statistic", p.statistic},
+                                    {"threshold", p.threshold},
+                                    {"detectable_percent", percent_of(p.detectable, p.reference)},
+                                    {"drifted", p.drifted}});
+    }
+    return json;
+  }
+
+  void print(const DriftResult& result) const {
+    Table table({"constant", "calibrated", "now", "change", "", "would be found", "unit"});
+    for (const ParameterDrift& p : result.parameters)
+      table.row({p.name, figure(p.reference), figure(p.value),
+                 figure(percent_of(p.value - p.reference, p.reference), 3) + " %",
+                 p.drifted ? "DRIFTED, most since " + days_[p.since] : "",
+                 figure(percent_of(p.detectable, p.reference), 2) + " %", p.unit});
+    table.print(std::cout);
+    std::cout << (result.drifted() ? "drifted" : "no drift found")
+              << "; a night without drift is reported with " << figure(100 * settings_.false_alarm_rate, 3)
+              << " %\nwould be found: a step on the second day, with 80 %\n";
+    for (const std::string& name : result.not_compared)
+      std::cerr << "note: " << name << " is not determined by the first or by the last day\n";
+  }
+
+  std::vector<std::string> days_{};
+  std::string robot_{};
+  DriftSettings settings_{};
+  CommonOptions common_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_drift_command() { return std::make_unique<DriftCommand>(); }
+
+}  // namespace joulepath

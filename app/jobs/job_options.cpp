@@ -1,0 +1,36 @@
+#include "app/jobs/job_options.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "app/command_line.hpp"
+#include "app/jobs/quarantine.hpp"
+
+namespace joulepath {
+
+void add_job_options(CommandLine& line, JobOptions& options, const std::string& files) {
+  options.jobs = std::max(1u, std::thread::hardware_concurrency());
+  line.option("--out", options.out, "directory for " + files).required();
+  line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
+  line.option("--shard", options.shard,
+              "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
+  line.option("--quarantine", options.quarantine,
+              "file of JSON lines {index, reason}: jobs to skip, because they killed their process");
+  line.flag("--resume", options.resume,
+            "continue an interrupted run; finished plans with unchanged inputs are not repeated");
+  add_cache_options(line, options.cache);
+  add_common_flags(line, options.common, "qjfu");
+}
+
+JobRun job_run(const JobOptions& options, const std::string& noun) {
+  return {.directory = options.out,
+          .threads = options.jobs,
+          .resume = options.resume,
+          .force = options.common.force,
+          .quiet = options.common.quiet,
+          .noun = noun,
+          .shard = shard_from(options.shard),
+          .quarantine = read_quarantine(options.quarantine)};
+}
+
+}  // namespace joulepath

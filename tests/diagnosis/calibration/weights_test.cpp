@@ -1,0 +1,57 @@
+// Weights of the two equations of the full method, from sums with known residuals.
+#include <gtest/gtest.h>
+
+#include "diagnosis/calibration/full_fit.hpp"
+
+namespace joulepath::calibration {
+namespace {
+
+constexpr double kRows = 100;
+
+/// Left wheel forward and back at constant speeds of 1 rad/s: i = sign/K plus `error_A` of alternating sign;
+/// V = R i + K q' plus `error_V`.
+FitSums two_way_sums(double error_A, double error_V) {
+  FitSums sums;
+  sums.torque_count = sums.voltage_count = kRows;
+  const auto add = [](auto& matrix, int a, int b, double value) { matrix(a, b) = matrix(b, a) = value; };
+  add(sums.torque, kFrictionLeft, kFrictionLeft, kRows);
+  add(sums.torque, kFrictionLeft, 7, kRows);
+  add(sums.torque, 7, 7, kRows * (1 + error_A * error_A));
+  for (int a : {6, 7})
+    for (int b : {6, 7}) sums.voltage(a, b) = kRows;
+  for (int a : {6, 7}) add(sums.voltage, a, 8, 2 * kRows);
+  sums.voltage(8, 8) = kRows * (4 + error_V * error_V);
+  return sums;
+}
+
+FitWeights weights_of(const FitSums& sums) {
+  FitValues start{};
+  start[kFrictionLeft] = 0.5;
+  start[kTorquePerAmpere] = start[kResistance] = 1.0;
+  FreeParameters free{};
+  free[kFrictionLeft] = true;
+  return fit_weights(sums, start, free);
+}
+
+TEST(FitWeights, AreTheInverseVariancesOfTheResiduals) {
+  const FitWeights weights = weights_of(two_way_sums(0.5, 0.1));
+  EXPECT_NEAR(weights.torque, 1 / 0.25, 1e-9);
+  EXPECT_NEAR(weights.voltage, 1 / 0.01, 1e-9);
+}
+
+/// Without noise the residuals count as 1e-7 of the readings, whatever the number of samples.
+TEST(FitWeights, OfExactReadingsAreBoundedByTheReadings) {
+  const FitWeights weights = weights_of(two_way_sums(0, 0));
+  EXPECT_NEAR(weights.torque, 1e14, 1e5);
+  EXPECT_NEAR(weights.voltage, 1e14 / 4, 1e5);
+}
+
+TEST(FitWeights, WithoutVoltagesLeaveTheirEquationOut) {
+  FitSums sums = two_way_sums(0.5, 0.1);
+  sums.voltage.setZero();
+  sums.voltage_count = 0;
+  EXPECT_EQ(weights_of(sums).voltage, 0.0);
+}
+
+}  // namespace
+}  // namespace joulepath::calibration

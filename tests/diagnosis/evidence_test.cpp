@@ -1,0 +1,69 @@
+// Steps of the search for effects on small problems with known answers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/evidence/attribution.hpp"
+#include "diagnosis/evidence/signatures.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// One column with entry 4 of the Gram matrix in each run; the runs' scores about zero are as given.
+Equations runs_with_scores(const std::vector<double>& scores, Column::Kind kind = Column::Kind::amplitude) {
+  Equations equations{.columns = {{kind, 0, 0, 1.0, 0.0}}, .prior_sd = Eigen::VectorXd::Constant(1, 1.0)};
+  for (const double score : scores) {
+    Eigen::MatrixXd gram(2, 2);
+    gram << 4.0, score, score, 100.0;
+    equations.runs.push_back({gram});
+  }
+  return equations;
+}
+
+double dispersion(const Equations& equations, double parameter = 0.0) {
+  return run_dispersion(equations, Eigen::VectorXd::Constant(1, parameter));
+}
+
+/// Variance of the scores times the runs, over the sum of the Gram entries: (36 + 4 - 16/2)/8 = 4.
+TEST(RunDispersion, IsTheScatterOfScoresOverItsExpectation) {
+  EXPECT_NEAR(dispersion(runs_with_scores({6, -2})), 4.0, 1e-12);
+  EXPECT_NEAR(dispersion(runs_with_scores({10, 2}), 1.0), 4.0, 1e-12) << "a fit takes 4 off each score";
+}
+
+TEST(RunDispersion, IsOneWhereRunsAgreeOrNothingCanTell) {
+  EXPECT_EQ(dispersion(runs_with_scores({3, 3})), 1.0);
+  EXPECT_EQ(dispersion(runs_with_scores({})), 1.0);
+  EXPECT_EQ(dispersion(runs_with_scores({60, -60}, Column::Kind::dictionary)), 1.0);
+}
+
+/// The interval of a difference begins at zero where physics allows one sign and the effect is absent, and
+/// is symmetric elsewhere; its width is the candidate's step.
+TEST(AmplitudeStep, NeverTriesAnAmplitudeOfTheWrongSign) {
+  const Candidate one_sign{
+      .shape = {.name = "quadratic_drag"}, .amplitude = {"k"}, .step = {3.0}, .nonnegative = true};
+  Candidate two_signs = one_sign;
+  two_signs.nonnegative = false;
+  const AmplitudeStep absent = amplitude_step({}, one_sign, 0);
+  EXPECT_EQ(absent.value, std::vector<double>{0.0});
+  EXPECT_EQ(absent.low, 0.0);
+  EXPECT_EQ(absent.high, 1.5);
+  const AmplitudeStep present = amplitude_step({.effects = {{one_sign, {2.0}}}}, one_sign, 0);
+  EXPECT_EQ(present.value, std::vector<double>{2.0});
+  EXPECT_EQ(present.low, -1.5);
+  EXPECT_EQ(amplitude_step({.effects = {{one_sign, {1.0}}}}, one_sign, 0).low, 0.0);
+  EXPECT_EQ(amplitude_step({}, two_signs, 0).low, -1.5);
+}
+
+TEST(AmplitudeStep, ChangesOneAmplitudeAndAddsWhatIsAbsent) {
+  const Candidate candidate{.shape = {.name = "slope"}, .amplitude = {"x", "y"}, .step = {1.0, 1.0}};
+  const ModelState changed = with_change({}, candidate, amplitude_step({}, candidate, 1), 1, 0.25);
+  ASSERT_EQ(changed.effects.size(), 1u);
+  EXPECT_EQ(changed.effects[0].amplitude, (std::vector<double>{0.0, 0.25}));
+  const ModelState again = with_change(changed, candidate, amplitude_step(changed, candidate, 1), 1, 0.5);
+  ASSERT_EQ(again.effects.size(), 1u) << "replaced, not added";
+  EXPECT_EQ(again.effects[0].amplitude, (std::vector<double>{0.0, 0.75}));
+}
+
+}  // namespace
+}  // namespace joulepath

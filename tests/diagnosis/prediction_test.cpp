@@ -1,0 +1,135 @@
+// Predictions of a model for measured motions, and their rows, against the laws that they state.
+#include "diagnosis/prediction/prediction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/prediction/candidates.hpp"
+#include "diagnosis/where/localize.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::nomad;
+
+RunSignals weaving(const Robot& truth, double speed_m_s = 0.5) {
+  const Run run =
+      testing::synthetic_run(truth, "weaving", 15, 3.0, testing::swinging(speed_m_s, 0.2, 1.1, 0.5));
+  return make_run_signals(run, 0, nomad());
+}
+
+ModelPoint with_effect(const EffectSetting& effect) { return {.robot = nomad(), .effects = {effect}}; }
+
+TEST(Prediction, OfTheTrueModelIsTheLog) {
+  for (const double speed_m_s : {0.5, -0.5}) {
+    const RunSignals run = weaving(nomad(), speed_m_s);
+    const ModelPoint truth{.robot = nomad()};
+    const ResidualRows rows = residual_rows(run, truth, predict(run, truth));
+    for (const Channel channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight}) {
+      EXPECT_TRUE(rows.present.col(channel).any()) << kChannelNames[static_cast<std::size_t>(channel)];
+      // At both ends of the log the kernel is cut off.
+      EXPECT_LT(rows.value.col(channel).segment(3, run.size() - 6).cwiseAbs().maxCoeff(), 2e-3);
+    }
+    for (const Channel channel : {kDriverPower, kSupplyVoltage, kGyro, kHeading, kPositionX, kPositionY})
+      EXPECT_FALSE(rows.present.col(channel).any()) << "not in the log";
+  }
+}
+
+/// Friction of 0.05 N m more costs 0.05/(Kt n) A against the motion; the winding's equation still holds.
+TEST(Prediction, OfFrictionChangesTheCurrentAndNotTheWinding) {
+  const double extra_A = 0.05 / nomad().motor.left.torque_per_ampere_Nm_A();
+  for (const double speed_m_s : {0.5, -0.5}) {
+    const RunSignals run = weaving(nomad(), speed_m_s);
+    const ModelPoint nominal{.robot = nomad()};
+    const Prediction base = predict(run, nominal),
+                     more = predict(
+                         run, with_effect({.name = "coulomb_friction", .parameters = {{"torque_Nm", 0.05}}}));
+    const Eigen::MatrixXd rows = signature_rows(run, nominal, base, more);
+    for (Eigen::Index j = 0; j < run.size(); ++j)
+      for (int s : {0, 1}) {
+        EXPECT_NEAR(rows(j, kCurrentLeft + s), std::copysign(extra_A, speed_m_s), 1e-9);
+        EXPECT_NEAR(rows(j, kWindingLeft + s), 0.0, 1e-9);
+      }
+  }
+}
+
+/// R (1 + 0.1) needs 0.1 R i more voltage and no more current.
+TEST(Prediction, OfResistanceChangesTheWindingAndNotTheCurrent) {
+  const RunSignals run = weaving(nomad());
+  const ModelPoint nominal{.robot = nomad()};
+  const Prediction base = predict(run, nominal),
+                   hot = predict(run, with_effect({.name = "winding_resistance_error",
+                                                   .parameters = {{"fraction", 0.1}}}));
+  const Eigen::MatrixXd rows = signature_rows(run, nominal, base, hot);
+  for (Eigen::Index j = 0; j < run.size(); ++j) {
+    EXPECT_NEAR(rows(j, kCurrentLeft), 0.0, 1e-12);
+    EXPECT_NEAR(rows(j, kWindingLeft), 0.1 * nomad().motor.left.resistance_ohm * base.current_A.left[j],
+                1e-9);
+    EXPECT_NEAR(hot.power_W.left[j] - base.power_W.left[j],
+                0.1 * nomad().motor.left.resistance_ohm * std::pow(base.current_A.left[j], 2), 1e-9);
+  }
+}
+
+/// Standby and both motors; nothing comes back where regeneration has efficiency 0.
+TEST(Prediction, OfTheBatteryIsStandbyAndMotors) {
+  const RunSignals run = weaving(nomad());
+  const Prediction p = predict(run, {.robot = nomad()});
+  for (Eigen::Index j = 0; j < run.size(); ++j)
+    EXPECT_NEAR(
+        p.battery_power_W[j],
+        nomad().power.standby_W + std::max(0.0, p.power_W.left[j]) + std::max(0.0, p.power_W.right[j]), 1e-9);
+}
+
+/// The strength of each effect, as an amplitude of the search, is written to a setting and read back.
+TEST(Candidates, AmplitudesSurviveTheirSetting) {
+  for (const Candidate& candidate : catalog_candidates(nomad())) {
+    std::vector<double> amplitudes = candidate.step;
+    if (amplitudes.size() == 2) amplitudes[1] *= -0.5;
+    const std::vector<double> back = amplitudes_of(setting_of(candidate, amplitudes, nomad()), nomad());
+    ASSERT_EQ(back.size(), amplitudes.size()) << candidate.label();
+    for (std::size_t k = 0; k < back.size(); ++k)
+      EXPECT_NEAR(back[k], amplitudes[k], 1e-12 * std::abs(amplitudes[k])) << candidate.label();
+  }
+}
+
+TEST(Candidates, CoverTheCatalogOnceForEachSideWithoutWhatIsTakenOut) {
+  std::set<std::string> labels, without{"coulomb_friction", "dragging_wheel"};
+  for (const Candidate& candidate : catalog_candidates(nomad(), without)) {
+    EXPECT_FALSE(without.contains(candidate.shape.name));
+    EXPECT_EQ(candidate.effect().has_side, candidate.shape.side.has_value());
+    EXPECT_EQ(candidate.amplitude.size(), candidate.step.size());
+    labels.insert(candidate.label());
+  }
+  std::size_t expected = 0;
+  for (const EffectDescription& effect : effect_catalog())
+    if (!effect.has_region && !without.contains(std::string(effect.info.name)))
+      expected += effect.has_side ? 2 : 1;
+  EXPECT_EQ(labels.size(), expected);
+}
+
+/// A gap of one wheel only, in a run forward and one in reverse: shares add up to 1 on each axis.
+TEST(Localization, FindsTheWheelAndTheDirection) {
+  Robot worn = nomad();
+  worn.motor.left.friction_torque_Nm *= 1.3;
+  std::vector<RunSignals> signals{weaving(worn, 0.5), weaving(nomad(), -0.5)};
+  signals[1].name = "back";
+  const std::vector<WhereCell> cells = localize_gap(signals, {{}, {}}, {.robot = nomad()}, NoiseModel{}, 20);
+  std::map<std::string, double> sum, share;
+  for (const WhereCell& cell : cells) {
+    sum[cell.axis] += cell.share_of_gap;
+    share[cell.axis + " " + cell.value] = cell.share_of_gap;
+  }
+  for (const char* axis : {"phase", "wheel", "speed", "payload", "direction", "channel", "run"})
+    EXPECT_NEAR(sum[axis], 1.0, 1e-9) << axis;
+  EXPECT_EQ(sum.count("floor") + sum.count("time_of_day"), 0u) << "neither is in the log";
+  EXPECT_GT(share["wheel left"], 0.98);
+  EXPECT_GT(share["direction forward"], 0.98);
+  EXPECT_GT(share["run weaving"], 0.98);
+  EXPECT_GT(share["channel current"], 0.9);
+}
+
+}  // namespace
+}  // namespace joulepath
