@@ -17,7 +17,7 @@
 namespace joulepath {
 namespace {
 
-constexpr int kRaceRuns = 10, kSamples = 60;
+constexpr int kRaceRuns = 10, kRaceSamples = 60;
 constexpr int kCalibration = 0, kLaw = 1, kOtherLaw = 2, kFirstOfTerm = 3, kColumns = 7;
 
 /// Parameters of a drawn gap: of a law, and of an unknown term with four columns of which the first follows
@@ -43,8 +43,8 @@ Equations drawn(const Gap& gap) {
   equations.prior_sd = Eigen::VectorXd::Ones(kColumns);
   equations.prior_sd[kCalibration] = 0.05;
   for (int r = 0; r < kRaceRuns; ++r) {
-    Eigen::MatrixXd rows(kSamples, kColumns + 1);
-    for (int t = 0; t < kSamples; ++t) {
+    Eigen::MatrixXd rows(kRaceSamples, kColumns + 1);
+    for (int t = 0; t < kRaceSamples; ++t) {
       for (int k = 0; k < kColumns; ++k) rows(t, k) = normal(engine);
       rows(t, kFirstOfTerm) += rows(t, kLaw);
       double curve = 0;

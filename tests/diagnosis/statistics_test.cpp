@@ -95,15 +95,15 @@ std::vector<RawRunEquations> absorbed_runs(int runs, int curves, double spread, 
 
 TEST(RunEffects, TheirVarianceIsRecoveredFromFewRunsThatARichFitAbsorbs) {
   std::mt19937 engine(13);
-  constexpr int kRuns = 8, kCurves = 5, kDraws = 100, kPasses = 5;
+  constexpr int kFewRuns = 8, kCurves = 5, kDraws = 100, kPasses = 5;
   double sum = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const auto raw = absorbed_runs(kRuns, kCurves, 0.5, engine);
+    const auto raw = absorbed_runs(kFewRuns, kCurves, 0.5, engine);
     Eigen::VectorXd variance = Eigen::VectorXd::Constant(1, 0.1);
     for (int pass = 0; pass < kPasses; ++pass) {
       std::vector<RunEquations> runs;
       for (const RawRunEquations& run : raw) runs.push_back(marginalize(run, variance));
-      const LinearProblem problem = sum_runs(runs, every(kRuns), Eigen::VectorXd::Constant(kCurves, 10.0));
+      const LinearProblem problem = sum_runs(runs, every(kFewRuns), Eigen::VectorXd::Constant(kCurves, 10.0));
       const Posterior rich = solve(problem, {0, 1, 2, 3, 4});
       variance = run_variances(raw, {rich.mean, rich.covariance}, variance);
     }
