@@ -4,7 +4,7 @@
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0371-evidence-is-not-withdrawn.md
 namespace joulepath {
 namespace {
 
