@@ -49,6 +49,28 @@ std::vector<std::string> joined(const std::vector<std::vector<std::string>>& lis
   return all;
 }
 
+std::string method_of(const RunsByUse& runs) {
+  if (runs.few) return "the same runs: too few to hold any out";
+  if (runs.fold_of.empty()) return "held-out runs, never used to choose or fit";
+  return "cross-fitted, " + std::to_string(fold_count(runs)) + " folds";
+}
+
+/// Laws and unknown terms with evidence below the materiality floor.
+std::vector<SmallEffect> below_materiality(const Examination& x, const Names& names) {
+  if (x.runs.few) return {};
+  std::vector<SmallEffect> small = x.id.below_materiality;
+  small.insert(small.end(), names.small_unknowns.begin(), names.small_unknowns.end());
+  return small;
+}
+
+/// Share of the unknown terms in what is explained; without a name, they are all that is.
+double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
+  if (verdict == Verdict::unexplained) return 1.0;
+  double sum = 0;
+  for (const UnknownCause& unknown : unknowns) sum += unknown.share;
+  return std::min(1.0, sum);
+}
+
 /// The steps in their order; each reads what the steps before it found, and changes none of it.
 Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const DiagnoseOptions& options) {
   const Survey survey = survey_dataset(dataset, runs.signals);
@@ -60,22 +82,24 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   const Names names = choose_names(x);
   const std::vector<RankedEffect> ranking = rank_effects(names.probabilities, names.surest);
   const Validation validation = validate(x, judge(x, names));
-  const auto& [judged, named, leftover, judgment_notes] = validation.judgment;
+  const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
   const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);
   GapReport gap = held_out_gap(x, validation, options.bootstrap);
   gap.energy.detectable_percent = detectable_percent;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const double ceiling = ceiling_shrink_fraction(x, !named.empty(), gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
-  const Correction correction = correction_of(x, validation, gap.energy);
+  const Correction correction = correction_of(x, validation);
   return {.gap = gap,
           .where = where,
           .verdict = verdict,
           .causes = causes.causes,
           .ranking = ranking,
-          .leftover_significant = leftover.significant,
-          .leftover_share = leftover.share,
-          .leftover_description = leftover.description,
+          .unknowns = unknowns,
+          .below_materiality = below_materiality(x, names),
+          .leftover_significant = !depends_on.empty(),
+          .leftover_share = share_of(unknowns, verdict),
+          .leftover_description = depends_on,
           .next = propose_run(id, dataset.robot, causes.causes, ranking, verdict),
           .ceiling_shrink_fraction = ceiling,
           .control_effect = control.effect,
@@ -85,14 +109,12 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
           .notes = joined({survey.notes,
                            taken_out(options.without),
                            {told_by_others(runs.signals, others)},
-                           names.notes,
                            judgment_notes,
                            {all_clear_note},
                            correction.notes,
                            {told_by_energies(dataset, correction)}}),
           .validation_runs = names_of(dataset, runs.validation.runs),
-          .validation_method = runs.few ? "the same runs: too few to hold any out"
-                                        : "held-out runs, never used to choose or fit",
+          .validation_method = method_of(runs),
           .corrected_robot = correction.robot,
           .corrected_instruments = correction.instruments};
 }

@@ -124,6 +124,16 @@ std::string diagnosis_json(const Diagnosis& d) {
   for (const Cause& cause : d.causes) causes.push_back(cause_json(cause));
   for (const RankedEffect& r : d.ranking)
     ranking.push_back({{"effect", r.effect}, {"probability", six_digits(r.probability)}});
+  Json unknowns = Json::array(), small = Json::array();
+  for (const UnknownCause& u : d.unknowns)
+    unknowns.push_back({{"depends_on", u.depends_on},
+                        {"probability", six_digits(u.probability)},
+                        {"share", six_digits(u.share)}});
+  for (const SmallEffect& s : d.below_materiality)
+    small.push_back({{"effect", s.effect},
+                     {"probability", six_digits(s.probability)},
+                     {"evidence", six_digits(s.evidence)},
+                     {"size", six_digits(s.size)}});
   const Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
@@ -132,6 +142,8 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"sentence", diagnosis_sentence(d)},
       {"causes", causes},
       {"ranking", ranking},
+      {"unknowns", unknowns},
+      {"below_materiality", small},
       {"leftover",
        {{"significant", d.leftover_significant},
         {"description", d.leftover_description},

@@ -34,7 +34,7 @@ std::string advice(const Diagnosis& d) {
     case Verdict::explained:
       return "The effects below explain the gap. Plan with the corrected files.";
     case Verdict::partly_explained:
-      return "The effects below explain a part of the gap. The rest is not in the catalog.";
+      return "The effects below explain a part of the gap. The rest is unknown.";
     case Verdict::unexplained:
       return "No effect of the catalog fits. Nothing is corrected.";
     case Verdict::ambiguous:
@@ -85,9 +85,13 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (d.causes.empty() && d.verdict != Verdict::no_gap)
     for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
-  if (d.leftover_significant)
-    out << "leftover: " << percent(d.leftover_share) << " of what could be explained, "
-        << d.leftover_description << '\n';
+  for (const UnknownCause& unknown : d.unknowns)
+    out << "unknown cause: depends on " << unknown.depends_on << "  probability "
+        << figure(unknown.probability, 3) << ", " << percent(unknown.share) << " of what is explained\n";
+  if (d.leftover_significant && d.unknowns.empty()) out << "leftover: " << d.leftover_description << '\n';
+  for (const SmallEffect& small : d.below_materiality)
+    out << "below materiality: " << small.effect << "  probability " << figure(small.probability, 3)
+        << ", evidence " << figure(small.evidence, 3) << ", " << figure(small.size, 2) << " of the floor\n";
   if (d.decision_missions > 0)
     out << "decisions: plans with the uncorrected model need " << figure(d.joules_lost_percent, 2)
         << " % more energy on " << d.decision_missions << " standard missions\n";

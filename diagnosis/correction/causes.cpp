@@ -5,7 +5,6 @@
 
 #include "diagnosis/correction/parameters.hpp"
 #include "diagnosis/evidence/groups.hpp"
-#include "diagnosis/evidence/held_out.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
@@ -13,9 +12,7 @@ namespace {
 
 /// Share of the held-out gap that one effect closes without the others.
 double shrink_alone(const Examination& x, const ActiveEffect& effect, double base_J) {
-  const ModelState alone = refit_on_diagnosis(x.runs.diagnosis, x.id, {effect});
-  const std::vector<RunSignals> signals = read_signals(x.runs.validation, channel_delay_s(alone));
-  return base_J > 0 ? 1 - absolute_gap_J(run_energies(signals, x.point_of(alone))) / base_J : 0.0;
+  return base_J > 0 ? 1 - absolute_gap_J(judged_energies(x, judged_fit(x, {effect}))) / base_J : 0.0;
 }
 
 }  // namespace
@@ -26,14 +23,14 @@ Causes report_causes(const Examination& x, const Names& names, const Validation&
   std::vector<double> impacts;
   for (std::size_t e = 0; e < v.judgment.named.size(); ++e) {
     impacts.push_back(
-        energy_of_effect(v.fitted.signals, x.dataset.robot, x.id.nuisances, v.state, e).effect_J);
+        energy_of_effect(v.fitted.signals, x.dataset.robot, x.id.nuisances, v.fitted.state, e).effect_J);
     impact_sum += impacts.back();
   }
   for (std::size_t e = 0; e < v.judgment.named.size(); ++e) {
-    const ActiveEffect& effect = v.state.effects[e];
+    const ActiveEffect& effect = v.fitted.state.effects[e];
     const std::string label = effect.candidate.label();
     Cause cause{.effect = setting_of(effect.candidate, effect.amplitude, x.dataset.robot),
-                .probability = (1 - v.energy_left_share) * probability_of(names, effect),
+                .probability = probability_of(names, effect),
                 .parameters = found_parameters(v.fitted, e, x.dataset.robot),
                 .energy_share = impact_sum > 0 ? impacts[e] / impact_sum : 0.0,
                 .shrink_fraction_alone = shrink_alone(x, effect, gap.before_J)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
@@ -16,7 +17,10 @@ constexpr double kRidges[] = {0.0, 0.01, 0.03, 0.1, 0.3, 1.0};  ///< widths of t
 /// The named effects (none where nothing is named) with the whole dictionary.
 std::vector<int> flexible_columns(const Examination& x, bool any_named) {
   std::vector<int> columns;
-  if (any_named) columns = x.best().columns;
+  if (any_named)
+    std::ranges::copy_if(x.best().columns, std::back_inserter(columns), [&](int k) {
+      return x.id.equations.columns[static_cast<std::size_t>(k)].kind != Column::Kind::dictionary;
+    });
   const std::vector<int> dictionary = x.id.equations.columns_of(Column::Kind::dictionary);
   columns.insert(columns.end(), dictionary.begin(), dictionary.end());
   return columns;
@@ -40,8 +44,8 @@ double left_out_loss(const Equations& equations, const std::vector<int>& columns
   return loss;
 }
 
-/// Parameters of the flexible model, its ridge the one that left-out runs like best.
-Eigen::VectorXd flexible_parameters(const Identification& id, const std::vector<int>& columns) {
+/// The equations with the ridge that left-out runs like best.
+Equations ridged(const Identification& id, const std::vector<int>& columns) {
   Equations best = with_ridge(id.equations, kRidges[0]);
   double least = left_out_loss(best, columns, id.dispersion);
   for (std::size_t k = 1; k < std::size(kRidges); ++k) {
@@ -49,7 +53,7 @@ Eigen::VectorXd flexible_parameters(const Identification& id, const std::vector<
     const double loss = left_out_loss(equations, columns, id.dispersion);
     if (loss < least) least = loss, best = std::move(equations);
   }
-  return fit_parameters(best, every(best.runs.size()), columns, id.dispersion);
+  return best;
 }
 
 /// What the dictionary adds to a run's structured rows.
@@ -86,18 +90,24 @@ double flexible_gap_J(const RunSignals& run, const Robot& robot, const Predictio
 double ceiling_shrink_fraction(const Examination& x, bool any_named, const EnergyGap& gap) {
   if (gap.before_J <= 0) return 0.0;
   const Identification& id = x.id;
-  const Eigen::VectorXd parameters = flexible_parameters(id, flexible_columns(x, any_named));
-  const ModelState state =
-      adopt(id.equations, id.nuisances, id.state, any_named ? x.best() : Explanation{}, parameters);
-  const ModelPoint point = x.point_of(state);
+  const std::vector<int> columns = flexible_columns(x, any_named);
+  const Equations equations = ridged(id, columns);
   const DictionaryLayout layout = lay_out(id.signals, x.dataset.robot);
-  const std::vector<RunSignals> signals = read_signals(x.runs.validation, channel_delay_s(state));
+  const std::vector<RunSignals> signals = read_signals(x.runs.validation, channel_delay_s(id.state));
   std::vector<double> gap_J(signals.size());
-  parallel_for(signals.size(), [&](std::size_t r) {
-    const Prediction p = predict(signals[r], point);
-    gap_J[r] = flexible_gap_J(signals[r], point.robot, p,
-                              dictionary_part(id, layout, parameters, signals[r], x.dataset.robot, p));
-  });
+  const std::size_t folds = std::max<std::size_t>(1, fold_count(x.runs));
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    const Eigen::VectorXd parameters =
+        fit_parameters(equations, fitted_runs(x.runs, fold), columns, id.dispersion);
+    const ModelPoint point = x.point_of(
+        adopt(id.equations, id.nuisances, id.state, any_named ? x.best() : Explanation{}, parameters));
+    parallel_for(signals.size(), [&](std::size_t r) {
+      if (!x.runs.fold_of.empty() && x.runs.fold_of[r] != fold) return;
+      const Prediction p = predict(signals[r], point);
+      gap_J[r] = flexible_gap_J(signals[r], point.robot, p,
+                                dictionary_part(id, layout, parameters, signals[r], x.dataset.robot, p));
+    });
+  }
   double after_J = 0;
   for (double run_J : gap_J) after_J += std::abs(run_J);
   return std::clamp(1 - after_J / gap.before_J, std::max(0.0, gap.shrink_fraction), 1.0);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/evidence/held_out.hpp"
+#include "diagnosis/correction/judged_model.hpp"
 #include "diagnosis/where/gap.hpp"
 
 namespace joulepath {
@@ -38,9 +38,7 @@ Control wrong_candidate(const Examination& x, const std::vector<ActiveEffect>& n
     if (e.candidates.size() != 1) continue;
     const Candidate& candidate = x.id.equations.candidates[static_cast<std::size_t>(e.candidates.front())];
     if (spoken_for.contains(candidate.label()) || candidate.effect().delays_channels) continue;
-    const ModelState wrong = refit_on_diagnosis(x.runs.diagnosis, x.id, {with_amplitudes(candidate, e)});
-    const std::vector<RunSignals> signals = read_signals(x.runs.validation, 0.0);
-    const double left_J = absolute_gap_J(run_energies(signals, x.point_of(wrong)));
+    const double left_J = absolute_gap_J(judged_energies(x, judged_fit(x, {with_amplitudes(candidate, e)})));
     return {candidate.label(), gap.before_J > 0 ? 1 - left_J / gap.before_J : 0.0};
   }
   return {};

@@ -11,8 +11,7 @@ struct Correction {
   std::vector<std::string> notes{};
 };
 
-/// The corrected robot, if the cause is unambiguous and the held-out energy gap does not grow.
-[[nodiscard]] Correction correction_of(const Examination& examination, const Validation& validation,
-                                       const EnergyGap& gap);
+/// The corrected robot, if the cause is unambiguous: the part of the names that the judging runs bear out.
+[[nodiscard]] Correction correction_of(const Examination& examination, const Validation& validation);
 
 }  // namespace joulepath

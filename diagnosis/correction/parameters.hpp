@@ -9,4 +9,10 @@ namespace joulepath {
 [[nodiscard]] std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t effect,
                                                            const Robot& robot);
 
+/// Whether the 95 % interval of an effect's strength leaves out 0 (no effect).
+[[nodiscard]] bool is_told_from_zero(const Refit& fitted, std::size_t effect);
+
+/// Whether an effect's strength is one that the catalog accepts.
+[[nodiscard]] bool is_inside_range(const Refit& fitted, std::size_t effect, const Robot& robot);
+
 }  // namespace joulepath

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
-#include "diagnosis/evidence/held_out.hpp"
+#include "diagnosis/correction/parameters.hpp"
+#include "diagnosis/evidence/fitted_model.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "diagnosis/where/gap.hpp"
-
+// Design: docs/decisions/0231-every-run-judges.md
 namespace joulepath {
 namespace {
 
@@ -16,43 +17,105 @@ double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0;
 
 /// Gap that the calibrated and corrected model leaves on the runs it was fitted to, but at most
 /// what the scatter between runs allows: the error of a wrong model must not count as noise.
-double noise_floor_percent(const Examination& x, const Validation& v) {
-  const ModelPoint point = x.point_of(v.state);
-  const double left = energy_gap_percent(run_energies(v.fitted.signals, point));
-  return std::min(left,
-                  kScatterFactor * run_scatter_percent(v.fitted.signals, point, x.id.equations.run_variance,
-                                                       x.id.equations.noise));
+double noise_floor_percent(const Examination& x, const Refit& fitted) {
+  const ModelPoint point = x.point_of(fitted.state);
+  const double left =
+      energy_gap_percent(run_energies(fitted.signals, ModelPoints(fitted.signals.size(), point)));
+  return finite_or_zero(
+      std::min(left, kScatterFactor * run_scatter_percent(fitted.signals, point, x.id.equations.run_variance,
+                                                          x.id.equations.noise)));
 }
 
-/// A constant far outside its uncertainty is an effect: as the rival of a named one it stays within its box.
-ModelState within_calibration(const Examination& x, ModelState state) {
-  for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
-    const double most = kCalibrationBox * x.id.nuisances[k].sigma;
-    state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
+double nominal_gap_percent(const Examination& x) {
+  const std::vector<RunSignals> signals = read_signals(x.runs.validation, 0.0);
+  return energy_gap_percent(run_energies(signals, ModelPoints(signals.size(), x.nominal())));
+}
+
+double gap_percent(const Examination& x, const JudgedModel& model) {
+  return energy_gap_percent(judged_energies(x, model));
+}
+
+Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
+  const std::set<std::string> unknowns =
+      named.empty() ? std::set<std::string>{} : unknown_labels(x.id.equations, x.best());
+  return fit_effects(x.runs.diagnosis, x.id, named, 2, unknowns);
+}
+
+/// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range. The
+/// evidence for them stays: without any name left the gap is unexplained.
+void fit_what_can_be_told(const Examination& x, Validation& v) {
+  std::vector<ActiveEffect>& named = v.judgment.named;
+  std::string dropped;
+  v.fitted = fit_names(x, named);
+  for (std::size_t e = named.size(); e-- > 0;) {
+    if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
+    const std::string why =
+        is_told_from_zero(v.fitted, e) ? "size lies outside what is physical" : "size cannot be told from 0";
+    v.judgment.notes.push_back(named[e].candidate.label() + " is not named: its " + why);
+    dropped = "goes with " + named[e].candidate.label() + ", whose " + why;
+    named.erase(named.begin() + static_cast<std::ptrdiff_t>(e));
+    v.fitted = fit_names(x, named);
   }
-  return state;
+  if (dropped.empty() || !named.empty()) return;  // the verdict stays what the race says
+  v.judgment.verdict = Verdict::unexplained;
+  if (v.judgment.unknowns.empty()) v.judgment.depends_on = dropped;
 }
 
-/// The named effects lower the loss of held-out runs beyond what runs differ among themselves.
-bool holds(const Examination& x, const std::vector<double>& base_loss, const ModelState& corrected) {
-  const std::vector<double> loss = held_out_losses(x.runs.validation, x.id, corrected);
-  double sum = 0, square = 0;
-  const auto n = static_cast<double>(loss.size());
-  for (std::size_t r = 0; r < loss.size(); ++r) sum += base_loss[r] - loss[r];
-  for (std::size_t r = 0; r < loss.size(); ++r) square += std::pow(base_loss[r] - loss[r] - sum / n, 2);
-  const double chance = kChanceLoss * x.id.dispersion;
-  if (sum > 0 && (loss.size() < kFewHeldOut || sum * sum > square || sum > chance)) return true;
-  // Held-out runs that hardly show a certain effect (for example no turn) must only not contradict it.
-  return x.best().score > kCertainEvidence && sum > -std::sqrt(square) - chance;
+JudgedModel with_nominal_constants(JudgedModel model) {
+  for (ModelState& state : model.states) std::ranges::fill(state.nuisance_fraction, 0.0);
+  return model;
 }
 
-/// Without any effect, whether the calibrated model leaves much of the held-out energy; yes if that is
-/// unknown.
-bool calibration_leaves_a_gap(const Examination& x, const Validation& calibrated) {
-  const double left = energy_gap_percent(run_energies(read_signals(x.runs.validation, 0.0),
-                                                      x.point_of(within_calibration(x, calibrated.state))));
-  const double floor = finite_or_zero(noise_floor_percent(x, calibrated));
-  return !(left <= kCautionFactor * std::max(kFloorsLeft * floor, kMaterialGap_percent));
+/// All names, then the sets without one, then single names.
+std::vector<std::vector<ActiveEffect>> parts_of(const std::vector<ActiveEffect>& named) {
+  std::vector<std::vector<ActiveEffect>> parts{named};
+  if (named.size() < 2) return parts;
+  for (std::size_t e = 0; e < named.size(); ++e) {
+    parts.push_back(named);
+    parts.back().erase(parts.back().begin() + static_cast<std::ptrdiff_t>(e));
+  }
+  if (named.size() > 2)
+    for (const ActiveEffect& effect : named) parts.push_back({effect});
+  return parts;
+}
+
+std::string labels_of(const std::vector<ActiveEffect>& effects) {
+  std::string text;
+  for (const ActiveEffect& effect : effects) text += (text.empty() ? "" : ", ") + effect.candidate.label();
+  return text;
+}
+
+/// The first part of the names that does not widen the judging runs' energy gap. Constants are moved only
+/// where that brings the energy nearer.
+void choose_correction(const Examination& x, Validation& v) {
+  const double before = nominal_gap_percent(x);
+  for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
+    const bool all = part.size() == v.judgment.named.size();
+    const Refit fitted = all ? v.fitted : fit_names(x, part);
+    JudgedModel model = all ? v.model : judged_model(x, fitted);
+    ModelState state = fitted.state;
+    JudgedModel effects_alone = with_nominal_constants(model);
+    if (!(gap_percent(x, model) <= gap_percent(x, effects_alone))) {
+      model = std::move(effects_alone);
+      std::ranges::fill(state.nuisance_fraction, 0.0);
+    }
+    if (gap_percent(x, model) > before + kToleratedWorsening_percent) continue;
+    v.corrected = state, v.model = model;
+    if (!all)
+      v.judgment.notes.push_back("only " + labels_of(part) +
+                                 " shrinks the held-out energy gap: the correction holds nothing else");
+    return;
+  }
+  v.judgment.notes.push_back("no part of the correction shrinks the held-out energy gap: none is written");
+  if (before > kMaterialGap_percent && v.judgment.verdict == Verdict::explained)
+    v.judgment.verdict = Verdict::partly_explained;
+  if (!(gap_percent(x, v.model) > before + kMaterialGap_percent)) return;
+  v.judgment.notes.push_back(labels_of(v.judgment.named) +
+                             " widens the held-out energy gap: no name is given");
+  v.judgment.named.clear();
+  v.judgment.verdict = Verdict::unexplained;
+  v.fitted = fit_names(x, {});
+  v.model = judged_model(x, v.fitted);
 }
 
 /// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
@@ -60,57 +123,35 @@ double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
 }
 
-/// Whether the named effects change the motors' energy at all: others are judged by what they do change.
-bool claims_energy(const Examination& x, const Validation& v) {
-  ModelState without = v.state;
-  without.effects.clear();
-  const Impact impact = impact_between(v.fitted.signals, x.point_of(v.state), x.point_of(without));
-  return impact.motor_power >= MaterialityFloor{}.motor_power;
+/// A constant far outside its uncertainty is an effect: where nothing is named it stays within its box.
+JudgedModel within_calibration(const Examination& x, JudgedModel model) {
+  for (ModelState& state : model.states)
+    for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
+      const double most = kCalibrationBox * x.id.nuisances[k].sigma;
+      state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
+    }
+  return model;
 }
 
-/// Without voltages, energies rest on the robot file's winding, which is itself under examination.
-bool energies_are_measured(const std::vector<RunSignals>& signals) {
-  return std::any_of(signals.begin(), signals.end(), [](const RunSignals& run) {
-    return run.motor_voltage_V.left.size() > 0 || run.motor_voltage_V.right.size() > 0 ||
-           (!measures_motors(run) && measures_energy(run));
-  });
-}
-
-/// Share of the held-out energy gap above the noise floor that the correction leaves; 0 where what it
-/// leaves is small, 1 where it makes things worse than the nominal or the calibrated model.
-double unexplained_energy_share(const Examination& x, const std::vector<RunSignals>& before_signals,
-                                const ModelState& calibrated, const Validation& v) {
-  if (!energies_are_measured(before_signals)) return 0.0;
-  const std::vector<RunSignals> after_signals = read_signals(x.runs.validation, channel_delay_s(v.state));
-  const double floor = noise_floor_percent(x, v);
-  const double before = energy_gap_percent(run_energies(before_signals, x.nominal()));
-  const double after = energy_gap_percent(run_energies(after_signals, x.point_of(v.state)));
-  const bool claims = claims_energy(x, v);
-  if (claims && after > before && x.best().score < kModestEvidence) return 1.0;
-  if (after <= caution(x) * std::max(kFloorsLeft * floor, kMaterialGap_percent)) return 0.0;
-  const double by_calibration = energy_gap_percent(run_energies(before_signals, x.point_of(calibrated)));
-  if (!claims) return after > by_calibration + floor ? 1.0 : 0.0;
-  if (after > kToleratedWorsening * std::min(before, by_calibration)) return 1.0;
-  const double share = before > floor ? std::clamp((after - floor) / (before - floor), 0.0, 1.0) : 0.0;
-  return share > kShareOfWrongForm && after > caution(x) * kFloorsOfWrongForm * floor ? 1.0 : share;
-}
-
-/// Withdraws all names and fits the calibration alone.
-void withdraw(const Examination& x, Validation& v, const std::string& why) {
-  v.judgment.notes.push_back(why);
-  v.judgment.named.clear();
-  v.state = refit_on_diagnosis(x.runs.diagnosis, x.id, {}, &v.fitted);
-}
-
-/// Constants are moved only where that brings the energy of the runs that it was fitted to nearer: an
-/// effect that takes no energy of the motors needs none of it.
-void keep_constants_that_fit(const Examination& x, Validation& v) {
-  ModelState nominal = v.state;
-  std::fill(nominal.nuisance_fraction.begin(), nominal.nuisance_fraction.end(), 0.0);
-  const auto gap = [&](const ModelState& state) {
-    return energy_gap_percent(run_energies(v.fitted.signals, x.point_of(state)));
-  };
-  if (gap(nominal) < gap(v.state)) v.state = nominal;
+/// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
+void judge_what_is_left(const Examination& x, Validation& v) {
+  const bool named = !v.judgment.named.empty();
+  const double before = nominal_gap_percent(x), floor = noise_floor_percent(x, v.fitted),
+               after = gap_percent(x, named ? v.model : within_calibration(x, v.model));
+  const double least =
+      (named ? caution(x) : kCautionFactor) * std::max(kFloorsLeft * floor, kMaterialGap_percent);
+  if (after <= least) return;
+  if (!named && v.judgment.verdict == Verdict::no_gap) {
+    v.judgment.verdict = Verdict::unexplained;
+    v.judgment.notes.push_back(
+        "calibration errors do not explain the gap, and no effect of the catalog holds");
+  }
+  if (!named || v.judgment.verdict != Verdict::explained) return;
+  v.judgment.verdict = Verdict::partly_explained;
+  char text[160];
+  std::snprintf(text, sizeof text, "the names leave %.3g %% of a held-out energy gap of %.3g %%", after,
+                before);
+  v.judgment.notes.push_back(text);
 }
 
 void fill_floors(const NoiseModel& noise, GapReport& gap) {
@@ -123,49 +164,27 @@ void fill_floors(const NoiseModel& noise, GapReport& gap) {
 
 }  // namespace
 
-Validation validate(const Examination& x, const Judgment& by_diagnosis_runs) {
-  Validation v{.judgment = by_diagnosis_runs};
-  Verdict& verdict = v.judgment.verdict;
-  const std::vector<ActiveEffect>& named = v.judgment.named;
-  const bool leftover_significant = v.judgment.leftover.significant;
-  const ModelState calibrated = within_calibration(x, refit_on_diagnosis(x.runs.diagnosis, x.id, {}));
-  v.state = refit_on_diagnosis(x.runs.diagnosis, x.id, named, &v.fitted, 2);
-  if (!named.empty() && !holds(x, held_out_losses(x.runs.validation, x.id, calibrated), v.state)) {
-    withdraw(x, v, "the best explanation does not hold on the held-out runs and was withdrawn");
-    verdict = leftover_significant ? Verdict::unexplained : Verdict::no_gap;
-  }
-  if (!named.empty()) {
-    const double share = unexplained_energy_share(x, read_signals(x.runs.validation, 0.0), calibrated, v);
-    if (share > kUnexplainedShare) {
-      withdraw(x, v, "the best explanation leaves most of the held-out energy gap and was withdrawn");
-      const bool modest = x.best().score < kModestEvidence && !leftover_significant;
-      verdict = modest ? Verdict::no_gap : Verdict::unexplained;
-    } else if (share > 0) {
-      verdict = Verdict::partly_explained;
-      v.energy_left_share = share;
-    }
-  }
-  if (!named.empty()) keep_constants_that_fit(x, v);
-  if (verdict == Verdict::no_gap && calibration_leaves_a_gap(x, v)) {
-    verdict = Verdict::unexplained;
-    v.judgment.notes.push_back(
-        "calibration errors do not explain the gap, and no effect of the catalog holds");
-  }
+Validation validate(const Examination& x, const Judgment& by_race) {
+  Validation v{.judgment = by_race};
+  fit_what_can_be_told(x, v);
+  v.model = judged_model(x, v.fitted);
+  if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, v);
+  if (v.judgment.verdict != Verdict::too_little_data) judge_what_is_left(x, v);
   return v;
 }
 
 GapReport held_out_gap(const Examination& x, const Validation& v, std::size_t bootstrap) {
   const bool correct_it = !v.judgment.named.empty();
   const std::vector<RunSignals> before = read_signals(x.runs.validation, 0.0);
-  const std::vector<RunSignals> after =
-      read_signals(x.runs.validation, correct_it ? channel_delay_s(v.state) : 0.0);
-  GapReport gap = measure_gap({.before_signals = before,
-                               .after_signals = after,
-                               .before = x.nominal(),
-                               .after = correct_it ? x.point_of(v.state) : x.nominal(),
-                               .noise_floor_percent = finite_or_zero(noise_floor_percent(x, v)),
-                               .bootstrap = bootstrap,
-                               .fitted_signals = v.fitted.signals});
+  GapReport gap =
+      measure_gap({.before_signals = before,
+                   .after_signals = correct_it ? v.model.signals : before,
+                   .before = x.nominal(),
+                   .after = correct_it ? points_of(x, v.model) : ModelPoints(before.size(), x.nominal()),
+                   .noise_floor_percent = noise_floor_percent(x, v.fitted),
+                   .bootstrap = bootstrap,
+                   .fitted_signals = v.fitted.signals,
+                   .fitted = x.point_of(v.fitted.state)});
   if (!correct_it) gap.energy.shrink_interval_95 = {};  // nothing is claimed
   fill_floors(x.id.equations.noise, gap);
   return gap;

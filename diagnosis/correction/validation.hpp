@@ -1,22 +1,24 @@
 #pragma once
 
+#include "diagnosis/correction/judged_model.hpp"
 #include "diagnosis/verdict/verdict.hpp"
 
 namespace joulepath {
 
-/// The judgment after the held-out runs, and its fitted model.
+/// The judgment after the judging runs, and its fitted model.
 struct Validation {
   Judgment judgment{};
-  double energy_left_share{};  ///< of the held-out gap, where the names explain a part only
-  Refit fitted{};              ///< the names fitted on the diagnosis runs (calibration alone without names)
-  ModelState state{};          ///< of the fit, its calibration dropped where that brings the energy no nearer
+  Refit fitted{};       ///< the names fitted on the diagnosis runs (calibration alone without names)
+  JudgedModel model{};  ///< of the names, as the judging runs meet it
+  /// The names, or the part of them, that may be written: it does not widen the judging runs' energy gap.
+  std::optional<ModelState> corrected{};
 };
 
-/// Fits the names on the diagnosis runs, judges on the held-out ones, and takes back what does not hold
-/// there.
-[[nodiscard]] Validation validate(const Examination& examination, const Judgment& by_diagnosis_runs);
+/// Fits the names beside the unknown terms, drops those that a fit cannot tell from 0 or that lie outside
+/// their range, and finds the part whose correction the judging runs bear out.
+[[nodiscard]] Validation validate(const Examination& examination, const Judgment& by_race);
 
-/// The gap on the held-out runs, before and after, beside its floors.
+/// The gap on the judging runs, before and after, beside its floors.
 [[nodiscard]] GapReport held_out_gap(const Examination& examination, const Validation& validation,
                                      std::size_t bootstrap);
 

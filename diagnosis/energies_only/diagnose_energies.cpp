@@ -105,6 +105,8 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
   const bool told = folds.size() == 1 && problem.runs.size() > 1;
   const std::vector<Explanation> explanations =
       explain_energies(problem, told ? folds.front().fitted : every(problem.runs.size()));
+  Inclusion inclusion;
+  inclusion.add(problem.equations, explanations);
   const HeldOutEnergies held_out = judge_held_out(problem, folds);
   const EnergyGap gap = gap_of(held_out, problem.repeatability);
   const Finding finding = judge_energies(problem.runs.size(), held_out, gap,
@@ -115,7 +117,7 @@ Diagnosis diagnose_energies(const Dataset& dataset, const DiagnoseOptions& optio
       .gap = {.energy = gap},
       .where = localize_energy_gap(problem.runs, dataset.robot, problem.repeatability, options.bootstrap),
       .verdict = finding.verdict,
-      .ranking = rank_effects(effect_probabilities(problem.equations, explanations)),
+      .ranking = rank_effects(inclusion.of_each()),
       .leftover_significant = is_left(gap, finding.left_share * gap.before_percent),
       .leftover_share =
           is_left(gap, finding.left_share * gap.before_percent) ? std::min(1.0, finding.left_share) : 0.0,

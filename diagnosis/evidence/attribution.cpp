@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -40,14 +41,59 @@ std::vector<double> sizes_of(const Equations& equations, const Explanation& expl
   return sizes;
 }
 
+/// Whether a law's part is no more than what the set explains: a law and an unknown term of nearly opposite
+/// signatures would cancel each other, and lend the law's form a freedom out of proportion.
+bool parts_hold(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                const Eigen::VectorXd& mean, double explained) {
+  if (explanation.unknowns.empty()) return true;
+  for (int c : explanation.candidates) {
+    double square = 0;
+    for (std::size_t i = 0; i < explanation.columns.size(); ++i)
+      for (std::size_t j = 0; j < explanation.columns.size(); ++j) {
+        const int a = explanation.columns[i], b = explanation.columns[j];
+        const Column &one = equations.columns[static_cast<std::size_t>(a)],
+                     &two = equations.columns[static_cast<std::size_t>(b)];
+        if (one.owner == c && two.owner == c && one.kind == Column::Kind::amplitude &&
+            two.kind == Column::Kind::amplitude)
+          square +=
+              mean[static_cast<Eigen::Index>(i)] * mean[static_cast<Eigen::Index>(j)] * problem.gram(a, b);
+      }
+    if (square > kLargestPart * explained) return false;
+  }
+  return true;
+}
+
+/// Log odds against a set: what it takes to add a law or an unknown term.
+double cost_of(const Explanation& explanation, const std::vector<double>& cost_of_unknown) {
+  const auto laws = static_cast<double>(explanation.candidates.size());
+  double cost = laws > 0 ? kEffectCost + (laws - 1) * kFurtherEffectCost : 0.0;
+  for (int u : explanation.unknowns) cost += cost_of_unknown[static_cast<std::size_t>(u)];
+  return cost;
+}
+
+/// Laws are inexact, and where a law acts a smooth curve always fits a little better. Each unknown term costs
+/// the least share that is reported of the log evidence that it brings alone: to replace or refine a law it
+/// must add more than that, and where no law acts it loses that share.
+std::vector<double> costs_of_unknowns(const LinearProblem& problem, const Equations& equations,
+                                      double dispersion) {
+  std::vector<double> costs;
+  for (const UnknownTerm& term : equations.unknowns) {
+    const double loss = solve(problem, term.columns, dispersion, false).loss;
+    costs.push_back(kUnknownCost + kLeastUnknownShare * 0.5 * (problem.residual_square / dispersion - loss));
+  }
+  return costs;
+}
+
 Explanation evaluate(const LinearProblem& problem, const Equations& equations, std::vector<int> candidates,
-                     const SearchOptions& options, double empty_evidence) {
-  Explanation explanation{.candidates = std::move(candidates)};
+                     std::vector<int> unknowns, const SearchOptions& options, double empty_evidence) {
+  Explanation explanation{.candidates = std::move(candidates), .unknowns = std::move(unknowns)};
   for (int c : explanation.candidates)
     for (int k : equations.columns_of_candidate(c, true)) explanation.columns.push_back(k);
-  Posterior posterior = solve(problem, explanation.columns, options.dispersion);
-  const auto effects = static_cast<double>(explanation.candidates.size());
-  const double cost = effects > 0 ? kEffectCost + (effects - 1) * kFurtherEffectCost : 0.0;
+  for (int u : explanation.unknowns)
+    for (int k : equations.unknowns[static_cast<std::size_t>(u)].columns) explanation.columns.push_back(k);
+  Posterior posterior = solve(problem, explanation.columns, options.dispersion, false);
+  const double explained = problem.residual_square - options.dispersion * posterior.loss;
+  const double cost = cost_of(explanation, options.cost_of_unknown);
   explanation.score = posterior.log_evidence - empty_evidence - cost;
   explanation.loss = posterior.loss;
   if (!options.least_amplitude.empty()) {
@@ -55,9 +101,10 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
     explanation.material =
         std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
   }
-  if (!sizes_hold(equations, explanation.columns, posterior.mean)) explanation.score = -1e300;
+  if (!sizes_hold(equations, explanation.columns, posterior.mean) ||
+      !parts_hold(problem, equations, explanation, posterior.mean, explained))
+    explanation.score = -1e300;
   explanation.mean = std::move(posterior.mean);
-  explanation.covariance = std::move(posterior.covariance);
   return explanation;
 }
 
@@ -77,7 +124,8 @@ bool beyond_doubt(const LinearProblem& problem, const Equations& equations, cons
     if (explanation.size[k] < kLeastSize) return false;
     std::vector<int> others = explanation.candidates;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const double without = evaluate(problem, equations, std::move(others), options, empty_evidence).score;
+    const double without =
+        evaluate(problem, equations, std::move(others), explanation.unknowns, options, empty_evidence).score;
     const int c = explanation.candidates[k];
     const double needed =
         evidence_needed(equations.candidates[static_cast<std::size_t>(c)], explanation.size[k], options) +
@@ -88,12 +136,48 @@ bool beyond_doubt(const LinearProblem& problem, const Equations& equations, cons
   return true;
 }
 
+void insert_sorted(std::vector<int>& set, int member) {
+  set.insert(std::upper_bound(set.begin(), set.end(), member), member);
+}
+
 bool has_name(const Equations& equations, const std::vector<int>& set, int candidate) {
   for (int member : set)
     if (equations.candidates[static_cast<std::size_t>(member)].label() ==
         equations.candidates[static_cast<std::size_t>(candidate)].label())
       return true;
   return false;
+}
+
+/// What may join an explanation: candidates by their index, then unknown terms.
+std::vector<int> members_to_add(const Equations& equations, const Explanation& from,
+                                const SearchOptions& options) {
+  std::vector<int> members;
+  const int laws = static_cast<int>(equations.candidates.size());
+  if (std::ssize(from.candidates) < options.most_effects)
+    for (int c = 0; c < laws; ++c)
+      if ((options.allowed.empty() || std::ranges::count(options.allowed, c) > 0) &&
+          !has_name(equations, from.candidates, c))
+        members.push_back(c);
+  if (std::ssize(from.unknowns) < kMostUnknowns)
+    for (int u = 0; u < static_cast<int>(equations.unknowns.size()); ++u)
+      if (std::ranges::count(from.unknowns, u) == 0) members.push_back(laws + u);
+  return members;
+}
+
+/// Each set of the beam with one more member, not yet evaluated; sets seen before are left out.
+std::vector<Explanation> grown_by_one(const Equations& equations, const std::vector<Explanation>& beam,
+                                      const SearchOptions& options, std::set<std::vector<int>>& seen) {
+  std::vector<Explanation> grown;
+  const int laws = static_cast<int>(equations.candidates.size());
+  for (const Explanation& from : beam)
+    for (int member : members_to_add(equations, from, options)) {
+      Explanation next{.candidates = from.candidates, .unknowns = from.unknowns};
+      member < laws ? insert_sorted(next.candidates, member) : insert_sorted(next.unknowns, member - laws);
+      std::vector<int> key = next.candidates;
+      for (int u : next.unknowns) key.push_back(laws + u);
+      if (seen.insert(key).second) grown.push_back(std::move(next));
+    }
+  return grown;
 }
 
 }  // namespace
@@ -126,85 +210,50 @@ double ghost_share(const LinearProblem& problem, const Equations& equations, con
   return std::clamp(most / kFullOverlap, 0.0, 1.0);
 }
 
-LinearProblem without_calibration(const Equations& equations, const std::vector<std::size_t>& runs,
-                                  double dispersion) {
-  const LinearProblem all = sum_runs(equations.runs, runs, equations.prior_sd);
-  const std::vector<int> nuisances = equations.columns_of(Column::Kind::nuisance);
-  std::vector<int> every(equations.columns.size());
-  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<int>(k);
-  return project_out(all, nuisances, every, dispersion);
-}
-
 std::vector<Explanation> search_explanations(const LinearProblem& problem, const Equations& equations,
-                                             const SearchOptions& options) {
-  std::vector<int> allowed = options.allowed;
-  if (allowed.empty())
-    for (std::size_t c = 0; c < equations.candidates.size(); ++c) allowed.push_back(static_cast<int>(c));
-  const double empty_evidence = solve(problem, {}, options.dispersion).log_evidence;
-  std::vector<Explanation> met{evaluate(problem, equations, {}, options, empty_evidence)};
+                                             const SearchOptions& asked) {
+  SearchOptions options = asked;
+  options.cost_of_unknown = costs_of_unknowns(problem, equations, options.dispersion);
+  const double empty_evidence = solve(problem, {}, options.dispersion, false).log_evidence;
+  std::vector<Explanation> met{evaluate(problem, equations, {}, {}, options, empty_evidence)};
   std::vector<Explanation> beam = met;
   std::set<std::vector<int>> seen;
-  for (int depth = 0; depth < options.most_effects; ++depth) {
-    std::vector<Explanation> next;
-    for (const Explanation& from : beam)
-      for (int c : allowed) {
-        if (has_name(equations, from.candidates, c)) continue;
-        std::vector<int> set = from.candidates;
-        set.insert(std::upper_bound(set.begin(), set.end(), c), c);
-        if (!seen.insert(set).second) continue;
-        Explanation grown = evaluate(problem, equations, set, options, empty_evidence);
-        if (grown.score > -1e200) next.push_back(std::move(grown));
-      }
+  for (int depth = 0; depth < options.most_members; ++depth) {
+    std::vector<Explanation> next = grown_by_one(equations, beam, options, seen);
+    parallel_for(next.size(), [&](std::size_t k) {
+      next[k] = evaluate(problem, equations, next[k].candidates, next[k].unknowns, options, empty_evidence);
+    });
+    std::erase_if(next, [](const Explanation& e) { return e.score < -1e200; });
     std::stable_sort(next.begin(), next.end(),
                      [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
-    beam.assign(next.begin(), next.begin() + std::min<std::ptrdiff_t>(kBeamWidth, std::ssize(next)));
+    const std::ptrdiff_t width = depth == 0 ? std::ssize(next) : kBeamWidth;  // every pair is solved
+    beam.assign(next.begin(), next.begin() + std::min(width, std::ssize(next)));
     met.insert(met.end(), next.begin(), next.end());
   }
   std::stable_sort(met.begin(), met.end(),
                    [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
   if (std::isfinite(options.small_effect_evidence))
-    for (std::size_t k = 0; k < std::min(met.size(), kMostReconsidered); ++k)
+    parallel_for(std::min(met.size(), kMostReconsidered), [&](std::size_t k) {
       if (!met[k].material)
         met[k].material = beyond_doubt(problem, equations, met[k], options, empty_evidence);
+    });
   return met;
 }
 
-double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters) {
-  double ratio_sum = 0, count = 0;
-  const Eigen::Index p = parameters.size();
-  for (std::size_t k = 0; k < equations.columns.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    if (equations.columns[k].kind == Column::Kind::dictionary) continue;
-    double square = 0, expected = 0, sum = 0;
-    for (const RunEquations& run : equations.runs) {
-      const double score = run.gram(i, p) - run.gram.row(i).head(p).dot(parameters);
-      square += score * score;
-      sum += score;
-      expected += run.gram(i, i);
+void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vector<int>& known,
+                    double dispersion) {
+  for (const UnknownTerm& term : equations.unknowns) {
+    std::vector<int> columns = known;
+    columns.insert(columns.end(), term.columns.begin(), term.columns.end());
+    const Eigen::VectorXd widest = problem.prior_sd;
+    double best_width = 1, best = -1e300;
+    for (double width : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+      for (int k : term.columns) problem.prior_sd[k] = width * widest[k];
+      const double evidence = solve(problem, columns, dispersion, false).log_evidence;
+      if (evidence > best) best = evidence, best_width = width;
     }
-    if (expected <= 0) continue;
-    ratio_sum += (square - sum * sum / static_cast<double>(equations.runs.size())) / expected;
-    count += 1;
+    for (int k : term.columns) equations.prior_sd[k] = problem.prior_sd[k] = best_width * widest[k];
   }
-  return count > 0 ? std::max(1.0, ratio_sum / count) : 1.0;
-}
-
-Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
-                               double dispersion, Eigen::MatrixXd* covariance) {
-  const Posterior posterior = solve(problem, columns, dispersion);
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(problem.prior_sd.size());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    parameters[columns[k]] = posterior.mean[static_cast<Eigen::Index>(k)];
-  if (covariance) *covariance = posterior.covariance;
-  return parameters;
-}
-
-Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
-                               const std::vector<int>& columns, double dispersion,
-                               Eigen::MatrixXd* covariance) {
-  std::vector<int> all = equations.columns_of(Column::Kind::nuisance);
-  all.insert(all.end(), columns.begin(), columns.end());
-  return fit_parameters(sum_runs(equations.runs, runs, equations.prior_sd), all, dispersion, covariance);
 }
 
 }  // namespace joulepath

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/evidence/equations.hpp"
+#include "diagnosis/evidence/linear_fit.hpp"
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
@@ -13,10 +13,10 @@ namespace joulepath {
 /// One set of effects as an explanation, with its evidence.
 struct Explanation {
   std::vector<int> candidates{};  ///< of the equations, in order of index
+  std::vector<int> unknowns{};    ///< unknown terms of the equations, in order of index
   std::vector<int> columns{};
   Eigen::VectorXd mean{};  ///< of `columns`, calibration projected out
-  Eigen::MatrixXd covariance{};
-  double score{};  ///< log evidence and log prior, relative to "nothing"
+  double score{};          ///< log evidence and log prior, relative to "nothing"
   double loss{};
   std::vector<double> size{};  ///< of each candidate, in just material amplitudes
   bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
@@ -24,14 +24,16 @@ struct Explanation {
 
 struct SearchOptions {
   int most_effects{kMostEffects};
+  std::vector<int> allowed{};      ///< candidates that may enter; empty = all
+  int most_members{kMostMembers};  ///< effects and unknown terms
   double dispersion{1.0};
-  std::vector<int> allowed{};             ///< candidates that may enter; empty = all
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
   /// Log evidence needed to name an effect below the materiality floor. Infinite: such effects are
   /// skipped.
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
   /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
+  std::vector<double> cost_of_unknown{};  ///< log odds against each; the search sets them
 };
 
 /// How far an effect of an explanation may be the others' inexact form, 0 to 1: the part of its
@@ -40,29 +42,16 @@ struct SearchOptions {
 [[nodiscard]] double ghost_share(const LinearProblem& problem, const Equations& equations,
                                  const Explanation& explanation, int candidate);
 
-/// Forward beam search over sets of candidates with the calibration projected out; every set met is
-/// kept once, best first. The empty set is among them with score 0.
+/// Search over sets of candidates and unknown terms with the calibration projected out: every pair, then
+/// forward from the best sets of each size. Every set met is kept once, best first. The empty set is among
+/// them with score 0.
 [[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
                                                            const Equations& equations,
                                                            const SearchOptions& options);
 
-/// The problem of some runs with the background's columns projected out; the other columns keep their
-/// places.
-[[nodiscard]] LinearProblem without_calibration(const Equations& equations,
-                                                const std::vector<std::size_t>& runs,
-                                                double dispersion = 1.0);
-
-/// How much more runs scatter about the fit than the noise model says (>= 1): the variance of run-wise
-/// scores over its expectation, over all candidates.
-[[nodiscard]] double run_dispersion(const Equations& equations, const Eigen::VectorXd& parameters);
-
-/// All parameters of a problem, those of the given columns fitted and the others zero.
-[[nodiscard]] Eigen::VectorXd fit_parameters(const LinearProblem& problem, const std::vector<int>& columns,
-                                             double dispersion, Eigen::MatrixXd* covariance = nullptr);
-
-/// All parameters (nuisances too) fitted with the given candidates on the given runs.
-[[nodiscard]] Eigen::VectorXd fit_parameters(const Equations& equations, const std::vector<std::size_t>& runs,
-                                             const std::vector<int>& columns, double dispersion,
-                                             Eigen::MatrixXd* covariance = nullptr);
+/// Gives each unknown term the prior width at which it explains most beside the given columns: nobody knows
+/// how large an unknown cause is.
+void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vector<int>& known,
+                    double dispersion);
 
 }  // namespace joulepath

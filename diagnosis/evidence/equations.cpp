@@ -1,6 +1,7 @@
 #include "diagnosis/evidence/equations.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -34,6 +35,37 @@ std::vector<Candidate> candidates_about(const Robot& robot, const ModelState& st
     for (const Candidate& candidate : catalog_candidates(robot, options.without)) add(candidate);
   for (const Candidate& candidate : extra) add(candidate);
   return list;
+}
+
+std::string label_of(const DictionaryEntry& entry) { return entry.family + " (" + entry.channel + ")"; }
+
+/// Places of the dictionary's entries that take part.
+std::vector<std::size_t> chosen_entries(const std::vector<DictionaryEntry>& entries,
+                                        const EquationOptions& options) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (options.dictionary || options.unknowns.contains(label_of(entries[k]))) chosen.push_back(k);
+  return chosen;
+}
+
+/// Errors of time stamps or of a winding's inductance correlate voltage with acceleration: no finding.
+constexpr const char* kOfTheLogger = "acceleration (voltage)";
+
+/// Entries of one family and channel are one unknown term.
+std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
+                                       const std::vector<DictionaryEntry>& dictionary) {
+  std::vector<UnknownTerm> terms;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].kind != Column::Kind::dictionary) continue;
+    const std::string label = label_of(dictionary[static_cast<std::size_t>(columns[k].owner)]);
+    if (label == kOfTheLogger) continue;
+    const auto known = std::ranges::find(terms, label, &UnknownTerm::label);
+    if (known == terms.end())
+      terms.push_back({label, {static_cast<int>(k)}});
+    else
+      known->columns.push_back(static_cast<int>(k));
+  }
+  return terms;
 }
 
 /// Parameters are absolute: the part that the state already explains is added.
@@ -87,11 +119,12 @@ std::vector<RunEquations> marginalize_all(const std::vector<RawRunEquations>& ra
 }
 
 /// The fit of everything at once: its residual counts as noise.
-Eigen::VectorXd rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
+ColumnEstimate rich_estimate(const std::vector<RunEquations>& runs, const Eigen::VectorXd& prior_sd) {
   const LinearProblem problem = sum_runs(runs, every(runs.size()), prior_sd);
   std::vector<int> columns(static_cast<std::size_t>(prior_sd.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = static_cast<int>(k);
-  return solve(problem, columns).mean;
+  Posterior posterior = solve(problem, columns);
+  return {std::move(posterior.mean), std::move(posterior.covariance)};
 }
 
 std::vector<ResidualRows> leftover_rows(const std::vector<RunRows>& rows, const Eigen::VectorXd& estimate,
@@ -164,9 +197,12 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
                           const std::vector<Candidate>& extra, const EquationOptions& options) {
   Equations equations{.candidates = candidates_about(robot, state, extra, options)};
   const DictionaryLayout layout = lay_out(signals, robot);
-  if (options.dictionary) equations.dictionary = dictionary_entries(layout);
+  const std::vector<DictionaryEntry> entries = dictionary_entries(layout);
+  const std::vector<std::size_t> chosen = chosen_entries(entries, options);
+  for (std::size_t k : chosen) equations.dictionary.push_back(entries[k]);
   equations.columns = list_columns(robot, nuisances, state, equations.candidates, equations.dictionary.size(),
                                    options.whole_catalog);
+  equations.unknowns = unknown_terms(equations.columns, equations.dictionary);
 
   std::vector<RunRows> rows(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
@@ -175,9 +211,10 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     rows[r].residual = residual_rows(signals[r], point, base);
     rows[r].columns =
         signatures(signals[r], robot, nuisances, state, equations.candidates, equations.columns, base);
-    if (options.dictionary)
-      for (Eigen::MatrixXd& entry : dictionary_rows(layout, signals[r], robot, base))
-        rows[r].columns.push_back(std::move(entry));
+    if (!chosen.empty()) {
+      std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals[r], robot, base);
+      for (std::size_t k : chosen) rows[r].columns.push_back(std::move(all[k]));
+    }
     rows[r].own = run_signatures(signals[r], robot, base);
     make_absolute(equations.columns, rows[r]);
   });
@@ -199,11 +236,11 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     for (int pass = options.first_noise ? 1 : 0; pass < 3; ++pass) {
       raw = compress_all(rows, equations.noise);
       set_dictionary_prior(raw, equations.columns);
-      const Eigen::VectorXd estimate =
+      const ColumnEstimate estimate =
           rich_estimate(marginalize_all(raw, equations.run_variance), prior_sd_of(equations.columns));
       equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
       if (pass == 2) break;
-      left = leftover_rows(rows, estimate, raw, equations.run_variance);
+      left = leftover_rows(rows, estimate.mean, raw, equations.run_variance);
       equations.noise = estimate_noise(left, floor);
     }
   }

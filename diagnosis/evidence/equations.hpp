@@ -21,11 +21,19 @@ struct Column {
   double current{};  ///< value at the state: parameters of the problem are absolute; shapes are changes
 };
 
+/// A cause that no law of the catalog stands for: a smooth curve of something that was measured, in one
+/// channel.
+struct UnknownTerm {
+  std::string label{};         ///< what it depends on and where it acts: "wheel speed (current)"
+  std::vector<int> columns{};  ///< of the equations
+};
+
 /// The linear problem about a state of the model, for all runs, with everything that may be asked of it.
 struct Equations {
   std::vector<Column> columns{};
   std::vector<Candidate> candidates{};  ///< those of the state first, in its order
   std::vector<DictionaryEntry> dictionary{};
+  std::vector<UnknownTerm> unknowns{};  ///< the dictionary by family and channel
   std::vector<RunEquations> runs{};
   NoiseModel noise{};
   Eigen::VectorXd run_variance{};  ///< of friction left, right, resistance left, right, gyro, standby
@@ -39,7 +47,8 @@ struct Equations {
 struct EquationOptions {
   bool whole_catalog{true};  ///< false: the state's own effects alone
   bool dictionary{true};
-  const NoiseModel* noise{};  ///< reuse instead of estimating
+  std::set<std::string> unknowns{};  ///< labels of the terms that enter without the whole dictionary
+  const NoiseModel* noise{};         ///< reuse instead of estimating
   const Eigen::VectorXd* run_variance{};
   const NoiseModel* first_noise{};  ///< where the estimate starts; absent: white
   std::set<std::string> without{};  ///< effects removed from the catalog

@@ -11,25 +11,14 @@
 namespace joulepath {
 namespace {
 
-std::multiset<std::string> labels_of(const Equations& equations, const std::vector<int>& candidates) {
-  std::multiset<std::string> labels;
-  for (int c : candidates) labels.insert(equations.candidates[static_cast<std::size_t>(c)].label());
-  return labels;
-}
+constexpr double kNegligibleScore = 40;  ///< log units below the best: e^-40 of its weight
 
-/// Normalized weights of the sets of effects; shapes of one effect count once.
-std::map<std::multiset<std::string>, double> weights_of_sets(const Equations& equations,
-                                                             const std::vector<Explanation>& explanations) {
-  std::map<std::multiset<std::string>, double> sets;  // scores, then weights
-  for (const Explanation& e : explanations) {
-    const auto [at, fresh] = sets.try_emplace(labels_of(equations, e.candidates), e.score);
-    if (!fresh) at->second = std::max(at->second, e.score);
-  }
-  const double top = explanations.empty() ? 0.0 : explanations.front().score;
-  double total = 0;
-  for (auto& [labels, value] : sets) total += value = std::exp(kScoreFlattening * (value - top));
-  for (auto& [labels, value] : sets) value /= total;
-  return sets;
+std::multiset<std::string> members_of(const Equations& equations, const Explanation& explanation) {
+  std::multiset<std::string> labels;
+  for (int c : explanation.candidates)
+    labels.insert(equations.candidates[static_cast<std::size_t>(c)].label());
+  for (int u : explanation.unknowns) labels.insert(equations.unknowns[static_cast<std::size_t>(u)].label);
+  return labels;
 }
 
 /// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
@@ -54,11 +43,11 @@ void for_each_rival(const Equations& equations, const std::vector<Explanation>& 
   if (explanations.empty()) return;
   const Explanation& best = explanations.front();
   const std::string label = equations.candidates[static_cast<std::size_t>(candidate)].label();
-  std::multiset<std::string> rest = labels_of(equations, best.candidates);
+  std::multiset<std::string> rest = members_of(equations, best);
   rest.erase(rest.find(label));
   for (const Explanation& e : explanations) {
-    if (e.candidates.size() != best.candidates.size()) continue;
-    std::multiset<std::string> other = labels_of(equations, e.candidates);
+    if (e.candidates.size() != best.candidates.size() || e.unknowns != best.unknowns) continue;
+    std::multiset<std::string> other = members_of(equations, e);
     if (other.contains(label) || !std::includes(other.begin(), other.end(), rest.begin(), rest.end()))
       continue;
     for (const std::string& kept : rest) other.erase(other.find(kept));
@@ -68,22 +57,35 @@ void for_each_rival(const Equations& equations, const std::vector<Explanation>& 
 
 }  // namespace
 
-std::map<std::string, double> effect_probabilities(const Equations& equations,
-                                                   const std::vector<Explanation>& explanations) {
-  std::map<std::string, double> probability;
-  for (const auto& [labels, weight] : weights_of_sets(equations, explanations))
-    for (const std::string& label : std::set<std::string>(labels.begin(), labels.end()))
-      probability[label] += weight;
-  return probability;
+void Inclusion::add(const Equations& equations, const std::vector<Explanation>& explanations, double weight) {
+  const double top = explanations.empty() ? 0.0 : explanations.front().score;
+  std::map<std::multiset<std::string>, double> best_of_set;  // shapes of one effect count once
+  for (const Explanation& e : explanations) {
+    if (kScoreFlattening * (top - e.score) > kNegligibleScore) continue;
+    const auto [at, fresh] = best_of_set.try_emplace(members_of(equations, e), e.score);
+    if (!fresh) at->second = std::max(at->second, e.score);
+  }
+  double total = 0;
+  for (const auto& [labels, score] : best_of_set) total += std::exp(kScoreFlattening * (score - top));
+  for (const auto& [labels, score] : best_of_set)
+    sets_.push_back(
+        {{labels.begin(), labels.end()}, weight * std::exp(kScoreFlattening * (score - top)) / total});
 }
 
-double probability_of_any(const Equations& equations, const std::vector<Explanation>& explanations,
-                          const std::set<std::string>& labels) {
+double Inclusion::of_any(const std::set<std::string>& labels) const {
   double sum = 0;
-  for (const auto& [members, weight] : weights_of_sets(equations, explanations))
-    if (std::ranges::any_of(members, [&](const std::string& label) { return labels.contains(label); }))
-      sum += weight;
-  return sum;
+  for (const WeightedSet& set : sets_)
+    if (std::ranges::any_of(labels, [&](const std::string& label) { return set.labels.contains(label); }))
+      sum += set.weight;
+  return std::min(1.0, sum);
+}
+
+std::map<std::string, double> Inclusion::of_each() const {
+  std::map<std::string, double> probability;
+  for (const WeightedSet& set : sets_)
+    for (const std::string& label : set.labels)
+      probability[label] = std::min(1.0, probability[label] + set.weight);
+  return probability;
 }
 
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,

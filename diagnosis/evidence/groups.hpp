@@ -9,16 +9,25 @@
 
 namespace joulepath {
 
-/// Probability of each effect (by label, side included) of being among the causes, from the scores of all
-/// explanations, flattened as calibrated on development cases.
-[[nodiscard]] std::map<std::string, double> effect_probabilities(
-    const Equations& equations, const std::vector<Explanation>& explanations);
+/// Marginal probabilities of effects (by label, side included) and unknown terms of being among the causes:
+/// the weight of all explanations with them. Scores are flattened as calibrated on development cases.
+class Inclusion {
+ public:
+  /// Takes in the explanations of one choice of runs; the weights of all choices add up to 1.
+  void add(const Equations& equations, const std::vector<Explanation>& explanations, double weight = 1.0);
 
-/// Probability that at least one of some effects (labels) is among the causes: the weight of all sets that
-/// contain any of them, each set counted once.
-[[nodiscard]] double probability_of_any(const Equations& equations,
-                                        const std::vector<Explanation>& explanations,
-                                        const std::set<std::string>& labels);
+  /// Of at least one of some labels: each set is counted once.
+  [[nodiscard]] double of_any(const std::set<std::string>& labels) const;
+  [[nodiscard]] double of(const std::string& label) const { return of_any({label}); }
+  [[nodiscard]] std::map<std::string, double> of_each() const;
+
+ private:
+  struct WeightedSet {
+    std::set<std::string> labels{};
+    double weight{};
+  };
+  std::vector<WeightedSet> sets_{};
+};
 
 /// An effect that could stand in for a named one, the rest kept.
 struct StandIn {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/evidence/delay_search.hpp"
+#include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/region_search.hpp"
 #include "diagnosis/numerics/indices.hpp"
@@ -14,12 +15,12 @@
 namespace joulepath {
 namespace {
 
-/// Parameters of the fit of everything: its scatter from run to run measures what the noise model lacks.
-Eigen::VectorXd rich_parameters(const Equations& equations) {
+/// Columns of the fit of everything: its scatter from run to run measures what the noise model lacks.
+std::vector<int> rich_columns(const Equations& equations) {
   std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
   const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
   columns.insert(columns.end(), dictionary.begin(), dictionary.end());
-  return fit_parameters(equations, every(equations.runs.size()), columns, 1.0);
+  return columns;
 }
 
 std::vector<std::string> labels_of(const Equations& equations, const Explanation& explanation) {
@@ -28,6 +29,14 @@ std::vector<std::string> labels_of(const Equations& equations, const Explanation
     labels.push_back(equations.candidates[static_cast<std::size_t>(c)].label());
   std::sort(labels.begin(), labels.end());
   return labels;
+}
+
+/// The columns of the state's own effects.
+std::vector<int> columns_of(const Equations& equations, const ModelState& state) {
+  std::vector<int> columns;
+  for (std::size_t c = 0; c < state.effects.size(); ++c)
+    for (int k : equations.columns_of_candidate(static_cast<int>(c), true)) columns.push_back(k);
+  return columns;
 }
 
 std::vector<std::string> labels_of(const ModelState& state) {
@@ -39,10 +48,30 @@ std::vector<std::string> labels_of(const ModelState& state) {
 
 SearchOptions search_options(double dispersion, bool few, std::vector<double> least_amplitude) {
   return {.dispersion = dispersion,
-          .allowed = {},
           .least_amplitude = std::move(least_amplitude),
           .small_effect_evidence = few ? kSmallEffectEvidenceOfFewRuns : kSmallEffectEvidence,
           .small_pliable_evidence = few ? std::numeric_limits<double>::infinity() : kSmallPliableEvidence};
+}
+
+/// Effects of the best set of all that are not large enough to matter, nor beyond doubt.
+std::vector<SmallEffect> small_effects(const Equations& equations,
+                                       const std::vector<Explanation>& explanations) {
+  const Explanation& best = explanations.front();
+  std::vector<SmallEffect> small;
+  if (best.material) return small;
+  Inclusion inclusion;
+  inclusion.add(equations, explanations);
+  for (std::size_t k = 0; k < best.candidates.size(); ++k) {
+    if (best.size[k] >= 1) continue;
+    const std::string label = equations.candidates[static_cast<std::size_t>(best.candidates[k])].label();
+    const double probability = inclusion.of(label);
+    if (probability < kLeastProbabilityNamed) continue;
+    double without = -1e300;
+    for (const Explanation& e : explanations)
+      if (std::ranges::count(labels_of(equations, e), label) == 0) without = std::max(without, e.score);
+    small.push_back({label, probability, best.score - without, best.size[k]});
+  }
+  return small;
 }
 
 }  // namespace
@@ -68,14 +97,15 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
     result.equations = build_equations(result.signals, robot, result.nuisances, result.state, regions,
                                        {.first_noise = round > 0 ? &noise : nullptr, .without = without});
     noise = result.equations.noise;
-    result.dispersion = run_dispersion(result.equations, rich_parameters(result.equations)) *
-                        (few ? kFewRunsDispersion : 1.0);
+    result.dispersion = run_dispersion(result.equations, rich_columns(result.equations));
     result.problem = without_calibration(result.equations, runs, result.dispersion);
-    result.explanations = search_explanations(
-        result.problem, result.equations,
-        search_options(result.dispersion, few,
-                       least_amplitudes(result.signals, robot, result.nuisances, result.state,
-                                        result.equations.candidates, known)));
+    scale_unknowns(result.equations, result.problem, columns_of(result.equations, result.state),
+                   result.dispersion);
+    result.options = search_options(result.dispersion, few,
+                                    least_amplitudes(result.signals, robot, result.nuisances, result.state,
+                                                     result.equations.candidates, known));
+    result.explanations = search_explanations(result.problem, result.equations, result.options);
+    result.below_materiality = small_effects(result.equations, result.explanations);
     std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
     const Explanation& best = result.explanations.front();
     if ((round > 0 || best.candidates.empty()) &&
@@ -85,12 +115,19 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
         fit_parameters(result.equations, runs, best.columns, result.dispersion);
     Refit fitted = refit(logs, runs, result.nuisances,
                          adopt(result.equations, result.nuisances, result.state, best, parameters),
-                         result.equations.noise, result.equations.run_variance, result.dispersion, 2);
+                         result.equations.noise, result.equations.run_variance, result.dispersion, 2,
+                         unknown_labels(result.equations, best));
     result.state = fitted.state;
     result.signals = std::move(fitted.signals);
     if (round == kRelinearizations) break;  // no convergence: the last answer, refitted
   }
   return result;
+}
+
+std::set<std::string> unknown_labels(const Equations& equations, const Explanation& explanation) {
+  std::set<std::string> labels;
+  for (int u : explanation.unknowns) labels.insert(equations.unknowns[static_cast<std::size_t>(u)].label);
+  return labels;
 }
 
 EnergyShare energy_of_effect(const std::vector<RunSignals>& signals, const Robot& robot,

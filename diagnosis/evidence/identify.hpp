@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/evidence/refit.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
 
@@ -16,7 +17,9 @@ struct Identification {
   std::vector<RunSignals> signals{};        ///< read at the state's delay
   Equations equations{};                    ///< whole catalog and dictionary, about the state
   LinearProblem problem{};                  ///< of all runs, with the calibration projected out
+  SearchOptions options{};                  ///< of the search
   std::vector<Explanation> explanations{};  ///< best first
+  std::vector<SmallEffect> below_materiality{};
   double dispersion{1.0};
 };
 
@@ -24,6 +27,10 @@ struct Identification {
 /// Gauss-Newton, and linearize again about it until the set stays the same.
 /// `without`: effects that the catalog is taken to lack.
 [[nodiscard]] Identification identify(const LogSet& logs, const std::set<std::string>& without = {});
+
+/// Labels of an explanation's unknown terms.
+[[nodiscard]] std::set<std::string> unknown_labels(const Equations& equations,
+                                                   const Explanation& explanation);
 
 /// Energy (J) that an effect of a state is responsible for, summed without sign over the runs, and the
 /// sum of what the model predicts.

@@ -44,15 +44,29 @@ Sums sums_of(const RunSignals& run, const Prediction& with_it, const Prediction&
   return sums;
 }
 
-}  // namespace
+/// The change of one run's channels by rows of the linear problem, added to a prediction.
+Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& base,
+             const Eigen::MatrixXd& rows) {
+  Prediction changed = base;
+  for (Side side : kSides) {
+    const int s = side == Side::left ? 0 : 1;
+    const Eigen::VectorXd current_A = rows.col(kCurrentLeft + s);
+    changed.current_A[side] += current_A;
+    changed.voltage_V[side] +=
+        rows.col(kWindingLeft + s) + point.robot.motor[side].resistance_ohm * current_A;
+    changed.power_W[side] = changed.voltage_V[side].cwiseProduct(changed.current_A[side]);
+    if (changed.battery_power_W.size() > 0)
+      changed.battery_power_W += changed.power_W[side] - base.power_W[side];
+  }
+  if (changed.battery_power_W.size() > 0) changed.battery_power_W += rows.col(kDriverPower);
+  if (changed.battery_voltage_V.size() > 0) changed.battery_voltage_V += rows.col(kSupplyVoltage);
+  const auto from_start = [&](Channel c) { return (rows.col(c).array() - rows(0, c)).matrix(); };
+  changed.heading_rad += from_start(kHeading);
+  changed.x_m += from_start(kPositionX), changed.y_m += from_start(kPositionY);
+  return sums_of(run, changed, base, point.robot.geometry);
+}
 
-Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& with_effect,
-                      const ModelPoint& without_effect) {
-  std::vector<Sums> sums(signals.size());
-  parallel_for(signals.size(), [&](std::size_t r) {
-    sums[r] = sums_of(signals[r], predict(signals[r], with_effect), predict(signals[r], without_effect),
-                      without_effect.robot.geometry);
-  });
+Impact total_of(const std::vector<Sums>& sums) {
   Sums total;
   for (const Sums& s : sums) {
     total.motor_change += s.motor_change, total.motor += s.motor;
@@ -65,6 +79,34 @@ Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& 
   total.impact.motor_power = total.motor > 0 ? total.motor_change / total.motor : 0.0;
   total.impact.battery_power = total.battery > 0 ? total.battery_change / total.battery : 0.0;
   return total.impact;
+}
+
+}  // namespace
+
+Impact impact_of_term(const std::vector<RunSignals>& signals, const ModelPoint& point,
+                      const std::vector<int>& entries, const Eigen::VectorXd& strength) {
+  const DictionaryLayout layout = lay_out(signals, point.robot);
+  std::vector<Sums> sums(signals.size());
+  parallel_for(signals.size(), [&](std::size_t r) {
+    if (signals[r].size() == 0) return;
+    const Prediction base = predict(signals[r], point);
+    const std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals[r], point.robot, base);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(signals[r].size(), kChannelCount);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      rows += strength[static_cast<Eigen::Index>(k)] * all[static_cast<std::size_t>(entries[k])];
+    sums[r] = sums_of(signals[r], point, base, rows);
+  });
+  return total_of(sums);
+}
+
+Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& with_effect,
+                      const ModelPoint& without_effect) {
+  std::vector<Sums> sums(signals.size());
+  parallel_for(signals.size(), [&](std::size_t r) {
+    sums[r] = sums_of(signals[r], predict(signals[r], with_effect), predict(signals[r], without_effect),
+                      without_effect.robot.geometry);
+  });
+  return total_of(sums);
 }
 
 double materiality(const Impact& impact, const MaterialityFloor& floor) {

@@ -33,6 +33,10 @@ struct MaterialityFloor {
 [[nodiscard]] Impact impact_between(const std::vector<RunSignals>& signals, const ModelPoint& with_effect,
                                     const ModelPoint& without_effect);
 
+/// The same of an unknown term: entries of the dictionary with their strengths.
+[[nodiscard]] Impact impact_of_term(const std::vector<RunSignals>& signals, const ModelPoint& point,
+                                    const std::vector<int>& entries, const Eigen::VectorXd& strength);
+
 /// Greatest ratio of an impact to the floor: 1 = just material.
 [[nodiscard]] double materiality(const Impact& impact, const MaterialityFloor& floor = {});
 

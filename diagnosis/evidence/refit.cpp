@@ -73,10 +73,14 @@ ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisan
 
 Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
             const std::vector<Nuisance>& nuisances, ModelState state, const NoiseModel& noise,
-            const Eigen::VectorXd& run_variance, double dispersion, int iterations) {
+            const Eigen::VectorXd& run_variance, double dispersion, int iterations,
+            const std::set<std::string>& unknowns) {
   Refit result;
-  EquationOptions options{
-      .whole_catalog = false, .dictionary = false, .noise = &noise, .run_variance = &run_variance};
+  EquationOptions options{.whole_catalog = false,
+                          .dictionary = false,
+                          .unknowns = unknowns,
+                          .noise = &noise,
+                          .run_variance = &run_variance};
   double read_delay_s = std::nan("");
   for (int iteration = 0; iteration <= iterations; ++iteration) {
     if (channel_delay_s(state) != read_delay_s) {
@@ -89,6 +93,7 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
     for (std::size_t c = 0; c < state.effects.size(); ++c)
       for (int k : result.equations.columns_of_candidate(static_cast<int>(c), true))
         effect_columns.push_back(k);
+    for (int k : result.equations.columns_of(Column::Kind::dictionary)) effect_columns.push_back(k);
     result.columns.insert(result.columns.end(), effect_columns.begin(), effect_columns.end());
     result.parameters =
         fit_parameters(result.equations, fit_runs, effect_columns, dispersion, &result.covariance);
@@ -96,10 +101,18 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
     state = moved(result.equations, nuisances, state, result.parameters);
   }
   result.state = state;
+  result.dispersion = dispersion;
   result.fit_runs = fit_runs.size();
   result.run_covariance = run_covariance(result.equations, fit_runs, result.columns, result.parameters,
                                          result.covariance, dispersion);
   return result;
+}
+
+ModelState state_of_runs(const Refit& fitted, const std::vector<Nuisance>& nuisances,
+                         const std::vector<std::size_t>& runs) {
+  const LinearProblem problem = sum_runs(fitted.equations.runs, runs, fitted.equations.prior_sd);
+  return moved(fitted.equations, nuisances, fitted.state,
+               fit_parameters(problem, fitted.columns, fitted.dispersion));
 }
 
 }  // namespace joulepath

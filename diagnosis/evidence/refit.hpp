@@ -22,11 +22,18 @@ struct Refit {
   Eigen::MatrixXd run_covariance{};   ///< the same from how runs differ
   std::size_t fit_runs{};
   std::vector<int> columns{};  ///< rows of `covariance`
+  double dispersion{1.0};
 };
 
-/// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given.
+/// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given. The unknown
+/// terms of the given labels are fitted along with it.
 [[nodiscard]] Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
                           const std::vector<Nuisance>& nuisances, ModelState state, const NoiseModel& noise,
-                          const Eigen::VectorXd& run_variance, double dispersion, int iterations = 3);
+                          const Eigen::VectorXd& run_variance, double dispersion, int iterations = 3,
+                          const std::set<std::string>& unknowns = {});
+
+/// The state that some runs alone give: one step from the fitted one on their equations.
+[[nodiscard]] ModelState state_of_runs(const Refit& fitted, const std::vector<Nuisance>& nuisances,
+                                       const std::vector<std::size_t>& runs);
 
 }  // namespace joulepath

@@ -24,7 +24,7 @@ Eigen::VectorXd pick(const Eigen::VectorXd& vector, const std::vector<int>& rows
 }
 
 double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  return 2 * factor.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  return 2 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
 /// (Z'Z + D^-1)^-1 written with D^(1/2) outside, so that a variance of zero is allowed.
@@ -39,17 +39,23 @@ Eigen::MatrixXd own_covariance(const Eigen::MatrixXd& zz, const Eigen::VectorXd&
 
 }  // namespace
 
-Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs, const Eigen::VectorXd& estimate,
+Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs, const ColumnEstimate& estimate,
                               const Eigen::VectorXd& start_variance) {
+  std::vector<Eigen::MatrixXd> absorbed;  // Z'X S X'Z of each run
+  for (const RawRunEquations& run : runs) {
+    const auto cross = run.gram.block(run.columns, 0, run.own_columns, run.columns);
+    absorbed.push_back(cross * (estimate.covariance * cross.transpose()));
+  }
   Eigen::VectorXd variance = start_variance;
   for (int iteration = 0; iteration < 30; ++iteration) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(variance.size());
-    for (const RawRunEquations& run : runs) {
-      const Eigen::Index p = run.columns, k = run.own_columns;
-      const Eigen::MatrixXd covariance = own_covariance(run.gram.block(p, p, k, k), variance);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const Eigen::MatrixXd& gram = runs[r].gram;
+      const Eigen::Index p = runs[r].columns, k = runs[r].own_columns;
+      const Eigen::MatrixXd covariance = own_covariance(gram.block(p, p, k, k), variance);
       const Eigen::VectorXd mean =
-          covariance * (run.gram.block(p, p + k, k, 1) - run.gram.block(p, 0, k, p) * estimate);
-      sum += mean.cwiseAbs2() + covariance.diagonal();
+          covariance * (gram.block(p, p + k, k, 1) - gram.block(p, 0, k, p) * estimate.mean);
+      sum += mean.cwiseAbs2() + covariance.diagonal() + (covariance * absorbed[r] * covariance).diagonal();
     }
     variance = sum / std::max<double>(1.0, static_cast<double>(runs.size()));
   }
@@ -82,7 +88,8 @@ LinearProblem sum_runs(const std::vector<RunEquations>& runs, const std::vector<
   return problem;
 }
 
-Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, double dispersion) {
+Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, double dispersion,
+                bool with_covariance) {
   Posterior posterior{.columns = columns};
   const auto k = static_cast<Eigen::Index>(columns.size());
   posterior.loss = problem.residual_square / dispersion;
@@ -96,7 +103,8 @@ Posterior solve(const LinearProblem& problem, const std::vector<int>& columns, d
   const Eigen::LLT<Eigen::MatrixXd> factor(precision);
   const Eigen::VectorXd scaled = factor.solve(right);
   posterior.mean = sd.cwiseProduct(scaled);
-  posterior.covariance = sd.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(k, k)) * sd.asDiagonal();
+  if (with_covariance)
+    posterior.covariance = sd.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(k, k)) * sd.asDiagonal();
   posterior.loss -= right.dot(scaled);
   posterior.log_evidence = -0.5 * posterior.loss - 0.5 * log_determinant(factor);
   return posterior;
@@ -107,8 +115,7 @@ LinearProblem project_out(const LinearProblem& problem, const std::vector<int>& 
   LinearProblem out{.gram = pick(problem.gram, kept, kept),
                     .right = pick(problem.right, kept),
                     .residual_square = problem.residual_square,
-                    .prior_sd = pick(problem.prior_sd, kept),
-                    .entries = problem.entries};
+                    .prior_sd = pick(problem.prior_sd, kept)};
   const auto k = static_cast<Eigen::Index>(nuisances.size());
   if (k == 0) return out;
   const Eigen::VectorXd sd = pick(problem.prior_sd, nuisances);

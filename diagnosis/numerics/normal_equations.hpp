@@ -18,10 +18,19 @@ struct RawRunEquations {
   Eigen::Index own_columns{};
 };
 
+/// A normal posterior of all columns' parameters, in the columns' order.
+struct ColumnEstimate {
+  Eigen::VectorXd mean{};
+  Eigen::MatrixXd covariance{};
+};
+
 /// Variances of what differs from run to run (friction, resistance, offsets), one per own column, by
-/// expectation maximization on residuals of a rich fit (`estimate` in the columns' order).
+/// expectation maximization about the estimate of a rich fit:
+///   D = mean over runs of E[z^2],  E[z^2] = mean^2 + C + C Z'X S X'Z C,  C = (Z'Z + D^-1)^-1
+/// with S the estimate's covariance: what the fit absorbs of few runs' deviations counts as theirs
+/// (restricted maximum likelihood; Laird and Ware, Biometrics 38, 1982).
 [[nodiscard]] Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs,
-                                            const Eigen::VectorXd& estimate,
+                                            const ColumnEstimate& estimate,
                                             const Eigen::VectorXd& start_variance);
 
 /// Integrates the run's own columns out: deviations are normal with the given variances.
@@ -35,7 +44,6 @@ struct LinearProblem {
   Eigen::VectorXd right{};     ///< columns
   double residual_square{};    ///< r'r
   Eigen::VectorXd prior_sd{};  ///< columns
-  double entries{};            ///< rows that went in
 };
 
 [[nodiscard]] LinearProblem sum_runs(const std::vector<RunEquations>& runs,
@@ -51,7 +59,7 @@ struct Posterior {
 
 /// Fits the given columns. `dispersion` multiplies the noise variance.
 [[nodiscard]] Posterior solve(const LinearProblem& problem, const std::vector<int>& columns,
-                              double dispersion = 1.0);
+                              double dispersion = 1.0, bool with_covariance = true);
 
 /// The problem with some columns fitted away: what is left is the same problem in fewer columns
 /// (`kept`), and `log_evidence` differs by a constant only.

@@ -8,15 +8,24 @@ namespace joulepath {
 
 /// The runs of a dataset by what they are for.
 struct RunsByUse {
-  bool few{};                         ///< too few with a usable log to name anything: each is in both sets
-  LogSet diagnosis{};                 ///< runs that choose and fit
-  LogSet validation{};                ///< runs that judge only
-  SignalOptions options{};            ///< how their logs are read
+  bool few{};           ///< too few with a usable log to name anything: each is in both sets
+  LogSet diagnosis{};   ///< runs that choose and fit
+  LogSet validation{};  ///< runs that judge
+  std::vector<std::size_t>
+      fold_of{};            ///< of each run that judges, where all runs choose, fit and judge in turn
+  SignalOptions options{};  ///< how their logs are read
   std::vector<RunSignals> signals{};  ///< of all usable runs, electrical channels as logged
 };
 
-/// Splits the usable runs as the dataset's `use:` says; without it, about every fourth run judges, spread
-/// over payloads and manoeuvres. The split depends on what is in the runs, not on their order.
+/// Runs marked `use: validation` judge and do nothing else. Without any, every run chooses and fits, and each
+/// is judged by a fit of the other folds' runs; folds are dealt by manoeuvre, then by payload. They depend on
+/// what is in the runs, not on their order.
 [[nodiscard]] RunsByUse sort_runs(const Dataset& dataset);
+
+/// 0 where runs do not take turns.
+[[nodiscard]] std::size_t fold_count(const RunsByUse& runs);
+
+/// Which of the diagnosis runs are fitted when the runs of a fold judge.
+[[nodiscard]] std::vector<std::size_t> fitted_runs(const RunsByUse& runs, std::size_t fold);
 
 }  // namespace joulepath

@@ -77,6 +77,21 @@ struct Cause {
   double shrink_fraction_alone{};
 };
 
+/// A cause that no law of the catalog stands for: a smooth curve of what was measured.
+struct UnknownCause {
+  std::string depends_on{};  ///< and where it acts: "wheel speed (current)"
+  double probability{};
+  double share{};  ///< of what is explained beyond calibration errors, lost without it
+};
+
+/// An effect with evidence that changes less than a user would notice.
+struct SmallEffect {
+  std::string effect{};
+  double probability{};
+  double evidence{};  ///< natural log of the odds that the data give it
+  double size{};      ///< over the materiality floor's
+};
+
 struct RankedEffect {
   std::string effect{};
   double probability{};
@@ -97,6 +112,8 @@ struct Diagnosis {
   Verdict verdict{Verdict::too_little_data};
   std::vector<Cause> causes{};
   std::vector<RankedEffect> ranking{};
+  std::vector<UnknownCause> unknowns{};
+  std::vector<SmallEffect> below_materiality{};
   bool leftover_significant{};
   double leftover_share{};
   std::string leftover_description{};

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -10,33 +12,9 @@
 namespace joulepath {
 namespace {
 
-/// Share of a named effect that the inexact form of the others could produce.
-double ghost_share_of(const Examination& x, const std::string& label) {
-  const Identification& id = x.id;
-  for (int c : id.explanations.front().candidates)
-    if (id.equations.candidates[static_cast<std::size_t>(c)].label() == label)
-      return ghost_share(id.problem, id.equations, id.explanations.front(), c);
-  return 1.0;
-}
-
-/// A further effect of the mechanics with little energy and little of the evidence.
-bool may_be_form_error(const Examination& x, std::size_t e) {
-  const ModelState& state = x.id.state;
-  if (state.effects.size() < 2 || is_instrument(state.effects[e].candidate.shape.name)) return false;
-  ModelState without = state;
-  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(e));
-  Impact impact = impact_between(x.id.signals, x.point_of(state), x.point_of(without));
-  impact.motor_power = impact.battery_power = 0;  // what is left shows outside the mechanics
-  if (materiality(impact) >= 1) return false;
-  const EnergyShare energy = energy_of_effect(x.id.signals, x.dataset.robot, x.id.nuisances, state, e);
-  if (energy.effect_J > kFormErrorEnergy * energy.total_J) return false;
-  const std::string label = state.effects[e].candidate.label();
-  return ghost_share_of(x, label) > kGhost && gain_share_of(x, label) < kMinorGain;
-}
-
 /// Effects that the data cannot separate share the probability that one of them is there by their likelihood,
 /// not by their typical size.
-void share_probabilities(const Identification& id, Names& names) {
+void share_probabilities(const Identification& id, const Inclusion& inclusion, Names& names) {
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
     const std::vector<StandIn> others =
@@ -49,26 +27,102 @@ void share_probabilities(const Identification& id, Names& names) {
       weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
     }
     if (others.empty()) continue;
-    const double share = probability_of_any(id.equations, id.explanations, group) / weight;
+    const double share = inclusion.of_any(group) / weight;
     names.probabilities[label] = share;
     for (const StandIn& other : others)
       names.probabilities[other.label] = share * std::exp(-0.5 * kScoreFlattening * other.loss_more);
   }
 }
 
-}  // namespace
-
-double gain_share_of(const Examination& x, const std::string& label) {
-  const Identification& id = x.id;
-  const Explanation& best = x.best();
-  std::vector<int> columns;
-  for (int c : best.candidates)
-    if (id.equations.candidates[static_cast<std::size_t>(c)].label() != label)
-      for (int k : id.equations.columns_of_candidate(c, true)) columns.push_back(k);
-  const double nothing = solve(id.problem, {}, id.dispersion).loss,
-               others = solve(id.problem, columns, id.dispersion).loss;
-  return nothing > best.loss ? (others - best.loss) / (nothing - best.loss) : 0.0;
+/// Share of what the best set explains beyond calibration errors that is lost without some of its columns.
+double share_lost(const Examination& x, const BoxedFit& nothing, const std::vector<int>& without) {
+  std::vector<int> kept;
+  std::ranges::copy_if(x.best().columns, std::back_inserter(kept),
+                       [&](int k) { return std::ranges::count(without, k) == 0; });
+  const double all = nothing.loss - x.best().loss;
+  return all > 0
+             ? std::clamp((solve(x.id.problem, kept, x.id.dispersion).loss - x.best().loss) / all, 0.0, 1.0)
+             : 0.0;
 }
+
+/// Unknown terms of one channel: what an unknown depends on is often less sure than that it is there.
+std::set<std::string> of_same_channel(const Equations& equations, const std::string& label) {
+  const auto channel = [](const std::string& text) { return text.substr(text.rfind('(')); };
+  std::set<std::string> labels;
+  for (const UnknownTerm& term : equations.unknowns)
+    if (channel(term.label) == channel(label)) labels.insert(term.label);
+  return labels;
+}
+
+/// Size of an unknown term of the best set over the materiality floor.
+double size_of(const Examination& x, const UnknownTerm& term) {
+  std::vector<int> entries;
+  Eigen::VectorXd strength(std::ssize(term.columns));
+  for (int k : term.columns) {
+    const auto at = std::ranges::find(x.best().columns, k) - x.best().columns.begin();
+    strength[std::ssize(entries)] = x.best().mean[at];
+    entries.push_back(x.id.equations.columns[static_cast<std::size_t>(k)].owner);
+  }
+  return materiality(impact_of_term(x.id.signals, x.point_of(x.id.state), entries, strength));
+}
+
+/// What the best set's log evidence loses without a term.
+double evidence_of(const Examination& x, const UnknownTerm& term) {
+  std::vector<int> kept;
+  std::ranges::copy_if(x.best().columns, std::back_inserter(kept),
+                       [&](int k) { return std::ranges::count(term.columns, k) == 0; });
+  const auto evidence = [&](const std::vector<int>& columns) {
+    return solve(x.id.problem, columns, x.id.dispersion, false).log_evidence;
+  };
+  return evidence(x.best().columns) - evidence(kept);
+}
+
+/// A term below the materiality floor is a cause only if it brings as much evidence as a pliable law must.
+bool is_beyond_doubt(const Examination& x, double size, double evidence) {
+  return size >= kLeastSize &&
+         evidence - kUnknownCost >= x.id.options.small_pliable_evidence / std::sqrt(size);
+}
+
+/// The unknown terms of the best set that are sure enough: causes, or small effects below the materiality
+/// floor.
+void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& names) {
+  const BoxedFit nothing = fit_within_calibration(x.id);
+  for (int u : x.best().unknowns) {
+    const UnknownTerm& term = x.id.equations.unknowns[static_cast<std::size_t>(u)];
+    const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
+                 share = share_lost(x, nothing, term.columns), size = size_of(x, term),
+                 evidence = evidence_of(x, term);
+    if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
+    const double stated = std::min(names.surest, probability);
+    if (size >= 1 || is_beyond_doubt(x, size, evidence))
+      names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
+    else
+      names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence, size});
+  }
+  std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
+}
+
+/// Marginal probabilities, averaged over the folds' choices: each is made by all runs but those of a fold.
+/// Sets below the materiality floor take part: what they explain needs no greater effect.
+Inclusion inclusion_of(const Examination& x) {
+  const Identification& id = x.id;
+  SearchOptions options = id.options;
+  options.small_effect_evidence = std::numeric_limits<double>::infinity();
+  Inclusion inclusion;
+  if (x.runs.fold_of.empty()) {
+    inclusion.add(id.equations, search_explanations(id.problem, id.equations, options));
+    return inclusion;
+  }
+  const std::size_t folds = fold_count(x.runs);
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    const LinearProblem problem = without_calibration(id.equations, fitted_runs(x.runs, fold), id.dispersion);
+    inclusion.add(id.equations, search_explanations(problem, id.equations, options),
+                  1.0 / static_cast<double>(folds));
+  }
+  return inclusion;
+}
+
+}  // namespace
 
 double probability_of(const Names& names, const ActiveEffect& effect) {
   const auto found = names.probabilities.find(effect.candidate.label());
@@ -76,29 +130,18 @@ double probability_of(const Names& names, const ActiveEffect& effect) {
 }
 
 Names choose_names(const Examination& x) {
-  const std::vector<ActiveEffect>& best = x.id.state.effects;
-  Names names{.probabilities = effect_probabilities(x.id.equations, x.id.explanations)};
-  share_probabilities(x.id, names);
+  const Inclusion inclusion = inclusion_of(x);
+  Names names{.probabilities = inclusion.of_each()};
   names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
-  std::vector<std::string> doubted;
-  for (std::size_t e = 0; e < best.size(); ++e) {
-    const std::string label = best[e].candidate.label();
-    if (names.probabilities[label] < kLeastProbabilityNamed && !names.stand_ins.contains(label) &&
-        best.size() > 1)
-      continue;  // the other sets do without it
-    if (may_be_form_error(x, e))
-      doubted.push_back(label);
-    else
-      names.named.push_back(best[e]);
-  }
-  if (names.named.empty()) {  // none is the greater one
-    names.named = best;
-    return names;
-  }
-  for (const std::string& label : doubted) {
-    names.probabilities[label] = std::min(names.probabilities[label], kFormErrorProbability);
-    names.notes.push_back(
-        label + " is not named: it is small compared with a greater effect, whose inexact form may cause it");
+  name_unknowns(x, inclusion, names);
+  for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
+  share_probabilities(x.id, inclusion, names);
+  for (const ActiveEffect& effect : x.id.state.effects) {
+    const std::string label = effect.candidate.label();
+    std::set<std::string> group{label};
+    if (const auto others = names.stand_ins.find(label); others != names.stand_ins.end())
+      group.insert(others->second.begin(), others->second.end());
+    if (inclusion.of_any(group) >= kLeastProbabilityNamed) names.named.push_back(effect);
   }
   return names;
 }

@@ -5,16 +5,17 @@
 
 namespace joulepath {
 
-/// The effects with sufficient evidence, before any test of them.
+/// Outcome of the race between the catalog's laws and unknown terms.
 struct Names {
   std::vector<ActiveEffect> named{};
+  std::vector<UnknownCause> unknowns{};           ///< the greatest share first
+  std::vector<SmallEffect> small_unknowns{};      ///< below the materiality floor
   std::map<std::string, double> probabilities{};  ///< of effects by label
   double surest{1.0};  ///< share of sure names that were right on development cases: none is stated surer
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
-  std::vector<std::string> notes{};
 };
 
-/// The best set's effects, without those that may only compensate the inexact form of a greater one.
+/// The best set's effects and unknown terms, without those that the other sets do without.
 [[nodiscard]] Names choose_names(const Examination& examination);
 
 /// Effects by probability, the dozen likeliest.
@@ -22,8 +23,5 @@ struct Names {
                                                      double surest = 1.0);
 
 [[nodiscard]] double probability_of(const Names& names, const ActiveEffect& effect);
-
-/// Share of the best set's gain in loss that is lost when one of its effects is left out.
-[[nodiscard]] double gain_share_of(const Examination& examination, const std::string& label);
 
 }  // namespace joulepath

@@ -2,40 +2,73 @@
 
 #include <algorithm>
 
+#include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "diagnosis/verdict/forms.hpp"
-// Design: docs/decisions/0042-a-laws-form-is-uncertain.md
+// Design: docs/decisions/0371-evidence-is-not-withdrawn.md
 namespace joulepath {
 namespace {
 
-Judgment judge_leftover(const Examination& x, const Names& names) {
-  Judgment judgment{.named = names.named, .leftover = find_leftover(x.id, x.best().columns)};
-  const Leftover& leftover = judgment.leftover;
-  if (x.runs.few) {
-    judgment.verdict = Verdict::too_little_data;
-    judgment.named.clear();
-    judgment.notes.push_back("fewer than " + std::to_string(kLeastRunsToName) +
-                             " runs: candidates only; add runs with two payloads, both directions and turns");
-  } else if (judgment.named.empty()) {
-    judgment.verdict = leftover.significant ? Verdict::unexplained : Verdict::no_gap;
-  } else if (leftover.significant && leftover.share > kUnexplainedShare) {
+/// "depends on wheel speed (current), then payload (current)".
+std::string in_words(const std::vector<UnknownCause>& unknowns) {
+  std::string text;
+  for (const UnknownCause& unknown : unknowns)
+    text += (text.empty() ? "depends on " : ", then ") + unknown.depends_on;
+  return text;
+}
+
+/// The calibration constant (its column) that is furthest beyond its uncertainty, where nothing else won, or
+/// where no law of the catalog changes it and it explains more than the best set does; none: -1.
+int constant_that_wins(const Examination& x, bool nothing_won) {
+  const BoxedFit nothing = fit_within_calibration(x.id);
+  const double loss = solve(x.id.problem, {}, x.id.dispersion).loss;
+  if (nothing.held.empty() || nothing.loss - loss < kLeastLossOfBox) return -1;
+  const int column = nothing.held.front();
+  if (nothing_won) return column;
+  return effect_of_constant(x.id, column) < 0 && score_of_constant(x.id, column) > x.best().score ? column
+                                                                                                  : -1;
+}
+
+/// A constant further from its value than its uncertainty allows is the effect that changes the same number,
+/// or unexplained where the catalog has none.
+void judge_constant(const Examination& x, int column, Judgment& judgment) {
+  judgment = {};
+  const int candidate = effect_of_constant(x.id, column);
+  if (candidate < 0) {
     judgment.verdict = Verdict::unexplained;
-    judgment.named.clear();
-  } else {
-    judgment.verdict = leftover.significant ? Verdict::partly_explained : Verdict::explained;
+    judgment.depends_on =
+        "goes with " + calibration_name(x.id, column) + ", further from its value than calibration errors";
+    return;
   }
-  return judgment;
+  judgment.verdict = Verdict::explained;
+  judgment.named.push_back({x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}});
 }
 
 }  // namespace
 
 Judgment judge(const Examination& x, const Names& names) {
-  Judgment judgment = judge_forms(x, judge_leftover(x, names));
+  Judgment judgment{.named = names.named, .unknowns = names.unknowns, .depends_on = in_words(names.unknowns)};
+  if (x.runs.few) {
+    judgment.named.clear();
+    judgment.notes.push_back("fewer than " + std::to_string(kLeastRunsToName) +
+                             " runs: candidates only; add runs with two payloads, both directions and turns");
+    return judgment;
+  }
+  const bool nothing_won = names.named.empty() && names.unknowns.empty();
+  if (const int column = constant_that_wins(x, nothing_won); column >= 0) {
+    judge_constant(x, column, judgment);
+    return judgment;
+  }
+  if (nothing_won) {
+    judgment.verdict = Verdict::no_gap;
+    return judgment;
+  }
   const bool sure = std::ranges::any_of(judgment.named, [&](const ActiveEffect& effect) {
-    return probability_of(names, effect) >= kSureEnough;
+    return probability_of(names, effect) >= kLeastProbabilityNamed;
   });
-  if (!judgment.named.empty() && !sure && judgment.verdict == Verdict::explained)
-    judgment.verdict = Verdict::ambiguous;
+  judgment.verdict = names.named.empty()       ? Verdict::unexplained
+                     : !names.unknowns.empty() ? Verdict::partly_explained
+                     : sure                    ? Verdict::explained
+                                               : Verdict::ambiguous;
   return judgment;
 }
 

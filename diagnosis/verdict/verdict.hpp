@@ -1,19 +1,19 @@
 #pragma once
 
-#include "diagnosis/evidence/leftover.hpp"
 #include "diagnosis/verdict/names.hpp"
 
 namespace joulepath {
 
-/// Claims of the diagnosis, and the leftover.
+/// Claims of the diagnosis.
 struct Judgment {
   Verdict verdict{Verdict::too_little_data};
   std::vector<ActiveEffect> named{};
-  Leftover leftover{};
+  std::vector<UnknownCause> unknowns{};
+  std::string depends_on{};  ///< what no effect explains, in words; empty: nothing
   std::vector<std::string> notes{};
 };
 
-/// Verdict and names by the diagnosis runs, before the validation on held-out runs.
+/// The verdict that follows from what won the race.
 [[nodiscard]] Judgment judge(const Examination& examination, const Names& names);
 
 }  // namespace joulepath

@@ -34,8 +34,11 @@ Range95 shrink_interval(const GapInput& input, std::vector<RunEnergy> before, st
   const std::size_t held_out = before.size();
   if (held_out == 0 || input.bootstrap == 0 || energy.before_J <= 0) return {};
   if (held_out < kFewHeldOut) {
-    for (const RunEnergy& run : run_energies(input.fitted_signals, input.before)) before.push_back(run);
-    for (const RunEnergy& run : run_energies(input.fitted_signals, input.after)) after.push_back(run);
+    const std::size_t fitted = input.fitted_signals.size();
+    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.before)))
+      before.push_back(run);
+    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.fitted)))
+      after.push_back(run);
   }
   const auto [low, high] =
       bootstrap_interval(before.size(), input.bootstrap, [&](std::vector<std::size_t> runs) {
@@ -67,9 +70,11 @@ struct Squares {
   MeanSquare current{}, voltage{}, position{}, heading{}, battery{};
 };
 
-Squares squares_of(const std::vector<RunSignals>& signals, const ModelPoint& point) {
+Squares squares_of(const std::vector<RunSignals>& signals, const ModelPoints& points) {
   Squares squares;
-  for (const RunSignals& run : signals) {
+  for (std::size_t r = 0; r < signals.size(); ++r) {
+    const RunSignals& run = signals[r];
+    const ModelPoint& point = points[r];
     const Prediction p = predict(run, point);
     for (Side side : kSides) {
       if (run.motor_current_A[side].size() == run.size())
@@ -91,9 +96,11 @@ SignalGap signal_gap(const MeanSquare& before, const MeanSquare& after) {
   return {.before_rms = before.root(), .after_rms = after.root(), .present = before.count > 0};
 }
 
-void add_phases(const std::vector<RunSignals>& signals, const ModelPoint& point, bool after,
+void add_phases(const std::vector<RunSignals>& signals, const ModelPoints& points, bool after,
                 std::map<std::string, std::pair<double, double>>& phases) {
-  for (const RunSignals& run : signals) {
+  for (std::size_t r = 0; r < signals.size(); ++r) {
+    const RunSignals& run = signals[r];
+    const ModelPoint& point = points[r];
     const Prediction p = predict(run, point);
     std::map<std::string, double> energy_J;
     if (!measures_motors(run) && measures_energy(run))
@@ -117,10 +124,10 @@ Eigen::VectorXd measured_power_W(const RunSignals& run, Side side) {
   return {};
 }
 
-std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, const ModelPoint& point) {
+std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, const ModelPoints& points) {
   std::vector<RunEnergy> energies(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
-    const Prediction p = predict(signals[r], point);
+    const Prediction p = predict(signals[r], points[r]);
     if (!measures_motors(signals[r]) && measures_energy(signals[r])) {
       energies[r] = {.measured_J = signals[r].battery_power_W.sum() * signals[r].period_s,
                      .predicted_J = p.battery_power_W.sum() * signals[r].period_s};
@@ -186,7 +193,8 @@ double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPo
 
 GapReport measure_gap(const GapInput& input) {
   GapReport report;
-  const std::vector<RunEnergy> before = run_energies(input.before_signals, input.before);
+  const ModelPoints nominal(input.before_signals.size(), input.before);
+  const std::vector<RunEnergy> before = run_energies(input.before_signals, nominal);
   const std::vector<RunEnergy> after = run_energies(input.after_signals, input.after);
   EnergyGap& energy = report.energy;
   energy.before_percent = energy_gap_percent(before);
@@ -198,14 +206,14 @@ GapReport measure_gap(const GapInput& input) {
   energy.after_J = absolute_gap_J(after);
   energy.shrink_fraction = energy.before_J > 0 ? 1 - energy.after_J / energy.before_J : 0.0;
   energy.shrink_interval_95 = shrink_interval(input, before, after, energy);
-  const Squares a = squares_of(input.before_signals, input.before),
+  const Squares a = squares_of(input.before_signals, nominal),
                 b = squares_of(input.after_signals, input.after);
   report.current_A = signal_gap(a.current, b.current);
   report.voltage_V = signal_gap(a.voltage, b.voltage);
   report.position_m = signal_gap(a.position, b.position);
   report.heading_rad = signal_gap(a.heading, b.heading);
   report.battery_W = signal_gap(a.battery, b.battery);
-  add_phases(input.before_signals, input.before, false, report.energy_by_phase_J);
+  add_phases(input.before_signals, nominal, false, report.energy_by_phase_J);
   add_phases(input.after_signals, input.after, true, report.energy_by_phase_J);
   return report;
 }

@@ -19,8 +19,11 @@ struct RunEnergy {
 /// Measured power of one wheel (W) per sample: voltage times current, or empty.
 [[nodiscard]] Eigen::VectorXd measured_power_W(const RunSignals& run, Side side);
 
+/// One model for each run.
+using ModelPoints = std::vector<ModelPoint>;
+
 [[nodiscard]] std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals,
-                                                  const ModelPoint& point);
+                                                  const ModelPoints& points);
 
 /// sum |gap| over runs, J.
 [[nodiscard]] double absolute_gap_J(const std::vector<RunEnergy>& runs);
@@ -32,12 +35,13 @@ struct GapInput {
   const std::vector<RunSignals>& before_signals;
   const std::vector<RunSignals>& after_signals;  ///< read at the corrected model's delay
   ModelPoint before{};
-  ModelPoint after{};
+  ModelPoints after{};
   double noise_floor_percent{};
   std::size_t bootstrap{};
-  /// Runs that the correction was fitted to, at its delay: with few held-out runs, they show how much
-  /// the shrink differs from run to run.
+  /// Runs that the correction was fitted to, at its delay, and the model: with few held-out runs, they show
+  /// how much the shrink differs from run to run.
   const std::vector<RunSignals>& fitted_signals;
+  ModelPoint fitted{};
 };
 
 /// Mean |gap| (percent of the measured energy) that friction and resistance leave which differ from run

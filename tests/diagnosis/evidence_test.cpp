@@ -10,9 +10,10 @@
 namespace joulepath {
 namespace {
 
-/// One column with entry 4 of the Gram matrix in each run; the runs' scores about zero are as given.
+/// One column with entry 4 of the Gram matrix in each run and (nearly) no prior; the runs' scores about zero
+/// are as given.
 Equations runs_with_scores(const std::vector<double>& scores, Column::Kind kind = Column::Kind::amplitude) {
-  Equations equations{.columns = {{kind, 0, 0, 1.0, 0.0}}, .prior_sd = Eigen::VectorXd::Constant(1, 1.0)};
+  Equations equations{.columns = {{kind, 0, 0, 1.0, 0.0}}, .prior_sd = Eigen::VectorXd::Constant(1, 1e6)};
   for (const double score : scores) {
     Eigen::MatrixXd gram(2, 2);
     gram << 4.0, score, score, 100.0;
@@ -21,20 +22,18 @@ Equations runs_with_scores(const std::vector<double>& scores, Column::Kind kind 
   return equations;
 }
 
-double dispersion(const Equations& equations, double parameter = 0.0) {
-  return run_dispersion(equations, Eigen::VectorXd::Constant(1, parameter));
-}
-
-/// Variance of the scores times the runs, over the sum of the Gram entries: (36 + 4 - 16/2)/8 = 4.
+/// Nothing fitted: (36 + 4)/(2 x 4) = 5. The fit takes the mean score of 2 away, and of each run's expected
+/// square of 4 the 2 that a fit of two runs absorbs: (16 + 16)/(2 + 2) = 8.
 TEST(RunDispersion, IsTheScatterOfScoresOverItsExpectation) {
-  EXPECT_NEAR(dispersion(runs_with_scores({6, -2})), 4.0, 1e-12);
-  EXPECT_NEAR(dispersion(runs_with_scores({10, 2}), 1.0), 4.0, 1e-12) << "a fit takes 4 off each score";
+  EXPECT_NEAR(run_dispersion(runs_with_scores({6, -2}), {}), 5.0, 1e-9);
+  EXPECT_NEAR(run_dispersion(runs_with_scores({6, -2}), {0}), 8.0, 1e-9);
+  EXPECT_NEAR(run_dispersion(runs_with_scores({10, 2}), {0}), 8.0, 1e-9);
 }
 
 TEST(RunDispersion, IsOneWhereRunsAgreeOrNothingCanTell) {
-  EXPECT_EQ(dispersion(runs_with_scores({3, 3})), 1.0);
-  EXPECT_EQ(dispersion(runs_with_scores({})), 1.0);
-  EXPECT_EQ(dispersion(runs_with_scores({60, -60}, Column::Kind::dictionary)), 1.0);
+  EXPECT_EQ(run_dispersion(runs_with_scores({3, 3}), {0}), 1.0);
+  EXPECT_EQ(run_dispersion(runs_with_scores({}), {0}), 1.0);
+  EXPECT_EQ(run_dispersion(runs_with_scores({60, -60}, Column::Kind::dictionary), {}), 1.0);
 }
 
 /// The interval of a difference begins at zero where physics allows one sign and the effect is absent, and

@@ -45,10 +45,11 @@ GapReport gap_between(const std::vector<RunSignals>& signals, const Robot& befor
   return measure_gap({.before_signals = signals,
                       .after_signals = signals,
                       .before = {.robot = before},
-                      .after = {.robot = after},
+                      .after = ModelPoints(signals.size(), {.robot = after}),
                       .noise_floor_percent = 0.1,
                       .bootstrap = 50,
-                      .fitted_signals = signals});
+                      .fitted_signals = signals,
+                      .fitted = {.robot = after}});
 }
 
 TEST(Gap, IsTheSumOverRunsOverTheirMeasuredEnergy) {

@@ -54,14 +54,15 @@ TEST(Group, ProbabilityThatOneOfItsMembersIsThereIsAProbability) {
                                               {.candidates = {0}, .score = 4},
                                               {.candidates = {1}, .score = 4},
                                               {}};
-  const auto each = effect_probabilities(equations, explanations);
-  const double any = probability_of_any(equations, explanations, {"rolling_resistance", "coulomb_friction"});
+  Inclusion inclusion;
+  inclusion.add(equations, explanations);
+  const auto each = inclusion.of_each();
+  const double any = inclusion.of_any({"rolling_resistance", "coulomb_friction"});
   EXPECT_GT(each.at("rolling_resistance") + each.at("coulomb_friction"), 1.0);
   EXPECT_LE(any, 1.0);
   const double w = kScoreFlattening;
   EXPECT_NEAR(any, 1 - 1 / (std::exp(5 * w) + 2 * std::exp(4 * w) + 1), 1e-12);
-  EXPECT_NEAR(probability_of_any(equations, explanations, {"coulomb_friction"}), each.at("coulomb_friction"),
-              1e-12);
+  EXPECT_NEAR(inclusion.of("coulomb_friction"), each.at("coulomb_friction"), 1e-12);
 }
 
 TEST(Group, OnePayloadDoesNotTellRollingResistanceFromCoulombFriction) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "diagnosis/evidence/whitening.hpp"
+#include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/normal_equations.hpp"
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/numerics/smoothing.hpp"
@@ -71,9 +72,44 @@ std::vector<RawRunEquations> scattered_runs(int runs, int samples, double common
 TEST(RunEffects, TheirVarianceIsRecovered) {
   std::mt19937 engine(9);
   const auto raw = scattered_runs(200, 100, 0.0, 0.5, engine);
-  const Eigen::VectorXd variance =
-      run_variances(raw, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 0.1));
+  const Eigen::VectorXd variance = run_variances(raw, {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, 1)},
+                                                 Eigen::VectorXd::Constant(1, 0.1));
   EXPECT_NEAR(std::sqrt(variance[0]), 0.5, 0.06);
+}
+
+/// Runs whose level a rich fit can draw in part: `curves` columns, constant in each run.
+std::vector<RawRunEquations> absorbed_runs(int runs, int curves, double spread, std::mt19937& engine) {
+  std::normal_distribution<double> normal;
+  std::vector<RawRunEquations> raw;
+  for (int r = 0; r < runs; ++r) {
+    const double level = spread * normal(engine);
+    Eigen::VectorXd place(curves);
+    for (double& x : place) x = normal(engine);
+    Eigen::MatrixXd rows(100, curves + 2);
+    for (Eigen::Index t = 0; t < rows.rows(); ++t)
+      rows.row(t) << place.transpose(), 1.0, level + normal(engine);
+    raw.push_back({.gram = rows.transpose() * rows, .columns = curves, .own_columns = 1});
+  }
+  return raw;
+}
+
+TEST(RunEffects, TheirVarianceIsRecoveredFromFewRunsThatARichFitAbsorbs) {
+  std::mt19937 engine(13);
+  constexpr int kFewRuns = 8, kCurves = 5, kDraws = 100, kPasses = 5;
+  double sum = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const auto raw = absorbed_runs(kFewRuns, kCurves, 0.5, engine);
+    Eigen::VectorXd variance = Eigen::VectorXd::Constant(1, 0.1);
+    for (int pass = 0; pass < kPasses; ++pass) {
+      std::vector<RunEquations> runs;
+      for (const RawRunEquations& run : raw) runs.push_back(marginalize(run, variance));
+      const LinearProblem problem = sum_runs(runs, every(kFewRuns), Eigen::VectorXd::Constant(kCurves, 10.0));
+      const Posterior rich = solve(problem, {0, 1, 2, 3, 4});
+      variance = run_variances(raw, {rich.mean, rich.covariance}, variance);
+    }
+    sum += variance[0];
+  }
+  EXPECT_NEAR(sum / kDraws, 0.25, 0.06);
 }
 
 TEST(RunEffects, IntervalsCoverTheTruthAtTheirRate) {

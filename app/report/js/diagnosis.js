@@ -19,7 +19,7 @@ const kVerdicts = {
 
 jp.cause_name = (cause) => words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
 
-/** One card for each named cause, with its sizes. */
+/** One card for each named cause with its sizes, and for each unknown one. */
 jp.cause_cards = function (d) {
   const line = (text) => h("div", {}, text);
   const interval = (entry) => (entry.interval_95 ? ` (95 %: ${number(entry.interval_95[0])} to ${number(entry.interval_95[1])})` : "");
@@ -27,7 +27,9 @@ jp.cause_cards = function (d) {
     ...Object.entries(cause.parameters || {}).filter(([key]) => key !== "side").map(([key, entry]) => line(jp.key_value(key, entry.value) + interval(entry))),
     line(`probability ${fraction(cause.probability, 3)}`), line(`closes ${fraction(cause.shrink_fraction_alone, 3)} of the gap alone`),
     (cause.indistinguishable_from || []).length ? line("these runs cannot tell it from " + cause.indistinguishable_from.map(words).join(", ")) : null].filter(Boolean));
-  return (d.causes || []).length ? h("div", {class: "tiles"}, d.causes.map(card)) : null;
+  const unknown = (one) => jp.tile("Unknown cause", fraction(one.share, 3) + " of what is explained", [line("depends on " + one.depends_on), line(`probability ${fraction(one.probability, 3)}`)]);
+  const cards = [...(d.causes || []).map(card), ...(d.unknowns || []).map(unknown)];
+  return cards.length ? h("div", {class: "tiles causes"}, cards) : null;
 };
 
 jp.diagnosis_tiles = function (d) {
@@ -122,9 +124,15 @@ jp.which_section = function (d) {
   const grouped = new Set(causes.flatMap((cause) => (cause.indistinguishable_from || []).length ? [cause.effect, ...cause.indistinguishable_from] : []));
   const named = new Set(causes.map((cause) => cause.effect));
   return jp.section("Which effect", causes.length ? null : h("p", {}, "No cause is named."),
+  jp.small_effects(d),
   d.pinned_combination ? h("p", {}, "Determined by the data: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
   ranking.length ? [h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
     grouped.size ? h("p", {class: "soft small"}, "◇ one group: these runs cannot separate its members.") : null] : null);
+};
+
+jp.small_effects = function (d) {
+  const small = d.below_materiality || [];
+  return small.length ? [h("h3", {}, "Below the materiality floor"), jp.table(["effect", {n: "probability"}, {n: "evidence"}, {n: "size over the floor's"}], small.map((one) => [words(one.effect), {n: fraction(one.probability, 3)}, {n: number(one.evidence, 3)}, {n: number(one.size, 2)}]))] : null;
 };
 
 jp.runs_section = function (data) {

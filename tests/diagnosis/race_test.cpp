@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/attribution.hpp"
+#include "diagnosis/evidence/groups.hpp"
+#include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/signals/runs_by_use.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr int kRaceRuns = 10, kRaceSamples = 60;
+constexpr int kCalibration = 0, kLaw = 1, kOtherLaw = 2, kFirstOfTerm = 3, kColumns = 7;
+
+/// Parameters of a drawn gap: of a law, and of an unknown term with four columns of which the first follows
+/// the law's signature; or of the small difference of the two, where nothing else tells them apart.
+struct Gap {
+  double law{};
+  double term{};
+  double difference{};
+};
+
+/// Whitened rows of one calibration constant, two laws and one unknown term.
+Equations drawn(const Gap& gap) {
+  std::mt19937 engine(11);
+  std::normal_distribution<double> normal;
+  Equations equations;
+  equations.columns = {{Column::Kind::nuisance, 0, 0, 0.05, 0.0},
+                       {Column::Kind::amplitude, 0, 0, 1.0, 0.0},
+                       {Column::Kind::amplitude, 1, 0, 1.0, 0.0}};
+  for (int k = 0; k < 4; ++k) equations.columns.push_back({Column::Kind::dictionary, k, 0, 1.0, 0.0});
+  for (const char* name : {"viscous_friction", "quadratic_drag"})
+    equations.candidates.push_back({.shape = {.name = name}, .amplitude = {"size"}, .step = {0.25}});
+  equations.unknowns = {{"wheel speed (current)", {3, 4, 5, 6}}};
+  equations.prior_sd = Eigen::VectorXd::Ones(kColumns);
+  equations.prior_sd[kCalibration] = 0.05;
+  for (int r = 0; r < kRaceRuns; ++r) {
+    Eigen::MatrixXd rows(kRaceSamples, kColumns + 1);
+    for (int t = 0; t < kRaceSamples; ++t) {
+      for (int k = 0; k < kColumns; ++k) rows(t, k) = normal(engine);
+      rows(t, kFirstOfTerm) += rows(t, kLaw);
+      double curve = 0;
+      for (int k = 0; k < 4; ++k) curve += rows(t, kFirstOfTerm + k);
+      const double difference = normal(engine);
+      if (gap.difference != 0) rows(t, kLaw) = rows(t, kFirstOfTerm) + 1e-3 * difference;
+      rows(t, kColumns) =
+          gap.difference * difference + gap.law * rows(t, kLaw) + gap.term * curve + normal(engine);
+    }
+    equations.runs.push_back({.gram = rows.transpose() * rows});
+  }
+  return equations;
+}
+
+std::vector<Explanation> raced(const Equations& equations) {
+  return search_explanations(without_calibration(equations, every(kRaceRuns)), equations, {});
+}
+
+TEST(Race, ALawThatIsThereWinsAlone) {
+  const Explanation best = raced(drawn({.law = 0.6})).front();
+  EXPECT_EQ(best.candidates, std::vector<int>{0});
+  EXPECT_TRUE(best.unknowns.empty());
+}
+
+TEST(Race, AnUnknownCauseWinsOverALawThatFollowsAPartOfIt) {
+  const Explanation best = raced(drawn({.term = 0.5})).front();
+  EXPECT_TRUE(best.candidates.empty());
+  EXPECT_EQ(best.unknowns, std::vector<int>{0});
+}
+
+TEST(Race, ALawKeepsItsNameBesideAnUnknownCause) {
+  const Equations equations = drawn({.law = 0.8, .term = 0.4});
+  const std::vector<Explanation> explanations = raced(equations);
+  EXPECT_EQ(explanations.front().candidates, std::vector<int>{0});
+  EXPECT_EQ(explanations.front().unknowns, std::vector<int>{0});
+  Inclusion inclusion;
+  inclusion.add(equations, explanations);
+  EXPECT_GT(inclusion.of("viscous_friction"), 0.95);
+  EXPECT_GT(inclusion.of("wheel speed (current)"), 0.95);
+  EXPECT_LT(inclusion.of("quadratic_drag"), 0.05);
+}
+
+TEST(Race, NoiseAloneNamesNothing) {
+  const Explanation best = raced(drawn({})).front();
+  EXPECT_TRUE(best.candidates.empty());
+  EXPECT_TRUE(best.unknowns.empty());
+}
+
+/// A law's form is inexact: what an unknown term adds is small beside the law, although the evidence is not.
+TEST(Race, ATermThatRefinesALawIsNoCauseBesideIt) {
+  const Explanation best = raced(drawn({.law = 10.0, .term = 0.4})).front();
+  EXPECT_EQ(best.candidates, std::vector<int>{0});
+  EXPECT_TRUE(best.unknowns.empty());
+}
+
+/// A law of five hundred times its size that a term takes back fits the gap, and explains nothing.
+TEST(Race, ALawAndATermThatCancelEachOtherAreNoExplanation) {
+  Equations equations = drawn({.difference = 0.5});
+  equations.prior_sd.setConstant(1e4);
+  for (const Explanation& e : raced(equations))
+    EXPECT_FALSE(!e.candidates.empty() && e.candidates.front() == 0 && !e.unknowns.empty() && e.score > 0);
+}
+
+TEST(Inclusion, IsAProbabilityWhateverTheGroup) {
+  Equations equations = drawn({.law = 0.6});
+  for (RunEquations& run : equations.runs) {  // the second law's signature equals the first one's
+    run.gram.row(kOtherLaw) = run.gram.row(kLaw);
+    run.gram.col(kOtherLaw) = run.gram.col(kLaw);
+  }
+  Inclusion inclusion;
+  inclusion.add(equations, raced(equations));
+  EXPECT_NEAR(inclusion.of("viscous_friction"), inclusion.of("quadratic_drag"), 1e-6);
+  EXPECT_GT(inclusion.of_any({"viscous_friction", "quadratic_drag"}), 0.99);
+  EXPECT_LE(inclusion.of_any({"viscous_friction", "quadratic_drag"}), 1.0);
+}
+
+TEST(RunDispersion, OfFewRunsUnderAWideFitIsThatOfTheNoise) {
+  std::mt19937 engine(21);
+  std::normal_distribution<double> normal;
+  constexpr int kFew = 6, kWide = 24;
+  constexpr double kScatter = 2.0;
+  double sum = 0;
+  constexpr int kDraws = 40;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Equations equations;
+    equations.prior_sd = Eigen::VectorXd::Constant(kWide, 100.0);
+    std::vector<int> fitted;
+    for (int k = 0; k < kWide; ++k) equations.columns.push_back({Column::Kind::amplitude, k, 0, 100.0, 0.0});
+    for (int k = 0; k < kWide; ++k) fitted.push_back(k);
+    for (int r = 0; r < kFew; ++r) {
+      Eigen::MatrixXd rows(kWide / 3, kWide + 1);  // 48 rows for 24 columns
+      for (double& x : rows.reshaped()) x = normal(engine);
+      rows.col(kWide) *= std::sqrt(kScatter);
+      equations.runs.push_back({.gram = rows.transpose() * rows});
+    }
+    sum += run_dispersion(equations, fitted);
+  }
+  EXPECT_NEAR(sum / kDraws, kScatter, 0.2);
+}
+
+/// Fifteen straight runs of five payloads and five spins that share one of these payloads.
+Dataset straight_runs_and_five_spins() {
+  Dataset dataset{.robot = testing::nomad()};
+  for (int k = 0; k < 20; ++k) {
+    const bool spin = k >= 15;
+    const auto law = testing::swinging(spin ? 0.0 : 0.4, 0.0, 1.0, spin ? 0.8 : 0.0);
+    dataset.runs.push_back(testing::synthetic_run(dataset.robot, "run_" + std::to_string(k), 8,
+                                                  spin ? 2.0 : 2.0 * (k % 5), law, {0.01, 0.01, 0.01},
+                                                  static_cast<unsigned>(k)));
+  }
+  return dataset;
+}
+
+/// Places in the dictionary of a family and channel.
+std::vector<int> entries_of(const DictionaryLayout& layout, const std::string& family,
+                            const std::string& channel) {
+  std::vector<int> found;
+  const std::vector<DictionaryEntry> entries = dictionary_entries(layout);
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (entries[k].family == family && entries[k].channel == channel) found.push_back(static_cast<int>(k));
+  return found;
+}
+
+TEST(Materiality, OfATermIsThatOfTheLawThatItDraws) {
+  const Dataset dataset = straight_runs_and_five_spins();
+  const std::vector<RunSignals> signals = sort_runs(dataset).signals;
+  constexpr double kTorque_Nm = 0.05;
+  Robot harder = dataset.robot;
+  for (Side side : kSides) harder.motor[side].friction_torque_Nm += kTorque_Nm;
+  const Impact law = impact_between(signals, {.robot = harder}, {.robot = dataset.robot});
+  // Hats over the wheel speed sum to 1; the entry of the left less the right wheel stays 0.
+  const std::vector<int> hats = entries_of(lay_out(signals, dataset.robot), "wheel speed", "current");
+  Eigen::VectorXd torque_Nm = Eigen::VectorXd::Constant(std::ssize(hats), kTorque_Nm);
+  torque_Nm[1] = 0;
+  const Impact term = impact_of_term(signals, {.robot = dataset.robot}, hats, torque_Nm);
+  ASSERT_GT(law.motor_power, 0.005);
+  EXPECT_NEAR(term.motor_power, law.motor_power, 0.1 * law.motor_power);
+  EXPECT_EQ(term.heading_rad, 0.0);
+}
+
+TEST(Materiality, OfATermOfTheMotionIsWhereTheRunsEnd) {
+  const Dataset dataset = straight_runs_and_five_spins();
+  const std::vector<RunSignals> signals = sort_runs(dataset).signals;
+  const std::vector<int> speed = entries_of(lay_out(signals, dataset.robot), "speed", "motion");
+  Eigen::VectorXd strength = Eigen::VectorXd::Zero(std::ssize(speed));
+  strength[0] = 0.01;
+  const Impact impact = impact_of_term(signals, {.robot = dataset.robot}, speed, strength);
+  EXPECT_NEAR(impact.position, 0.01, 0.001);
+  EXPECT_EQ(impact.motor_power, 0.0);
+}
+
+TEST(Folds, SpreadARareManoeuvreBeforeThePayload) {
+  const Dataset dataset = straight_runs_and_five_spins();
+  const RunsByUse runs = sort_runs(dataset);
+  ASSERT_EQ(fold_count(runs), 5u);
+  EXPECT_EQ(runs.diagnosis.runs.size(), 20u);
+  std::set<std::size_t> folds_of_spins;
+  for (std::size_t r = 15; r < 20; ++r) folds_of_spins.insert(runs.fold_of[r]);
+  EXPECT_EQ(folds_of_spins.size(), 5u);
+  for (std::size_t fold = 0; fold < 5; ++fold) EXPECT_EQ(fitted_runs(runs, fold).size(), 16u);
+}
+
+TEST(Folds, RunsForValidationNeitherChooseNorFit) {
+  Dataset dataset = straight_runs_and_five_spins();
+  for (std::size_t r : {3u, 16u}) dataset.runs[r].use = RunUse::validation;
+  const RunsByUse runs = sort_runs(dataset);
+  EXPECT_EQ(fold_count(runs), 0u);
+  EXPECT_EQ(runs.validation.runs, (std::vector<std::size_t>{3, 16}));
+  EXPECT_EQ(runs.diagnosis.runs.size(), 18u);
+}
+
+}  // namespace
+}  // namespace joulepath
