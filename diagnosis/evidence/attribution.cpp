@@ -7,7 +7,7 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0043-small-effects-and-foreign-forms.md
 namespace joulepath {
 namespace {
 

@@ -9,7 +9,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/signals/resolution.hpp"
-
+// Design: docs/decisions/0042-a-laws-form-is-uncertain.md
 namespace joulepath {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0230-unknown-terms-compete.md
 namespace joulepath {
 namespace {
 
