@@ -74,7 +74,9 @@ double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
 /// The steps in their order; each reads what the steps before it found, and changes none of it.
 Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const DiagnoseOptions& options) {
   const Survey survey = survey_dataset(dataset, runs.signals);
-  const Identification id = identify(runs.diagnosis, options.without);
+  std::set<std::string> without = survey.invisible_effects;
+  without.insert(options.without.begin(), options.without.end());
+  const Identification id = identify(runs.diagnosis, without);
   const Examination x{.dataset = dataset, .runs = runs, .id = id};
   const std::vector<OtherPrediction> others = other_predictions(dataset, runs.signals, runs.options);
   const std::vector<WhereCell> where =

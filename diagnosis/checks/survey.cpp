@@ -7,7 +7,7 @@
 
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
-
+// Design: docs/decisions/0372-what-no-run-shows-has-no-name.md
 namespace joulepath {
 namespace {
 
@@ -38,62 +38,98 @@ std::string hidden_without(bool Needs::*need) {
   return text + " cannot be seen";
 }
 
+/// A channel that runs may lack.
+struct Channel {
+  const char* name{};
+  std::string consequence{};
+  bool (*is_in)(const RunSignals&){};
+  bool Needs::*need{};  ///< nothing: effects need no such channel
+};
+
+bool measures_pose(const RunSignals& run) { return run.x_m.size() > 0 && run.heading_measured; }
+bool measures_gyro(const RunSignals& run) { return run.gyro_yaw_rate_rad_s.size() > 0; }
+bool measures_yaw_rate(const RunSignals& run) { return measures_gyro(run) || measures_pose(run); }
+bool measures_battery(const RunSignals& run) { return run.battery_power_W.size() > 0; }
+
+std::vector<Channel> channels() {
+  return {
+      {"motor_current", "mechanics are visible in the voltage only, mixed with winding and sensor errors",
+       [](const RunSignals& r) {
+         return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
+       }},
+      {"motor_voltage",
+       "winding, driver and magnet errors cannot be separated from errors of the current sensor; energies "
+       "are computed from the currents and the robot file's winding",
+       [](const RunSignals& r) {
+         return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
+       }},
+      {"battery", hidden_without(&Needs::battery), measures_battery, &Needs::battery},
+      {"pose", hidden_without(&Needs::pose), measures_pose, &Needs::pose},
+      {"gyro", "yaw rates are visible in the pose only", measures_gyro},
+      {"yaw_rate", hidden_without(&Needs::yaw_rate), measures_yaw_rate, &Needs::yaw_rate},
+      {"start_time", hidden_without(&Needs::time_of_day),
+       [](const RunSignals& r) { return r.time_of_day_known; }, &Needs::time_of_day},
+  };
+}
+
+/// Shares of all samples.
+struct Manoeuvres {
+  double turning{}, reverse{}, still{};
+};
+
+Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
+  Manoeuvres share;
+  double total = 0;
+  for (const RunSignals& run : signals)
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
+      total += 1;
+      share.turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
+                       std::abs(right - left) > kMovingWheel_rad_s;
+      share.reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
+      share.still += std::abs(left) < kStillWheel_rad_s && std::abs(right) < kStillWheel_rad_s;
+    }
+  if (total == 0) return {1, 1, 1};
+  return {share.turning / total, share.reverse / total, share.still / total};
+}
+
+bool has_one_payload(const std::vector<RunSignals>& signals) {
+  std::set<double> payloads;
+  for (const RunSignals& run : signals) payloads.insert(run.payload_kg.begin(), run.payload_kg.end());
+  return payloads.size() < 2;
+}
+
 }  // namespace
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
   Survey survey;
-  const auto lacks = [&](const std::string& channel, const std::string& consequence, const auto& has) {
-    const double share = share_of(signals, has);
-    if (share >= 1) return;
-    survey.missing_channels.push_back(channel);
-    survey.notes.push_back(std::string(share > 0 ? "some runs have no " : "no ") + channel + ": " +
-                           consequence);
+  const auto hide = [&](bool Needs::*need) {
+    for (const EffectDescription& effect : effect_catalog())
+      if (effect.info.needs.*need) survey.invisible_effects.insert(std::string(effect.info.name));
   };
-  lacks("motor_current", "mechanics are visible in the voltage only, mixed with winding and sensor errors",
-        [](const RunSignals& r) {
-          return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
-        });
-  lacks("motor_voltage",
-        "winding, driver and magnet errors cannot be separated from errors of the current sensor; energies "
-        "are computed from the currents and the robot file's winding",
-        [](const RunSignals& r) {
-          return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
-        });
-  lacks("battery", hidden_without(&Needs::battery),
-        [](const RunSignals& r) { return r.battery_power_W.size() > 0; });
-  lacks("pose", hidden_without(&Needs::pose),
-        [](const RunSignals& r) { return r.x_m.size() > 0 && r.heading_measured; });
-  lacks("gyro", "yaw rates are visible in the pose only",
-        [](const RunSignals& r) { return r.gyro_yaw_rate_rad_s.size() > 0; });
-  lacks("start_time", hidden_without(&Needs::time_of_day),
-        [](const RunSignals& r) { return r.time_of_day_known; });
-  std::set<double> payloads;
-  double turning = 0, reverse = 0, still = 0, total = 0;
-  for (const RunSignals& run : signals) {
-    payloads.insert(run.payload_kg.begin(), run.payload_kg.end());
-    for (Eigen::Index j = 0; j < run.size(); ++j) {
-      const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
-      total += 1;
-      turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
-                 std::abs(right - left) > kMovingWheel_rad_s;
-      reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
-      still += std::abs(left) < kStillWheel_rad_s && std::abs(right) < kStillWheel_rad_s;
-    }
+  for (const Channel& channel : channels()) {
+    const double share = share_of(signals, channel.is_in);
+    if (share >= 1) continue;
+    survey.missing_channels.push_back(channel.name);
+    survey.notes.push_back(std::string(share > 0 ? "some runs have no " : "no ") + channel.name + ": " +
+                           channel.consequence);
+    if (channel.need && share == 0) hide(channel.need);
   }
-  if (payloads.size() < 2)
+  if (has_one_payload(signals))
     survey.notes.push_back(
         "one payload only: losses that grow with the load cannot be separated from constant ones");
-  if (total > 0 && turning < kLeastManoeuvreShare * total)
+  const auto [turning, reverse, still] = manoeuvres_of(signals);
+  if (turning < kLeastManoeuvreShare) {
     survey.notes.push_back("no turns: " + hidden_without(&Needs::turns));
-  if (total > 0 && reverse < kLeastManoeuvreShare * total)
+    hide(&Needs::turns);
+  }
+  if (reverse < kLeastManoeuvreShare) {
     survey.notes.push_back("no reversing: " + hidden_without(&Needs::reversing));
-  if (total > 0 && still < kLeastStandstillShare * total)
-    survey.notes.push_back("no standstill: sensor offsets are less visible");
-  for (const Run& run : dataset.runs)
-    if (!run.payload_known) {
-      survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");
-      break;
-    }
+    hide(&Needs::reversing);
+  }
+  if (still < kLeastStandstillShare) survey.notes.push_back("no standstill: sensor offsets are less visible");
+  if (std::ranges::any_of(dataset.runs, [](const Run& run) { return !run.payload_known; }))
+    survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");
   return survey;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -7,10 +8,12 @@
 
 namespace joulepath {
 
-/// Channels and motions that a dataset lacks, and the effects that it therefore cannot show. Reported first.
+/// Channels and motions that a dataset lacks, and the effects that it therefore cannot show: no log contains
+/// what they need. Reported first.
 struct Survey {
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};
+  std::set<std::string> invisible_effects{};
 };
 
 [[nodiscard]] Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals);

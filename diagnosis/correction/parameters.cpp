@@ -103,11 +103,9 @@ bool is_told_from_zero(const Refit& fitted, std::size_t effect) {
 
 bool is_inside_range(const Refit& fitted, std::size_t effect, const Robot& robot) {
   const ActiveEffect& active = fitted.state.effects[effect];
-  const std::vector<double> kept =
-      amplitudes_of(setting_of(active.candidate, active.amplitude, robot), robot);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    if (std::abs(kept[k] - active.amplitude[k]) > 1e-6 * std::abs(active.amplitude[k])) return false;
-  return true;
+  double square = 0;
+  for (double amplitude : active.amplitude) square += amplitude * amplitude;
+  return outside_range(active.candidate, active.amplitude, robot) <= 1e-6 * std::sqrt(square);
 }
 
 }  // namespace joulepath

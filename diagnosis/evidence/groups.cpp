@@ -21,18 +21,43 @@ std::multiset<std::string> members_of(const Equations& equations, const Explanat
   return labels;
 }
 
-/// Loss of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data
-/// alone say.
-double loss_of_laws(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
-                    double dispersion) {
-  std::vector<int> columns;
+/// Fit of an explanation's laws as the catalog has them, amplitudes free of any prior: what the data alone
+/// say.
+struct FreeFit {
+  std::vector<int> columns{};
+  Posterior posterior{};
+};
+
+FreeFit free_fit(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                 double dispersion) {
+  FreeFit fit;
   for (int k : explanation.columns)
-    if (equations.columns[static_cast<std::size_t>(k)].kind != Column::Kind::form) columns.push_back(k);
+    if (equations.columns[static_cast<std::size_t>(k)].kind != Column::Kind::form) fit.columns.push_back(k);
   LinearProblem free = problem;
-  for (int k : columns)
+  for (int k : fit.columns)
     if (equations.columns[static_cast<std::size_t>(k)].kind == Column::Kind::amplitude)
       free.prior_sd[k] *= kFreeAmplitude;
-  return solve(free, columns, dispersion).loss;
+  fit.posterior = solve(free, fit.columns, dispersion);
+  return fit;
+}
+
+/// Whether a fit's amplitude of an explanation's effect is one that the catalog accepts, or within two
+/// standard deviations of one.
+bool is_accepted(const FreeFit& fit, const Equations& equations, const Explanation& explanation,
+                 const std::string& label, const Robot& robot) {
+  for (int c : explanation.candidates) {
+    const Candidate& candidate = equations.candidates[static_cast<std::size_t>(c)];
+    if (candidate.label() != label) continue;
+    std::vector<double> amplitude;
+    double variance = 0;
+    for (int k : equations.columns_of_candidate(c, false)) {
+      const Eigen::Index at = std::find(fit.columns.begin(), fit.columns.end(), k) - fit.columns.begin();
+      amplitude.push_back(fit.posterior.mean[at]);
+      variance += fit.posterior.covariance(at, at);
+    }
+    return outside_range(candidate, amplitude, robot) <= 2 * std::sqrt(variance);
+  }
+  return false;
 }
 
 /// Calls use(explanation, label) for each explanation with one other effect, `label`, in the place of a
@@ -89,16 +114,17 @@ std::map<std::string, double> Inclusion::of_each() const {
 }
 
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
-                               const std::vector<Explanation>& explanations, int candidate,
-                               double dispersion) {
+                               const std::vector<Explanation>& explanations, int candidate, double dispersion,
+                               const Robot& robot) {
   if (explanations.empty()) return {};
-  const double own_loss = loss_of_laws(problem, equations, explanations.front(), dispersion);
+  const double own_loss = free_fit(problem, equations, explanations.front(), dispersion).posterior.loss;
   std::vector<StandIn> found;
   std::size_t rivals = 0;
   for_each_rival(equations, explanations, candidate, [&](const Explanation& e, const std::string& label) {
     if (++rivals > kMostRivals) return;
-    const double loss_more = loss_of_laws(problem, equations, e, dispersion) - own_loss;
-    if (loss_more > kStandInLoss) return;
+    const FreeFit fit = free_fit(problem, equations, e, dispersion);
+    const double loss_more = fit.posterior.loss - own_loss;
+    if (loss_more > kStandInLoss || !is_accepted(fit, equations, e, label, robot)) return;
     const auto known =
         std::find_if(found.begin(), found.end(), [&](const StandIn& s) { return s.label == label; });
     if (known == found.end())

@@ -36,10 +36,11 @@ struct StandIn {
 };
 
 /// Effects that could stand in for one of the best explanation with nearly the same likelihood, whatever
-/// their typical sizes. Laws are compared without the room that forms give the best one.
+/// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without the room that
+/// forms give the best one.
 [[nodiscard]] std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                              const std::vector<Explanation>& explanations, int candidate,
-                                             double dispersion);
+                                             double dispersion, const Robot& robot);
 
 /// The combination of two candidates' amplitudes that the data determine, neither alone: "a + k b = c".
 [[nodiscard]] std::string pinned_combination(const LinearProblem& problem, const Equations& equations,

@@ -76,6 +76,14 @@ std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& rob
   return {value_or(setting, strength.name, 0) - replaced_value(effect, robot)};
 }
 
+double outside_range(const Candidate& candidate, const std::vector<double>& amplitudes, const Robot& robot) {
+  const std::vector<double> accepted = amplitudes_of(setting_of(candidate, amplitudes, robot), robot);
+  double square = 0;
+  for (std::size_t k = 0; k < accepted.size(); ++k)
+    square += (accepted[k] - amplitudes[k]) * (accepted[k] - amplitudes[k]);
+  return std::sqrt(square);
+}
+
 Candidate bare_candidate(const EffectDescription& effect, const Robot& robot) {
   const ParameterDescription& strength = effect.strength();
   const double typical = typical_size(strength, robot);

@@ -28,6 +28,9 @@ EffectSetting setting_of(const Candidate& candidate, const std::vector<double>& 
 /// Inverse of setting_of() for a setting of the same effect.
 std::vector<double> amplitudes_of(const EffectSetting& setting, const Robot& robot);
 
+/// How far amplitudes lie outside of what the catalog accepts for their effect (0: inside).
+double outside_range(const Candidate& candidate, const std::vector<double>& amplitudes, const Robot& robot);
+
 /// The candidate of an effect, without a side and without shape parameters.
 Candidate bare_candidate(const EffectDescription& effect, const Robot& robot);
 

@@ -14,11 +14,12 @@ namespace {
 
 /// Effects that the data cannot separate share the probability that one of them is there by their likelihood,
 /// not by their typical size.
-void share_probabilities(const Identification& id, const Inclusion& inclusion, Names& names) {
+void share_probabilities(const Examination& x, const Inclusion& inclusion, Names& names) {
+  const Identification& id = x.id;
   for (int c : id.explanations.front().candidates) {
     const std::string label = id.equations.candidates[static_cast<std::size_t>(c)].label();
     const std::vector<StandIn> others =
-        stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion);
+        stand_ins(id.problem, id.equations, id.explanations, c, id.dispersion, x.dataset.robot);
     double weight = 1;
     std::set<std::string> group{label};
     for (const StandIn& other : others) {
@@ -135,7 +136,7 @@ Names choose_names(const Examination& x) {
   names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
-  share_probabilities(x.id, inclusion, names);
+  share_probabilities(x, inclusion, names);
   for (const ActiveEffect& effect : x.id.state.effects) {
     const std::string label = effect.candidate.label();
     std::set<std::string> group{label};

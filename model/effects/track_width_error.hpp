@@ -18,7 +18,7 @@ struct TrackWidthError {
                                    .source = "UMBmark (Borenstein and Feng)",
                                    .gazebo = "<wheel_separation> of the drive plugin",
                                    .mujoco = "position of the wheel bodies",
-                                   .needs = {.turns = true}};
+                                   .needs = {.yaw_rate = true, .turns = true}};
   static constexpr auto parameters() {
     return std::array{EffectParameter<TrackWidthError>{
         "fraction", "1", -0.5, 1, 0.02, "relative error of the half track", &TrackWidthError::fraction}};

@@ -1,0 +1,70 @@
+#include "diagnosis/checks/survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "diagnosis/values/diagnosis.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
+
+namespace joulepath {
+namespace {
+
+using testing::nomad;
+using testing::swinging;
+using testing::synthetic_run;
+
+/// Runs with currents and voltages, without pose, gyro, battery and time of day.
+Dataset bare_day(const Robot& real, double yaw_swing_rad_s) {
+  Dataset dataset{.robot = nomad()};
+  for (unsigned seed = 1; seed <= 8; ++seed)
+    dataset.runs.push_back(synthetic_run(real, "run_" + std::to_string(seed), 15, seed % 2 == 0 ? 5.0 : 0.0,
+                                         swinging(0.3 + 0.05 * (seed % 4), 0.1, 1.0, yaw_swing_rad_s),
+                                         {0.002, 0.005, 0.01}, seed));
+  return dataset;
+}
+
+Survey survey_of(const Dataset& dataset) {
+  std::vector<RunSignals> signals;
+  for (const Run& run : dataset.runs) signals.push_back(make_run_signals(run, signals.size(), dataset.robot));
+  return survey_dataset(dataset, signals);
+}
+
+TEST(Survey, ListsTheEffectsThatNoRunCanShow) {
+  const Survey turning = survey_of(bare_day(nomad(), 0.4)), straight = survey_of(bare_day(nomad(), 0));
+  for (const char* effect : {"wheel_slip", "wheel_radius_error", "floor_patch", "track_width_error",
+                             "winding_heating", "supply_sag", "direction_dependent_friction"})
+    EXPECT_TRUE(turning.invisible_effects.contains(effect)) << effect;
+  for (const char* effect : {"turning_scrub", "caster_swivel", "rolling_resistance"})
+    EXPECT_FALSE(turning.invisible_effects.contains(effect)) << effect;
+  for (const char* effect : {"turning_scrub", "caster_swivel", "yaw_inertia_error"})
+    EXPECT_TRUE(straight.invisible_effects.contains(effect)) << effect;
+}
+
+TEST(Survey, OneRunWithAGyroShowsTheTrackWidth) {
+  Dataset dataset = bare_day(nomad(), 0.4);
+  dataset.runs.front().log.gyro_yaw_rate_rad_s.assign(dataset.runs.front().log.size(), 0.0);
+  EXPECT_FALSE(survey_of(dataset).invisible_effects.contains("track_width_error"));
+}
+
+/// A track that is 40 % narrower changes the torques in turns, and no log here can tell it from other causes.
+TEST(Survey, WhatNoRunCanShowIsNeitherNamedNorRanked) {
+  Robot narrow = nomad();
+  narrow.geometry.half_track_m *= 0.6;
+  const Diagnosis d = diagnose(bare_day(narrow, 0.8), {.bootstrap = 20});
+  EXPECT_NE(d.verdict, Verdict::no_gap) << "the turns take another torque";
+  std::vector<std::string> said;
+  for (const Cause& cause : d.causes) {
+    said.push_back(cause.effect.name);
+    said.insert(said.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  }
+  for (const RankedEffect& entry : d.ranking) said.push_back(entry.effect);
+  for (const char* effect : {"track_width_error", "wheel_radius_error", "wheel_slip"})
+    EXPECT_EQ(std::ranges::count(said, effect), 0) << effect;
+}
+
+}  // namespace
+}  // namespace joulepath
