@@ -166,15 +166,15 @@ inline constexpr double kMaterialPosition = 0.006;
 /// Of the electrical channels. Declared (0045: half a sample is a delay).
 inline constexpr double kMaterialDelay_samples = 0.6;
 
-// Unknown terms.
+// Unknown terms, and calibration constants beyond their uncertainty.
 
 /// A smaller share of what is explained is not reported as a cause, nor preferred to a law. Declared.
 inline constexpr double kLeastUnknownShare = 0.05;
 /// Cosine of a calibration constant's signature with an effect's, to be that effect. Derived: numbers of one
 /// law differ by the curvature of the model alone.
 inline constexpr double kSameSignature = 0.99;
-
-/// That only constants beyond kCalibrationBox would save. Chosen (0045).
+/// Increase of -2 log likelihood when constants are held within kCalibrationBox, from which on one is a
+/// finding. Chosen (0045).
 inline constexpr double kLeastLossOfBox = 50.0;
 
 // Names and groups.
@@ -212,15 +212,16 @@ inline constexpr double kLeastEnergyOfStep = 0.002;
 
 /// Held-out energy gap that a correction without influence on energies may add. Declared.
 inline constexpr double kToleratedWorsening_percent = 0.05;
-/// A held-out gap above so many noise floors is more than noise. Chosen (0042).
+/// A held-out gap above this many noise floors is more than noise. Chosen (0042).
 inline constexpr double kFloorsLeft = 2.0;
 /// A smaller held-out gap is not examined further. Chosen (0042).
 inline constexpr double kMaterialGap_percent = 2.0;
-/// On both where nothing is named, and from fewer than kFewHeldOut runs: their scatter is known less. Chosen.
+/// Factor on kFloorsLeft and kMaterialGap_percent where nothing is named or fewer than kFewHeldOut runs
+/// judge: the scatter is known less. Chosen.
 inline constexpr double kCautionFactor = 2.0;
-/// The noise floor is at most so many times the scatter between runs. Chosen (0042).
+/// The noise floor is at most this many times the scatter between runs. Chosen (0042).
 inline constexpr double kScatterFactor = 2.0;
-/// Noise floors by which another day's scatter moves what is left. Chosen (0045).
+/// Another day's scatter changes the remaining gap by this many noise floors. Chosen (0045).
 inline constexpr double kAnotherDay = 0.7;
 /// Share by which an inexact form moves a law's mean strength. Chosen (0043).
 inline constexpr double kLawInexactness = 0.025;

@@ -8,9 +8,10 @@
 #include "app/commands.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/log_stream.hpp"
-#include "scenarios/monitored_plan.hpp"
+#include "scenarios/planned_course_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
+#include "scenarios/write_monitor_event.hpp"
 
 namespace joulepath {
 namespace {

@@ -14,8 +14,8 @@ namespace {
 
 using namespace calibration;
 
-constexpr std::size_t kFewestRuns = 6, kFewestUnits = 4;
-constexpr double kBlock_s = 10;
+constexpr std::size_t kFewestRuns = 6;  ///< fewer are cut into blocks
+constexpr int kBlock_s = 10;
 constexpr int kDerived = 2;  ///< wheel axle and chassis yaw inertia, listed after the fitted values
 
 [[noreturn]] void refuse(const Dataset& dataset, std::string found, std::string accepted, std::string hint) {
@@ -157,6 +157,8 @@ struct Fit {
   Identifiability can{};
 };
 
+std::string blocks_text() { return "blocks of " + std::to_string(kBlock_s) + " s"; }
+
 void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
                     const FitValues& lower, CalibrationResult& result) {
   const Robot& robot = dataset.robot;
@@ -171,7 +173,8 @@ void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, c
           return reported(robot, fit_full(rest, fit.weights, nominal, unbounded, fit.can.free).values);
         }).standard_deviation;
   else
-    result.notes.push_back("fewer than 4 runs or blocks of 10 s: no intervals");
+    result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " runs or " + blocks_text() +
+                           ": no intervals");
   const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
   for (std::size_t p = 0; p < deviation.size(); ++p)
     deviation[p] *= leverage_correction(effective[source_of(p)], units.size());
@@ -221,7 +224,7 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
 
   CalibrationResult result{.method = CalibrationMethod::full, .robot = robot_with(robot, fit.result.values)};
   result.runs_used = runs.size(), result.samples_used = fit.all.samples;
-  result.resampled = runs.size() < kFewestRuns ? "blocks of 10 s" : "runs";
+  result.resampled = runs.size() < kFewestRuns ? blocks_text() : "runs";
   result.current_rms_before_A = std::sqrt(current_mean_square_A2(fit.all, nominal));
   result.current_rms_after_A = std::sqrt(current_mean_square_A2(fit.all, fit.result.values));
   if (fit.all.voltage_count > 0) {

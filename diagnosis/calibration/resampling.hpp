@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace joulepath::calibration {
+
+/// With fewer units no interval is reported.
+inline constexpr std::size_t kFewestUnits = 4;
 
 /// Standard deviations of estimates from leaving out one unit (a run) at a time.
 struct Resampled {

@@ -143,12 +143,12 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   result.lines = Sided<SteadyLine>{fit_steady_line(result.segments, Side::left),
                                    fit_steady_line(result.segments, Side::right)};
 
-  const bool by_run = names.size() >= 4;
+  const bool by_run = names.size() >= kFewestUnits;
   result.resampled = by_run ? "runs" : "steady segments";
   const std::vector<std::string> units(names.begin(), names.end());
   const std::size_t count = by_run ? units.size() : result.segments.size();
   std::vector<double> deviation(values.size(), std::nan(""));
-  if (count >= 4)
+  if (count >= kFewestUnits)
     deviation = jackknife(count, [&](std::size_t left_out) {
                   std::vector<SteadySegment> rest;
                   for (std::size_t i = 0; i < result.segments.size(); ++i)
@@ -157,7 +157,7 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
                   return torques_Nm(dataset.robot, rest);
                 }).standard_deviation;
   else
-    result.notes.push_back("fewer than 4 steady segments: no intervals");
+    result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " steady segments: no intervals");
 
   // T_m and nu are proportional to the robot file's Kt and inherit its relative uncertainty.
   const auto of_constant = dataset.robot.uncertainty.find("torque_constant_Nm_A");

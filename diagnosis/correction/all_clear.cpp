@@ -17,8 +17,8 @@ bool energies_were_measured(const Examination& x) {
   return std::ranges::any_of(x.runs.signals, [](const RunSignals& run) { return measures_energy(run); });
 }
 
-/// Visibility of an effect that changes the energy: its expected evidence in units of the noise at a gap of 1
-/// %.
+/// Visibility of an effect that changes the energy: its expected evidence in units of the noise, for a gap of
+/// one percent.
 struct Visibility {
   double sigmas_per_percent{};
   double prior_sigmas_per_percent{};  ///< in units of the search's prior width
@@ -99,8 +99,8 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict) {
                     " of the energy: log more channels or more runs"};
   return {.verdict = verdict,
           .detectable_percent = percent,
-          .note = "no gap above " + size_text(std::max(percent, 100 * kMaterialEnergy)) +
-                  " of the energy (90 % of such gaps would have been seen)"};
+          .note = "no gap above " + size_text(std::max(percent, 100 * kMaterialEnergy)) + " of the energy (" +
+                  std::to_string(std::lround(100 * kShareSeen)) + " % of such gaps would have been seen)"};
 }
 
 }  // namespace joulepath

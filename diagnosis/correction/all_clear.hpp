@@ -7,7 +7,7 @@
 
 namespace joulepath {
 
-/// The verdict after a check of the power of the runs: `no_gap` and full explanations need runs that could
+/// The verdict after a check of the runs' statistical power: `no_gap` and `explained` need runs that could
 /// have shown a gap.
 struct AllClear {
   Verdict verdict{};

@@ -23,7 +23,7 @@ Causes report_causes(const Examination& x, const Names& names, const Validation&
   std::vector<double> impacts;
   for (std::size_t e = 0; e < v.judgment.named.size(); ++e) {
     impacts.push_back(
-        energy_of_effect(v.fitted.signals, x.dataset.robot, x.id.nuisances, v.fitted.state, e).effect_J);
+        energy_of_effect_J(v.fitted.signals, x.dataset.robot, x.id.nuisances, v.fitted.state, e));
     impact_sum += impacts.back();
   }
   for (std::size_t e = 0; e < v.judgment.named.size(); ++e) {

@@ -4,14 +4,15 @@
 
 namespace joulepath {
 
-/// What a user takes over, and why there is nothing where there is nothing.
+/// What a user takes over; a note gives the reason if there is nothing.
 struct Correction {
   std::optional<Robot> robot{};  ///< constants moved, physical effects added
   std::vector<EffectSetting> instruments{};
   std::vector<std::string> notes{};
 };
 
-/// The corrected robot, if the cause is unambiguous: the part of the names that the judging runs bear out.
+/// The corrected robot, if the cause is unambiguous: the part of the names that does not widen the held-out
+/// gap.
 [[nodiscard]] Correction correction_of(const Examination& examination, const Validation& validation);
 
 }  // namespace joulepath

@@ -5,21 +5,22 @@
 
 namespace joulepath {
 
-/// A model as the judging runs meet it: where runs take turns, each run meets a fit of the other folds' runs.
+/// A model for the held-out runs. With cross-fitting, each run is held out of the fit that predicts it and
+/// has the state of the other folds' runs.
 struct JudgedModel {
-  std::vector<RunSignals> signals{};  ///< of the judging runs, at the model's delay
+  std::vector<RunSignals> signals{};  ///< of the held-out runs, at the model's delay
   std::vector<ModelState> states{};   ///< one for each
 };
 
 [[nodiscard]] JudgedModel judged_model(const Examination& examination, const Refit& fitted);
 
-/// The calibration fitted on the diagnosis runs with the given effects, as the judging runs meet it.
+/// The calibration fitted on the diagnosis runs with the given effects, for the held-out runs.
 [[nodiscard]] JudgedModel judged_fit(const Examination& examination,
                                      const std::vector<ActiveEffect>& effects);
 
 [[nodiscard]] ModelPoints points_of(const Examination& examination, const JudgedModel& model);
 
-/// Energies of the judging runs.
+/// Energies of the held-out runs.
 [[nodiscard]] std::vector<RunEnergy> judged_energies(const Examination& examination,
                                                      const JudgedModel& model);
 

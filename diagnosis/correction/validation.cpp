@@ -79,14 +79,14 @@ std::vector<std::vector<ActiveEffect>> parts_of(const std::vector<ActiveEffect>&
   return parts;
 }
 
-std::string labels_of(const std::vector<ActiveEffect>& effects) {
+std::string in_words(const std::vector<ActiveEffect>& effects) {
   std::string text;
   for (const ActiveEffect& effect : effects) text += (text.empty() ? "" : ", ") + effect.candidate.label();
   return text;
 }
 
-/// The first part of the names that does not widen the judging runs' energy gap. Constants are moved only
-/// where that brings the energy nearer.
+/// The first part of the names that does not widen the held-out energy gap. Constants are moved only where
+/// that reduces the gap. Names that widen it by more than kMaterialGap_percent are withdrawn.
 void choose_correction(const Examination& x, Validation& v) {
   const double before = nominal_gap_percent(x);
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
@@ -102,7 +102,7 @@ void choose_correction(const Examination& x, Validation& v) {
     if (gap_percent(x, model) > before + kToleratedWorsening_percent) continue;
     v.corrected = state, v.model = model;
     if (!all)
-      v.judgment.notes.push_back("only " + labels_of(part) +
+      v.judgment.notes.push_back("only " + in_words(part) +
                                  " shrinks the held-out energy gap: the correction holds nothing else");
     return;
   }
@@ -110,7 +110,7 @@ void choose_correction(const Examination& x, Validation& v) {
   if (before > kMaterialGap_percent && v.judgment.verdict == Verdict::explained)
     v.judgment.verdict = Verdict::partly_explained;
   if (!(gap_percent(x, v.model) > before + kMaterialGap_percent)) return;
-  v.judgment.notes.push_back(labels_of(v.judgment.named) +
+  v.judgment.notes.push_back(in_words(v.judgment.named) +
                              " widens the held-out energy gap: no name is given");
   v.judgment.named.clear();
   v.judgment.verdict = Verdict::unexplained;
@@ -118,7 +118,7 @@ void choose_correction(const Examination& x, Validation& v) {
   v.model = judged_model(x, v.fitted);
 }
 
-/// One or two held-out runs show the scatter between runs as much as the model: twice the leftover counts.
+/// The gap of one or two held-out runs is mostly scatter between runs: more of it is tolerated.
 double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
 }

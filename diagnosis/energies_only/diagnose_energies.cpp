@@ -27,8 +27,8 @@ std::string listed(const std::set<std::string>& words) {
 
 std::vector<std::string> limits_of(const EnergyProblem& problem) {
   std::vector<std::string> notes{
-      "no run has a log: the motions are taken as prescribed, braking rates and entry speeds as known to 20 "
-      "%",
+      "no run has a log: the motions are taken as prescribed, braking rates and entry speeds as known to " +
+          std::to_string(std::lround(100 * kMotionDoubtSigma)) + " %",
       "negative power counts as lost at each wheel but for the robot file's regeneration"};
   if (!problem.hidden.empty()) notes.push_back("not visible in these runs: " + listed(problem.hidden));
   return notes;
@@ -73,7 +73,7 @@ struct Finding {
   std::string note{};
 };
 
-/// Energies alone name nothing: the motion was not recorded, and a part of the gap may be its doing.
+/// Energies alone do not name a cause: the motion was not recorded, and may cause a part of the gap.
 Finding judge_energies(std::size_t runs, const HeldOutEnergies& held_out, const EnergyGap& gap,
                        bool any_candidate, std::size_t bootstrap) {
   if (runs < kRunsForSmallEffects)

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
 
-/// Physics' signs, and sizes worth a name.
-bool sizes_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
+/// Whether no amplitude that is nonnegative in physics is negative.
+bool signs_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const Column& column = equations.columns[static_cast<std::size_t>(columns[k])];
     if (column.kind == Column::Kind::amplitude &&
@@ -101,7 +101,7 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
     explanation.material =
         std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
   }
-  if (!sizes_hold(equations, explanation.columns, posterior.mean) ||
+  if (!signs_hold(equations, explanation.columns, posterior.mean) ||
       !parts_hold(problem, equations, explanation, posterior.mean, explained))
     explanation.score = -1e300;
   explanation.mean = std::move(posterior.mean);
@@ -114,9 +114,9 @@ double evidence_needed(const Candidate& candidate, double size, const SearchOpti
   return options.small_effect_evidence;
 }
 
-/// Whether the data insist on every effect below the materiality floor: each alone must bring much
-/// evidence, and not a small share of the whole, as inexact forms of a great effect do. What the others
-/// cannot draw is none of their forms.
+/// Whether every effect below the materiality floor has enough evidence: each alone must add a minimum.
+/// Inexact forms of a large effect bring a small share of its evidence, so the minimum includes that share,
+/// in proportion to the part of the signature that the other effects can reproduce.
 bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
                   const SearchOptions& options, double empty_evidence) {
   for (std::size_t k = 0; k < explanation.candidates.size(); ++k) {

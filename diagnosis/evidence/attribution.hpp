@@ -1,8 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "diagnosis/evidence/linear_fit.hpp"
@@ -28,8 +26,7 @@ struct SearchOptions {
   int most_members{kMostMembers};  ///< effects and unknown terms
   double dispersion{1.0};
   std::vector<double> least_amplitude{};  ///< of each candidate, to be material; empty = any
-  /// Log evidence needed to name an effect below the materiality floor. Infinite: such effects are
-  /// skipped.
+  /// Log evidence needed to name an effect below the materiality floor. Infinite: none counts as material.
   double small_effect_evidence{std::numeric_limits<double>::infinity()};
   /// The same for pliable effects at just material size; grows as 1/sqrt(size).
   double small_pliable_evidence{std::numeric_limits<double>::infinity()};
@@ -43,8 +40,8 @@ struct SearchOptions {
                                  const Explanation& explanation, int candidate);
 
 /// Search over sets of candidates and unknown terms with the calibration projected out: every pair, then
-/// forward from the best sets of each size. Every set met is kept once, best first. The empty set is among
-/// them with score 0.
+/// forward from the best sets of each size. Returns every evaluated set once, best first, the empty set with
+/// score 0 among them.
 [[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
                                                            const Equations& equations,
                                                            const SearchOptions& options);

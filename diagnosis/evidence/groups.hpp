@@ -35,9 +35,9 @@ struct StandIn {
   double loss_more{};  ///< of the data, beyond the named effect's: -2 log of the likelihood ratio
 };
 
-/// Effects that could stand in for one of the best explanation with nearly the same likelihood, whatever
-/// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without the room that
-/// forms give the best one.
+/// Effects that could replace one effect of the best explanation with nearly the same likelihood, whatever
+/// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without their forms, which
+/// would favor the best explanation.
 [[nodiscard]] std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                              const std::vector<Explanation>& explanations, int candidate,
                                              double dispersion, const Robot& robot);

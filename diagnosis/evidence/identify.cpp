@@ -130,26 +130,21 @@ std::set<std::string> unknown_labels(const Equations& equations, const Explanati
   return labels;
 }
 
-EnergyShare energy_of_effect(const std::vector<RunSignals>& signals, const Robot& robot,
-                             const std::vector<Nuisance>& nuisances, const ModelState& state,
-                             std::size_t effect) {
+double energy_of_effect_J(const std::vector<RunSignals>& signals, const Robot& robot,
+                          const std::vector<Nuisance>& nuisances, const ModelState& state,
+                          std::size_t effect) {
   ModelState without = state;
   without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  std::vector<EnergyShare> shares(signals.size());
+  std::vector<double> run_J(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
     const Prediction with_it = predict(signals[r], model_point(robot, nuisances, state));
     const Prediction without_it = predict(signals[r], model_point(robot, nuisances, without));
-    for (Side side : kSides) {
-      shares[r].effect_J += signals[r].period_s * (with_it.power_W[side] - without_it.power_W[side]).sum();
-      shares[r].total_J += signals[r].period_s * with_it.power_W[side].sum();
-    }
+    for (Side side : kSides)
+      run_J[r] += signals[r].period_s * (with_it.power_W[side] - without_it.power_W[side]).sum();
   });
-  EnergyShare sum;
-  for (const EnergyShare& share : shares) {
-    sum.effect_J += std::abs(share.effect_J);
-    sum.total_J += std::abs(share.total_J);
-  }
-  return sum;
+  double sum_J = 0;
+  for (double effect_J : run_J) sum_J += std::abs(effect_J);
+  return sum_J;
 }
 
 }  // namespace joulepath

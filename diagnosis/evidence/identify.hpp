@@ -32,14 +32,9 @@ struct Identification {
 [[nodiscard]] std::set<std::string> unknown_labels(const Equations& equations,
                                                    const Explanation& explanation);
 
-/// Energy (J) that an effect of a state is responsible for, summed without sign over the runs, and the
-/// sum of what the model predicts.
-struct EnergyShare {
-  double effect_J{};
-  double total_J{};
-};
-[[nodiscard]] EnergyShare energy_of_effect(const std::vector<RunSignals>& signals, const Robot& robot,
-                                           const std::vector<Nuisance>& nuisances, const ModelState& state,
-                                           std::size_t effect);
+/// Energy (J) of the motors that an effect of a state is responsible for, summed without sign over the runs.
+[[nodiscard]] double energy_of_effect_J(const std::vector<RunSignals>& signals, const Robot& robot,
+                                        const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                        std::size_t effect);
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #include "diagnosis/evidence/linear_fit.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
@@ -11,9 +12,9 @@ LinearProblem without_calibration(const Equations& equations, const std::vector<
                                   double dispersion) {
   const LinearProblem all = sum_runs(equations.runs, runs, equations.prior_sd);
   const std::vector<int> nuisances = equations.columns_of(Column::Kind::nuisance);
-  std::vector<int> every(equations.columns.size());
-  for (std::size_t k = 0; k < every.size(); ++k) every[k] = static_cast<int>(k);
-  return project_out(all, nuisances, every, dispersion);
+  std::vector<int> kept(equations.columns.size());
+  std::iota(kept.begin(), kept.end(), 0);
+  return project_out(all, nuisances, kept, dispersion);
 }
 
 double run_dispersion(const Equations& equations, const std::vector<int>& fitted) {

@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The problem of some runs with the background's columns projected out; the other columns keep their
+/// The problem of some runs with the calibration's columns projected out; the other columns keep their
 /// places.
 [[nodiscard]] LinearProblem without_calibration(const Equations& equations,
                                                 const std::vector<std::size_t>& runs,

@@ -21,7 +21,6 @@ struct DictionaryLayout {
   double greatest_wheel_speed_rad_s{1};
   double greatest_yaw_rate_rad_s{1};
   double greatest_payload_kg{1};
-  double greatest_acceleration_m_s2{1};
   double greatest_current_A{1};
   double x_min_m{}, x_max_m{1}, y_min_m{}, y_max_m{1};
   double day_begin_s{}, day_end_s{1};

@@ -10,7 +10,7 @@ namespace joulepath {
 struct RunsByUse {
   bool few{};           ///< too few with a usable log to name anything: each is in both sets
   LogSet diagnosis{};   ///< runs that choose and fit
-  LogSet validation{};  ///< runs that judge
+  LogSet validation{};  ///< runs that judge; held out of the fit that predicts them, unless `few`
   std::vector<std::size_t>
       fold_of{};            ///< of each run that judges, where all runs choose, fit and judge in turn
   SignalOptions options{};  ///< how their logs are read

@@ -46,7 +46,7 @@ double share_lost(const Examination& x, const BoxedFit& nothing, const std::vect
              : 0.0;
 }
 
-/// Unknown terms of one channel: what an unknown depends on is often less sure than that it is there.
+/// Unknown terms of one channel: that there is an unknown cause is often surer than what it depends on.
 std::set<std::string> of_same_channel(const Equations& equations, const std::string& label) {
   const auto channel = [](const std::string& text) { return text.substr(text.rfind('(')); };
   std::set<std::string> labels;
@@ -103,8 +103,8 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
   std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }
 
-/// Marginal probabilities, averaged over the folds' choices: each is made by all runs but those of a fold.
-/// Sets below the materiality floor take part: what they explain needs no greater effect.
+/// Marginal inclusion, averaged over searches that each leave the runs of one fold out. Sets with effects
+/// below the materiality floor count: what they explain does not need a larger effect.
 Inclusion inclusion_of(const Examination& x) {
   const Identification& id = x.id;
   SearchOptions options = id.options;

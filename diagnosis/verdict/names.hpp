@@ -11,14 +11,15 @@ struct Names {
   std::vector<UnknownCause> unknowns{};           ///< the greatest share first
   std::vector<SmallEffect> small_unknowns{};      ///< below the materiality floor
   std::map<std::string, double> probabilities{};  ///< of effects by label
-  double surest{1.0};  ///< share of sure names that were right on development cases: none is stated surer
+  double surest{
+      1.0};  ///< the greatest probability that is stated: share of correct names on development cases
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones
 };
 
-/// The best set's effects and unknown terms, without those that the other sets do without.
+/// The best set's effects and unknown terms whose marginal inclusion is high enough to name them.
 [[nodiscard]] Names choose_names(const Examination& examination);
 
-/// Effects by probability, the dozen likeliest.
+/// The kLongestRanking most probable effects, the most probable first.
 [[nodiscard]] std::vector<RankedEffect> rank_effects(const std::map<std::string, double>& probabilities,
                                                      double surest = 1.0);
 

@@ -28,8 +28,8 @@ int constant_that_wins(const Examination& x, bool nothing_won) {
                                                                                                   : -1;
 }
 
-/// A constant further from its value than its uncertainty allows is the effect that changes the same number,
-/// or unexplained where the catalog has none.
+/// A constant beyond its uncertainty is reported as the effect that changes the same number; the verdict is
+/// unexplained if the catalog has none.
 void judge_constant(const Examination& x, int column, Judgment& judgment) {
   judgment = {};
   const int candidate = effect_of_constant(x.id, column);

@@ -17,8 +17,7 @@ struct CoulombFriction {
                                    .validity = "as the motor model",
                                    .source = "[P1, Eq. (14)]",
                                    .gazebo = "<dynamics><friction> of the wheel joint",
-                                   .mujoco = "frictionloss of the wheel joint",
-                                   .family = kFrictionAgainstSpeed};
+                                   .mujoco = "frictionloss of the wheel joint"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<CoulombFriction>{
         "torque_Nm", "N m", -50, 50, 0.05, "change of the friction torque, both wheels alike",

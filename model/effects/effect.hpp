@@ -47,13 +47,6 @@ enum class Pliability {
   anywhere,    ///< it can fit wherever other laws are inexact
 };
 
-/// A family of laws that together can reproduce any curve against one variable. Empty name: none.
-struct LawFamily {
-  std::string_view name{};
-  std::string_view variable{};
-};
-inline constexpr LawFamily kFrictionAgainstSpeed{"friction against speed", "wheel speed"};
-
 /// What logs must contain for the effect to be observable.
 struct Needs {
   bool samples{};  ///< readings along a run; energies of whole runs do not show the effect
@@ -77,7 +70,6 @@ struct EffectInfo {
   std::string_view mujoco{};  ///< counterpart in MuJoCo (MJCF)
   Sign sign{Sign::either};
   Pliability pliability{Pliability::firm};
-  LawFamily family{};
   Needs needs{};
 };
 

@@ -18,8 +18,7 @@ struct QuadraticDrag {
                                    .source = "aerodynamic drag",
                                    .gazebo = "none by default (a drag plugin)",
                                    .mujoco = "fluid drag of the body (density)",
-                                   .sign = Sign::nonnegative,
-                                   .family = kFrictionAgainstSpeed};
+                                   .sign = Sign::nonnegative};
   static constexpr auto parameters() {
     return std::array{EffectParameter<QuadraticDrag>{"coefficient_N_s2_m2", "N s^2/m^2", -100, 1000, 2.0,
                                                      "force at 1 m/s", &QuadraticDrag::coefficient_N_s2_m2,

@@ -20,8 +20,7 @@ struct StribeckFriction {
                                    .source = "Stribeck curve, Gaussian form",
                                    .gazebo = "none",
                                    .mujoco = "none",
-                                   .sign = Sign::nonnegative,
-                                   .family = kFrictionAgainstSpeed};
+                                   .sign = Sign::nonnegative};
   static constexpr std::array kSpeeds_rad_s{0.6, 1.0, 1.6, 2.5, 4.0};
   static constexpr auto parameters() {
     return std::array{EffectParameter<StribeckFriction>{

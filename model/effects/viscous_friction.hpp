@@ -17,8 +17,7 @@ struct ViscousFriction {
                                    .validity = "as the motor model",
                                    .source = "[P1, Eq. (14)]",
                                    .gazebo = "<dynamics><damping> of the wheel joint",
-                                   .mujoco = "damping of the wheel joint",
-                                   .family = kFrictionAgainstSpeed};
+                                   .mujoco = "damping of the wheel joint"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<ViscousFriction>{"coefficient_Nm_s_rad", "N m s/rad", -10, 10, 0.005,
                                                        "change of the viscous friction at the wheel",

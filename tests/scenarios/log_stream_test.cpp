@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/config_error.hpp"
-#include "scenarios/monitored_plan.hpp"
+#include "scenarios/write_monitor_event.hpp"
 
 namespace joulepath {
 namespace {

@@ -10,7 +10,7 @@ import "report/plots.js";
 const kVerdicts = {
   no_gap: ["No gap", "Calibration errors and noise explain the runs.", true],
   explained: ["Explained", "The causes below explain the gap.", true],
-  partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is not in the catalog.", false],
+  partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is unknown.", false],
   unexplained: ["Unexplained", "No effect of the catalog fits the gap.", false],
   ambiguous: ["Ambiguous", "These runs cannot separate the effects of the group below.", false],
   data_suspect: ["Suspect data", "Channels of the log contradict physics. Repair the dataset first.", false],
@@ -74,7 +74,7 @@ jp.how_far_section = function (d) {
   share("ceiling: the most flexible model", (d.ceiling || {}).shrink_fraction, null, "var(--third)");
   share(`control: ${words((d.control || {}).effect) || "a wrong candidate"}`, (d.control || {}).shrink_fraction, null, "var(--fourth)");
   const validation = d.validation || {};
-  return jp.section("How much: the gap before and after", h("p", {class: "soft"}, (validation.method ? `On ${validation.method}` : "On held-out runs") + (validation.runs && validation.runs.length ? `: ${validation.runs.join(", ")}.` : ".")),
+  return jp.section("How much: the gap before and after", h("p", {class: "soft"}, (validation.method ? `Validation: ${validation.method}` : "On held-out runs") + (validation.runs && validation.runs.length ? `: ${validation.runs.join(", ")}.` : ".")),
     h("div", {class: "columns"}, blocks), rows.length ? [h("h3", {}, "Fraction of the energy gap closed"), jp.bar_rows(rows, {most: 1})] : null);
 };
 

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Development, ForeignEffect,
                                            "driver_foldback --level 0 --seed 7341457183477400737"),
                          [](const auto& one) { return one.param.substr(0, one.param.find(' ')); });
 
-TEST(ShrinkInterval, FromOneHeldOutRunIsNotAPoint) {
+TEST(ShrinkInterval, FromSixRunsIsNotAPoint) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(testing::blind_day("rolling_resistance", 0.01, 0, 6, 31), {.bootstrap = 200});
   ASSERT_FALSE(d.causes.empty()) << verdict_name(d.verdict);
