@@ -171,7 +171,8 @@ def main():
         f"{len(asked)} problems of the public set (straight, bend, corners, tight corners), planned in {SLACK} times the least time; "
         f"{SITUATIONS} random situations each: place, speed 0.85 to 1.0 of the plan's, time left 0.97 to 1.1 of the plan's. "
         f"Both have N = {SEGMENTS}. CasADi's program is built once per problem and starts at the unknowns and multipliers of the last replan; "
-        "where Ipopt fails from there within 150 iterations, it starts anew. Its limits hold at the nodes only. Energies are one fine integration of both answers.\n\n"
+        "where Ipopt fails from there within 150 iterations, it starts anew. Its limits hold at the nodes only, its nodes are equally spaced, its functions are interpreted. "
+        "Energies are one fine integration of both answers.\n\n"
     )
     text += table(["", "Replanner", "CasADi + Ipopt, warm"], lines)
     text += f"\nMedian of the ratios of CPU times, CasADi over the replanner: {ratio:.3g}.\n"
