@@ -44,7 +44,7 @@ class Following:
         if self.follower is None:
             self.follower, self.place = package("joulepath").Follower(piece, period_s=COMMAND_PERIODS * PERIOD_S, latency_s=EFFECT_S), 0.0
         known = self.payload_factor if t >= TOLD_LATE_S else 1.0
-        command = self.follower.command(t - piece.start_s, pose, *twist, payload_kg=known * piece.payload_kg, stop_at_m=self.stop_at(t, piece))
+        command = self.follower.command(t - EFFECT_S - piece.start_s, pose, *twist, payload_kg=known * piece.payload_kg, stop_at_m=self.stop_at(t, piece))
         self.pending.append((t + LATENCY_S, command))
         self.place, self.lateral_m, self.replans = command.s, max(self.lateral_m, abs(command.lateral_m)), self.replans + command.replanned
         self.off_path = command.state == "off_path"
@@ -102,12 +102,12 @@ def followed(folder, robot, file, pieces, duration_s, guided, world):
     times, columns, payload_kg = next(plans.legs_of(folder))
     guide = Following(pieces, **guided)
     count = math.ceil((duration_s + OVERTIME_S) / PERIOD_S)
-    watts, driven = execute(robot, payload_kg, file["motor"]["max_voltage_V"], columns[0, :3], count, guide, **world)
+    watts, driven = execute(robot, payload_kg, file["motor"]["max_voltage_V"], columns[0, :3], count, guide, most_A=file["motor"]["max_current_A"], **world)
     at = (np.arange(count) + 1) * PERIOD_S
-    late_s = last_motion(driven[:, :2], at) - last_motion(columns[:, :2], times)
+    late_s = last_motion(driven[:, :2], at) - EFFECT_S - last_motion(columns[:, :2], times)
     ended_s = duration_s + max(0.0, late_s)
     return {
-        "energy_J": plans.drawn_J(file, watts, ended_s) + file["power"]["standby_W"] * ended_s,
+        "energy_J": plans.drawn_J(file, watts, EFFECT_S + ended_s) + file["power"]["standby_W"] * ended_s,
         "late_s": late_s,
         "end_m": float(np.hypot(*(driven[-1, :2] - columns[-1, :2]))),
         "arrived": not guide.pieces,
@@ -150,7 +150,8 @@ def run(size):
         "Missions between poses of the public set on two maps, planned for half of the greatest payload, driven by `joulepath.Follower` "
         "with the simulator's pose and the encoders' speeds. Ideal tracking: the same wheel loops get the plan's own wheel speeds, without "
         "pose, period or latency. The follower is told the time until a command has an effect: the latency and the 80 ms of the wheels' "
-        "loops. Joules are those of the motors until arrival, and standby. Late: the last centimetre, against the "
+        "loops; its first command comes so long before the plan begins. The drives limit the current as the robot file says (without "
+        "that, the wheels' loops swing from limit to limit on a floor without friction). Joules are those of the motors until arrival, and standby. Late: the last centimetre, against the "
         "plan's. The payload is known one second after the start. Disturbances begin at 30 % of the plan; an obstacle stands 1 m ahead.\n\n"
     )
     return {"text": text + table(HEADER, rows) + f"\n{short}\n", "summary": {}, "short": short}

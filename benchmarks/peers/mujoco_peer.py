@@ -84,7 +84,7 @@ def pose_of(data):
     return (*data.qpos[:2], math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2)))
 
 
-def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, grade=0.0, disturb=None):
+def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, grade=0.0, disturb=None, most_A=math.inf):
     """Watts of each motor and poses at the ends of `count` periods, from the pose `start` at rest.
 
     guide(i, pose, (v, omega)): the reference (v, omega) of period i. disturb(i, model, data): changes the world before it.
@@ -115,8 +115,11 @@ def execute(robot, payload_kg, most_V, start, count, guide, payload_factor=1.0, 
         now = np.floor(data.qpos[wheel_at] / step_rad) * step_rad
         rates = (now - seen) / PERIOD_S
         error = (v + arms * omega) / r - rates
-        seen, integral = now, integral + error * PERIOD_S
-        pending.append(np.clip(gain * error + integral_gain * integral, -most_V, most_V))
+        seen, asked = now, gain * error + integral_gain * (integral + error * PERIOD_S)
+        back, drop = Kv * rates, ohm * most_A
+        given = np.clip(asked, np.maximum(-most_V, back - drop), np.minimum(most_V, back + drop))
+        integral = np.where(given == asked, integral + error * PERIOD_S, integral)  # no windup at a limit
+        pending.append(given)
         data.ctrl[:] = volts = pending.pop(0)
         if disturb:
             disturb(i, model, data)

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kStill = 1e-9;  ///< m/s or rad/s
 constexpr int kHalvings = 12;
-constexpr double kDrives = 1.1;  ///< of the drives' limits: a plan uses them whole, and corrections need more
 
 double going_on(double value, double slope, double elapsed_s) {
   const double then = value + slope * elapsed_s;
@@ -58,8 +57,18 @@ double CommandShaper::accelerate(const Limits& limits, std::span<const double> w
   return end_rate(period_s);
 }
 
+double CommandShaper::fastest_on(double yaw_per_m, const Limits& limits, double period_s) const {
+  const double bend = std::max(kStill, std::abs(yaw_per_m));
+  const double turning = std::copysign(1.0, yaw_per_m) * now_.yaw_rate_rad_s;
+  const double reached = turning + limits.yaw_acceleration_rad_s2 * period_s;
+  return std::min({limits.yaw_rate_rad_s / bend, std::sqrt(limits.lateral_acceleration_m_s2 / bend),
+                   std::max(0.0, reached) / bend});
+}
+
 void CommandShaper::turn(const Limits& limits, double wanted_rad_s, double period_s) {
-  const double wanted = std::clamp(wanted_rad_s, -limits.yaw_rate_rad_s, limits.yaw_rate_rad_s);
+  const double most = std::min(limits.yaw_rate_rad_s,
+                               limits.lateral_acceleration_m_s2 / std::max(kStill, end_rate(period_s)));
+  const double wanted = std::clamp(wanted_rad_s, -most, most);
   now_.yaw_acceleration_rad_s2 = std::clamp((wanted - now_.yaw_rate_rad_s) / period_s,
                                             -limits.yaw_acceleration_rad_s2, limits.yaw_acceleration_rad_s2);
 }
@@ -73,7 +82,7 @@ bool CommandShaper::drives_keep(const Limits& limits, double payload_kg, double 
   const LimitState state = limit_state(plant_, motion, site, now_.acceleration_m_s2, 0.0);
   bool keeps = true;
   for_each_limit(state, limits, [&](const Limit& row, double value, double limit) {
-    keeps = keeps && (!is_of_drives(row) || limit_fraction(value, limit) <= kDrives);
+    keeps = keeps && (!is_of_drives(row) || limit_fraction(value, limit) <= 1);
   });
   return keeps;
 }

@@ -40,7 +40,12 @@ class CommandShaper {
   /// until h after the end; a must leave this below every wanted speed, and mirrored above 0.
   double accelerate(const Limits& limits, std::span<const double> wanted, double period_s);
 
-  /// Turns towards a yaw rate at the end of the period.
+  /// The speed at the end of the period up to which a course of so much yaw per metre keeps yaw rate, yaw
+  /// acceleration and lateral acceleration.
+  [[nodiscard]] double fastest_on(double yaw_per_m, const Limits& limits, double period_s) const;
+
+  /// Turns towards a yaw rate at the end of the period, as far as the lateral acceleration allows it at the
+  /// speed that is reached then.
   void turn(const Limits& limits, double wanted_rad_s, double period_s);
 
   /// Lowers the accelerations as far as the drives need it: voltage, current, power, traction, wheel

@@ -12,9 +12,9 @@ constexpr double kSamePayload_kg = 0.05;
 constexpr double kArrived = 0.01;    ///< m or rad
 constexpr double kPatience_s = 0.4;  ///< after the profile's end
 constexpr double kAtRest = 0.02;     ///< m/s or rad/s
-/// Commands may use so much of the limits of acceleration: a plan uses them whole, and corrections of place
-/// and course need the rest.
-constexpr double kForCorrections = 1.15;
+constexpr double kSameTime_s = 1e-9;
+constexpr double kSlowest = 0.9;  ///< of the profile's rate, for the sake of the course
+constexpr double kSlips = 0.25;   ///< if less of the wheels' difference from the profile is in the pose
 
 double sinc(double x) { return std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x; }
 
@@ -71,6 +71,8 @@ double Follower::rate_of(const Measurement& measured) const {
 
 void Follower::look(const Measurement& measured, double elapsed_s, FollowCommand& command) {
   const PathOffset offset = projection_.look(measured.pose, rate_of(measured) * elapsed_s);
+  pose_rate_ = elapsed_s > 0 ? (offset.s - place_) / elapsed_s : rate_of(measured);
+  place_ = offset.s;
   command.s = offset.s;
   command.lateral_m = offset.lateral_m;
   command.heading_error_rad = offset.heading_error_rad;
@@ -97,14 +99,20 @@ bool Follower::has_to_replan(const Measurement& measured) const {
     return stopped_short && profile_time_s_ >= end_s;
   }
   const ProfileState due = profile_->at_time(std::max(0.0, profile_time_s_));
-  return shift_s_ > accepted_s_ + settings_.late_s || std::abs(due.rate - rate_of(measured)) > off_rate();
+  return shift_s_ > accepted_s_ + settings_.late_s || is_off(measured, due.rate);
+}
+
+/// Off the rate that is due, as the wheels and the pose say. Where they contradict each other, wheels slip.
+bool Follower::is_off(const Measurement& measured, double due_rate) const {
+  const double by_wheels = rate_of(measured) - due_rate, by_pose = pose_rate_ - due_rate;
+  return std::abs(by_wheels) > off_rate() && by_wheels * by_pose > kSlips * by_wheels * by_wheels;
 }
 
 void Follower::replan(const Measurement& measured, FollowCommand& command) {
   const ProfileState due = profile_->at_time(std::clamp(profile_time_s_, 0.0, profile_->time_s.back()));
   const double measured_rate = rate_of(measured);
   // Small differences are the drives' business: the profile goes on from what is due.
-  const bool off = std::abs(due.rate - measured_rate) > off_rate();
+  const bool off = is_off(measured, due.rate);
   const double rate = off ? measured_rate : due.rate, s = off ? command.s : due.s;
   const SpeedCap cap{0, replanner_.length(), measured.speed_limit_m_s.value_or(0)};
   Situation situation{.s = s,
@@ -134,19 +142,15 @@ double Follower::lost_to_jerk(const Measurement& measured, double rate) const {
 }
 
 Limits Follower::limits_for(const Measurement& measured) const {
-  Limits limits = limits_.between(measured.payload_kg, measured.payload_kg);
-  for (double* limit : {&limits.acceleration_m_s2, &limits.deceleration_m_s2, &limits.jerk_m_s3,
-                        &limits.yaw_acceleration_rad_s2})
-    *limit *= kForCorrections;
-  return limits;
+  return limits_.between(measured.payload_kg, measured.payload_kg);
 }
 
 /// The profile has led to the end: what is left is standing.
 bool Follower::ends(const FollowCommand& command) const {
   const bool to_end = !last_stop_m_ && profile_->s.back() >= replanner_.length() - kArrived;
-  const double over_s = profile_time_s_ - profile_->time_s.back();
   const bool there = command.s >= replanner_.length() - kArrived;
-  return to_end && request_.end_rate == 0 && over_s >= (there ? -1e-9 : kPatience_s - 1e-9);
+  const double over_s = (there ? ahead_s() : profile_time_s_ - kPatience_s) - profile_->time_s.back();
+  return to_end && request_.end_rate == 0 && over_s >= -kSameTime_s;
 }
 
 /// On the profile when the coming command ends.
@@ -191,7 +195,8 @@ void Follower::steer(const Measurement& measured, FollowCommand& command) {
     const std::span<const double> wanted =
         wanted_rates(measured, command, CommandShaper::spacing_s(limits, period_s));
     const double per_m = yaw_per_meter(command);
-    wanted_[0] = std::min(wanted_[0], limits.yaw_rate_rad_s / std::max(1e-9, std::abs(per_m)));
+    wanted_[0] =
+        std::min(wanted_[0], std::max(kSlowest * wanted_[0], shaper_.fastest_on(per_m, limits, period_s)));
     shaper_.turn(limits, shaper_.accelerate(limits, wanted, period_s) * per_m, period_s);
   }
   send(measured, limits, command);

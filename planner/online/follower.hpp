@@ -56,8 +56,8 @@ struct FollowCommand {
 /// Leads a robot along a planned piece: from its pose to the speed and yaw rate that it should have when the
 /// command takes effect. The place on the path decides what is due, and a clock that runs along the profile:
 /// a robot that falls behind is not chased, its rest is planned again. Commands continue each other within
-/// the limits, the jerk's too, with room for corrections (decision 0380). Allocates nothing after
-/// construction.
+/// the limits, the jerk's too; where a correction of the course finds no room in them, the robot slows down.
+/// Allocates nothing after construction.
 class Follower {
  public:
   /// `deadline_s`: of the piece's end, from the time at which its start was due; none for kNoLimit.
@@ -82,11 +82,11 @@ class Follower {
                                                      const FollowCommand& command, double spacing_s);
   [[nodiscard]] double yaw_per_meter(const FollowCommand& command) const;
   void hand_over(const Measurement& measured, FollowCommand& command);
-  /// With room for corrections.
   [[nodiscard]] Limits limits_for(const Measurement& measured) const;
   [[nodiscard]] double lost_to_jerk(const Measurement& measured, double rate) const;
   [[nodiscard]] double rate_of(const Measurement& measured) const;
   [[nodiscard]] double off_rate() const;
+  [[nodiscard]] bool is_off(const Measurement& measured, double due_rate) const;
   [[nodiscard]] double ahead_s() const;
 
   ProfileRequest request_;
@@ -97,6 +97,8 @@ class Follower {
   const Profile* profile_{};
   double deadline_s_{};
   PathProjection projection_;
+  double place_{};      ///< of the last pose
+  double pose_rate_{};  ///< of the path coordinate, from the last two poses
   CommandShaper shaper_;
   std::array<double, CommandShaper::kLook> wanted_{};
   double profile_time_s_{};  ///< on the profile; before the first command takes effect, negative

@@ -97,7 +97,7 @@ TEST(Follower, ArrivesInTimeAtThePlacesAndTheJoulesOfThePlan) {
   for (const PlannedPiece& piece : {bend(), quarter_turn()}) {
     const FollowResult result = follow(request_for(piece));
     EXPECT_EQ(result.finished, 1u);
-    EXPECT_LT(result.late_s, 0.8);  // standing still is waited for
+    EXPECT_LT(result.late_s, 0.05);
     EXPECT_LT(result.end_error_m, 0.02);
     EXPECT_LT(result.end_error_rad, 0.03);
     EXPECT_LT(result.worst_lateral_m, 0.02);
@@ -129,10 +129,7 @@ TEST(Follower, MakesUpForALateStart) {
     const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::late_start, 0, 0, late_s}}));
     EXPECT_EQ(result.finished, 1u);
     EXPECT_GE(result.replans, 1u);
-    // The command takes effect a latency after the pose, which is half a period old on average.
-    const FollowerSettings usual;
-    const double delay_s = usual.latency_s + 0.5 * usual.period_s;
-    EXPECT_LT(result.late_s, std::max(0.0, late_s + least_s - deadline_s) + delay_s) << late_s;
+    EXPECT_LT(result.late_s, std::max(0.0, late_s + least_s - deadline_s) + 0.05) << late_s;
     EXPECT_GT(result.energy_J, undisturbed.energy_J);
   }
 }
@@ -174,8 +171,8 @@ std::vector<Disturbance> any_disturbance() {
           {Kind::slip, 4, 0, 1.5}};
 }
 
-TEST(Follower, CommandsKeepTheLimitsButForCorrections) {
-  constexpr double kRounding = 1e-4, kForCorrections = 1.15;
+TEST(Follower, CommandsKeepTheLimits) {
+  constexpr double kRounding = 1e-4;
   for (const Robot& robot : {testing::nomad(), heavy()})
     for (const double slack : {1.02, 1.3})
       for (const PlannedPiece& piece : {bend(slack, robot), quarter_turn(robot)}) {
@@ -186,17 +183,44 @@ TEST(Follower, CommandsKeepTheLimitsButForCorrections) {
           const std::string what = robot.name + (is_turn(piece.request.piece) ? " turn " : " bend ") +
                                    std::to_string(disturbances.empty() ? -1 : int(disturbances[0].kind));
           EXPECT_TRUE(result.finished == 1u || result.off_path) << what;
-          for (const char* limit : {"speed", "yaw_rate"})
+          for (const char* limit :
+               {"speed", "acceleration", "deceleration", "lateral_acceleration", "yaw_rate",
+                "yaw_acceleration", "motor_voltage", "motor_current", "traction"})
             EXPECT_LE(use_of(result, limit), 1 + kRounding) << what << " " << limit;
-          for (const char* limit : {"motor_voltage", "motor_current", "traction"})
-            EXPECT_LE(use_of(result, limit), 1.1 + kRounding) << what << " " << limit;
-          for (const char* limit : {"acceleration", "deceleration", "yaw_acceleration"})
-            EXPECT_LE(use_of(result, limit), kForCorrections + kRounding) << what << " " << limit;
           if (std::isfinite(robot.limits->jerk_m_s3)) {
-            EXPECT_LE(use_of(result, "jerk"), kForCorrections + kRounding) << what;
+            EXPECT_LE(use_of(result, "jerk"), 1 + kRounding) << what;
           }
         }
       }
+}
+
+/// New plans while the wheels turn by `excess_m_s` faster or slower in turn, from 2 s on, and the pose moves
+/// by a share of that beside the plan.
+std::size_t replans_with_wheels_off(double excess_m_s, double share_of_pose) {
+  const PlannedPiece piece = bend();
+  const double period_s = FollowerSettings{}.period_s;
+  Follower follower(piece.request, piece.plan, kNoLimit);
+  std::size_t replans = 0;
+  double ahead_m = 0;
+  for (int k = 0; k < 80; ++k) {
+    const double time_s = k * period_s, excess = k < 40 ? 0.0 : k % 2 == 0 ? excess_m_s : -excess_m_s;
+    const ProfileState due = piece.plan.at_time(time_s);
+    ahead_m += share_of_pose * excess * period_s;
+    const PathPoint at = piece_point(piece.request.piece, due.s + ahead_m);
+    replans += follower
+                   .command({.time_s = time_s,
+                             .pose = at.pose,
+                             .speed_m_s = due.rate + excess,
+                             .yaw_rate_rad_s = due.rate * at.curvature_per_m,
+                             .payload_kg = 4})
+                   .replanned;
+  }
+  return replans;
+}
+
+TEST(Follower, WheelsThatSlipAreNotBelieved) {
+  EXPECT_EQ(replans_with_wheels_off(0.4, 0), 0u);
+  EXPECT_GE(replans_with_wheels_off(0.4, 1), 10u);
 }
 
 TEST(Follower, HandsOverFarFromThePath) {
