@@ -105,7 +105,7 @@ void RefinedRun::take(std::size_t k, const Path& path) {
   part.refined = true;
 }
 
-void RefinedRun::swing(std::size_t k) {
+void RefinedRun::swing(std::size_t k, bool checked) {
   Part& part = parts_[k];
   const ChoiceContext& context = run_.contexts[k];
   const double price_W = context.finite_price_W();
@@ -116,13 +116,14 @@ void RefinedRun::swing(std::size_t k) {
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
   const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
   const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
-  if (!result || result->cost >= score(k).cost_J(price_W) || !drivable(k, result->path)) return;
+  if (!result || result->cost >= score(k).cost_J(price_W)) return;
+  if (checked && !drivable(k, result->path)) return;
   take(k, result->path);
   part.spline = result->spline;
 }
 
 /// Optimizes the stop between legs k and k + 1.
-void RefinedRun::swing_through(std::size_t k) {
+void RefinedRun::swing_through(std::size_t k, bool checked) {
   Part &before = parts_[k], &after = parts_[k + 1];
   if (request_.legs[k].goal_heading_rad || !before.spline || !after.spline) return;
   const double before_W = run_.contexts[k].finite_price_W(), after_W = run_.contexts[k + 1].finite_price_W();
@@ -135,18 +136,27 @@ void RefinedRun::swing_through(std::size_t k) {
                        turn_after(k + 1, after.path).cost_J(after_W) +
                        turn_before(k + 1, after.path).cost_J(after_W);
   const std::optional<StopResult> result = best_stop(request, run_.contexts[k].space->checker());
-  if (!result || result->cost >= found || !drivable(k, result->before.path) ||
-      !drivable(k + 1, result->after.path))
-    return;
+  if (!result || result->cost >= found) return;
+  if (checked && !(drivable(k, result->before.path) && drivable(k + 1, result->after.path))) return;
   take(k, result->before.path);
   take(k + 1, result->after.path);
   before.spline = result->before.spline;
   after.spline = result->after.spline;
 }
 
+void RefinedRun::swing_all(bool checked) {
+  for (std::size_t k = 0; k < parts_.size(); ++k) swing(k, checked);
+  for (std::size_t k = 0; k + 1 < parts_.size(); ++k) swing_through(k, checked);
+}
+
 void RefinedRun::swing() {
-  for (std::size_t k = 0; k < parts_.size(); ++k) swing(k);
-  for (std::size_t k = 0; k + 1 < parts_.size(); ++k) swing_through(k);
+  const std::vector<Part> before = parts_;
+  swing_all(false);
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (parts_[k].spline && !drivable(k, parts_[k].path)) {
+      parts_ = before;
+      return swing_all(true);
+    }
 }
 
 void RefinedRun::refine() {

@@ -20,7 +20,7 @@ class RefinedRun {
   void refine();
 
   /// Replaces turns in place at the stops by curves where that is cheaper: optimizes each leg in turn as a
-  /// whole from the robot's present heading (best_swing).
+  /// whole from the robot's present heading (best_swing), then each stop between two such legs (best_stop).
   void swing();
 
   /// The paths of the legs, turns in place included.
@@ -50,8 +50,11 @@ class RefinedRun {
   PathScore turn_before(std::size_t k, const Path& path) const;
   PathScore turn_after(std::size_t k, const Path& path) const;
   void refine(std::size_t k);
-  void swing(std::size_t k);
-  void swing_through(std::size_t k);
+  /// Only the paths at the end must be drivable also between the nodes of a draft. Where one is not, all
+  /// swings are searched again, and each is checked before it is taken.
+  void swing_all(bool checked);
+  void swing(std::size_t k, bool checked);
+  void swing_through(std::size_t k, bool checked);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
 

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -99,6 +103,32 @@ TEST(Swing, AStopWithoutAHeadingIsLeftAsItIsReached) {
   const Plan turned = plan_mission(mission, empty_floor(), turning);
   EXPECT_LT(plan.energy.total_J(), 0.97 * turned.energy.total_J());
   EXPECT_LT(plan.legs[0].turned_rad + plan.legs[1].turned_rad, 1e-6);
+}
+
+/// Answers that planning a mission needs, counted in a folder that keeps them all.
+std::ptrdiff_t answers_for(const MissionRequest& mission) {
+  const auto folder =
+      std::filesystem::path(::testing::TempDir()) / ("swing_answers_" + std::to_string(getpid()));
+  AnswerCache kept(folder.string());
+  PlanOptions options = kQuick;
+  options.answers.cache = &kept;
+  (void)plan_mission(mission, empty_floor(), options);
+  const auto is_file = [](const auto& entry) { return entry.is_regular_file(); };
+  using Files = std::filesystem::recursive_directory_iterator;
+  const std::ptrdiff_t count = std::count_if(Files(folder), Files(), is_file);
+  std::filesystem::remove_all(folder);
+  return count;
+}
+
+/// The search through stops replaces the curves of both legs: only the last curve of a leg gets a profile
+/// with certificate, so that a stop more adds few answers (9 where every curve that is taken gets one).
+TEST(Swing, IsCheckedBetweenTheNodesOncePerLeg) {
+  MissionRequest two = to_goal({20, 20, 1.0}, {20.5, 25}), three = two;
+  two.stations["a"] = three.stations["a"] = {.x_m = 24, .y_m = 21};
+  three.stations["b"] = {.x_m = 26, .y_m = 25};
+  two.legs = {{.to = "a"}, {.to = "goal"}};
+  three.legs = {{.to = "a"}, {.to = "b"}, {.to = "goal"}};
+  EXPECT_LE(answers_for(three) - answers_for(two), 5);
 }
 
 TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
