@@ -126,10 +126,13 @@ Schema plan_schema() {
 
 Schema diagnosis_schema() {
   return open(map(
-      {required("schema", text()), required("gap", gap_schema()), required("where", where_schema()),
+      {required("schema", text()),
+       required("gap", gap_schema()),
+       required("where", where_schema()),
        required("verdict", choice({"no_gap", "explained", "partly_explained", "unexplained", "ambiguous",
                                    "too_little_data", "data_suspect"})),
-       optional("sentence", text(), "the answer in one line"), required("causes", list(cause_schema())),
+       optional("sentence", text(), "the answer in one line"),
+       required("causes", list(cause_schema())),
        required("ranking",
                 list(open(map({required("effect", text()), required("probability", number(kFraction))})))),
        optional("unknowns",
@@ -142,8 +145,10 @@ Schema diagnosis_schema() {
                                required("size", result(), "over the materiality floor's")}))),
                 "effects with evidence that change less than a user would notice"),
        required("leftover", open(map({required("significant", boolean()), required("description", text())}))),
-       optional("next_experiment", open(map({}))), optional("ceiling", open(map({}))),
-       optional("control", open(map({}))), optional("pinned_combination", text()),
+       optional("next_experiment", open(map({}))),
+       optional("ceiling", open(map({}))),
+       optional("control", open(map({}))),
+       optional("pinned_combination", text()),
        optional("data_checks",
                 list(open(map({required("run", text(), "names, or `all`"), required("channel", text()),
                                required("kind", text(), "dead | inverted | swapped | unit | scaled | clock"),
@@ -156,7 +161,8 @@ Schema diagnosis_schema() {
                           required("columns", dictionary(list(number())),
                                    "time_s, and measured_X, predicted_X, corrected_X for each signal X")}))),
            "with --signals: measured against predicted, before and after the correction"),
-       optional("missing_channels", list(text())), optional("decisions", open(map({}))),
+       optional("missing_channels", list(text())),
+       optional("decisions", open(map({}))),
        optional("validation", open(map({required("runs", list(text())), required("method", text())})))}));
 }
 

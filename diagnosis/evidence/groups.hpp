@@ -36,8 +36,8 @@ struct StandIn {
 };
 
 /// Effects that could replace one effect of the best explanation with nearly the same likelihood, whatever
-/// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without their forms, which
-/// would favor the best explanation.
+/// their typical sizes, with amplitudes that the catalog accepts. Laws are compared without their forms,
+/// which would favor the best explanation.
 [[nodiscard]] std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                              const std::vector<Explanation>& explanations, int candidate,
                                              double dispersion, const Robot& robot);

@@ -52,7 +52,7 @@ struct Needs {
   bool samples{};  ///< readings along a run; energies of whole runs do not show the effect
   bool pose{};
   bool yaw_rate{};  ///< by a gyro or a pose with heading
-  bool battery{};  ///< readings at the battery's terminals
+  bool battery{};   ///< readings at the battery's terminals
   bool time_of_day{};
   bool turns{};
   bool reversing{};

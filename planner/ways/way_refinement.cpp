@@ -4,7 +4,7 @@
 
 #include "planner/path/shape/refine.hpp"
 #include "planner/ways/stop_swing.hpp"
-
+// Design: docs/decisions/0420-curves-are-checked-at-the-end.md
 namespace joulepath {
 namespace {
 
