@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -45,7 +46,12 @@ class MergeCommand : public Command {
 
   int run() override {
     std::vector<ShardManifest> shards;
-    for (const std::string& directory : directories_) shards.push_back(read_manifest(directory));
+    for (const std::string& directory : directories_) {
+      shards.push_back(read_manifest(directory));
+      std::error_code absent;
+      if (std::filesystem::equivalent(directory, out_, absent))
+        throw ConfigError({{out_, 0, 0}, "--out", "the directory of a shard", "a directory of its own"});
+    }
     check_complete(directories_, shards);
     const ShardManifest& first = shards.front();
     OutputDirectory out(out_, first.command == "sweep" ? kSweepFiles : kBatchFiles, common_.force);

@@ -56,7 +56,10 @@ void print_sweep(const Json& json) {
 
 OutputDirectory job_output(const JobOptions& options, const Shard& shard,
                            const std::vector<std::string>& files) {
-  return {options.out, shard.is_whole() ? files : kShardFiles, options.common.force || options.resume};
+  // A whole run that is finished may be another one's; a task of a cluster may run its finished shard again.
+  const bool continues =
+      options.resume && (!shard.is_whole() || std::filesystem::exists(journal_file(options.out)));
+  return {options.out, shard.is_whole() ? files : kShardFiles, options.common.force || continues};
 }
 
 std::vector<std::string> lines_of(const std::vector<JobResult>& results) {

@@ -16,8 +16,6 @@
 namespace joulepath {
 namespace {
 
-std::string journal_file(const std::string& directory) { return directory + "/results.partial.jsonl"; }
-
 /// The result of a job that is not run.
 JobResult quarantined(const JobList& jobs, std::size_t index, const std::string& reason) {
   auto line = nlohmann::ordered_json::parse(jobs.name_line(index));
@@ -73,6 +71,8 @@ std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& 
   std::cerr << "interrupted; --resume continues\n";
   return std::nullopt;
 }
+
+std::string journal_file(const std::string& directory) { return directory + "/results.partial.jsonl"; }
 
 void remove_journal(const std::string& directory) { std::filesystem::remove(journal_file(directory)); }
 

@@ -67,6 +67,9 @@ struct JobRun {
 /// overwritten, EnvironmentError.
 [[nodiscard]] std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run);
 
+/// The journal of an unfinished run.
+[[nodiscard]] std::string journal_file(const std::string& directory);
+
 /// Deletes the journal of a run whose results were written.
 void remove_journal(const std::string& directory);
 

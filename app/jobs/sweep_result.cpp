@@ -115,12 +115,14 @@ Json all_effects(const Study& study, const std::vector<DesignTotal>& totals) {
   std::vector<const DesignTotal*> planned;
   for (const DesignTotal& total : totals)
     if (total.planned) planned.push_back(&total);
-  std::vector<LevelColumn> columns;
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> settings;
   for (std::size_t p = 0; p < study.designs.parameters().size(); ++p) {
-    std::vector<std::string> values;
-    for (const DesignTotal* total : planned) values.push_back(total->values[p]);
-    columns.push_back(levels_of(study.designs.parameters()[p].name, values));
+    names.push_back(study.designs.parameters()[p].name);
+    settings.emplace_back();
+    for (const DesignTotal* total : planned) settings.back().push_back(total->values[p]);
   }
+  const std::vector<LevelColumn> columns = level_columns(names, settings);
   Json json = Json::object();
   for (const char* result : {"energy_J", "motion_energy_J", "duration_s"}) {
     std::vector<double> values;

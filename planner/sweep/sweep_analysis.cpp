@@ -76,7 +76,8 @@ std::vector<LevelMean> means_of(const LevelColumn& column, const std::vector<dou
 
 }  // namespace
 
-LevelColumn levels_of(const std::string& name, const std::vector<std::string>& values, std::size_t most) {
+LevelColumn levels_of(const std::string& name, const std::vector<std::string>& values, std::size_t most,
+                      std::size_t parts) {
   std::vector<double> numbers(values.size());
   bool numeric = true;
   for (std::size_t i = 0; i < values.size(); ++i) numeric = numeric && read_number(values[i], numbers[i]);
@@ -94,14 +95,28 @@ LevelColumn levels_of(const std::string& name, const std::vector<std::string>& v
     for (std::string& label : column.labels) label = short_text(label);
     return column;
   }
-  constexpr std::size_t kParts = 5;
   column.labels.clear();
-  for (std::size_t part = 0; part < kParts; ++part) {
-    const std::size_t begin = part * order.size() / kParts, end = (part + 1) * order.size() / kParts;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * order.size() / parts, end = (part + 1) * order.size() / parts;
     for (std::size_t i = begin; i < end; ++i) column.level[order[i]] = part;
     column.labels.push_back(short_text(values[order[begin]]) + " to " + short_text(values[order[end - 1]]));
   }
   return column;
+}
+
+std::vector<LevelColumn> level_columns(const std::vector<std::string>& names,
+                                       const std::vector<std::vector<std::string>>& values) {
+  std::vector<LevelColumn> columns;
+  std::size_t terms = 1;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    columns.push_back(levels_of(names[p], values[p]));
+    if (!columns.back().labels.empty()) terms += columns.back().labels.size() - 1;
+  }
+  const std::size_t rows = values.empty() ? 0 : values.front().size();
+  if (names.size() < 2 || rows == 0 || terms < rows) return columns;
+  const std::size_t parts = std::clamp<std::size_t>(rows / (2 * names.size()), 2, 5);
+  for (std::size_t p = 0; p < names.size(); ++p) columns[p] = levels_of(names[p], values[p], parts, parts);
+  return columns;
 }
 
 SweepEffects sweep_effects(const std::vector<LevelColumn>& columns, const std::vector<double>& raw) {

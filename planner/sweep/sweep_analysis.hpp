@@ -15,7 +15,13 @@ struct LevelColumn {
 /// Labels in the order of their numbers (words: of their first appearance). More than `most` different
 /// numbers are grouped into parts with equally many rows.
 [[nodiscard]] LevelColumn levels_of(const std::string& name, const std::vector<std::string>& values,
-                                    std::size_t most = 8);
+                                    std::size_t most = 8, std::size_t parts = 5);
+
+/// The columns of several parameters over the same rows. Where each value is nearly one row's own (a Latin
+/// hypercube), any of them would explain all rows: numbers are grouped into so few parts that rows are left
+/// over.
+[[nodiscard]] std::vector<LevelColumn> level_columns(const std::vector<std::string>& names,
+                                                     const std::vector<std::vector<std::string>>& values);
 
 struct LevelMean {
   std::string label{};

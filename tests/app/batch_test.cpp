@@ -222,6 +222,33 @@ TEST(Batch, ANewRunDoesNotDeleteAnUnfinishedOne) {
   EXPECT_EQ(text_of(partial), "{}\n");
 }
 
+TEST(Batch, ResumeDoesNotReplaceAnotherRunsFinishedResults) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string one = scratch.write("one.jsonl", mission("a", 3) + "\n"),
+                    other = scratch.write("other.jsonl", mission("b", 4) + "\n"),
+                    options = " -q --nodes 20 --out " + scratch.at("out");
+  ASSERT_EQ(run_program(scratch, "batch " + one + options).code, 0);
+  const std::string whole = text_of(scratch.at("out/results.jsonl"));
+  const auto result = run_program(scratch, "batch " + other + options + " --resume");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
+  EXPECT_EQ(text_of(scratch.at("out/results.jsonl")), whole);
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("out/results.partial.jsonl")));
+}
+
+TEST(Batch, MergeDoesNotWriteIntoAShard) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
+                    one = scratch.at("one"), two = scratch.at("two");
+  ASSERT_EQ(run_program(scratch, "batch " + file + " -q --nodes 20 --shard 1/2 --out " + one).code, 0);
+  ASSERT_EQ(run_program(scratch, "batch " + file + " -q --nodes 20 --shard 2/2 --out " + two).code, 0);
+  const std::string lines = text_of(one + "/results.jsonl");
+  EXPECT_EQ(run_program(scratch, "merge " + one + " " + two + " --force --out " + one).code, 2);
+  EXPECT_EQ(text_of(one + "/results.jsonl"), lines);
+}
+
 TEST(JobJournal, ExistingLinesNeverChangeAndATruncatedLineAffectsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");

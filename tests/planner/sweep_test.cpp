@@ -81,6 +81,23 @@ TEST(SweepEffects, AHoleInTheTableGivesNoEffectToAParameterWithoutOne) {
   EXPECT_NEAR(effects.main[1].share_of_variance, 0.0, 1e-9);
 }
 
+/// Each value of a Latin hypercube is one design's own: with a level for each, any parameter explains all.
+TEST(SweepEffects, AreFoundInALatinHypercubeOfFewDesigns) {
+  const std::vector<int> shuffled{4, 7, 1, 6, 0, 5, 2, 3};
+  std::vector<std::string> a, b;
+  std::vector<double> y;
+  for (int k = 0; k < 8; ++k) {
+    const int other = shuffled[static_cast<std::size_t>(k)];
+    a.push_back(std::to_string(0.5 * k));
+    b.push_back(std::to_string(10.0 + other));
+    y.push_back(10.0 * k + other);
+  }
+  const SweepEffects effects = sweep_effects(level_columns({"a", "b"}, {a, b}), y);
+  EXPECT_GT(effects.main[0].share_of_variance, 0.5);
+  EXPECT_LT(effects.main[1].share_of_variance, 0.1);
+  EXPECT_EQ(level_columns({"a"}, {a}).front().labels.size(), 8u) << "alone, a parameter keeps its levels";
+}
+
 TEST(ParetoFront, IsThatOfAComparisonOfAllPairs) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> value(0, 12);
