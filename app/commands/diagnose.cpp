@@ -32,7 +32,10 @@ std::string advice(const Diagnosis& d) {
     case Verdict::no_gap:
       return "Calibration errors and noise explain the runs. The model needs no correction.";
     case Verdict::explained:
-      return "The effects below explain the gap. Plan with the corrected files.";
+      return d.corrected_robot || !d.corrected_instruments.empty()
+                 ? "The effects below explain the gap. Plan with the corrected files."
+                 : "The effects below explain the gap. No correction shrinks it on held-out runs: none is "
+                   "written.";
     case Verdict::partly_explained:
       return "The effects below explain a part of the gap. The rest is unknown.";
     case Verdict::unexplained:

@@ -46,13 +46,10 @@ void judge_constant(const Examination& x, int column, Judgment& judgment) {
 }  // namespace
 
 Judgment judge(const Examination& x, const Names& names) {
+  if (x.runs.few)
+    return {.notes = {"fewer than " + std::to_string(kLeastRunsToName) +
+                      " runs: candidates only; add runs with two payloads, both directions and turns"}};
   Judgment judgment{.named = names.named, .unknowns = names.unknowns, .depends_on = in_words(names.unknowns)};
-  if (x.runs.few) {
-    judgment.named.clear();
-    judgment.notes.push_back("fewer than " + std::to_string(kLeastRunsToName) +
-                             " runs: candidates only; add runs with two payloads, both directions and turns");
-    return judgment;
-  }
   const bool nothing_won = names.named.empty() && names.unknowns.empty();
   if (const int column = constant_that_wins(x, nothing_won); column >= 0) {
     judge_constant(x, column, judgment);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/values/diagnosis.hpp"
+#include "diagnosis/verdict/verdict.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -64,6 +65,18 @@ TEST(Survey, WhatNoRunCanShowIsNeitherNamedNorRanked) {
   for (const RankedEffect& entry : d.ranking) said.push_back(entry.effect);
   for (const char* effect : {"track_width_error", "wheel_radius_error", "wheel_slip"})
     EXPECT_EQ(std::ranges::count(said, effect), 0) << effect;
+}
+
+/// The search may find an unknown term in very few runs: it is no cause.
+TEST(Verdict, OfTooFewRunsStatesNoCause) {
+  const Dataset dataset;
+  const RunsByUse runs{.few = true};
+  const Identification id;
+  const Names names{.unknowns = {{.depends_on = "wheel speed (current)", .probability = 0.9, .share = 0.8}}};
+  const Judgment judgment = judge({.dataset = dataset, .runs = runs, .id = id}, names);
+  EXPECT_EQ(judgment.verdict, Verdict::too_little_data);
+  EXPECT_TRUE(judgment.unknowns.empty());
+  EXPECT_EQ(judgment.depends_on, "");
 }
 
 }  // namespace
