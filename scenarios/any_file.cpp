@@ -147,9 +147,11 @@ FileSummary summary_of_bag(const std::string& file) {
     summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
                             topic.channel.type + (topic.readable ? "" : ", cannot be read"));
   }
-  if (survey.damage.truncated) summary.notes.push_back("the bag is truncated");
+  if (survey.damage.truncated) summary.notes.push_back(truncation_text(survey.damage));
   if (survey.damage.broken_chunks > 0)
     summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
+  if (survey.damage.broken_records > 0)
+    summary.notes.push_back(counted(survey.damage.broken_records, "broken record"));
   char duration[32];
   std::snprintf(duration, sizeof duration, "%.1f s", survey.duration_s);
   summary.text = counted(messages, "message") + ", " + duration;

@@ -82,6 +82,7 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
     };
     const BagDamage more = reader_of(part)(part, named_by, open, take);
     damage.truncated = damage.truncated || more.truncated;
+    damage.unread_bytes += more.unread_bytes;
     damage.broken_chunks += more.broken_chunks;
     damage.broken_records += more.broken_records;
   }

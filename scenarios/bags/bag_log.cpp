@@ -124,7 +124,8 @@ class BagLogReader {
   }
 
   void tell_damage() {
-    if (damage_.truncated) tell("truncated", "", "the bag is truncated; its complete records were read", 1);
+    if (damage_.truncated)
+      tell("truncated", "", truncation_text(damage_) + "; the records before were read", 1);
     if (damage_.broken_chunks > 0)
       tell("broken", "", "chunks that do not decompress or have a wrong check sum were left out",
            damage_.broken_chunks);

@@ -67,12 +67,16 @@ class McapReader {
     std::uint64_t at = kMcapMagic.size();
     std::string content;
     for (;;) {
+      damage_.unread_bytes = size_ - at;
       std::uint8_t head[9];
       if (!in_.read(reinterpret_cast<char*>(head), sizeof head)) break;
       std::uint64_t length{};
       std::memcpy(&length, head + 1, sizeof length);
       at += sizeof head;
-      if (head[0] == kDataEnd) return damage_;
+      if (head[0] == kDataEnd) {
+        damage_.unread_bytes = 0;
+        return damage_;
+      }
       if (length > size_ - at) break;
       at += length;
       if (!wanted(head[0]) || length > kMostRecordBytes) {
@@ -180,6 +184,13 @@ class McapReader {
 };
 
 }  // namespace
+
+std::string truncation_text(const BagDamage& damage) {
+  const std::string text = "the bag is truncated";
+  return damage.unread_bytes == 0
+             ? text
+             : text + ": its last " + std::to_string(damage.unread_bytes) + " bytes were not read";
+}
 
 BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
                     const std::function<void(const BagChannel&)>& on_channel,

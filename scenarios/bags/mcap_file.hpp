@@ -29,10 +29,14 @@ struct BagMessage {
 
 /// The parts of a bag that were left out.
 struct BagDamage {
-  bool truncated{};             ///< the file ends within a record: the recorder was killed
-  std::size_t broken_chunks{};  ///< do not decompress, or have a wrong check sum
+  bool truncated{};              ///< the file ends within a record: the recorder was killed
+  std::uint64_t unread_bytes{};  ///< of a truncated MCAP file, from the record that has no end on
+  std::size_t broken_chunks{};   ///< do not decompress, or have a wrong check sum
   std::size_t broken_records{};
 };
+
+/// "the bag is truncated", with the bytes that were not read.
+[[nodiscard]] std::string truncation_text(const BagDamage& damage);
 
 /// Reads an MCAP file from start to end, without its index: chunks uncompressed, lz4 or zstd. Broken parts
 /// are skipped and counted; an announced size is checked before memory is allocated. Throws ConfigError if

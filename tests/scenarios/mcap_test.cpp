@@ -91,6 +91,17 @@ TEST_F(Bags, ABagThatEndsAnywhereGivesWhatIsWhole) {
   EXPECT_GT(before, 190u);
 }
 
+TEST_F(Bags, BytesAfterADamagedRecordAreCounted) {
+  std::string bag = drive();
+  bag.replace(bag.size() / 2, 200, std::string(200, '\xff'));
+  const BagLog log = read(bag);
+  const auto damage = std::ranges::find(log.artifacts, "truncated", &LogArtifact::kind);
+  ASSERT_NE(damage, log.artifacts.end());
+  const auto number = damage->description.find("its last ");
+  ASSERT_NE(number, std::string::npos) << damage->description;
+  EXPECT_NEAR(std::stod(damage->description.substr(number + 9)), 0.5 * static_cast<double>(bag.size()), 600);
+}
+
 TEST_F(Bags, AnnouncedSizesAreCheckedBeforeAllocation) {
   std::string bag = chunked(drive(), "zstd");
   const std::uint64_t huge = std::uint64_t{1} << 60;
