@@ -52,7 +52,7 @@ jp.header = function (title, subtitle, status, is_good) {
   subtitle ? h("p", {class: "soft"}, subtitle) : null];
 };
 jp.footer = () => h("footer", {}, `Written by joulepath ${jp.data.version || ""}. Data: the JSON in this file. `,
-  "Drag in a plot to zoom, double-click or press 0 to see all.");
+  jp.plots.length > 0 ? "Drag in a plot to zoom, double-click or press 0 to see all." : null);
 
 jp.page = (...content) => {
   document.getElementById("report").replaceChildren(...content.flat(9).filter((item) => item !== null && item !== undefined && item !== false), jp.footer());
