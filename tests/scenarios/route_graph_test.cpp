@@ -9,6 +9,7 @@
 
 #include "scenarios/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
+#include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -236,7 +237,15 @@ TEST(RouteGraph, AbsurdLimitsAndDoubleIdsAreRefused) {
     const std::string text = refusal(line(10, 1, 2, std::string(R"({"abs_speed_limit": )") + limit + "}"));
     EXPECT_NE(text.find("abs_speed_limit"), std::string::npos) << limit;
   }
-  EXPECT_NE(refusal(line(10, 1, 2) + "," + line(10, 2, 1)).find("id"), std::string::npos);
+  EXPECT_NE(refusal(point(2, 9, 0)).find("id"), std::string::npos);
+  EXPECT_EQ(refusal(line(10, 1, 2) + "," + line(10, 2, 1)), "");  // as in Nav2's own graph of its depot
+}
+
+TEST(RouteGraph, TheGraphsOfNav2AreRead) {
+  for (const char* name : {"warehouse_graph", "depot_graph"})
+    EXPECT_FALSE(read_route_graph(std::string(JOULEPATH_SOURCE_DIR "/scenarios/maps/") + name + ".geojson")
+                     .edges.empty())
+        << name;
 }
 
 TEST(RouteGraph, AGraphWithoutEdgesIsRefused) {
