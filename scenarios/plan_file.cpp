@@ -4,14 +4,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/watt_hours.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 
 namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kJoulesPerWh = 3600.0;
 
 /// JSON has no infinity: values that are not finite become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }

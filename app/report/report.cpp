@@ -9,6 +9,7 @@
 #include "app/report/page_text.hpp"
 #include "app/report/plain_tables.hpp"
 #include "model/limit_table.hpp"
+#include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
 
 namespace joulepath::embedded {
@@ -109,6 +110,7 @@ json compact_batch(const json& batch) {
     }
     total[key] = sum;
   }
+  total["energy_Wh"] = number_at(total, "energy_J") / kJoulesPerWh;
   return {{"count", missions.size()}, {"status", status},     {"total", total},
           {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
 }

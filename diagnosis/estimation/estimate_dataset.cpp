@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "model/motions.hpp"
+#include "model/watt_hours.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kJoulesPerWh = 3600.0;
 constexpr double k95OneSided = 1.644854;
 
 /// The motion of a run: its log, or its prescribed motion.

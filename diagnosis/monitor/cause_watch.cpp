@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/watt_hours.hpp"
+
 // Design: docs/decisions/0375-monitor-by-blocks.md
 namespace joulepath {
 namespace {
@@ -126,7 +128,7 @@ std::optional<CauseChange> CauseWatch::close_block() {
     return std::nullopt;
   }
   BlockEstimate block = block_.estimate(sigma);
-  const double hours = (block.end_s - last_block_end_s_) / 3600;
+  const double hours = (block.end_s - last_block_end_s_) / kSecondsPerHour;
   last_block_end_s_ = block.end_s;
   block_.reset(signatures_.names().size());
   ++blocks_;

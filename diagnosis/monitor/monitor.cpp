@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/watt_hours.hpp"
+
 namespace joulepath {
 namespace {
 
 constexpr double kNormal95 = 1.96, kOneSided95 = 1.645;
-constexpr double kSecondsPerHour = 3600;
 constexpr double kShrink = 0.05;        ///< share of the plan that the first joules count for
 constexpr double kLegTolerance = 0.03;  ///< of a leg's energy
 constexpr double kSmoothing = 0.02;
@@ -152,7 +153,7 @@ MonitorStatus Monitor::status() const {
   const double excess = std::max(1.0, (status.executed_J + first_J) / (planned_J + first_J));
   const double relative_sigma = whole_J > 0 ? course_.sigma_J / whole_J : 0.0;
   status.rest_upper_J = status.rest_J * (status.measured ? excess : 1.0) * (1 + kOneSided95 * relative_sigma);
-  const double capacity_J = kSecondsPerHour * robot_.battery.capacity_Wh;
+  const double capacity_J = kJoulesPerWh * robot_.battery.capacity_Wh;
   if (course_.battery_fraction && std::isfinite(capacity_J) && status.measured) {
     status.battery_fraction = *course_.battery_fraction - status.executed_J / capacity_J;
     status.battery_suffices =

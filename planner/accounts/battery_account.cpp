@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/watt_hours.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 
 namespace joulepath {
 namespace {
 
-constexpr double kJoulesPerWh = 3600.0;
 constexpr double k95 = 1.959964;  ///< two-sided 95 % of a normal distribution
 constexpr double k95OneSided = 1.644854;
 
