@@ -39,6 +39,8 @@ inline constexpr double kLeastKernelPeriods = 1.2;
 inline constexpr double kUnevenPeriod = 0.05;
 /// Below it dry friction has no known direction under the kernel. Chosen.
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
+/// Below it the direction of a wheel's rotation is uncertain. Chosen.
+inline constexpr double kBlurredWheel_rad_s = 0.2;
 /// Motor currents below it may lie in a driver's dead band. Physical scale.
 inline constexpr double kDeadBand_A = 0.1;
 

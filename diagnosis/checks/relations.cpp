@@ -6,6 +6,7 @@
 
 #include "diagnosis/checks/box_fit.hpp"
 #include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/dynamics.hpp"
 #include "model/kinematics.hpp"
@@ -18,8 +19,6 @@ namespace {
 using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Below these speeds the direction of motion is uncertain.
-constexpr double kBlurredWheel_rad_s = 0.2;
 /// Rows over which changes of a pose are taken: increments of single rows disappear in the noise.
 constexpr Eigen::Index kIncrementRows = 6;
 /// Runs that turn or travel less do not test a gyro or a pose.
@@ -33,9 +32,7 @@ bool has(const RunSignals& run, const VectorXd& channel) {
   return channel.size() == run.size() && run.size() > 0;
 }
 
-VectorXd soft_sign(const VectorXd& speed) {
-  return (speed.array() / kBlurredWheel_rad_s).cwiseMin(1.0).cwiseMax(-1.0);
-}
+VectorXd directions(const VectorXd& speed) { return speed.unaryExpr(&friction_direction); }
 
 VectorXd increments(const VectorXd& values) {
   const Eigen::Index n = values.size() - kIncrementRows;
@@ -83,7 +80,7 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
       {factor(motor.resistance_ohm * current, measured ? 0.6 : 0.2, measured ? 1.7 : 5.0, freedom),
        factor(emf * speed, 0.7, 1.4, freedom),
        {VectorXd::Ones(run.size()), -offset_V, offset_V},
-       {soft_sign(speed), -drop_V, drop_V},
+       {directions(speed), -drop_V, drop_V},
        {emf * run.wheel_acceleration_rad_s2[side], -kLongestDelay_s, kLongestDelay_s}});
 }
 
@@ -103,7 +100,7 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
       {expected.viscous_A[side], 0.0, 20.0},
       factor(expected.inertia_A[side], 0.4, 2.5, freedom),
       {VectorXd::Ones(run.size()), -kGreatestOffset * friction_A, kGreatestOffset * friction_A},
-      {soft_sign(yaw * 2), -0.05 * load_A, 0.05 * load_A}};
+      {directions(yaw * 2), -0.05 * load_A, 0.05 * load_A}};
   if (run.heading_measured && has(run, run.heading_rad)) {
     terms.push_back({run.heading_rad.array().cos(), -0.03 * load_A, 0.03 * load_A});
     terms.push_back({run.heading_rad.array().sin(), -0.03 * load_A, 0.03 * load_A});
@@ -217,8 +214,8 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
           robot.inertia.wheel_axle_inertia_kg_m2 * run.wheel_acceleration_rad_s2[side][j];
       expected.inertia_A[side][j] = motor_current_A(motor, torque_Nm);
       expected.viscous_A[side][j] = motor_current_A(motor, motor.viscous_friction_Nm_s_rad * speed);
-      expected.friction_A[side][j] = motor_current_A(
-          motor, motor.friction_torque_Nm * std::clamp(speed / kBlurredWheel_rad_s, -1.0, 1.0));
+      expected.friction_A[side][j] =
+          motor_current_A(motor, motor.friction_torque_Nm * friction_direction(speed));
     }
   }
   return expected;

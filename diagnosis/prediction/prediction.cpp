@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/prediction/region_edge.hpp"
+#include "diagnosis/signals/friction_direction.hpp"
 #include "model/channel_delay.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
@@ -14,7 +15,6 @@ namespace {
 /// Below these speeds the direction is uncertain: measured speeds are never exactly zero.
 constexpr double kStillSpeed_m_s = 0.02;
 constexpr double kStillYawRate_rad_s = 0.12;
-constexpr double kStillWheelSpeed_rad_s = 0.2;
 constexpr double kBlurredCurrent_A = 0.03;
 
 double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
@@ -52,8 +52,8 @@ Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry
           .payload_kg = signals.payload_kg[j],
           .travel_direction = soft_sign(twist.speed_m_s, kStillSpeed_m_s),
           .turn_direction = std::tanh(twist.yaw_rate_rad_s / kStillYawRate_rad_s),
-          .wheel_direction = {soft_sign(signals.wheel_speed_rad_s.left[j], kStillWheelSpeed_rad_s),
-                              soft_sign(signals.wheel_speed_rad_s.right[j], kStillWheelSpeed_rad_s)},
+          .wheel_direction = {friction_direction(signals.wheel_speed_rad_s.left[j]),
+                              friction_direction(signals.wheel_speed_rad_s.right[j])},
           .course = across_m_s / size_m_s,
           .memory = memory};
 }
