@@ -8,6 +8,7 @@
 
 #include "app/report/page_text.hpp"
 #include "app/report/plain_tables.hpp"
+#include "diagnosis/values/verdict.hpp"
 #include "model/limit_table.hpp"
 #include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
@@ -157,6 +158,9 @@ json runs_json(const std::vector<RunComparison>& runs, std::size_t most_numbers)
 
 std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& extras) {
   json data{{"diagnosis", diagnosis}, {"title", extras.title}};
+  for (const VerdictWords& words : kVerdicts)
+    if (diagnosis.value("verdict", "") == words.name)
+      data["verdict"] = {{"title", words.title}, {"meaning", words.meaning}, {"good", words.good}};
   if (extras.map) data["map"] = json_of(*extras.map);
   data["runs"] = runs_json(extras.runs);
   return page_of("diagnosis", extras.title, data);
