@@ -41,6 +41,12 @@ inline constexpr double kUnevenPeriod = 0.05;
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Below it the direction of a wheel's rotation is uncertain. Chosen.
 inline constexpr double kBlurredWheel_rad_s = 0.2;
+/// The same of the body's speed. Physical scale: a log's noise.
+inline constexpr double kStillSpeed_m_s = 0.02;
+/// The same of its yaw rate. Physical scale.
+inline constexpr double kStillYawRate_rad_s = 0.12;
+/// The same of a motor's current. Physical scale.
+inline constexpr double kBlurredCurrent_A = 0.03;
 /// Motor currents below it may lie in a driver's dead band. Physical scale.
 inline constexpr double kDeadBand_A = 0.1;
 
@@ -76,6 +82,85 @@ inline constexpr double kLeastEffectFactor = 0.67;
 inline constexpr double kMostEffectFactor = 1.5;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
+
+// Boxes of the relations between channels: what calibration errors and effects of the catalog may change.
+
+/// Rows over which changes of a pose are taken: those of single rows disappear in the noise. Chosen (0220).
+inline constexpr std::ptrdiff_t kIncrementRows = 6;
+/// Runs that turn less do not test a gyro or a heading. Physical scale.
+inline constexpr double kLeastYawRate_rad_s = 0.06;
+/// Runs that travel less do not test a position. Physical scale.
+inline constexpr double kLeastSpeed_m_s = 0.04;
+/// Of readings: a speed that changes within this time looks like an offset. Physical scale.
+inline constexpr double kLongestDelay_s = 0.15;
+/// Of a current sensor, over the current that friction takes. Chosen (0220).
+inline constexpr double kGreatestOffset = 0.7;
+/// Of a driver's voltage, over the greatest voltage. Physical scale.
+inline constexpr double kGreatestDrop = 0.035;
+/// A winding's resistance or a converter's power over the file's, from measured channels. Chosen (0220).
+inline constexpr double kLeastMeasuredFactor = 0.6;
+/// See kLeastMeasuredFactor. Chosen (0220).
+inline constexpr double kMostMeasuredFactor = 1.7;
+/// The same where the current is predicted: resistances of the floor multiply it. Chosen (0220).
+inline constexpr double kLeastPredictedFactor = 0.2;
+/// See kLeastPredictedFactor. Chosen (0220).
+inline constexpr double kMostPredictedCurrent = 5.0;
+/// The same of a predicted power. Chosen (0220).
+inline constexpr double kMostPredictedPower = 6.0;
+/// A motor constant or an instrument's scale over the file's. Chosen (0220).
+inline constexpr double kLeastScale = 0.7;
+/// See kLeastScale. Chosen (0220).
+inline constexpr double kMostScale = 1.4;
+/// Dry friction over the file's. Chosen (0220).
+inline constexpr double kLeastFriction = 0.3;
+/// See kLeastFriction. Chosen (0220).
+inline constexpr double kMostFriction = 5.0;
+/// Viscous friction over the file's, or drag that looks like it. Chosen (0220).
+inline constexpr double kMostViscousFriction = 20.0;
+/// Inertia over the file's. Chosen (0220).
+inline constexpr double kLeastInertia = 0.4;
+/// See kLeastInertia. Chosen (0220).
+inline constexpr double kMostInertia = 2.5;
+/// Resistance to turning over the weight. Physical scale.
+inline constexpr double kGreatestTurningLoad = 0.05;
+/// Slope of the floor. Physical scale.
+inline constexpr double kGreatestSlope = 0.03;
+/// Distance or angle over what the wheels roll: radii, track width, slip. Chosen (0220).
+inline constexpr double kLeastRolled = 0.55;
+/// See kLeastRolled. Chosen (0220).
+inline constexpr double kMostRolled = 1.6;
+/// Difference of the wheels' radii over their mean. Physical scale.
+inline constexpr double kGreatestMismatch = 0.08;
+/// Bias of a gyro. Physical scale: an uncalibrated one.
+inline constexpr double kGreatestGyroBias_rad_s = 0.1;
+/// Error of a heading's zero. Physical scale.
+inline constexpr double kGreatestHeadingOffset_rad = 0.4;
+/// Braking power that a battery takes with the sign of a draw, over that of driving. Chosen (0220).
+inline constexpr double kGreatestBrakeDraw = 0.3;
+/// Braking power over driving power of one factor. Chosen (0220).
+inline constexpr double kGreatestBrakeFactor = 1.3;
+/// Standby power over the file's. Chosen (0220).
+inline constexpr double kMostStandby = 5.0;
+/// A dead gyro, heading or position shows where the wheels turn the body faster. Physical scale.
+inline constexpr double kMovingYawRate_rad_s = 0.1;
+/// The same of the wheels' travel. Physical scale.
+inline constexpr double kMovingTravel_m_s = 0.1;
+/// A dead current or battery channel shows where its expected change is this share of friction or power.
+/// Chosen.
+inline constexpr double kLeastChange = 0.3;
+
+// Values that no robot has. Bounds of single columns stand in checks/plausible.cpp.
+
+/// Of a wheel's rim. Physical scale.
+inline constexpr double kFastest_m_s = 20.0;
+/// Between samples, median. Physical scale.
+inline constexpr double kLongestStep_s = 60.0;
+/// Ratio of the body's speed to that of its wheels: another robot's log. Physical scale.
+inline constexpr double kOddRatio = 2.0;
+/// Below this mean speed they are not compared. Physical scale.
+inline constexpr double kMoving_m_s = 0.05;
+/// Loggers of robots have longer sample periods. Physical scale.
+inline constexpr double kShortestPeriod_s = 5e-4;
 
 // What runs cannot show.
 
@@ -152,6 +237,28 @@ inline constexpr double kFullOverlap = 0.25;
 inline constexpr double kAmplitudePriorSteps = 4.0;
 /// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
 inline constexpr double kFormSpread = 0.12;
+/// Speed in the middle of a form variable's scale. Physical scale.
+inline constexpr double kUsualSpeed_m_s = 0.3;
+/// The same of yaw rates. Physical scale.
+inline constexpr double kUsualYawRate_rad_s = 0.5;
+/// The same of payloads. Physical scale.
+inline constexpr double kUsualPayload_kg = 5.0;
+/// The same of accelerations. Physical scale.
+inline constexpr double kUsualAcceleration_m_s2 = 0.2;
+/// The same of the time of the day. Physical scale: a drive's temperature.
+inline constexpr double kUsualTime_s = 200.0;
+/// Prior width of a shape parameter over its value. Chosen.
+inline constexpr double kShapeSpread = 0.5;
+/// Step of the scan for a region on the floor; its edges are known as well before a fit. Chosen.
+inline constexpr double kRegionStep_m = 0.1;
+/// Samples inside of a region and outside. Chosen.
+inline constexpr double kLeastSamplesOfRegion = 15.0;
+/// Prior width of an unknown term over the amplitude that explains all residuals. Chosen.
+inline constexpr double kUnknownPrior = 0.5;
+/// Delays of the electrical channels that are sought, from. Physical scale.
+inline constexpr double kEarliestReading_s = -0.2;
+/// See kEarliestReading_s, to. Physical scale.
+inline constexpr double kLatestReading_s = 0.4;
 /// Share of the windings' sum of squares that a delay must explain. Chosen.
 inline constexpr double kNotableDelayGain = 0.15;
 
@@ -165,6 +272,8 @@ inline constexpr double kMaterialVoltage_V = 0.1;
 inline constexpr double kMaterialHeading_rad = 0.03;
 /// At a run's end, over the distance travelled. Declared.
 inline constexpr double kMaterialPosition = 0.006;
+/// Shorter runs count as this long for kMaterialPosition. Declared.
+inline constexpr double kLeastTravelled_m = 0.5;
 /// Of the electrical channels. Declared (0045: half a sample is a delay).
 inline constexpr double kMaterialDelay_samples = 0.6;
 
@@ -259,6 +368,8 @@ inline constexpr double kCruise_m_s2 = 0.06;
 inline constexpr double kUsualScatter = 0.03;
 /// The least that it is taken for: what a wattmeter and a stop watch repeat. Physical scale.
 inline constexpr double kLeastScatter = 0.005;
+/// Prior width of the coefficients of a smooth relative error. Chosen.
+inline constexpr double kSmoothPriorSd = 0.2;
 /// Degrees of freedom from which a scatter is estimated. Chosen.
 inline constexpr double kLeastFreedom = 4.0;
 /// Error of a braking rate or an entry speed that nobody recorded, 1-sigma, relative. Declared (0044).

@@ -9,6 +9,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/signals/resolution.hpp"
+#include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0042-a-laws-form-is-uncertain.md
 namespace joulepath {
 namespace {
@@ -156,7 +157,7 @@ void set_dictionary_prior(const std::vector<RawRunEquations>& raw, std::vector<C
       square += run.gram(i, i);
       residual += run.gram(run.gram.rows() - 1, run.gram.cols() - 1);
     }
-    columns[k].prior_sd = square > 0 ? 0.5 * std::sqrt(residual / square) : 1e-9;
+    columns[k].prior_sd = square > 0 ? kUnknownPrior * std::sqrt(residual / square) : 1e-9;
   }
 }
 

@@ -12,11 +12,6 @@
 namespace joulepath {
 namespace {
 
-/// Below these speeds the direction is uncertain: measured speeds are never exactly zero.
-constexpr double kStillSpeed_m_s = 0.02;
-constexpr double kStillYawRate_rad_s = 0.12;
-constexpr double kBlurredCurrent_A = 0.03;
-
 double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
 
 /// Separates effects of instruments from effects of the robot, which belong to the plant.
