@@ -233,7 +233,7 @@ class DataCheckSearch {
     if (found->fault.kind == "scaled") {
       refine(*found);
       const double factor = found->fault.columns.front().scale;
-      if (factor > kLeastEffectFactor && factor < kMostEffectFactor) return false;
+      if (factor > 1 / kMostEffectFactor && factor < kMostEffectFactor) return false;
     }
     const Relations before = runs_[shown].relations,
                     after = relations_with(runs_[shown], found->fault.columns);

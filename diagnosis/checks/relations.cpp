@@ -107,7 +107,7 @@ std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& g
   const VectorXd& yaw = wheels.yaw_rate_rad_s;
   if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
   const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
-  return relation("gyro = yaw rate of the wheels", kSoundTurn, run.gyro_yaw_rate_rad_s,
+  return relation("gyro = yaw rate of the wheels", kSoundMotion, run.gyro_yaw_rate_rad_s,
                   {factor(yaw, kLeastRolled, kMostRolled, freedom),
                    {wheels.speed_m_s, -mismatch, mismatch},
                    {VectorXd::Ones(run.size()), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
@@ -122,7 +122,7 @@ std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
   const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
   return relation(
-      "heading = angle turned by the wheels", kSoundTurn, heading,
+      "heading = angle turned by the wheels", kSoundMotion, heading,
       {factor(turned, kLeastRolled, kMostRolled, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
 }
 
@@ -135,7 +135,7 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
   const double span_s = run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < kLeastYawRate_rad_s * span_s) return {};
   return relation(
-      "heading = angle turned by the gyro", kSoundTurn, heading,
+      "heading = angle turned by the gyro", kSoundMotion, heading,
       {factor(turned, kLeastScale, kMostScale, freedom),
        {VectorXd::Constant(turned.size(), span_s), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
 }
@@ -149,12 +149,12 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
   const VectorXd distance = rolled(geometry, run.wheel_angle_rad).speed_m_s;
   if (rms(distance) < least_m && rms(stacked(dx, dy)) < least_m) return {};
   if (!run.heading_measured)
-    return relation("distance = path of the wheels", kSoundPosition,
+    return relation("distance = path of the wheels", kSoundMotion,
                     (dx.array().square() + dy.array().square()).sqrt().matrix(),
                     {factor(distance.cwiseAbs(), kLeastRolled, kMostRolled, freedom)});
   const VectorXd x = rolled(geometry, run.wheel_along_x_rad).speed_m_s;
   const VectorXd y = rolled(geometry, run.wheel_along_y_rad).speed_m_s;
-  return relation("position = path of the wheels along the heading", kSoundPosition, stacked(dx, dy),
+  return relation("position = path of the wheels along the heading", kSoundMotion, stacked(dx, dy),
                   {factor(stacked(x, y), kLeastRolled, kMostRolled, freedom),
                    {stacked(-y, x), -kGreatestHeadingOffset_rad, kGreatestHeadingOffset_rad}});
 }

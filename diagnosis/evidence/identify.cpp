@@ -46,11 +46,13 @@ std::vector<std::string> labels_of(const ModelState& state) {
   return labels;
 }
 
+/// Options of a search. Few runs name no effect below the materiality floor.
 SearchOptions search_options(double dispersion, bool few, std::vector<double> least_amplitude) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
   return {.dispersion = dispersion,
           .least_amplitude = std::move(least_amplitude),
-          .small_effect_evidence = few ? kSmallEffectEvidenceOfFewRuns : kSmallEffectEvidence,
-          .small_pliable_evidence = few ? std::numeric_limits<double>::infinity() : kSmallPliableEvidence};
+          .small_effect_evidence = few ? kNever : kSmallEffectEvidence,
+          .small_pliable_evidence = few ? kNever : kSmallPliableEvidence};
 }
 
 /// Effects of the best set of all that are not large enough to matter, nor beyond doubt.
