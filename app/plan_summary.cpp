@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "app/terminal.hpp"
+#include "model/watt_hours.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 
 namespace joulepath {
@@ -44,7 +45,7 @@ void print_legs(std::ostream& stream, const Plan& plan) {
                        double duration_s, const EnergyByCause& energy) {
     std::vector<std::string> cells{name, payload, figure(distance_m), figure(duration_s)};
     for (std::string& cell : energy_cells(energy)) cells.push_back(std::move(cell));
-    cells.push_back(figure(energy.total_J() / 3600.0, 4));
+    cells.push_back(figure(energy.total_J() / kJoulesPerWh, 4));
     table.row(std::move(cells));
   };
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {

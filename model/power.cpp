@@ -3,6 +3,52 @@
 #include <cmath>
 
 namespace joulepath {
+namespace {
+
+void add_motors(const Plant& plant, const MassProperties& mass, const BodyMotion<double>& motion,
+                const Site& site, const Sided<WheelState<double>>& wheels, PowerByCause& watts) {
+  const Robot& robot = plant.robot;
+  const Wrench<double> inertial = inertial_wrench(mass, motion);
+  const Sided<double> acceleration =
+      wheel_speeds_rad_s(robot.geometry, motion.acceleration_m_s2, motion.yaw_acceleration_rad_s2);
+  const double hot = plant.resistance_factor(site.time_of_day_s);
+  watts.kinetic_W = inertial.force_N * motion.speed_m_s + inertial.moment_Nm * motion.yaw_rate_rad_s;
+  for (Side side : kSides) {
+    const WheelState<double>& wheel = wheels[side];
+    const Motor& motor = robot.motor[side];
+    watts.copper_W += hot * motor.resistance_ohm * wheel.current_A * wheel.current_A;
+    watts.coulomb_friction_W += motor.friction_torque_Nm * site.wheel_direction[side] * wheel.speed_rad_s;
+    watts.viscous_friction_W += motor.viscous_friction_Nm_s_rad * wheel.speed_rad_s * wheel.speed_rad_s;
+    watts.kinetic_W += robot.inertia.wheel_axle_inertia_kg_m2 * acceleration[side] * wheel.speed_rad_s;
+    // Kt i q' equals Kv i q' in SI units; if a file gives different constants, the difference counts as
+    // copper loss.
+    watts.copper_W += (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * wheel.current_A *
+                      wheel.speed_rad_s;
+  }
+}
+
+/// What an effect takes at one wheel.
+template <class AnEffect>
+void add_wheel(const AnEffect& effect, const Robot& robot, double mass_kg, const Site& site, Side side,
+               const WheelState<double>& wheel, double& effect_W) {
+  const WheelContext<double> context{.site = site,
+                                     .side = side,
+                                     .speed_rad_s = wheel.speed_rad_s,
+                                     .direction = site.wheel_direction[side],
+                                     .radius_m = robot.geometry.wheel_radius_m[side],
+                                     .normal_load_N = 0.5 * mass_kg * kGravity_m_s2};
+  if constexpr (requires { effect.shaft_torque_Nm(context); })
+    effect_W += effect.shaft_torque_Nm(context) * wheel.speed_rad_s;
+  if constexpr (requires { effect.torque_loss_fraction(); })
+    effect_W += effect.torque_loss_fraction() * std::abs(wheel.torque_Nm) * site.wheel_direction[side] *
+                wheel.speed_rad_s;
+  if constexpr (requires { effect.creep_m_s_N(); })
+    effect_W += effect.creep_m_s_N() * wheel.contact_force_N * wheel.contact_force_N;
+  if constexpr (requires { effect.voltage_drop_V(); })
+    effect_W += effect.voltage_drop_V() * std::abs(wheel.current_A);
+}
+
+}  // namespace
 
 double PowerByCause::motor_W() const {
   double sum_W = copper_W + coulomb_friction_W + viscous_friction_W + kinetic_W;
@@ -20,53 +66,18 @@ PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion
                             const Sided<WheelState<double>>& wheels) {
   const Robot& robot = plant.robot;
   const MassProperties mass = mass_properties(robot, plant.payload_kg(site.payload_kg));
-  const double v = motion.speed_m_s;
-  const double omega = motion.yaw_rate_rad_s;
-  const Wrench<double> inertial = inertial_wrench(mass, motion);
-  const Sided<double> acceleration =
-      wheel_speeds_rad_s(robot.geometry, motion.acceleration_m_s2, motion.yaw_acceleration_rad_s2);
-  const double hot = plant.resistance_factor(site.time_of_day_s);
-
   PowerByCause watts{.standby_W = robot.power.standby_W,
                      .effect_W = std::vector<double>(plant.effects.size(), 0.0)};
-  watts.kinetic_W = inertial.force_N * v + inertial.moment_Nm * omega;
-  for (Side side : kSides) {
-    const WheelState<double>& wheel = wheels[side];
-    const Motor& motor = robot.motor[side];
-    watts.copper_W += hot * motor.resistance_ohm * wheel.current_A * wheel.current_A;
-    watts.coulomb_friction_W += motor.friction_torque_Nm * site.wheel_direction[side] * wheel.speed_rad_s;
-    watts.viscous_friction_W += motor.viscous_friction_Nm_s_rad * wheel.speed_rad_s * wheel.speed_rad_s;
-    watts.kinetic_W += robot.inertia.wheel_axle_inertia_kg_m2 * acceleration[side] * wheel.speed_rad_s;
-    // Kt i q' equals Kv i q' in SI units; if a file gives different constants, the difference counts as
-    // copper loss.
-    watts.copper_W += (motor.volts_per_speed_V_s_rad() - motor.torque_per_ampere_Nm_A()) * wheel.current_A *
-                      wheel.speed_rad_s;
-  }
+  add_motors(plant, mass, motion, site, wheels, watts);
   for_each_effect(plant, site.memory, [&](std::size_t index, const auto& effect, double memory) {
     double& effect_W = watts.effect_W[index];
+    const double v = motion.speed_m_s, omega = motion.yaw_rate_rad_s;
     const BodyContext<double> body{robot, site, mass.mass_kg, mass.first_moment_kg_m, v, omega, memory};
     if constexpr (requires { effect.body_load(body); }) {
       const BodyLoad<double> load = effect.body_load(body);
       effect_W += load.force_N * v + load.moment_Nm * omega;
     }
-    for (Side side : kSides) {
-      const WheelState<double>& wheel = wheels[side];
-      const WheelContext<double> context{.site = site,
-                                         .side = side,
-                                         .speed_rad_s = wheel.speed_rad_s,
-                                         .direction = site.wheel_direction[side],
-                                         .radius_m = robot.geometry.wheel_radius_m[side],
-                                         .normal_load_N = 0.5 * mass.mass_kg * kGravity_m_s2};
-      if constexpr (requires { effect.shaft_torque_Nm(context); })
-        effect_W += effect.shaft_torque_Nm(context) * wheel.speed_rad_s;
-      if constexpr (requires { effect.torque_loss_fraction(); })
-        effect_W += effect.torque_loss_fraction() * std::abs(wheel.torque_Nm) * site.wheel_direction[side] *
-                    wheel.speed_rad_s;
-      if constexpr (requires { effect.creep_m_s_N(); })
-        effect_W += effect.creep_m_s_N() * wheel.contact_force_N * wheel.contact_force_N;
-      if constexpr (requires { effect.voltage_drop_V(); })
-        effect_W += effect.voltage_drop_V() * std::abs(wheel.current_A);
-    }
+    for (Side side : kSides) add_wheel(effect, robot, mass.mass_kg, site, side, wheels[side], effect_W);
   });
   const Sided<double> power_W{wheels.left.power_W, wheels.right.power_W};
   watts.not_recovered_W = supply_power_W(robot.power, power_W) - (power_W.left + power_W.right);

@@ -1,6 +1,7 @@
 #include "scenarios/diagnosis_sentence.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "model/effects/catalog.hpp"
@@ -72,6 +73,12 @@ std::string group_words(const Diagnosis& d) {
   return "the likeliest cause is uncertain: " + causes_words(d.causes) + ".";
 }
 
+/// A sentence after a colon.
+std::string clause(std::string sentence) {
+  sentence.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(sentence.front())));
+  return sentence;
+}
+
 std::string suspects_words(const std::vector<DataCheck>& checks) {
   std::vector<std::string> words;
   for (const DataCheck& check : checks)
@@ -82,21 +89,22 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
 }  // namespace
 
 std::string diagnosis_sentence(const Diagnosis& d) {
+  const VerdictWords& words = words_of(d.verdict);
+  const std::string title = std::string(words.title) + ": ";
   switch (d.verdict) {
-    case Verdict::no_gap:
-      return "No gap: calibration errors and noise explain the runs." + gap_words(d);
     case Verdict::explained:
-      return "Explained: " + causes_words(d.causes) + "." + gap_words(d);
+      return title + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
-      return "Partly explained: " + causes_words(d.causes) + "." + gap_words(d) + unknown_words(d);
-    case Verdict::unexplained:
-      return "Unexplained: no effect of the catalog fits." + gap_words(d) + unknown_words(d);
+      return title + causes_words(d.causes) + "." + gap_words(d) + unknown_words(d);
     case Verdict::ambiguous:
-      return "Ambiguous: " + group_words(d) + gap_words(d);
-    case Verdict::too_little_data:
-      return "Too little data: the runs name no cause and give no all-clear." + gap_words(d);
+      return title + group_words(d) + gap_words(d);
     case Verdict::data_suspect:
-      return "Suspect data: " + suspects_words(d.data_checks) + ". Repair the dataset first.";
+      return title + suspects_words(d.data_checks) + ". " + words.next_step;
+    case Verdict::unexplained:
+      return title + clause(words.meaning) + gap_words(d) + unknown_words(d);
+    case Verdict::no_gap:
+    case Verdict::too_little_data:
+      return title + clause(words.meaning) + gap_words(d);
   }
   return {};
 }

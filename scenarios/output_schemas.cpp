@@ -1,11 +1,19 @@
 #include "scenarios/output_schemas.hpp"
 
+#include "diagnosis/values/verdict.hpp"
+
 namespace joulepath {
 namespace {
 
 Schema result() { return nullable(number()); }  ///< null if it is not finite
 Schema interval() { return list(result(), 2, 2); }
 Schema plan_status() { return choice({"optimal", "feasible", "infeasible", "failed"}); }
+
+std::vector<std::string> verdict_names() {
+  std::vector<std::string> names;
+  for (const VerdictWords& words : kVerdicts) names.emplace_back(words.name);
+  return names;
+}
 
 Schema causes_schema() {
   return open(
@@ -129,8 +137,7 @@ Schema diagnosis_schema() {
       {required("schema", text()),
        required("gap", gap_schema()),
        required("where", where_schema()),
-       required("verdict", choice({"no_gap", "explained", "partly_explained", "unexplained", "ambiguous",
-                                   "too_little_data", "data_suspect"})),
+       required("verdict", choice(verdict_names())),
        optional("sentence", text(), "the answer in one line"),
        required("causes", list(cause_schema())),
        required("ranking",

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/normal_quantiles.hpp"
+#include "model/watt_hours.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 
 namespace joulepath {
@@ -11,14 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kJoulesPerWh = 3600.0;
-
 /// JSON has no infinity: values that are not finite become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Two-sided 95 % of a normal distribution.
 Json interval_95_J(double energy_J, double sigma_J) {
-  return {energy_J - 1.959964 * sigma_J, energy_J + 1.959964 * sigma_J};
+  return {energy_J - kNormal95 * sigma_J, energy_J + kNormal95 * sigma_J};
 }
 
 Json cause_json(const EnergyByCause& energy) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "model/normal_quantiles.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/plan_robot.hpp"
 #include "scenarios/planned_trajectory.hpp"
@@ -11,8 +12,6 @@ namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kNormal95 = 1.96;
 
 double sigma_of(const Json& interval) {
   if (!interval.is_array() || interval.size() != 2) return 0.0;

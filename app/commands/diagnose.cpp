@@ -28,27 +28,13 @@ std::string cause_text(const Cause& cause) {
 
 /// The meaning of the verdict, and the next step for the user.
 std::string advice(const Diagnosis& d) {
-  switch (d.verdict) {
-    case Verdict::no_gap:
-      return "Calibration errors and noise explain the runs. The model needs no correction.";
-    case Verdict::explained:
-      return d.corrected_robot || !d.corrected_instruments.empty()
-                 ? "The effects below explain the gap. Plan with the corrected files."
-                 : "The effects below explain the gap. No correction shrinks it on held-out runs: none is "
-                   "written.";
-    case Verdict::partly_explained:
-      return "The effects below explain a part of the gap. The rest is unknown.";
-    case Verdict::unexplained:
-      return "No effect of the catalog fits. Nothing is corrected.";
-    case Verdict::ambiguous:
-      return "These runs cannot separate the effects below. Drive the proposed run.";
-    case Verdict::too_little_data:
-      return "There is too little data to name a cause. The list shows candidates only.";
-    case Verdict::data_suspect:
-      return "Channels of the log contradict physics. Repair the dataset (joulepath check --repair), then "
-             "diagnose it.";
-  }
-  return {};
+  const VerdictWords& words = words_of(d.verdict);
+  std::string next = words.next_step;
+  if (d.verdict == Verdict::explained && !d.corrected_robot && d.corrected_instruments.empty())
+    next = "No correction shrinks it on held-out runs: none is written.";
+  if (d.verdict == Verdict::data_suspect)
+    next += " joulepath check DATASET --repair FILE writes it repaired.";
+  return words.meaning + (next.empty() ? "" : " " + next);
 }
 
 void print_where(std::ostream& out, const Diagnosis& d) {

@@ -8,7 +8,9 @@
 
 #include "app/report/page_text.hpp"
 #include "app/report/plain_tables.hpp"
+#include "diagnosis/values/verdict.hpp"
 #include "model/limit_table.hpp"
+#include "model/watt_hours.hpp"
 #include "report/report_modules.hpp"
 
 namespace joulepath::embedded {
@@ -109,6 +111,7 @@ json compact_batch(const json& batch) {
     }
     total[key] = sum;
   }
+  total["energy_Wh"] = number_at(total, "energy_J") / kJoulesPerWh;
   return {{"count", missions.size()}, {"status", status},     {"total", total},
           {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
 }
@@ -155,6 +158,9 @@ json runs_json(const std::vector<RunComparison>& runs, std::size_t most_numbers)
 
 std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& extras) {
   json data{{"diagnosis", diagnosis}, {"title", extras.title}};
+  for (const VerdictWords& words : kVerdicts)
+    if (diagnosis.value("verdict", "") == words.name)
+      data["verdict"] = {{"title", words.title}, {"meaning", words.meaning}, {"good", words.good}};
   if (extras.map) data["map"] = json_of(*extras.map);
   data["runs"] = runs_json(extras.runs);
   return page_of("diagnosis", extras.title, data);

@@ -13,7 +13,7 @@ constexpr double kPower = 0.8416;  ///< normal quantile of 80 %
 constexpr std::array kFollowFromOthers{"wheel_axle_inertia_kg_m2", "chassis_yaw_inertia_kg_m2"};
 
 /// A day's estimate.
-struct Estimate {
+struct DayEstimate {
   double value{}, deviation{}, freedom{};
   std::size_t day{};
 };
@@ -24,10 +24,10 @@ struct Statistic {
 };
 
 /// The first estimate is the reference.
-Statistic largest_statistic(const std::vector<Estimate>& estimates) {
+Statistic largest_statistic(const std::vector<DayEstimate>& estimates) {
   Statistic best;
   double weight = 0, sum = 0;
-  const Estimate& first = estimates.front();
+  const DayEstimate& first = estimates.front();
   for (std::size_t k = estimates.size() - 1; k > 0; --k) {
     const double w = 1 / (estimates[k].deviation * estimates[k].deviation);
     weight += w;
@@ -41,10 +41,10 @@ Statistic largest_statistic(const std::vector<Estimate>& estimates) {
 
 /// The same days without a drift: values scatter by their deviations, and the estimated deviations as those
 /// of `freedom` degrees of freedom.
-double simulated_statistic(const std::vector<Estimate>& estimates, std::mt19937_64& random) {
-  static thread_local std::vector<Estimate> drawn;
+double simulated_statistic(const std::vector<DayEstimate>& estimates, std::mt19937_64& random) {
+  static thread_local std::vector<DayEstimate> drawn;
   drawn.assign(estimates.begin(), estimates.end());
-  for (Estimate& estimate : drawn) {
+  for (DayEstimate& estimate : drawn) {
     estimate.value = std::normal_distribution<double>(0.0, estimate.deviation)(random);
     const double chi2 = std::chi_squared_distribution<double>(estimate.freedom)(random);
     estimate.deviation *= std::sqrt(std::max(1e-12, chi2 / estimate.freedom));
@@ -52,7 +52,7 @@ double simulated_statistic(const std::vector<Estimate>& estimates, std::mt19937_
   return largest_statistic(drawn).value;
 }
 
-double threshold_of(const std::vector<Estimate>& estimates, double rate, const DriftSettings& settings) {
+double threshold_of(const std::vector<DayEstimate>& estimates, double rate, const DriftSettings& settings) {
   std::mt19937_64 random(settings.seed);
   std::vector<double> drawn(settings.draws);
   for (double& value : drawn) value = simulated_statistic(estimates, random);
@@ -62,9 +62,9 @@ double threshold_of(const std::vector<Estimate>& estimates, double rate, const D
   return *at;
 }
 
-std::vector<Estimate> estimates_of(const std::vector<std::vector<CalibratedParameter>>& days,
-                                   const std::string& name) {
-  std::vector<Estimate> estimates;
+std::vector<DayEstimate> estimates_of(const std::vector<std::vector<CalibratedParameter>>& days,
+                                      const std::string& name) {
+  std::vector<DayEstimate> estimates;
   for (std::size_t day = 0; day < days.size(); ++day)
     for (const CalibratedParameter& p : days[day])
       if (p.name == name && p.visibility != Visibility::unseen && std::isfinite(p.standard_deviation) &&
@@ -73,7 +73,7 @@ std::vector<Estimate> estimates_of(const std::vector<std::vector<CalibratedParam
   return estimates;
 }
 
-ParameterDrift drift_of(const CalibratedParameter& parameter, const std::vector<Estimate>& estimates,
+ParameterDrift drift_of(const CalibratedParameter& parameter, const std::vector<DayEstimate>& estimates,
                         double threshold) {
   const Statistic found = largest_statistic(estimates);
   double weight = 0;
@@ -103,10 +103,10 @@ DriftResult find_drift(const std::vector<std::vector<CalibratedParameter>>& days
                        const DriftSettings& settings) {
   DriftResult result;
   std::vector<const CalibratedParameter*> compared;
-  std::vector<std::vector<Estimate>> all;
+  std::vector<std::vector<DayEstimate>> all;
   for (const CalibratedParameter& parameter : days.front()) {
     if (std::ranges::count(kFollowFromOthers, parameter.name) > 0) continue;
-    std::vector<Estimate> estimates = estimates_of(days, parameter.name);
+    std::vector<DayEstimate> estimates = estimates_of(days, parameter.name);
     const bool counts =
         estimates.size() >= 2 && estimates.front().day == 0 && estimates.back().day + 1 == days.size();
     if (!counts) {

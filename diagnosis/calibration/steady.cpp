@@ -99,6 +99,79 @@ void require_usable(const Dataset& dataset, const std::vector<SteadySegment>& se
                        .hint = "one speed cannot separate Coulomb from viscous friction"});
 }
 
+constexpr const char* kParameterNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad",
+                                           "friction_torque_right_Nm", "viscous_friction_right_Nm_s_rad"};
+
+bool is_coulomb(std::size_t k) { return k % 2 == 0; }
+Side side_of(std::size_t k) { return k < 2 ? Side::left : Side::right; }
+
+/// What is left out in turn: whole runs, or steady segments where there are too few runs.
+struct Units {
+  std::vector<std::string> runs{};
+  bool by_run{};
+  std::size_t count{};
+};
+
+Units units_of(const std::vector<SteadySegment>& segments) {
+  std::set<std::string> names;
+  for (const SteadySegment& segment : segments) names.insert(segment.run);
+  Units units{.runs = {names.begin(), names.end()}, .by_run = names.size() >= kFewestUnits};
+  units.count = units.by_run ? units.runs.size() : segments.size();
+  return units;
+}
+
+/// T_m and nu are proportional to the robot file's Kt and inherit its relative uncertainty.
+std::vector<double> deviations_of(const Robot& robot, const std::vector<SteadySegment>& segments,
+                                  const Units& units, const std::vector<double>& values) {
+  std::vector<double> deviation(values.size(), std::nan(""));
+  if (units.count >= kFewestUnits)
+    deviation = jackknife(units.count, [&](std::size_t left_out) {
+                  std::vector<SteadySegment> rest;
+                  for (std::size_t i = 0; i < segments.size(); ++i)
+                    if (units.by_run ? segments[i].run != units.runs[left_out] : i != left_out)
+                      rest.push_back(segments[i]);
+                  return torques_Nm(robot, rest);
+                }).standard_deviation;
+  const auto of_constant = robot.uncertainty.find("torque_constant_Nm_A");
+  if (of_constant != robot.uncertainty.end())
+    for (std::size_t k = 0; k < values.size(); ++k)
+      deviation[k] = std::hypot(deviation[k], of_constant->second * values[k]);
+  return deviation;
+}
+
+CalibratedParameter parameter_of(const Motor& motor, std::size_t k, double value, double deviation,
+                                 double units) {
+  CalibratedParameter parameter{
+      .name = kParameterNames[k],
+      .unit = is_coulomb(k) ? "N m" : "N m s/rad",
+      .nominal = is_coulomb(k) ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad,
+      .value = value,
+      .standard_deviation = deviation,
+      .effective_runs = units};
+  const double half = student_t_975(units - 1) * deviation;
+  parameter.interval_95 = {value - half, value + half};
+  parameter.visibility = 2 * half > 0.5 * std::abs(value) ? Visibility::weak : Visibility::seen;
+  if (value < 0) {
+    parameter.note = "the fit is negative: the robot file keeps its value";
+    parameter.visibility = Visibility::weak;
+  }
+  return parameter;
+}
+
+/// Values that are not negative, with the greater relative deviation of both sides.
+void write_to(Robot& robot, const std::vector<double>& values, const std::vector<double>& deviation) {
+  double friction_deviation = 0, viscous_deviation = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k] < 0) continue;
+    Motor& motor = robot.motor[side_of(k)];
+    (is_coulomb(k) ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad) = values[k];
+    double& relative = is_coulomb(k) ? friction_deviation : viscous_deviation;
+    if (values[k] > 0) relative = std::max(relative, deviation[k] / values[k]);
+  }
+  if (friction_deviation > 0) robot.uncertainty["friction_torque_Nm"] = friction_deviation;
+  if (viscous_deviation > 0) robot.uncertainty["viscous_friction_Nm_s_rad"] = viscous_deviation;
+}
+
 }  // namespace
 
 std::vector<SteadySegment> find_steady_segments(const std::vector<SmoothedRun>& runs) {
@@ -136,67 +209,20 @@ CalibrationResult calibrate_steady(const Dataset& dataset, const std::vector<Smo
   CalibrationResult result{.method = CalibrationMethod::steady, .robot = dataset.robot};
   result.segments = find_steady_segments(runs);
   require_usable(dataset, result.segments);
-  const std::vector<double> values = torques_Nm(dataset.robot, result.segments);
-  std::set<std::string> names;
-  for (const SteadySegment& segment : result.segments) names.insert(segment.run);
-  result.runs_used = names.size(), result.samples_used = result.segments.size();
   result.lines = Sided<SteadyLine>{fit_steady_line(result.segments, Side::left),
                                    fit_steady_line(result.segments, Side::right)};
-
-  const bool by_run = names.size() >= kFewestUnits;
-  result.resampled = by_run ? "runs" : "steady segments";
-  const std::vector<std::string> units(names.begin(), names.end());
-  const std::size_t count = by_run ? units.size() : result.segments.size();
-  std::vector<double> deviation(values.size(), std::nan(""));
-  if (count >= kFewestUnits)
-    deviation = jackknife(count, [&](std::size_t left_out) {
-                  std::vector<SteadySegment> rest;
-                  for (std::size_t i = 0; i < result.segments.size(); ++i)
-                    if (by_run ? result.segments[i].run != units[left_out] : i != left_out)
-                      rest.push_back(result.segments[i]);
-                  return torques_Nm(dataset.robot, rest);
-                }).standard_deviation;
-  else
+  const Units units = units_of(result.segments);
+  result.runs_used = units.runs.size(), result.samples_used = result.segments.size();
+  result.resampled = units.by_run ? "runs" : "steady segments";
+  if (units.count < kFewestUnits)
     result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " steady segments: no intervals");
-
-  // T_m and nu are proportional to the robot file's Kt and inherit its relative uncertainty.
-  const auto of_constant = dataset.robot.uncertainty.find("torque_constant_Nm_A");
-  if (of_constant != dataset.robot.uncertainty.end())
-    for (std::size_t k = 0; k < values.size(); ++k)
-      deviation[k] = std::hypot(deviation[k], of_constant->second * values[k]);
-
-  const char* kNames[] = {"friction_torque_left_Nm", "viscous_friction_left_Nm_s_rad",
-                          "friction_torque_right_Nm", "viscous_friction_right_Nm_s_rad"};
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const Motor& motor = dataset.robot.motor[k < 2 ? Side::left : Side::right];
-    const bool coulomb = k % 2 == 0;
-    CalibratedParameter parameter{
-        .name = kNames[k],
-        .unit = coulomb ? "N m" : "N m s/rad",
-        .nominal = coulomb ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad,
-        .value = values[k],
-        .standard_deviation = deviation[k],
-        .effective_runs = static_cast<double>(count)};
-    const double half = student_t_975(static_cast<double>(count) - 1) * deviation[k];
-    parameter.interval_95 = {values[k] - half, values[k] + half};
-    parameter.visibility = 2 * half > 0.5 * std::abs(values[k]) ? Visibility::weak : Visibility::seen;
-    if (values[k] < 0) {
-      parameter.note = "the fit is negative: the robot file keeps its value";
-      parameter.visibility = Visibility::weak;
-    }
-    result.parameters.push_back(parameter);
-  }
+  const std::vector<double> values = torques_Nm(dataset.robot, result.segments),
+                            deviation = deviations_of(dataset.robot, result.segments, units, values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    result.parameters.push_back(parameter_of(dataset.robot.motor[side_of(k)], k, values[k], deviation[k],
+                                             static_cast<double>(units.count)));
   result.current_rms_before_A = current_rms_A(result.robot, result.segments);
-  double friction_deviation = 0, viscous_deviation = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (values[k] < 0) continue;
-    Motor& motor = result.robot.motor[k < 2 ? Side::left : Side::right];
-    (k % 2 == 0 ? motor.friction_torque_Nm : motor.viscous_friction_Nm_s_rad) = values[k];
-    double& relative = k % 2 == 0 ? friction_deviation : viscous_deviation;
-    if (values[k] > 0) relative = std::max(relative, deviation[k] / values[k]);
-  }
-  if (friction_deviation > 0) result.robot.uncertainty["friction_torque_Nm"] = friction_deviation;
-  if (viscous_deviation > 0) result.robot.uncertainty["viscous_friction_Nm_s_rad"] = viscous_deviation;
+  write_to(result.robot, values, deviation);
   result.current_rms_after_A = current_rms_A(result.robot, result.segments);
   result.notes.push_back("constant speeds do not show inertias; R and Kt n are the robot file's");
   return result;

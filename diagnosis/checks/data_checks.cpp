@@ -34,9 +34,9 @@ struct Examined {
   [[nodiscard]] const RunSignals& signals() const { return mended_signals ? *mended_signals : *logged; }
 };
 
-bool is_beyond_doubt(const Relations& relations) {
-  return std::ranges::all_of(relations, [](const auto& relation) {
-    return !relation || relation->unexplained <= relation->doubtful;
+bool has_doubtful(const Relations& relations) {
+  return std::ranges::any_of(relations, [](const auto& relation) {
+    return relation && !(relation->unexplained <= relation->doubtful);
   });
 }
 
@@ -225,7 +225,7 @@ class DataCheckSearch {
   bool find_fault(bool with_factors) {
     std::vector<std::size_t> broken;
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      if (!runs_[r].lost && !is_beyond_doubt(runs_[r].relations)) broken.push_back(r);
+      if (!runs_[r].lost && has_doubtful(runs_[r].relations)) broken.push_back(r);
     if (broken.empty()) return false;
     std::optional<Found> found = best_fault(broken, with_factors);
     if (!found) return false;
@@ -233,7 +233,7 @@ class DataCheckSearch {
     if (found->fault.kind == "scaled") {
       refine(*found);
       const double factor = found->fault.columns.front().scale;
-      if (factor > kLeastEffectFactor && factor < kMostEffectFactor) return false;
+      if (factor > 1 / kMostEffectFactor && factor < kMostEffectFactor) return false;
     }
     const Relations before = runs_[shown].relations,
                     after = relations_with(runs_[shown], found->fault.columns);

@@ -41,9 +41,9 @@ class Search {
   std::vector<DeadChannel> list() {
     for (Side side : kSides) wheel(side);
     const VectorXd yaw = body_twist(robot_.geometry, run_.wheel_speed_rad_s).yaw_rate_rad_s;
-    compare(run_.gyro_yaw_rate_rad_s, yaw, 0.1, {"gyro_yaw_rate_rad_s"});
+    compare(run_.gyro_yaw_rate_rad_s, yaw, kMovingYawRate_rad_s, {"gyro_yaw_rate_rad_s"});
     if (run_.heading_measured)
-      compare(differences(run_.heading_rad), differences(integral(yaw)), 0.1 * run_.period_s,
+      compare(differences(run_.heading_rad), differences(integral(yaw)), kMovingYawRate_rad_s * run_.period_s,
               {"heading_rad"});
     place();
     supply();
@@ -72,7 +72,7 @@ class Search {
     const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
     const double emf = motor.volts_per_speed_V_s_rad();
     if (run_.motor_current_A[side].size() > 0)
-      compare(centered(run_.motor_current_A[side]), centered(current), 0.3 * friction_A,
+      compare(centered(run_.motor_current_A[side]), centered(current), kLeastChange * friction_A,
               {"motor_current" + suffix + "_A"});
     const VectorXd& voltage = run_.motor_voltage_V[side];
     compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), 2 * emf * kMovingWheel_rad_s,
@@ -87,7 +87,8 @@ class Search {
     const VectorXd dx = differences(run_.x_m), dy = differences(run_.y_m);
     const VectorXd moved = (dx.array().square() + dy.array().square()).sqrt();
     const VectorXd distance_m = body_twist(robot_.geometry, run_.wheel_angle_rad).speed_m_s;
-    compare(moved, differences(distance_m).cwiseAbs(), 0.1 * run_.period_s, {"position_x_m", "position_y_m"});
+    compare(moved, differences(distance_m).cwiseAbs(), kMovingTravel_m_s * run_.period_s,
+            {"position_x_m", "position_y_m"});
   }
 
   void supply() {
@@ -100,7 +101,7 @@ class Search {
           motor.resistance_ohm * current + motor.volts_per_speed_V_s_rad() * run_.wheel_speed_rad_s[side];
       motors_W += voltage.cwiseProduct(current).cwiseMax(0.0);
     }
-    compare(centered(run_.battery_power_W), centered(motors_W), 0.3 * rms(motors_W),
+    compare(centered(run_.battery_power_W), centered(motors_W), kLeastChange * rms(motors_W),
             {run_.battery_voltage_V.cwiseAbs().maxCoeff() > 0 ? "battery_current_A" : "battery_voltage_V"});
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
@@ -12,10 +13,7 @@ namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
 constexpr double kRadSPerRpm = std::numbers::pi / 30;
-/// Loggers of robots have longer sample periods.
-constexpr double kShortestPeriod_s = 5e-4;
-/// Factors that are not unit conversions, outside the range that an effect may cause
-/// (kLeastEffectFactor to kMostEffectFactor).
+/// Factors that are not unit conversions, outside the range that an effect may cause (kMostEffectFactor).
 constexpr double kFactors[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 2.0, 2.5, 3.3, 5.0, 10.0, 20.0, 50.0};
 
 const LogColumn& log_column(const std::string& name) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
 #include "model/printable.hpp"
@@ -22,10 +23,6 @@ constexpr Bound kColumnBounds[] = {
     {"battery_voltage_V", 1000, "millivolts?"},         {"battery_current_A", 2000, "milliamperes?"},
     {"gyro_yaw_rate_rad_s", 30, "degrees per second?"}, {"payload_kg", 1e4, "grams?"},
 };
-constexpr double kFastest_m_s = 20.0;    ///< speed of a wheel's rim
-constexpr double kLongestStep_s = 60.0;  ///< median time between samples
-constexpr double kOddRatio = 2.0;        ///< ratio of the body's speed to that of its wheels
-constexpr double kMoving_m_s = 0.05;     ///< speeds are not compared below this mean speed
 
 double greatest(const std::vector<double>& values) {
   double most = 0;

@@ -6,6 +6,7 @@
 
 #include "diagnosis/checks/box_fit.hpp"
 #include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/dynamics.hpp"
 #include "model/kinematics.hpp"
@@ -18,24 +19,11 @@ namespace {
 using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Below these speeds the direction of motion is uncertain.
-constexpr double kBlurredWheel_rad_s = 0.2;
-/// Rows over which changes of a pose are taken: increments of single rows disappear in the noise.
-constexpr Eigen::Index kIncrementRows = 6;
-/// Runs that turn or travel less do not test a gyro or a pose.
-constexpr double kLeastYawRate_rad_s = 0.06, kLeastSpeed_m_s = 0.04;
-/// Longest delay of readings: a speed that changes within this time looks like an offset.
-constexpr double kLongestDelay_s = 0.15;
-/// Greatest offset of a current sensor, relative to the current that friction takes.
-constexpr double kGreatestOffset = 0.7;
-
 bool has(const RunSignals& run, const VectorXd& channel) {
   return channel.size() == run.size() && run.size() > 0;
 }
 
-VectorXd soft_sign(const VectorXd& speed) {
-  return (speed.array() / kBlurredWheel_rad_s).cwiseMin(1.0).cwiseMax(-1.0);
-}
+VectorXd directions(const VectorXd& speed) { return speed.unaryExpr(&friction_direction); }
 
 VectorXd increments(const VectorXd& values) {
   const Eigen::Index n = values.size() - kIncrementRows;
@@ -76,14 +64,15 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
   const double emf = motor.volts_per_speed_V_s_rad();
   const double offset_V =
       kGreatestOffset * motor.resistance_ohm * motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
-  const double drop_V = 0.035 * voltage.cwiseAbs().maxCoeff();
+  const double drop_V = kGreatestDrop * voltage.cwiseAbs().maxCoeff();
   const VectorXd& speed = run.wheel_speed_rad_s[side];
   return relation(
       std::string("V = R i + Kv n w ") + side_name(side), kSoundWinding, voltage,
-      {factor(motor.resistance_ohm * current, measured ? 0.6 : 0.2, measured ? 1.7 : 5.0, freedom),
-       factor(emf * speed, 0.7, 1.4, freedom),
+      {factor(motor.resistance_ohm * current, measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
+              measured ? kMostMeasuredFactor : kMostPredictedCurrent, freedom),
+       factor(emf * speed, kLeastScale, kMostScale, freedom),
        {VectorXd::Ones(run.size()), -offset_V, offset_V},
-       {soft_sign(speed), -drop_V, drop_V},
+       {directions(speed), -drop_V, drop_V},
        {emf * run.wheel_acceleration_rad_s2[side], -kLongestDelay_s, kLongestDelay_s}});
 }
 
@@ -99,14 +88,14 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
   const double load_A = robot.geometry.wheel_radius_m[side] * kGravity_m_s2 * robot.total_mass_kg(0) / 2 /
                         motor.torque_per_ampere_Nm_A();
   std::vector<BoxedTerm> terms{
-      factor(expected.friction_A[side], 0.3, 5.0, freedom),
-      {expected.viscous_A[side], 0.0, 20.0},
-      factor(expected.inertia_A[side], 0.4, 2.5, freedom),
+      factor(expected.friction_A[side], kLeastFriction, kMostFriction, freedom),
+      {expected.viscous_A[side], 0.0, kMostViscousFriction},
+      factor(expected.inertia_A[side], kLeastInertia, kMostInertia, freedom),
       {VectorXd::Ones(run.size()), -kGreatestOffset * friction_A, kGreatestOffset * friction_A},
-      {soft_sign(yaw * 2), -0.05 * load_A, 0.05 * load_A}};
+      {directions(yaw * 2), -kGreatestTurningLoad * load_A, kGreatestTurningLoad * load_A}};
   if (run.heading_measured && has(run, run.heading_rad)) {
-    terms.push_back({run.heading_rad.array().cos(), -0.03 * load_A, 0.03 * load_A});
-    terms.push_back({run.heading_rad.array().sin(), -0.03 * load_A, 0.03 * load_A});
+    terms.push_back({run.heading_rad.array().cos(), -kGreatestSlope * load_A, kGreatestSlope * load_A});
+    terms.push_back({run.heading_rad.array().sin(), -kGreatestSlope * load_A, kGreatestSlope * load_A});
   }
   return relation(std::string("i = torque of the motion / (Kt n) ") + side_name(side), kSoundTorque, current,
                   terms);
@@ -117,11 +106,11 @@ std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& g
   const Twist<VectorXd> wheels = body_twist(geometry, run.wheel_speed_rad_s);
   const VectorXd& yaw = wheels.yaw_rate_rad_s;
   if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
-  const double mismatch = 0.08 / (2 * geometry.half_track_m);
-  return relation("gyro = yaw rate of the wheels", kSoundTurn, run.gyro_yaw_rate_rad_s,
-                  {factor(yaw, 0.55, 1.6, freedom),
+  const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
+  return relation("gyro = yaw rate of the wheels", kSoundMotion, run.gyro_yaw_rate_rad_s,
+                  {factor(yaw, kLeastRolled, kMostRolled, freedom),
                    {wheels.speed_m_s, -mismatch, mismatch},
-                   {VectorXd::Ones(run.size()), -0.1, 0.1}});
+                   {VectorXd::Ones(run.size()), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
 }
 
 std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry& geometry, double freedom) {
@@ -131,9 +120,10 @@ std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry
   const VectorXd heading = increments(run.heading_rad);
   const double least = kLeastYawRate_rad_s * run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
-  const double mismatch = 0.08 / (2 * geometry.half_track_m);
-  return relation("heading = angle turned by the wheels", kSoundTurn, heading,
-                  {factor(turned, 0.55, 1.6, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
+  const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
+  return relation(
+      "heading = angle turned by the wheels", kSoundMotion, heading,
+      {factor(turned, kLeastRolled, kMostRolled, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
 }
 
 std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) {
@@ -145,8 +135,9 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
   const double span_s = run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < kLeastYawRate_rad_s * span_s) return {};
   return relation(
-      "heading = angle turned by the gyro", kSoundTurn, heading,
-      {factor(turned, 0.7, 1.4, freedom), {VectorXd::Constant(turned.size(), span_s), -0.1, 0.1}});
+      "heading = angle turned by the gyro", kSoundMotion, heading,
+      {factor(turned, kLeastScale, kMostScale, freedom),
+       {VectorXd::Constant(turned.size(), span_s), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
 }
 
 /// Compares motion along the measured heading; without a heading, distances only.
@@ -158,13 +149,14 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
   const VectorXd distance = rolled(geometry, run.wheel_angle_rad).speed_m_s;
   if (rms(distance) < least_m && rms(stacked(dx, dy)) < least_m) return {};
   if (!run.heading_measured)
-    return relation("distance = path of the wheels", kSoundPosition,
+    return relation("distance = path of the wheels", kSoundMotion,
                     (dx.array().square() + dy.array().square()).sqrt().matrix(),
-                    {factor(distance.cwiseAbs(), 0.55, 1.6, freedom)});
+                    {factor(distance.cwiseAbs(), kLeastRolled, kMostRolled, freedom)});
   const VectorXd x = rolled(geometry, run.wheel_along_x_rad).speed_m_s;
   const VectorXd y = rolled(geometry, run.wheel_along_y_rad).speed_m_s;
-  return relation("position = path of the wheels along the heading", kSoundPosition, stacked(dx, dy),
-                  {factor(stacked(x, y), 0.55, 1.6, freedom), {stacked(-y, x), -0.4, 0.4}});
+  return relation("position = path of the wheels along the heading", kSoundMotion, stacked(dx, dy),
+                  {factor(stacked(x, y), kLeastRolled, kMostRolled, freedom),
+                   {stacked(-y, x), -kGreatestHeadingOffset_rad, kGreatestHeadingOffset_rad}});
 }
 
 /// Battery power = motor power + standby. Without measured motors, the factor of the predicted motor power
@@ -184,11 +176,12 @@ std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const
     }
     drive += power.cwiseMax(0.0), brake += power.cwiseMin(0.0);
   }
-  const double least = measured ? 0.6 : 0.2, most = measured ? 1.7 : 6.0;
-  const double standby_W = robot.power.standby_W > 0 ? 5 * robot.power.standby_W : kInfinity;
+  const double least = measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
+               most = measured ? kMostMeasuredFactor : kMostPredictedPower;
+  const double standby_W = robot.power.standby_W > 0 ? kMostStandby * robot.power.standby_W : kInfinity;
   return relation("battery power = motor power + standby", kSoundBattery, run.battery_power_W,
                   {factor(drive, least, most, freedom),
-                   {brake, -0.3, 1.3 * most},
+                   {brake, -kGreatestBrakeDraw, kGreatestBrakeFactor * most},
                    {VectorXd::Ones(run.size()), 0.0, standby_W}});
 }
 
@@ -217,8 +210,8 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
           robot.inertia.wheel_axle_inertia_kg_m2 * run.wheel_acceleration_rad_s2[side][j];
       expected.inertia_A[side][j] = motor_current_A(motor, torque_Nm);
       expected.viscous_A[side][j] = motor_current_A(motor, motor.viscous_friction_Nm_s_rad * speed);
-      expected.friction_A[side][j] = motor_current_A(
-          motor, motor.friction_torque_Nm * std::clamp(speed / kBlurredWheel_rad_s, -1.0, 1.0));
+      expected.friction_A[side][j] =
+          motor_current_A(motor, motor.friction_torque_Nm * friction_direction(speed));
     }
   }
   return expected;

@@ -87,7 +87,7 @@ Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
       share.turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
                        std::abs(right - left) > kMovingWheel_rad_s;
       share.reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
-      share.still += std::abs(left) < kStillWheel_rad_s && std::abs(right) < kStillWheel_rad_s;
+      share.still += std::abs(left) < kMovingWheel_rad_s && std::abs(right) < kMovingWheel_rad_s;
     }
   if (total == 0) return {1, 1, 1};
   return {share.turning / total, share.reverse / total, share.still / total};
@@ -127,7 +127,7 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     survey.notes.push_back("no reversing: " + hidden_without(&Needs::reversing));
     hide(&Needs::reversing);
   }
-  if (still < kLeastStandstillShare) survey.notes.push_back("no standstill: sensor offsets are less visible");
+  if (still < kLeastManoeuvreShare) survey.notes.push_back("no standstill: sensor offsets are less visible");
   if (std::ranges::any_of(dataset.runs, [](const Run& run) { return !run.payload_known; }))
     survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");
   return survey;

@@ -17,9 +17,9 @@ bool energies_were_measured(const Examination& x) {
   return std::ranges::any_of(x.runs.signals, [](const RunSignals& run) { return measures_energy(run); });
 }
 
-/// Visibility of an effect that changes the energy: its expected evidence in units of the noise, for a gap of
-/// one percent.
-struct Visibility {
+/// Power to detect an effect that changes the energy: its expected evidence in units of the noise, for a gap
+/// of one percent.
+struct DetectionPower {
   double sigmas_per_percent{};
   double prior_sigmas_per_percent{};  ///< in units of the search's prior width
 };
@@ -35,8 +35,8 @@ double energy_per_amplitude(const Examination& x, const Candidate& candidate) {
   return (motors ? impact.motor_power : impact.battery_power) / candidate.step[0];
 }
 
-std::vector<Visibility> visibilities(const Examination& x) {
-  std::vector<Visibility> effects;
+std::vector<DetectionPower> detection_powers(const Examination& x) {
+  std::vector<DetectionPower> effects;
   std::set<std::string> met;
   for (std::size_t c = 0; c < x.id.equations.candidates.size(); ++c) {
     const Candidate& candidate = x.id.equations.candidates[c];
@@ -54,7 +54,7 @@ std::vector<Visibility> visibilities(const Examination& x) {
 /// Probability that the search accepts the effect at a gap of this size. The gain in log evidence is 1/2 z^2,
 /// where z is normal about its expectation with unit deviation; it must exceed the cost of the effect and of
 /// its width.
-double probability_seen(const Visibility& effect, double gap_percent) {
+double probability_seen(const DetectionPower& effect, double gap_percent) {
   const double expected = effect.sigmas_per_percent * gap_percent;
   const double width = effect.prior_sigmas_per_percent * effect.sigmas_per_percent;
   const double cost = kEffectCost + 0.5 * std::log1p(width * width);
@@ -62,11 +62,11 @@ double probability_seen(const Visibility& effect, double gap_percent) {
   return 0.5 * std::erfc((std::sqrt(2 * (cost + below_material)) - expected) / std::sqrt(2.0));
 }
 
-double detectable_percent(const std::vector<Visibility>& effects) {
+double detectable_percent(const std::vector<DetectionPower>& effects) {
   if (effects.empty()) return kAnySize_percent;
   const auto seen = [&](double gap_percent) {
     double sum = 0;
-    for (const Visibility& effect : effects) sum += probability_seen(effect, gap_percent);
+    for (const DetectionPower& effect : effects) sum += probability_seen(effect, gap_percent);
     return sum / static_cast<double>(effects.size());
   };
   if (seen(kAnySize_percent) < kShareSeen) return kAnySize_percent;
@@ -91,7 +91,7 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict) {
         .verdict = verdict == Verdict::no_gap ? Verdict::too_little_data : Verdict::partly_explained,
         .note = "no run measures the energy of the motors or of the battery: an energy gap cannot be seen"};
   if (verdict != Verdict::no_gap) return {.verdict = verdict};
-  const double percent = detectable_percent(visibilities(x));
+  const double percent = detectable_percent(detection_powers(x));
   if (percent > kGreatestUnseen_percent)
     return {.verdict = Verdict::too_little_data,
             .detectable_percent = percent,

@@ -9,8 +9,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kRegionEdge_m = 0.05;  ///< half a step of the scan for a region
-
 /// Rows of the refit's covariance that belong to a parameter of an effect.
 std::vector<Eigen::Index> covariance_rows(const Refit& fitted, std::size_t effect, const std::string& name) {
   std::vector<Eigen::Index> rows;
@@ -68,7 +66,7 @@ double half_interval(const Refit& fitted, std::size_t effect, const std::string&
   const std::vector<double> gradient = effect_of.find(ParameterRole::direction)
                                            ? polar_gradient(active, name != effect_of.strength().name)
                                            : std::vector<double>{1.0};
-  const double sd = rows.size() < gradient.size() ? kRegionEdge_m : sd_along(fitted, rows, gradient);
+  const double sd = rows.size() < gradient.size() ? 0.5 * kRegionStep_m : sd_along(fitted, rows, gradient);
   const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
   return std::hypot(sd, form_sd(active, name)) *
          boost::math::quantile(boost::math::students_t(degrees), 0.975);

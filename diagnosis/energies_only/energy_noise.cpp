@@ -11,8 +11,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSmoothPriorSd = 0.2;  ///< of the coefficients of the smooth function
-
 /// Variables of a smooth error; payload and acceleration are scaled to about one.
 Eigen::VectorXd features_of(const EnergyRun& run) {
   const double load = run.payload_kg / 10.0, haste = run.acceleration_m_s2 / 0.2 - 1;

@@ -7,13 +7,13 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/motions.hpp"
 #include "model/power.hpp"
+#include "model/watt_hours.hpp"
 
 namespace joulepath {
 namespace {
 
 constexpr double kStep_s = 0.02;
 constexpr double kLeastStep_s = 1e-6;
-constexpr double kJoulesPerWattHour = 3600.0;
 
 PrescribedMotion doubted(PrescribedMotion motion, MotionDoubt doubt, double factor) {
   if (doubt == MotionDoubt::start_speed) {
@@ -106,7 +106,7 @@ EnergyRun energy_run(const Run& run, std::size_t index, const Robot& robot) {
       result.doubted[k][static_cast<std::size_t>(more)] = driven_otherwise(
           run, kMotionDoubts[k], 1 + (more ? 1 : -1) * kMotionDoubtSigma, robot, result.motion);
   result.wheel_J = run.measured_energy_J;
-  if (run.battery_energy_Wh) result.battery_J = *run.battery_energy_Wh * kJoulesPerWattHour;
+  if (run.battery_energy_Wh) result.battery_J = *run.battery_energy_Wh * kJoulesPerWh;
   result.payload_kg = run.payload.empty() ? 0.0 : run.payload.front().payload_kg;
   result.acceleration_m_s2 = run.motion->acceleration_m_s2.value_or(0.0);
   result.path = path_kind(*run.motion, result.motion);

@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "model/motions.hpp"
+#include "model/normal_quantiles.hpp"
+#include "model/watt_hours.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr double kJoulesPerWh = 3600.0;
-constexpr double k95OneSided = 1.644854;
 
 /// The motion of a run: its log, or its prescribed motion.
 Trajectory motion_of(const Run& run, const Robot& robot) {
@@ -74,7 +73,7 @@ DatasetEstimate estimate_dataset(const Dataset& dataset, const EstimateOptions& 
   for (RunEstimate& run : all.runs) {
     const double model_J = all.model_error.value_or(0.0) * run.terminals_J;
     run.upper_95_J =
-        run.terminals_J + run.estimate.battery_loss_J + k95OneSided * std::hypot(run.sigma_J, model_J);
+        run.terminals_J + run.estimate.battery_loss_J + kNormal95OneSided * std::hypot(run.sigma_J, model_J);
     run.capacity_Wh = run.upper_95_J / kJoulesPerWh / (1 - dataset.robot.battery.reserve_fraction);
   }
   return all;

@@ -6,10 +6,6 @@
 #include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
-namespace {
-
-constexpr double kEarliest_s = -0.2, kLatest_s = 0.4;
-}  // namespace
 
 double rough_channel_delay_s(const LogSet& logs) {
   if (logs.runs.empty()) return 0.0;
@@ -17,8 +13,8 @@ double rough_channel_delay_s(const LogSet& logs) {
   fine.options.period_s = 0;  // every sample of the log
   const std::vector<RunSignals> signals = read_signals(fine, 0.0);
   const double period_s = signals.front().period_s;
-  const int first = static_cast<int>(std::floor(kEarliest_s / period_s));
-  const int last = static_cast<int>(std::ceil(kLatest_s / period_s));
+  const int first = static_cast<int>(std::floor(kEarliestReading_s / period_s));
+  const int last = static_cast<int>(std::ceil(kLatestReading_s / period_s));
   const int stride = std::max(1, static_cast<int>(std::lround(0.02 / period_s)));
   const int zero_first = -(std::abs(first) / stride) * stride;
   double best = 0, at_zero = 0;

@@ -9,6 +9,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/signals/resolution.hpp"
+#include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0042-a-laws-form-is-uncertain.md
 namespace joulepath {
 namespace {
@@ -156,7 +157,7 @@ void set_dictionary_prior(const std::vector<RawRunEquations>& raw, std::vector<C
       square += run.gram(i, i);
       residual += run.gram(run.gram.rows() - 1, run.gram.cols() - 1);
     }
-    columns[k].prior_sd = square > 0 ? 0.5 * std::sqrt(residual / square) : 1e-9;
+    columns[k].prior_sd = square > 0 ? kUnknownPrior * std::sqrt(residual / square) : 1e-9;
   }
 }
 
@@ -171,6 +172,46 @@ Eigen::VectorXd shared_sides(Eigen::VectorXd variance) {
   variance[0] = variance[1] = 0.5 * (variance[0] + variance[1]);
   variance[2] = variance[3] = 0.5 * (variance[2] + variance[3]);
   return variance;
+}
+
+/// Residuals and signatures of one run.
+RunRows rows_of(const RunSignals& signals, const Robot& robot, const std::vector<Nuisance>& nuisances,
+                const ModelState& state, const Equations& equations, const DictionaryLayout& layout,
+                const std::vector<std::size_t>& chosen) {
+  const ModelPoint point = model_point(robot, nuisances, state);
+  const Prediction base = predict(signals, point);
+  RunRows rows{
+      .residual = residual_rows(signals, point, base),
+      .columns = signatures(signals, robot, nuisances, state, equations.candidates, equations.columns, base),
+      .own = run_signatures(signals, robot, base)};
+  if (!chosen.empty()) {
+    std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals, robot, base);
+    for (std::size_t k : chosen) rows.columns.push_back(std::move(all[k]));
+  }
+  make_absolute(equations.columns, rows);
+  return rows;
+}
+
+/// Noise and scatter of runs from the residual of a fit of everything. The gap itself must not count as
+/// noise: the first fit assumes white rows, and only the residual determines the memory.
+std::vector<RawRunEquations> compress_and_estimate(const std::vector<RunRows>& rows,
+                                                   const std::vector<RunSignals>& signals, const Robot& robot,
+                                                   const NoiseModel* first_noise, Equations& equations) {
+  std::vector<ResidualRows> left(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
+  const std::array<double, kChannelCount> floor = resolution_floor(signals);
+  equations.noise = first_noise ? *first_noise : white_noise(left, floor);
+  equations.run_variance = run_start_variance(robot);
+  for (int pass = first_noise ? 1 : 0;; ++pass) {
+    std::vector<RawRunEquations> raw = compress_all(rows, equations.noise);
+    set_dictionary_prior(raw, equations.columns);
+    const ColumnEstimate estimate =
+        rich_estimate(marginalize_all(raw, equations.run_variance), prior_sd_of(equations.columns));
+    equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
+    if (pass == 2) return raw;
+    left = leftover_rows(rows, estimate.mean, raw, equations.run_variance);
+    equations.noise = estimate_noise(left, floor);
+  }
 }
 
 }  // namespace
@@ -206,19 +247,8 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
 
   std::vector<RunRows> rows(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
-    const ModelPoint point = model_point(robot, nuisances, state);
-    const Prediction base = predict(signals[r], point);
-    rows[r].residual = residual_rows(signals[r], point, base);
-    rows[r].columns =
-        signatures(signals[r], robot, nuisances, state, equations.candidates, equations.columns, base);
-    if (!chosen.empty()) {
-      std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals[r], robot, base);
-      for (std::size_t k : chosen) rows[r].columns.push_back(std::move(all[k]));
-    }
-    rows[r].own = run_signatures(signals[r], robot, base);
-    make_absolute(equations.columns, rows[r]);
+    rows[r] = rows_of(signals[r], robot, nuisances, state, equations, layout, chosen);
   });
-
   std::vector<RawRunEquations> raw;
   if (options.noise) {
     equations.noise = *options.noise;
@@ -226,23 +256,7 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     raw = compress_all(rows, equations.noise);
     set_dictionary_prior(raw, equations.columns);
   } else {
-    // The gap itself must not count as noise: the first fit assumes white rows, and only the residual of
-    // a fit of everything determines the memory.
-    std::vector<ResidualRows> left(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
-    const std::array<double, kChannelCount> floor = resolution_floor(signals);
-    equations.noise = options.first_noise ? *options.first_noise : white_noise(left, floor);
-    equations.run_variance = run_start_variance(robot);
-    for (int pass = options.first_noise ? 1 : 0; pass < 3; ++pass) {
-      raw = compress_all(rows, equations.noise);
-      set_dictionary_prior(raw, equations.columns);
-      const ColumnEstimate estimate =
-          rich_estimate(marginalize_all(raw, equations.run_variance), prior_sd_of(equations.columns));
-      equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
-      if (pass == 2) break;
-      left = leftover_rows(rows, estimate.mean, raw, equations.run_variance);
-      equations.noise = estimate_noise(left, floor);
-    }
+    raw = compress_and_estimate(rows, signals, robot, options.first_noise, equations);
   }
   equations.runs = marginalize_all(raw, equations.run_variance);
   equations.prior_sd = prior_sd_of(equations.columns);

@@ -46,11 +46,13 @@ std::vector<std::string> labels_of(const ModelState& state) {
   return labels;
 }
 
+/// Options of a search. Few runs name no effect below the materiality floor.
 SearchOptions search_options(double dispersion, bool few, std::vector<double> least_amplitude) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
   return {.dispersion = dispersion,
           .least_amplitude = std::move(least_amplitude),
-          .small_effect_evidence = few ? kSmallEffectEvidenceOfFewRuns : kSmallEffectEvidence,
-          .small_pliable_evidence = few ? std::numeric_limits<double>::infinity() : kSmallPliableEvidence};
+          .small_effect_evidence = few ? kNever : kSmallEffectEvidence,
+          .small_pliable_evidence = few ? kNever : kSmallPliableEvidence};
 }
 
 /// Effects of the best set of all that are not large enough to matter, nor beyond doubt.
@@ -74,54 +76,67 @@ std::vector<SmallEffect> small_effects(const Equations& equations,
   return small;
 }
 
+/// No effect but the rough delay of the electrical channels, where the logs show one.
+ModelState first_state(const LogSet& logs, std::size_t nuisances, const std::set<std::string>& without) {
+  ModelState state;
+  state.nuisance_fraction.assign(nuisances, 0.0);
+  const double delay_s = rough_channel_delay_s(logs);
+  if (delay_s == 0) return state;
+  const std::vector<Candidate> candidates = catalog_candidates(logs.dataset->robot, without);
+  const auto delay = std::ranges::find_if(
+      candidates, [](const Candidate& candidate) { return candidate.effect().delays_channels; });
+  if (delay != candidates.end()) state.effects.push_back({*delay, {delay_s}});
+  return state;
+}
+
+/// Linearizes about the state and searches the sets of effects and unknown terms.
+void search_about_state(const LogSet& logs, const std::set<std::string>& without, const NoiseModel* noise,
+                        std::map<std::string, double>& known, Identification& id) {
+  const Robot& robot = logs.dataset->robot;
+  const std::vector<std::size_t> runs = every(logs.runs.size());
+  const std::vector<Candidate> regions =
+      region_candidates(id.signals, robot, id.nuisances, id.state, without);
+  id.equations = build_equations(id.signals, robot, id.nuisances, id.state, regions,
+                                 {.first_noise = noise, .without = without});
+  id.dispersion = run_dispersion(id.equations, rich_columns(id.equations));
+  id.problem = without_calibration(id.equations, runs, id.dispersion);
+  scale_unknowns(id.equations, id.problem, columns_of(id.equations, id.state), id.dispersion);
+  id.options = search_options(
+      id.dispersion, runs.size() < kRunsForSmallEffects,
+      least_amplitudes(id.signals, robot, id.nuisances, id.state, id.equations.candidates, known));
+  id.explanations = search_explanations(id.problem, id.equations, id.options);
+  id.below_materiality = small_effects(id.equations, id.explanations);
+  std::erase_if(id.explanations, [](const Explanation& e) { return !e.material; });
+}
+
+/// The state of the best set, refitted without the linearization.
+void adopt_best(const LogSet& logs, Identification& id) {
+  const std::vector<std::size_t> runs = every(logs.runs.size());
+  const Explanation& best = id.explanations.front();
+  const Eigen::VectorXd parameters = fit_parameters(id.equations, runs, best.columns, id.dispersion);
+  Refit fitted = refit(logs, runs, id.nuisances,
+                       adopt(id.equations, id.nuisances, id.state, best, parameters), id.equations.noise,
+                       id.equations.run_variance, id.dispersion, 2, unknown_labels(id.equations, best));
+  id.state = std::move(fitted.state);
+  id.signals = std::move(fitted.signals);
+}
+
 }  // namespace
 
 Identification identify(const LogSet& logs, const std::set<std::string>& without) {
-  Identification result{.nuisances = calibration_nuisances(logs.dataset->robot)};
-  const Robot& robot = logs.dataset->robot;
-  const std::vector<std::size_t> runs = every(logs.runs.size());
-  result.state.nuisance_fraction.assign(result.nuisances.size(), 0.0);
-  if (const double delay_s = rough_channel_delay_s(logs); delay_s != 0) {
-    const std::vector<Candidate> candidates = catalog_candidates(robot, without);
-    const auto delay = std::ranges::find_if(
-        candidates, [](const Candidate& candidate) { return candidate.effect().delays_channels; });
-    if (delay != candidates.end()) result.state.effects.push_back({*delay, {delay_s}});
-  }
-  result.signals = read_signals(logs, channel_delay_s(result.state));
-  const bool few = runs.size() < kRunsForSmallEffects;
+  Identification id{.nuisances = calibration_nuisances(logs.dataset->robot)};
+  id.state = first_state(logs, id.nuisances.size(), without);
+  id.signals = read_signals(logs, channel_delay_s(id.state));
   std::map<std::string, double> known;
   NoiseModel noise;
-  for (int round = 0;; ++round) {
-    const std::vector<Candidate> regions =
-        region_candidates(result.signals, robot, result.nuisances, result.state, without);
-    result.equations = build_equations(result.signals, robot, result.nuisances, result.state, regions,
-                                       {.first_noise = round > 0 ? &noise : nullptr, .without = without});
-    noise = result.equations.noise;
-    result.dispersion = run_dispersion(result.equations, rich_columns(result.equations));
-    result.problem = without_calibration(result.equations, runs, result.dispersion);
-    scale_unknowns(result.equations, result.problem, columns_of(result.equations, result.state),
-                   result.dispersion);
-    result.options = search_options(result.dispersion, few,
-                                    least_amplitudes(result.signals, robot, result.nuisances, result.state,
-                                                     result.equations.candidates, known));
-    result.explanations = search_explanations(result.problem, result.equations, result.options);
-    result.below_materiality = small_effects(result.equations, result.explanations);
-    std::erase_if(result.explanations, [](const Explanation& e) { return !e.material; });
-    const Explanation& best = result.explanations.front();
-    if ((round > 0 || best.candidates.empty()) &&
-        labels_of(result.equations, best) == labels_of(result.state))
-      break;
-    const Eigen::VectorXd parameters =
-        fit_parameters(result.equations, runs, best.columns, result.dispersion);
-    Refit fitted = refit(logs, runs, result.nuisances,
-                         adopt(result.equations, result.nuisances, result.state, best, parameters),
-                         result.equations.noise, result.equations.run_variance, result.dispersion, 2,
-                         unknown_labels(result.equations, best));
-    result.state = fitted.state;
-    result.signals = std::move(fitted.signals);
-    if (round == kRelinearizations) break;  // no convergence: the last answer, refitted
+  for (int round = 0; round <= kRelinearizations; ++round) {  // after the last: its answer, refitted
+    search_about_state(logs, without, round > 0 ? &noise : nullptr, known, id);
+    noise = id.equations.noise;
+    const Explanation& best = id.explanations.front();
+    if ((round > 0 || best.candidates.empty()) && labels_of(id.equations, best) == labels_of(id.state)) break;
+    adopt_best(logs, id);
   }
-  return result;
+  return id;
 }
 
 std::set<std::string> unknown_labels(const Equations& equations, const Explanation& explanation) {

@@ -36,7 +36,7 @@ Sums sums_of(const RunSignals& run, const Prediction& with_it, const Prediction&
     sums.impact.battery_voltage_V =
         (with_it.battery_voltage_V - without_it.battery_voltage_V).cwiseAbs().maxCoeff();
   if (last < 0) return sums;
-  const double travelled_m = std::max(0.5, distance_m(run, geometry));
+  const double travelled_m = std::max(kLeastTravelled_m, distance_m(run, geometry));
   sums.impact.heading_rad = std::abs(with_it.heading_rad[last] - without_it.heading_rad[last]);
   sums.impact.position =
       std::hypot(with_it.x_m[last] - without_it.x_m[last], with_it.y_m[last] - without_it.y_m[last]) /

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
-
-constexpr double kBin_m = 0.1;
-constexpr double kFewestSamples = 15;
 
 /// Rolling coefficient that a sample asks for beyond the model, and where.
 struct PlacedSample {
@@ -56,7 +55,7 @@ void best_interval(const std::vector<PlacedSample>& samples, int axis, Rectangle
     least = std::min(least, s.at_m[a]), greatest = std::max(greatest, s.at_m[a]);
   }
   if (samples.empty()) return;
-  const auto bins = static_cast<std::size_t>(std::clamp((greatest - least) / kBin_m + 1, 1.0, 400.0));
+  const auto bins = static_cast<std::size_t>(std::clamp((greatest - least) / kRegionStep_m + 1, 1.0, 400.0));
   const double width = std::max(1e-9, (greatest - least) / static_cast<double>(bins));
   std::vector<double> sum(bins + 1, 0.0), count(bins + 1, 0.0);
   double all_sum = 0, all_count = 0;
@@ -71,7 +70,7 @@ void best_interval(const std::vector<PlacedSample>& samples, int axis, Rectangle
   for (std::size_t lo = 0; lo < bins; ++lo)
     for (std::size_t hi = lo + 1; hi <= bins; ++hi) {
       const double n = count[hi] - count[lo], outside = all_count - n;
-      if (n < kFewestSamples || outside < kFewestSamples) continue;
+      if (n < kLeastSamplesOfRegion || outside < kLeastSamplesOfRegion) continue;
       const double inside_sum = sum[hi] - sum[lo];
       const double difference = inside_sum / n - (all_sum - inside_sum) / outside;
       const double contrast = difference > 0 ? difference * difference * n * outside / all_count : 0;

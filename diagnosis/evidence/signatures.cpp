@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr double kRegionEdgeSd_m = 0.1;
 
 bool is_active(const Candidate& candidate, const ModelState& state, std::size_t& index) {
   for (index = 0; index < state.effects.size(); ++index)
@@ -50,15 +49,15 @@ double form_variable(const RunSignals& s, const Geometry& geometry, int form, Ei
   };
   switch (form) {
     case 0:
-      return scaled(twist.speed_m_s, 0.3);
+      return scaled(twist.speed_m_s, kUsualSpeed_m_s);
     case 1:
-      return scaled(twist.yaw_rate_rad_s, 0.5);
+      return scaled(twist.yaw_rate_rad_s, kUsualYawRate_rad_s);
     case 2:
-      return scaled(s.payload_kg[j], 5.0);
+      return scaled(s.payload_kg[j], kUsualPayload_kg);
     case 3:
-      return scaled(rate.speed_m_s, 0.2);
+      return scaled(rate.speed_m_s, kUsualAcceleration_m_s2);
     default:
-      return scaled(s.time_of_day_s[j], 200.0);
+      return scaled(s.time_of_day_s[j], kUsualTime_s);
   }
 }
 
@@ -66,15 +65,14 @@ bool is_edge(const Candidate& candidate, const std::string& parameter) {
   return candidate.effect().find(parameter)->role == ParameterRole::edge;
 }
 
-/// Prior deviation of a shape parameter: a bin of the scan for an edge of a region, half of the value for
-/// others.
+/// Prior deviation of a shape parameter.
 double shape_prior_sd(const Candidate& candidate, const std::string& parameter) {
-  if (is_edge(candidate, parameter)) return kRegionEdgeSd_m;
-  return 0.5 * std::abs(candidate.shape.parameters.at(parameter));
+  if (is_edge(candidate, parameter)) return kRegionStep_m;
+  return kShapeSpread * std::abs(candidate.shape.parameters.at(parameter));
 }
 
 double shape_step(const Candidate& candidate, const std::string& parameter, double value) {
-  return is_edge(candidate, parameter) ? 0.5 * kRegionEdgeSd_m : std::max(1e-3, 0.05 * std::abs(value));
+  return is_edge(candidate, parameter) ? 0.5 * kRegionStep_m : std::max(1e-3, 0.05 * std::abs(value));
 }
 
 class Differencer {
@@ -246,7 +244,7 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
     const std::size_t s = side == Side::left ? 0 : 1;
     const Motor& motor = robot.motor[side];
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double direction = std::clamp(signals.wheel_speed_rad_s[side][j] / 0.2, -1.0, 1.0);
+      const double direction = friction_direction(signals.wheel_speed_rad_s[side][j]);
       own[s](j, kCurrentLeft + static_cast<int>(s)) = direction / motor.torque_per_ampere_Nm_A();
       own[2 + s](j, kWindingLeft + static_cast<int>(s)) = base.current_A[side][j];
       if (signals.motor_current_A[side].size() != n)
@@ -261,8 +259,8 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {
   Eigen::VectorXd sd(6);
-  const double torque = kRunFriction * (robot.motor.left.friction_torque_Nm + 1e-3),
-               ohm = kRunResistance * robot.motor.left.resistance_ohm;
+  const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + 1e-3),
+               ohm = kRunChange * robot.motor.left.resistance_ohm;
   sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W;
   return sd.cwiseAbs2();
 }

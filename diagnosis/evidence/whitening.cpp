@@ -55,7 +55,7 @@ void fit_memory(NoiseModel& noise, int channel, const Autocovariance& r, double 
   const auto c = static_cast<std::size_t>(channel);
   noise.stationary_ratio[c] = 1.0;
   noise.channel_sd[c] = size_of(r, least_sd);
-  if (r.count < kLeastPairs || r.lag[0] <= 0) return;
+  if (r.count < kLeastSamples || r.lag[0] <= 0) return;
   const double rho1 = std::clamp(r.lag[1] / r.lag[0], -0.98, 0.98);
   const double rho2 = std::clamp(r.lag[2] / r.lag[0], -0.98, 0.98);
   double a1 = rho1 * (1 - rho2) / (1 - rho1 * rho1), a2 = (rho2 - rho1 * rho1) / (1 - rho1 * rho1);
@@ -125,7 +125,7 @@ NoiseModel estimate_noise(const std::vector<ResidualRows>& runs,
   Covariance covariance = Covariance::Identity();
   for (int a = 0; a < kChannelCount; ++a)
     for (int b = 0; b <= a; ++b)
-      if (count(a, b) > kLeastPairs && share_noise(a, b))
+      if (count(a, b) > kLeastSamples && share_noise(a, b))
         covariance(a, b) = covariance(b, a) = sum(a, b) / count(a, b);
   for (int c = 0; c < kChannelCount; ++c) {
     const auto i = static_cast<std::size_t>(c);

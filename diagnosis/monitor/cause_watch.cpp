@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/normal_quantiles.hpp"
+#include "model/watt_hours.hpp"
+
 // Design: docs/decisions/0375-monitor-by-blocks.md
 namespace joulepath {
 namespace {
@@ -15,7 +18,6 @@ constexpr double kStop_s = 0.3;                ///< of standing: ends a block
 constexpr double kLongestBlock_s = 60.0;       ///< of driving without a stop
 constexpr double kLeastTolerance = 0.01;       ///< of the total mass: no model is better
 constexpr double kResistanceTolerance = 0.10;  ///< of the nominal dry friction
-constexpr double kUpper95 = 1.645;
 constexpr double kDisagrees = 3.0;  ///< sigmas between driving and braking that no payload explains
 constexpr double kNoiseForgetting = 0.98, kScatterForgetting = 0.98;
 constexpr double kFirstScatter = 2.0, kFirstCount = 4.0;  ///< taken until blocks show their own scatter
@@ -35,7 +37,7 @@ double mass_tolerance_kg(const Robot& robot) {
   const double mass_kg = robot.total_mass_kg(0);
   const double sigma =
       std::hypot(relative_sigma(robot, "chassis_mass_kg"), relative_sigma(robot, "torque_constant_Nm_A"));
-  return mass_kg * std::max(kLeastTolerance, kUpper95 * sigma);
+  return mass_kg * std::max(kLeastTolerance, kNormal95OneSided * sigma);
 }
 
 /// Changes of mass beyond the tolerance that are looked for.
@@ -126,7 +128,7 @@ std::optional<CauseChange> CauseWatch::close_block() {
     return std::nullopt;
   }
   BlockEstimate block = block_.estimate(sigma);
-  const double hours = (block.end_s - last_block_end_s_) / 3600;
+  const double hours = (block.end_s - last_block_end_s_) / kSecondsPerHour;
   last_block_end_s_ = block.end_s;
   block_.reset(signatures_.names().size());
   ++blocks_;
@@ -234,7 +236,7 @@ void CauseWatch::restart() {
 std::optional<Estimate> CauseWatch::extra_kg() const {
   if (!(extra_kg_.information > 0)) return std::nullopt;
   Estimate mean = extra_kg_.mean();
-  mean.sigma = std::hypot(mean.sigma, tolerance_kg_ / kUpper95);
+  mean.sigma = std::hypot(mean.sigma, tolerance_kg_ / kNormal95OneSided);
   return mean;
 }
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/normal_quantiles.hpp"
+#include "model/watt_hours.hpp"
+
 namespace joulepath {
 namespace {
 
-constexpr double kNormal95 = 1.96, kOneSided95 = 1.645;
-constexpr double kSecondsPerHour = 3600;
 constexpr double kShrink = 0.05;        ///< share of the plan that the first joules count for
 constexpr double kLegTolerance = 0.03;  ///< of a leg's energy
 constexpr double kSmoothing = 0.02;
@@ -106,7 +107,7 @@ MonitorEvent Monitor::told(const CauseChange& change, double stated_kg) const {
         .interval_95 = interval_95(100 * change.resistance.value, 100 * change.resistance.sigma),
         .looks_like = change.looks_like,
         .reason = change.reason};
-  const double sigma = std::hypot(change.extra_kg.sigma, watch_.tolerance_kg() / kOneSided95);
+  const double sigma = std::hypot(change.extra_kg.sigma, watch_.tolerance_kg() / kNormal95OneSided);
   const double payload_kg = stated_kg + change.extra_kg.value;
   return PayloadChanged{.time_s = change.time_s,
                         .since_s = change.since_s,
@@ -151,8 +152,9 @@ MonitorStatus Monitor::status() const {
   const double first_J = kShrink * whole_J;
   const double excess = std::max(1.0, (status.executed_J + first_J) / (planned_J + first_J));
   const double relative_sigma = whole_J > 0 ? course_.sigma_J / whole_J : 0.0;
-  status.rest_upper_J = status.rest_J * (status.measured ? excess : 1.0) * (1 + kOneSided95 * relative_sigma);
-  const double capacity_J = kSecondsPerHour * robot_.battery.capacity_Wh;
+  status.rest_upper_J =
+      status.rest_J * (status.measured ? excess : 1.0) * (1 + kNormal95OneSided * relative_sigma);
+  const double capacity_J = kJoulesPerWh * robot_.battery.capacity_Wh;
   if (course_.battery_fraction && std::isfinite(capacity_J) && status.measured) {
     status.battery_fraction = *course_.battery_fraction - status.executed_J / capacity_J;
     status.battery_suffices =

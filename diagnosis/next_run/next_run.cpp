@@ -147,6 +147,38 @@ double evidence_between(const Identification& id, const Robot& robot, const RunS
   return 0.5 * whiten(signature_rows(signals, first, p, q)).squaredNorm() / id.dispersion;
 }
 
+/// Effects that the next run is to separate: the members of each group, else the first of the ranking.
+std::vector<std::string> rivals_of(const std::vector<Cause>& causes, const std::vector<RankedEffect>& ranking,
+                                   Verdict verdict) {
+  std::vector<std::string> rivals;
+  for (const Cause& cause : causes) {
+    if (cause.indistinguishable_from.empty()) continue;
+    rivals.push_back(cause.effect.name);
+    rivals.insert(rivals.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  }
+  if (rivals.empty() && (verdict == Verdict::ambiguous || verdict == Verdict::too_little_data))
+    for (const RankedEffect& ranked : ranking)
+      if (rivals.size() < 3) rivals.push_back(ranked.effect);
+  return rivals;
+}
+
+double heaviest_payload_kg(const Identification& id, const Robot& robot) {
+  const double limit_kg = payload_limit_kg(robot);
+  double heaviest_kg = std::isfinite(limit_kg) ? limit_kg : 0.0;
+  for (const RunSignals& run : id.signals) heaviest_kg = std::max(heaviest_kg, run.payload_kg.maxCoeff());
+  return heaviest_kg;
+}
+
+/// Expected log evidence between the two states that a run separates least.
+double least_evidence(const Identification& id, const Robot& robot, const RunSignals& signals,
+                      const std::vector<ModelState>& states) {
+  double least = 1e300;
+  for (std::size_t a = 0; a < states.size(); ++a)
+    for (std::size_t b = a + 1; b < states.size(); ++b)
+      least = std::min(least, evidence_between(id, robot, signals, states[a], states[b]));
+  return least;
+}
+
 }  // namespace
 
 RunSignals ideal_signals(const PrescribedMotion& motion, const Robot& robot, double payload_kg,
@@ -157,40 +189,22 @@ RunSignals ideal_signals(const PrescribedMotion& motion, const Robot& robot, dou
 NextExperiment propose_run(const Identification& id, const Robot& robot, const std::vector<Cause>& causes,
                            const std::vector<RankedEffect>& ranking, Verdict verdict) {
   NextExperiment next;
-  std::vector<std::string> rivals;
-  for (const Cause& cause : causes) {
-    if (cause.indistinguishable_from.empty()) continue;
-    rivals.push_back(cause.effect.name);
-    rivals.insert(rivals.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-  }
-  if (rivals.empty() && (verdict == Verdict::ambiguous || verdict == Verdict::too_little_data))
-    for (const RankedEffect& ranked : ranking)
-      if (rivals.size() < 3) rivals.push_back(ranked.effect);
   std::vector<ModelState> states;
-  for (const std::string& label : rivals)
+  for (const std::string& label : rivals_of(causes, ranking, verdict))
     if (std::optional<ModelState> state = fitted_state(id, label)) {
       states.push_back(std::move(*state));
       next.separates.push_back(label);
     }
-  if (states.size() < 2) {
-    next.separates.clear();
-    return next;
-  }
-  const double limit_kg = payload_limit_kg(robot);
-  double heaviest_kg = std::isfinite(limit_kg) ? limit_kg : 0.0;
-  for (const RunSignals& run : id.signals) heaviest_kg = std::max(heaviest_kg, run.payload_kg.maxCoeff());
+  if (states.size() < 2) return {};
+  const double heaviest_kg = heaviest_payload_kg(id, robot);
   for (const Manoeuvre& manoeuvre : library(robot)) {
     try {
       const double payload_kg = manoeuvre.load * heaviest_kg;
       const std::vector<PrescribedMotion> motions =
           within(limits_for_payload(robot, payload_kg), manoeuvre.motions);
-      const RunSignals signals = signals_of(motions, robot, payload_kg, 0.0);
-      double smallest = 1e300;
-      for (std::size_t a = 0; a < states.size(); ++a)
-        for (std::size_t b = a + 1; b < states.size(); ++b)
-          smallest = std::min(smallest, evidence_between(id, robot, signals, states[a], states[b]));
-      if (smallest <= next.expected_evidence) continue;
-      next.expected_evidence = smallest;
+      const double evidence = least_evidence(id, robot, signals_of(motions, robot, payload_kg, 0.0), states);
+      if (evidence <= next.expected_evidence) continue;
+      next.expected_evidence = evidence;
       next.motions = motions;
       next.payload_kg = payload_kg;
       next.why = manoeuvre.why;

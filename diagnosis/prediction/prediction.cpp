@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "diagnosis/prediction/region_edge.hpp"
+#include "diagnosis/signals/friction_direction.hpp"
 #include "model/channel_delay.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
 
 namespace joulepath {
 namespace {
-
-/// Below these speeds the direction is uncertain: measured speeds are never exactly zero.
-constexpr double kStillSpeed_m_s = 0.02;
-constexpr double kStillYawRate_rad_s = 0.12;
-constexpr double kStillWheelSpeed_rad_s = 0.2;
-constexpr double kBlurredCurrent_A = 0.03;
 
 double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
 
@@ -52,8 +47,8 @@ Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry
           .payload_kg = signals.payload_kg[j],
           .travel_direction = soft_sign(twist.speed_m_s, kStillSpeed_m_s),
           .turn_direction = std::tanh(twist.yaw_rate_rad_s / kStillYawRate_rad_s),
-          .wheel_direction = {soft_sign(signals.wheel_speed_rad_s.left[j], kStillWheelSpeed_rad_s),
-                              soft_sign(signals.wheel_speed_rad_s.right[j], kStillWheelSpeed_rad_s)},
+          .wheel_direction = {friction_direction(signals.wheel_speed_rad_s.left[j]),
+                              friction_direction(signals.wheel_speed_rad_s.right[j])},
           .course = across_m_s / size_m_s,
           .memory = memory};
 }
@@ -104,21 +99,136 @@ double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Ei
 /// Removes the mean of a column: the offset of a run's pose is free.
 void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }
 
+Prediction empty_prediction(Eigen::Index n) {
+  Prediction out;
+  const Resizer resize{n};
+  resize(out.current_A), resize(out.voltage_V), resize(out.power_W);
+  resize(out.battery_power_W), resize(out.battery_voltage_V), resize(out.yaw_rate_rad_s);
+  resize(out.heading_rad), resize(out.x_m), resize(out.y_m);
+  return out;
+}
+
+/// How far the body lags behind its wheels since the run's start.
+struct Slip {
+  double heading_rad{}, x_m{}, y_m{};
+};
+
+/// Contact points are slower than the wheels by creep times force.
+void creep(const Plant& plant, const Sided<WheelState<double>>& state, double heading_rad, double period_s,
+           Twist<double>& twist, Slip& slip) {
+  const Sided<double> slip_m_s{plant.creep_m_s_N * state.left.contact_force_N,
+                               plant.creep_m_s_N * state.right.contact_force_N};
+  const double along_m_s = 0.5 * (slip_m_s.left + slip_m_s.right);
+  const double yaw_rad_s = (slip_m_s.right - slip_m_s.left) / (2 * plant.robot.geometry.half_track_m);
+  twist.speed_m_s -= along_m_s;
+  twist.yaw_rate_rad_s -= yaw_rad_s;
+  slip.heading_rad += yaw_rad_s * period_s;
+  slip.x_m += along_m_s * std::cos(heading_rad) * period_s;
+  slip.y_m += along_m_s * std::sin(heading_rad) * period_s;
+}
+
+void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index j,
+                     Sided<WheelState<double>> state, Prediction& out) {
+  const Robot& robot = plant.robot;
+  for (Side side : kSides) {
+    blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
+    out.current_A[side][j] = state[side].current_A;
+    out.voltage_V[side][j] = state[side].voltage_V;
+    out.power_W[side][j] = state[side].power_W;
+  }
+  out.battery_power_W[j] =
+      supply_power_W(robot.power, {state.left.power_W, state.right.power_W}) + robot.power.standby_W;
+  if (signals.battery_current_A.size() > 0)
+    out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
+                               robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
+}
+
+void write_pose(const Geometry& geometry, const RunSignals& signals, Eigen::Index j, const Slip& slip,
+                Prediction& out) {
+  const Sided<double>& r = geometry.wheel_radius_m;
+  const auto rolled = [&](const Sided<Eigen::VectorXd>& angle) {
+    return 0.5 * (r.left * angle.left[j] + r.right * angle.right[j]);
+  };
+  out.heading_rad[j] =
+      (r.right * signals.wheel_angle_rad.right[j] - r.left * signals.wheel_angle_rad.left[j]) /
+          (2 * geometry.half_track_m) -
+      slip.heading_rad;
+  out.x_m[j] = rolled(signals.wheel_along_x_rad) - slip.x_m;
+  out.y_m[j] = rolled(signals.wheel_along_y_rad) - slip.y_m;
+}
+
+void fill(Channel channel, const Eigen::VectorXd& residual, ResidualRows& rows) {
+  rows.value.col(channel) = residual;
+  rows.present.col(channel).setConstant(true);
+}
+
+void fill_motor(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction, Side side,
+                ResidualRows& rows) {
+  const Eigen::Index n = signals.size();
+  const int s = side == Side::left ? 0 : 1;
+  const auto current = static_cast<Channel>(kCurrentLeft + s),
+             winding = static_cast<Channel>(kWindingLeft + s);
+  const bool has_current = signals.motor_current_A[side].size() == n && n > 0;
+  const bool has_voltage = signals.motor_voltage_V[side].size() == n && n > 0;
+  const double resistance_ohm = point.robot.motor[side].resistance_ohm;
+  if (has_current) fill(current, signals.motor_current_A[side] - prediction.current_A[side], rows);
+  if (has_voltage) {
+    Eigen::VectorXd winding_V = signals.motor_voltage_V[side] - prediction.voltage_V[side];
+    if (has_current) winding_V -= resistance_ohm * rows.value.col(current);
+    fill(winding, winding_V, rows);
+  }
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const bool turning = signals.turning[side][static_cast<std::size_t>(j)];
+    if (!turning) rows.present(j, current) = false;
+    const bool told = has_current ? signals.conducting[side][static_cast<std::size_t>(j)] : turning;
+    if (!told) rows.present(j, winding) = false;
+  }
+}
+
+void fill_supply(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction,
+                 ResidualRows& rows) {
+  const Eigen::Index n = signals.size();
+  const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
+                      signals.motor_current_A.left.size() == n;
+  const bool battery = signals.battery_power_W.size() == n && n > 0;
+  if (battery && !measures_motors(signals))
+    fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W, rows);
+  if (battery && motors) {
+    Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Sided<double> measured_W;
+      for (Side side : kSides)
+        measured_W[side] = signals.motor_voltage_V[side][j] * signals.motor_current_A[side][j];
+      driver_W[j] -= supply_power_W(point.robot.power, measured_W) - logged_supply_W(point, prediction, j);
+    }
+    fill(kDriverPower, driver_W, rows);
+  }
+  if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
+      std::isfinite(point.robot.battery.open_circuit_voltage_V))
+    fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V, rows);
+}
+
+void fill_motion(const RunSignals& signals, const Prediction& prediction, ResidualRows& rows) {
+  const Eigen::Index n = signals.size();
+  if (signals.gyro_yaw_rate_rad_s.size() == n && n > 0)
+    fill(kGyro, signals.gyro_yaw_rate_rad_s - prediction.yaw_rate_rad_s, rows);
+  if (signals.heading_measured) fill(kHeading, signals.heading_rad - prediction.heading_rad, rows);
+  if (signals.heading_measured && signals.x_m.size() == n && n > 0) {
+    fill(kPositionX, signals.x_m - prediction.x_m, rows);
+    fill(kPositionY, signals.y_m - prediction.y_m, rows);
+  }
+  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
+}
+
 }  // namespace
 
 Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   const SplitModel split = split_model(point);
   const Plant& plant = split.plant;
-  const Robot& robot = plant.robot;
-  const Geometry& geometry = robot.geometry;
-  Prediction out;
-  const Resizer resize{signals.size()};
-  resize(out.current_A), resize(out.voltage_V), resize(out.power_W);
-  resize(out.battery_power_W), resize(out.battery_voltage_V), resize(out.yaw_rate_rad_s);
-  resize(out.heading_rad), resize(out.x_m), resize(out.y_m);
-
+  const Geometry& geometry = plant.robot.geometry;
+  Prediction out = empty_prediction(signals.size());
   EffectMemory memory{};
-  double heading_slip_rad = 0, x_slip_m = 0, y_slip_m = 0;
+  Slip slip;
   for (Eigen::Index j = 0; j < signals.size(); ++j) {
     const Sided<double> wheel{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]};
     const Sided<double> turn{signals.wheel_acceleration_rad_s2.left[j],
@@ -126,46 +236,20 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
     Twist<double> twist = body_twist(geometry, wheel);
     const Twist<double> rate = body_twist(geometry, turn);
     const Site site = site_at(signals, j, geometry, twist, memory);
-    Sided<WheelState<double>> state;
-    for (int pass = 0; pass < (plant.creep_m_s_N != 0 ? 2 : 1); ++pass) {
-      if (pass == 1) {  // contact points are slower than the wheels by creep times force
-        const Sided<double> slip_m_s{plant.creep_m_s_N * state.left.contact_force_N,
-                                     plant.creep_m_s_N * state.right.contact_force_N};
-        const double along_m_s = 0.5 * (slip_m_s.left + slip_m_s.right);
-        const double yaw_rad_s = (slip_m_s.right - slip_m_s.left) / (2 * geometry.half_track_m);
-        twist.speed_m_s -= along_m_s;
-        twist.yaw_rate_rad_s -= yaw_rad_s;
-        heading_slip_rad += yaw_rad_s * signals.period_s;
-        x_slip_m += along_m_s * std::cos(site.pose.heading_rad) * signals.period_s;
-        y_slip_m += along_m_s * std::sin(site.pose.heading_rad) * signals.period_s;
-      }
-      state = operating_point_over_kernel(
+    const auto state_now = [&] {
+      return operating_point_over_kernel(
           plant,
           BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s},
           site, twist.speed_m_s * signals.kernel_sigma_s);
-    }
-    for (Side side : kSides) {
-      blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
-      out.current_A[side][j] = state[side].current_A;
-      out.voltage_V[side][j] = state[side].voltage_V;
-      out.power_W[side][j] = state[side].power_W;
-    }
-    out.battery_power_W[j] =
-        supply_power_W(robot.power, {state.left.power_W, state.right.power_W}) + robot.power.standby_W;
-    if (signals.battery_current_A.size() > 0)
-      out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
-                                 robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
-    out.yaw_rate_rad_s[j] = twist.yaw_rate_rad_s;
-    const Sided<double>& r = geometry.wheel_radius_m;
-    const auto rolled = [&](const Sided<Eigen::VectorXd>& angle) {
-      return 0.5 * (r.left * angle.left[j] + r.right * angle.right[j]);
     };
-    out.heading_rad[j] =
-        (r.right * signals.wheel_angle_rad.right[j] - r.left * signals.wheel_angle_rad.left[j]) /
-            (2 * geometry.half_track_m) -
-        heading_slip_rad;
-    out.x_m[j] = rolled(signals.wheel_along_x_rad) - x_slip_m;
-    out.y_m[j] = rolled(signals.wheel_along_y_rad) - y_slip_m;
+    Sided<WheelState<double>> state = state_now();
+    if (plant.creep_m_s_N != 0) {
+      creep(plant, state, site.pose.heading_rad, signals.period_s, twist, slip);
+      state = state_now();
+    }
+    write_electrics(plant, signals, j, state, out);
+    out.yaw_rate_rad_s[j] = twist.yaw_rate_rad_s;
+    write_pose(geometry, signals, j, slip, out);
     advance_memory(plant,
                    caster_speed_m_s(geometry, twist.speed_m_s, twist.yaw_rate_rad_s) * signals.period_s,
                    site.course, memory);
@@ -175,59 +259,11 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
 }
 
 ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction) {
-  const Eigen::Index n = signals.size();
-  ResidualRows rows{.value = Eigen::MatrixXd::Zero(n, kChannelCount)};
-  rows.present.setConstant(n, kChannelCount, false);
-  const auto fill = [&](Channel channel, const Eigen::VectorXd& residual) {
-    rows.value.col(channel) = residual;
-    rows.present.col(channel).setConstant(true);
-  };
-  for (Side side : kSides) {
-    const int s = side == Side::left ? 0 : 1;
-    const auto current = static_cast<Channel>(kCurrentLeft + s),
-               winding = static_cast<Channel>(kWindingLeft + s);
-    const bool has_current = signals.motor_current_A[side].size() == n && n > 0;
-    const bool has_voltage = signals.motor_voltage_V[side].size() == n && n > 0;
-    const double resistance_ohm = point.robot.motor[side].resistance_ohm;
-    if (has_current) fill(current, signals.motor_current_A[side] - prediction.current_A[side]);
-    if (has_voltage) {
-      Eigen::VectorXd winding_V = signals.motor_voltage_V[side] - prediction.voltage_V[side];
-      if (has_current) winding_V -= resistance_ohm * rows.value.col(current);
-      fill(winding, winding_V);
-    }
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const bool turning = signals.turning[side][static_cast<std::size_t>(j)];
-      if (!turning) rows.present(j, current) = false;
-      const bool told = has_current ? signals.conducting[side][static_cast<std::size_t>(j)] : turning;
-      if (!told) rows.present(j, winding) = false;
-    }
-  }
-  const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
-                      signals.motor_current_A.left.size() == n;
-  const bool battery = signals.battery_power_W.size() == n && n > 0;
-  if (battery && !measures_motors(signals))
-    fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W);
-  if (battery && motors) {
-    Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Sided<double> measured_W;
-      for (Side side : kSides)
-        measured_W[side] = signals.motor_voltage_V[side][j] * signals.motor_current_A[side][j];
-      driver_W[j] -= supply_power_W(point.robot.power, measured_W) - logged_supply_W(point, prediction, j);
-    }
-    fill(kDriverPower, driver_W);
-  }
-  if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
-      std::isfinite(point.robot.battery.open_circuit_voltage_V))
-    fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V);
-  if (signals.gyro_yaw_rate_rad_s.size() == n && n > 0)
-    fill(kGyro, signals.gyro_yaw_rate_rad_s - prediction.yaw_rate_rad_s);
-  if (signals.heading_measured) fill(kHeading, signals.heading_rad - prediction.heading_rad);
-  if (signals.heading_measured && signals.x_m.size() == n && n > 0) {
-    fill(kPositionX, signals.x_m - prediction.x_m);
-    fill(kPositionY, signals.y_m - prediction.y_m);
-  }
-  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
+  ResidualRows rows{.value = Eigen::MatrixXd::Zero(signals.size(), kChannelCount)};
+  rows.present.setConstant(signals.size(), kChannelCount, false);
+  for (Side side : kSides) fill_motor(signals, point, prediction, side, rows);
+  fill_supply(signals, point, prediction, rows);
+  fill_motion(signals, prediction, rows);
   return rows;
 }
 

@@ -9,24 +9,10 @@
 
 #include "diagnosis/values/data_check.hpp"
 #include "diagnosis/values/dataset.hpp"
+#include "diagnosis/values/verdict.hpp"
 #include "model/prescribed_motion.hpp"
 
 namespace joulepath {
-
-enum class Verdict {
-  no_gap,
-  explained,
-  partly_explained,
-  unexplained,
-  ambiguous,
-  too_little_data,
-  data_suspect
-};
-constexpr const char* verdict_name(Verdict verdict) {
-  constexpr const char* names[] = {"no_gap",    "explained",       "partly_explained", "unexplained",
-                                   "ambiguous", "too_little_data", "data_suspect"};
-  return names[static_cast<int>(verdict)];
-}
 
 using Range95 = std::pair<double, double>;  ///< low and high end of a 95 % interval
 

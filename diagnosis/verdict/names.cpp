@@ -79,7 +79,7 @@ double evidence_of(const Examination& x, const UnknownTerm& term) {
 }
 
 /// A term below the materiality floor is a cause only if it brings as much evidence as a pliable law must.
-bool is_beyond_doubt(const Examination& x, double size, double evidence) {
+bool is_cause_though_small(const Examination& x, double size, double evidence) {
   return size >= kLeastSize &&
          evidence - kUnknownCost >= x.id.options.small_pliable_evidence / std::sqrt(size);
 }
@@ -95,7 +95,7 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
                  evidence = evidence_of(x, term);
     if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
     const double stated = std::min(names.surest, probability);
-    if (size >= 1 || is_beyond_doubt(x, size, evidence))
+    if (size >= 1 || is_cause_though_small(x, size, evidence))
       names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
     else
       names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence, size});

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/normal_quantiles.hpp"
+#include "model/watt_hours.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 
 namespace joulepath {
 namespace {
-
-constexpr double kJoulesPerWh = 3600.0;
-constexpr double k95 = 1.959964;  ///< two-sided 95 % of a normal distribution
-constexpr double k95OneSided = 1.644854;
 
 struct LegLoss {
   double loss_J{};
@@ -121,10 +119,10 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
     account.charged_J += leg.charged_J;
     account.fraction_after_leg.push_back(charge.fraction());
   }
-  const double half_width = k95 * plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
+  const double half_width = kNormal95 * plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
   account.end_fraction = charge.fraction();
   account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
-  account.required_capacity_Wh = (charge.peak_J() + k95OneSided * plan.energy_sigma_J) / kJoulesPerWh;
+  account.required_capacity_Wh = (charge.peak_J() + kNormal95OneSided * plan.energy_sigma_J) / kJoulesPerWh;
   const double usable_Wh = battery.capacity_Wh * (1.0 - battery.reserve_fraction);
   account.missions_per_charge =
       account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : 0.0;

@@ -47,14 +47,8 @@ OccupancyGrid empty_grid(const std::vector<Sample>& samples, double resolution_m
   OccupancyGrid grid{.resolution_m = resolution_m, .origin = {down(low_x), down(low_y), 0}};
   grid.width = static_cast<int>(std::ceil((high_x + margin_m - grid.origin.x_m) / resolution_m));
   grid.height = static_cast<int>(std::ceil((high_y + margin_m - grid.origin.y_m) / resolution_m));
-  grid.occupancy_percent.assign(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
-                                0);
+  grid.occupancy_percent.assign(grid.cell_count(), 0);
   return grid;
-}
-
-std::size_t index_in(const OccupancyGrid& grid, OccupancyGrid::CellIndex cell) {
-  return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.width) +
-         static_cast<std::size_t>(cell.column);
 }
 
 /// Copies the values of crossed cells to the cells within reach; the nearest crossed cell determines the
@@ -65,14 +59,14 @@ void spread(OccupancyGrid& grid, double reach_m) {
   const int reach = static_cast<int>(std::floor(reach_m / grid.resolution_m));
   for (int row = 0; row < grid.height; ++row)
     for (int column = 0; column < grid.width; ++column) {
-      const std::int8_t value = crossed[index_in(grid, {column, row})];
+      const std::int8_t value = crossed[grid.index_of({column, row})];
       if (value == 0) continue;
       for (int up = -reach; up <= reach; ++up)
         for (int right = -reach; right <= reach; ++right) {
           const OccupancyGrid::CellIndex cell{column + right, row + up};
           const double distance = std::hypot(up, right);
           if (!grid.contains(cell) || distance > reach) continue;
-          const std::size_t index = index_in(grid, cell);
+          const std::size_t index = grid.index_of(cell);
           if (distance < nearest[index]) nearest[index] = distance, grid.occupancy_percent[index] = value;
         }
     }
@@ -88,7 +82,7 @@ SpeedMask planned_speed_mask(const Plan& plan, double resolution_m, double reach
   std::vector<double> highest(mask.grid.occupancy_percent.size(), 0.0);
   double top_m_s = 0;
   for (const Sample& sample : samples) {
-    double& cell = highest[index_in(mask.grid, mask.grid.cell_of(sample.x_m, sample.y_m))];
+    double& cell = highest[mask.grid.index_of(mask.grid.cell_of(sample.x_m, sample.y_m))];
     cell = std::max(cell, scale * sample.speed_m_s);
     top_m_s = std::max(top_m_s, cell);
   }

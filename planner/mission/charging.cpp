@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "model/watt_hours.hpp"
 // Design: docs/decisions/0006-charging-stops.md
 namespace joulepath {
 namespace {
@@ -39,7 +41,7 @@ double charging_s(const MissionRequest& mission, const Plan& failed, const Plant
   const Battery& battery = plant.robot.battery;
   const BatteryAccount& account = *failed.battery;
   const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
-  const double missing_J = (mission.charging->to_fraction - before) * 3600.0 * battery.capacity_Wh +
+  const double missing_J = (mission.charging->to_fraction - before) * kJoulesPerWh * battery.capacity_Wh +
                            energy_to_J(mission, failed, plant, leg, charger);
   const double power_W = charger.charger_W - plant.robot.power.standby_W;
   const double stored_W = power_W - battery_load(battery, -power_W).loss_W;

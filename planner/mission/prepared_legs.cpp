@@ -48,6 +48,66 @@ void check_joint(const MissionRequest& mission, std::size_t k) {
                  "the end speed of the previous leg, " + std::to_string(leg.end_speed_m_s) + " m/s");
 }
 
+/// Adds one leg after the other, each from where the one before it ends.
+class LegPreparation {
+ public:
+  LegPreparation(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
+                 const PlanOptions& options)
+      : mission_(mission), world_(world), plant_(plant), options_(options), here_(mission.start.pose) {}
+
+  /// The reason why the leg cannot be driven, where it needs no solver.
+  std::optional<Infeasibility> add(std::size_t k, LegPath way) {
+    const LegRequest& leg = mission_.legs[k];
+    check_joint(mission_, k);
+    if (auto reason = payload_too_heavy(world_.robot, leg, here_)) return reason;
+    if (way.infeasibility) return std::move(way.infeasibility);
+    if (leg.motion) return add_prescribed(leg, k);
+    add_path(leg, k, std::move(way));
+    return std::nullopt;
+  }
+
+  PreparedLegs legs() && { return std::move(prepared_); }
+
+ private:
+  std::optional<Infeasibility> add_prescribed(const LegRequest& leg, std::size_t k) {
+    prepared_.timing.emplace_back(std::vector<ProfileRequest>{});
+    LegPlan& plan = prepared_.legs.emplace_back(prescribed_leg(leg, plant_, here_));
+    plan.memory = memory_;
+    if (auto reason = broken_limit(plan, k, mission_, world_, plant_)) return reason;
+    const double end_s = plan.prescribed->time_s.back();
+    here_ = sampled_state(*plan.prescribed, end_s).pose;
+    memory_ = prescribed_motion(plan, plant_).memory(end_s);
+    return std::nullopt;
+  }
+
+  void add_path(const LegRequest& leg, std::size_t k, LegPath way) {
+    prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world_, plant_, options_, memory_),
+                                  options_.answers);
+    prepared_.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
+                              .path_source = way.source,
+                              .payload = leg.payload,
+                              .parts = leg.parts,
+                              .memory = memory_,
+                              .dwell_s = leg.dwell_s,
+                              .distance_m = way.path.distance_m(),
+                              .turned_rad = way.path.turned_rad(),
+                              .charger_W = leg.charges ? mission_.stations.at(leg.to).charger_W : 0.0,
+                              .alternatives = std::move(way.alternatives),
+                              .improvements = std::move(way.improvements)});
+    if (way.path.pieces.empty()) return;
+    here_ = way.path.end();
+    memory_ = memory_after(prepared_.timing.back().stretches().back());
+  }
+
+  const MissionRequest& mission_;
+  const MissionWorld& world_;
+  const Plant& plant_;
+  const PlanOptions& options_;
+  Pose here_;
+  EffectMemory memory_{};
+  PreparedLegs prepared_{};
+};
+
 }  // namespace
 
 Plan infeasible(Plan plan, std::size_t leg, double arc_length_m, Infeasibility reason) {
@@ -65,53 +125,14 @@ Plan failed(Plan plan, std::string reason) {
 
 PreparedLegs prepare_legs(const MissionRequest& mission, const MissionWorld& world, const Plant& plant,
                           const PlanOptions& options, std::vector<LegPath> paths, Plan& plan) {
-  PreparedLegs prepared;
-  Pose here = mission.start.pose;
-  EffectMemory memory{};
-  for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k) {
-    const LegRequest& leg = mission.legs[k];
-    check_joint(mission, k);
-    if (auto reason = payload_too_heavy(world.robot, leg, here)) {
-      plan = infeasible(std::move(plan), k, 0.0, std::move(*reason));
-      return prepared;
+  LegPreparation preparation(mission, world, plant, options);
+  for (std::size_t k = 0; k < mission.legs.size() && k < paths.size(); ++k)
+    if (auto reason = preparation.add(k, std::move(paths[k]))) {
+      const double s_m = reason->s;
+      plan = infeasible(std::move(plan), k, s_m, std::move(*reason));
+      break;
     }
-    LegPath& way = paths[k];
-    if (way.infeasibility) {
-      const double s_m = way.infeasibility->s;
-      plan = infeasible(std::move(plan), k, s_m, std::move(*way.infeasibility));
-      return prepared;
-    }
-    if (leg.motion) {
-      prepared.timing.emplace_back(std::vector<ProfileRequest>{});
-      prepared.legs.push_back(prescribed_leg(leg, plant, here));
-      prepared.legs.back().memory = memory;
-      if (auto reason = broken_limit(prepared.legs.back(), k, mission, world, plant)) {
-        plan = infeasible(std::move(plan), k, reason->s, std::move(*reason));
-        return prepared;
-      }
-      const double end_s = prepared.legs.back().prescribed->time_s.back();
-      here = sampled_state(*prepared.legs.back().prescribed, end_s).pose;
-      memory = prescribed_motion(prepared.legs.back(), plant).memory(end_s);
-      continue;
-    }
-    prepared.timing.emplace_back(stretches_of(way.path, leg, k, mission, world, plant, options, memory),
-                                 options.answers);
-    prepared.legs.push_back({.to = leg.to.empty() ? "path" : leg.to,
-                             .path_source = way.source,
-                             .payload = leg.payload,
-                             .parts = leg.parts,
-                             .memory = memory,
-                             .dwell_s = leg.dwell_s,
-                             .distance_m = way.path.distance_m(),
-                             .turned_rad = way.path.turned_rad(),
-                             .charger_W = leg.charges ? mission.stations.at(leg.to).charger_W : 0.0,
-                             .alternatives = std::move(way.alternatives),
-                             .improvements = std::move(way.improvements)});
-    if (way.path.pieces.empty()) continue;
-    here = way.path.end();
-    memory = memory_after(prepared.timing.back().stretches().back());
-  }
-  return prepared;
+  return std::move(preparation).legs();
 }
 
 void check_end_speeds(const PreparedLegs& prepared, const MissionRequest& mission) {

@@ -27,6 +27,13 @@ TEST(DiagnosisSentence, NamesTheCauseItsSizeAndWhatBecomesOfTheGap) {
             "floor 0.1 %).");
 }
 
+TEST(DiagnosisSentence, BeginsWithTheTitleOfItsVerdict) {
+  for (std::size_t k = 0; k < kVerdicts.size(); ++k) {
+    const std::string said = diagnosis_sentence({.verdict = static_cast<Verdict>(k)});
+    EXPECT_EQ(said.rfind(std::string(kVerdicts[k].title) + ": ", 0), 0u) << said;
+  }
+}
+
 TEST(DiagnosisSentence, SaysNoShrinkWhereThereIsNone) {
   Diagnosis d = with_gap(Verdict::explained, 1.2, 1.3);
   d.causes = {dragging(Side::right)};

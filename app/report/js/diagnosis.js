@@ -1,4 +1,4 @@
-/** The report of `joulepath diagnose`. Data: {diagnosis, runs: [{name, use, columns}], map, title}. */
+/** The report of `joulepath diagnose`. Data: {diagnosis, verdict: {title, meaning, good}, runs: [{name, use, columns}], map, title}. */
 import {h} from "page/dom.js";
 import {fraction, is_number, number, percent, short, split_key, with_unit, words} from "page/numbers.js";
 import {run_signals} from "page/run_signals.js";
@@ -6,16 +6,6 @@ import {jp} from "report/core.js";
 import "report/bars.js";
 import "report/map.js";
 import "report/plots.js";
-
-const kVerdicts = {
-  no_gap: ["No gap", "Calibration errors and noise explain the runs.", true],
-  explained: ["Explained", "The causes below explain the gap.", true],
-  partly_explained: ["Partly explained", "The causes below explain a part of the gap. The rest is unknown.", false],
-  unexplained: ["Unexplained", "No effect of the catalog fits the gap.", false],
-  ambiguous: ["Ambiguous", "These runs cannot separate the effects of the group below.", false],
-  data_suspect: ["Suspect data", "Channels of the log contradict physics. Repair the dataset first.", false],
-  too_little_data: ["Too little data", "The report shows the location of the gap and candidates, but names no cause.", false],
-};
 
 jp.cause_name = (cause) => words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
 
@@ -177,8 +167,8 @@ jp.suspect_section = function (d) {
 };
 
 jp.draw_diagnosis = function (data) {
-  const d = data.diagnosis, [verdict, meaning, good] = kVerdicts[d.verdict] || [words(d.verdict), "", false];
-  const header = jp.header(data.title || "Diagnosis", d.sentence || meaning, verdict, good);
+  const d = data.diagnosis, verdict = data.verdict || {title: words(d.verdict), meaning: "", good: false};
+  const header = jp.header(data.title || "Diagnosis", d.sentence || verdict.meaning, verdict.title, verdict.good);
   if (d.verdict === "data_suspect") return jp.page(header, jp.suspect_section(d), jp.runs_section(data), jp.caveats_section(d));
   jp.page(header, jp.cause_cards(d), jp.diagnosis_tiles(d), jp.where_section(data), jp.which_section(d), jp.how_far_section(d), jp.runs_section(data), jp.next_section(d), jp.caveats_section(d));
 };

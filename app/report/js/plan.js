@@ -35,9 +35,8 @@ jp.time_text = function (plan) {
 
 /** The first row: what it takes, what that saves and by which causes, how long it lasts, how good it is. */
 jp.plan_tiles = function (plan, savings) {
-  const wh = is_number(plan.energy_Wh) ? plan.energy_Wh : plan.energy_J / 3600;
   const against = (plan.baselines || []).filter((one) => is_number(one.saving_percent) && one.feasible !== false);
-  const tiles = [jp.tile("Energy at the battery", with_unit(plan.energy_J, "J"), `${with_unit(wh, "Wh")}; motion alone ${with_unit(plan.motion_energy_J, "J")}`)];
+  const tiles = [jp.tile("Energy at the battery", with_unit(plan.energy_J, "J"), `${with_unit(plan.energy_Wh, "Wh")}; motion alone ${with_unit(plan.motion_energy_J, "J")}`)];
   against.forEach((one) => {
     const saving = savings.find((entry) => entry.name === one.name);
     tiles.push(jp.tile("Saved against " + words(one.name), with_unit(one.energy_J - plan.energy_J, "J", 3), [h("div", {}, `${percent(one.saving_percent)}; ${percent(one.motion_saving_percent)} of motion energy`), saving ? h("div", {}, jp.saved_text(saving)) : null]));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/prediction/dictionary.hpp"
+#include "diagnosis/signals/friction_direction.hpp"
 #include "model/kinematics.hpp"
 
 namespace joulepath {
@@ -47,7 +48,7 @@ class DictionaryCollector {
       entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
         for (Side side : kSides) {
           const double speed = signals_->wheel_speed_rad_s[side][j];
-          const double direction = std::clamp(speed / 0.2, -1.0, 1.0);
+          const double direction = friction_direction(speed);
           const double torque_Nm = direction * size(j, side) * (side == Side::right ? sign : 1);
           entry_rows(j, column(kCurrentLeft, side)) =
               torque_Nm / robot_->motor[side].torque_per_ampere_Nm_A();

@@ -153,56 +153,78 @@ double reference_rate(const ProfileRequest& request, double length, double s, do
   return std::sqrt(1 / (1 / from_start + 1 / from_end + 1 / cap));
 }
 
-std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request, std::size_t count) {
-  const double length = motion.length();
-  std::vector<double> nodes = mandatory_nodes(motion, request);
-  const std::size_t cells = 4 * std::max<std::size_t>(count, 50);
-  const double h = length / static_cast<double>(cells);
-  std::vector<double> time(cells), bend(cells);
-  double total_time = 0, total_bend = 0;
-  for (std::size_t i = 0; i < cells; ++i) {
-    const double s = (static_cast<double>(i) + 0.5) * h;
-    const PathRates rates = motion.rates(s);
-    const double u = reference_rate(request, length, s, rate_cap_squared(request, rates, s));
-    time[i] = h / std::max(u, 1e-6);
-    bend[i] =
-        is_turn(request.piece) ? 0.0 : h * (std::abs(rates.turn) + std::sqrt(std::abs(rates.turn_slope)));
-    total_time += time[i];
-    total_bend += bend[i];
+namespace {
+
+/// Density of nodes along a stretch, from the times of a reference profile, bends and distance.
+class NodeDensity {
+ public:
+  NodeDensity(const PathMotion& motion, const ProfileRequest& request, std::size_t count)
+      : cells_(4 * std::max<std::size_t>(count, 50)),
+        h_(motion.length() / static_cast<double>(cells_)),
+        cumulative_(cells_ + 1, 0.0) {
+    std::vector<double> time(cells_), bend(cells_);
+    double total_time = 0, total_bend = 0;
+    for (std::size_t i = 0; i < cells_; ++i) {
+      const double s = (static_cast<double>(i) + 0.5) * h_;
+      const PathRates rates = motion.rates(s);
+      const double u = reference_rate(request, motion.length(), s, rate_cap_squared(request, rates, s));
+      time[i] = h_ / std::max(u, 1e-6);
+      bend[i] =
+          is_turn(request.piece) ? 0.0 : h_ * (std::abs(rates.turn) + std::sqrt(std::abs(rates.turn_slope)));
+      total_time += time[i];
+      total_bend += bend[i];
+    }
+    // Bends get up to 0.4 of the nodes, by how much heading they turn; distance alone gets 0.1.
+    const double bend_share = total_bend > 0 ? 0.4 * total_bend / (total_bend + 1.0) : 0.0;
+    const double time_share = 0.9 - bend_share;
+    for (std::size_t i = 0; i < cells_; ++i)
+      cumulative_[i + 1] = cumulative_[i] + time_share * time[i] / total_time +
+                           (total_bend > 0 ? bend_share * bend[i] / total_bend : 0.0) +
+                           0.1 / static_cast<double>(cells_);
   }
-  // Bends get up to 0.4 of the nodes, by how much heading they turn; distance alone gets 0.1.
-  const double bend_share = total_bend > 0 ? 0.4 * total_bend / (total_bend + 1.0) : 0.0;
-  const double time_share = 0.9 - bend_share;
-  std::vector<double> cumulative(cells + 1, 0.0);
-  for (std::size_t i = 0; i < cells; ++i)
-    cumulative[i + 1] = cumulative[i] + time_share * time[i] / total_time +
-                        (total_bend > 0 ? bend_share * bend[i] / total_bend : 0.0) +
-                        0.1 / static_cast<double>(cells);
-  const auto place_of = [&](double share) {
-    const auto after = std::upper_bound(cumulative.begin(), cumulative.end(), share * cumulative.back());
+
+  /// Arc length before which a share of the nodes stands.
+  [[nodiscard]] double place_of(double share) const {
+    const double part = share * cumulative_.back();
+    const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), part);
     const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-        after - cumulative.begin() - 1, 0, static_cast<std::ptrdiff_t>(cells) - 1));
-    const double inside = (share * cumulative.back() - cumulative[i]) / (cumulative[i + 1] - cumulative[i]);
-    return (static_cast<double>(i) + std::clamp(inside, 0.0, 1.0)) * h;
-  };
-  // Between mandatory nodes the free ones are spread evenly in the density.
-  const auto share_of = [&](double s) {
-    const double cell = std::clamp(s / h, 0.0, static_cast<double>(cells));
-    const auto i = std::min(static_cast<std::size_t>(cell), cells - 1);
-    return (cumulative[i] + (cell - static_cast<double>(i)) * (cumulative[i + 1] - cumulative[i])) /
-           cumulative.back();
-  };
+        after - cumulative_.begin() - 1, 0, static_cast<std::ptrdiff_t>(cells_) - 1));
+    const double inside = (part - cumulative_[i]) / (cumulative_[i + 1] - cumulative_[i]);
+    return (static_cast<double>(i) + std::clamp(inside, 0.0, 1.0)) * h_;
+  }
+
+  /// Share of the nodes before an arc length.
+  [[nodiscard]] double share_of(double s) const {
+    const double cell = std::clamp(s / h_, 0.0, static_cast<double>(cells_));
+    const auto i = std::min(static_cast<std::size_t>(cell), cells_ - 1);
+    return (cumulative_[i] + (cell - static_cast<double>(i)) * (cumulative_[i + 1] - cumulative_[i])) /
+           cumulative_.back();
+  }
+
+ private:
+  std::size_t cells_;
+  double h_;
+  std::vector<double> cumulative_;
+};
+
+}  // namespace
+
+/// Between mandatory nodes the free ones are spread evenly in the density.
+std::vector<double> make_grid(const PathMotion& motion, const ProfileRequest& request, std::size_t count) {
+  const std::vector<double> nodes = mandatory_nodes(motion, request);
+  const NodeDensity density(motion, request, count);
   std::vector<double> grid{0.0};
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    const double from = share_of(nodes[k]), to = share_of(nodes[k + 1]);
+    const double from = density.share_of(nodes[k]), to = density.share_of(nodes[k + 1]);
     const auto parts = static_cast<std::size_t>(
         std::max(1.0, std::round((to - from) * static_cast<double>(std::max<std::size_t>(count, 2)))));
     for (std::size_t i = 1; i < parts; ++i)
-      grid.push_back(place_of(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts)));
+      grid.push_back(
+          density.place_of(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts)));
     grid.push_back(nodes[k + 1]);
   }
   // Rounding can put a node upon its neighbor: such a node is left out.
-  return without_doubles(std::move(grid), length);
+  return without_doubles(std::move(grid), motion.length());
 }
 
 std::vector<double> cut_by_excess(const std::vector<double>& s, const std::vector<double>& excess,

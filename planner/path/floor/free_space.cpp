@@ -14,13 +14,56 @@ namespace {
 using Cell = OccupancyGrid::CellIndex;
 constexpr std::array<Cell, 8> kNeighbors{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+constexpr auto kNoParent = std::numeric_limits<std::uint32_t>::max();
+
+struct OpenCell {
+  double estimate;
+  std::size_t cell;
+  bool operator>(const OpenCell& other) const {
+    return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
+  }
+};
+
+/// A* over the eight neighbors of usable cells: the cell before each cell on the shortest way from `start`.
+template <class Usable>
+std::vector<std::uint32_t> shortest_parents(const OccupancyGrid& grid, Cell start, Cell goal,
+                                            const Usable& usable) {
+  constexpr double kDiagonal = 1.4142135623730951;
+  const auto heuristic = [&](Cell cell) {
+    const double dx = std::abs(cell.column - goal.column), dy = std::abs(cell.row - goal.row);
+    return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
+  };
+  std::vector<float> cost(grid.cell_count(), std::numeric_limits<float>::infinity());
+  std::vector<std::uint32_t> parent(grid.cell_count(), kNoParent);
+  std::priority_queue<OpenCell, std::vector<OpenCell>, std::greater<>> open;
+  cost[grid.index_of(start)] = 0;
+  open.push({heuristic(start), grid.index_of(start)});
+  while (!open.empty()) {
+    const OpenCell entry = open.top();
+    open.pop();
+    if (entry.cell == grid.index_of(goal)) break;
+    const Cell cell = grid.cell_at(entry.cell);
+    if (entry.estimate > cost[entry.cell] + heuristic(cell) + 1e-3) continue;  // outdated
+    for (const Cell& step : kNeighbors) {
+      const Cell next{cell.column + step.column, cell.row + step.row};
+      if (!grid.contains(next) || !usable(next)) continue;
+      const std::size_t at = grid.index_of(next);
+      const double next_cost = cost[entry.cell] + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
+      if (next_cost >= static_cast<double>(cost[at]) - 1e-4) continue;
+      cost[at] = static_cast<float>(next_cost);
+      parent[at] = static_cast<std::uint32_t>(entry.cell);
+      open.push({next_cost + heuristic(next), at});
+    }
+  }
+  return parent;
+}
 
 }  // namespace
 
 FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
     : field_(&field), grid_(field.map()), radius_m_(radius_m) {
   constexpr std::int32_t kUnlabelled = -2, kBlocked = -1;
-  const auto count = static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height);
+  const std::size_t count = grid_.cell_count();
   component_.assign(count, kBlocked);
   clear_.assign(count, 0);
   const double clear_m = radius_m + kSpare_m + 0.5 * std::sqrt(2.0) * grid_.resolution_m;
@@ -97,7 +140,6 @@ std::optional<Point2> FreeSpace::nearest_reachable(const Point2& start_m, const 
 std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& goal_m, Cells cells) const {
   const auto start = free_cell_near(start_m), goal = free_cell_near(goal_m);
   if (!start || !goal || component_[index(*start)] != component_[index(*goal)]) return {};
-  constexpr double kDiagonal = 1.4142135623730951;
   const double near_cells = kNearEnds_m / grid_.resolution_m;
   const auto usable = [&](Cell cell) {
     if (component_[index(cell)] < 0) return false;
@@ -106,46 +148,11 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
       if (std::hypot(cell.column - end.column, cell.row - end.row) <= near_cells) return true;
     return false;
   };
-  const auto heuristic = [&](Cell cell) {
-    const double dx = std::abs(cell.column - goal->column), dy = std::abs(cell.row - goal->row);
-    return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
-  };
-  struct Entry {
-    double estimate;
-    std::size_t cell;
-    bool operator>(const Entry& other) const {
-      return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
-    }
-  };
-  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<float> cost(component_.size(), std::numeric_limits<float>::infinity());
-  std::vector<std::uint32_t> parent(component_.size(), kNone);
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  cost[index(*start)] = 0;
-  open.push({heuristic(*start), index(*start)});
-  while (!open.empty()) {
-    const Entry entry = open.top();
-    open.pop();
-    if (entry.cell == index(*goal)) break;
-    const Cell cell{static_cast<int>(entry.cell % static_cast<std::size_t>(grid_.width)),
-                    static_cast<int>(entry.cell / static_cast<std::size_t>(grid_.width))};
-    if (entry.estimate > cost[entry.cell] + heuristic(cell) + 1e-3) continue;  // outdated
-    for (const Cell& step : kNeighbors) {
-      const Cell next{cell.column + step.column, cell.row + step.row};
-      if (!grid_.contains(next) || !usable(next)) continue;
-      const double next_cost = cost[entry.cell] + (step.column != 0 && step.row != 0 ? kDiagonal : 1.0);
-      if (next_cost >= static_cast<double>(cost[index(next)]) - 1e-4) continue;
-      cost[index(next)] = static_cast<float>(next_cost);
-      parent[index(next)] = static_cast<std::uint32_t>(entry.cell);
-      open.push({next_cost + heuristic(next), index(next)});
-    }
-  }
-  if (index(*goal) != index(*start) && parent[index(*goal)] == kNone) return {};
+  const std::vector<std::uint32_t> parent = shortest_parents(grid_, *start, *goal, usable);
+  if (index(*goal) != index(*start) && parent[index(*goal)] == kNoParent) return {};
   std::vector<Point2> route{goal_m};
-  for (std::size_t i = index(*goal); i != index(*start); i = parent[i]) {
-    const int width = grid_.width;
-    route.push_back(grid_.center_of({static_cast<int>(i) % width, static_cast<int>(i) / width}));
-  }
+  for (std::size_t i = index(*goal); i != index(*start); i = parent[i])
+    route.push_back(grid_.center_of(grid_.cell_at(i)));
   route.push_back(start_m);
   std::reverse(route.begin(), route.end());
   return route;

@@ -49,10 +49,7 @@ class FreeSpace {
 
  private:
   std::optional<OccupancyGrid::CellIndex> free_cell_near(const Point2& point_m) const;
-  std::size_t index(OccupancyGrid::CellIndex cell) const {
-    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid_.width) +
-           static_cast<std::size_t>(cell.column);
-  }
+  std::size_t index(OccupancyGrid::CellIndex cell) const { return grid_.index_of(cell); }
 
   const ObstacleField* field_{};
   OccupancyGrid grid_{};  ///< geometry only

@@ -19,8 +19,7 @@ ObstacleField::ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keep
 ObstacleField::LayerField ObstacleField::layer_of(const OccupancyGrid& grid, Layer layer) {
   const bool is_map = layer == Layer::map;
   JOULEPATH_ASSERT(grid.width > 0 && grid.height > 0 && grid.resolution_m > 0 &&
-                       grid.occupancy_percent.size() ==
-                           static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
+                       grid.occupancy_percent.size() == grid.cell_count(),
                    "an occupancy grid needs width * height cells");
   LayerField field;
   field.blocked.reserve(grid.occupancy_percent.size());
@@ -51,8 +50,7 @@ ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) 
   const auto [u, v] = local(x_m, y_m);
   const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
   if (!grid.contains({column, row})) return outside_blocked ? Bounds{0, 0} : Bounds{0, kInfinity};
-  const auto index =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(column);
+  const std::size_t index = grid.index_of({column, row});
   const double center_distance = distance_cells[index];
   const double du = u - column - 0.5, dv = v - row - 0.5, off_center = std::sqrt(du * du + dv * dv);
   const double rim = outside_blocked ? std::min({u, v, grid.width - u, grid.height - v}) : kInfinity;

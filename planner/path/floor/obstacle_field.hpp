@@ -107,9 +107,7 @@ void ObstacleField::for_blocked_cells(double x_m, double y_m, double within_m, c
       for (int column = first(u); column <= last(u, grid.width); ++column) {
         const OccupancyGrid::CellIndex cell{column, row};
         const bool inside = grid.contains(cell);
-        if (inside && field.blocked[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
-                                    static_cast<std::size_t>(column)] == 0)
-          continue;
+        if (inside && field.blocked[grid.index_of(cell)] == 0) continue;
         const double du = column + 0.5 - u, dv = row + 0.5 - v;
         if (du * du + dv * dv > reach * reach) continue;
         const auto center = grid.center_of(cell);

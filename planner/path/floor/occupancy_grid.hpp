@@ -31,10 +31,19 @@ struct OccupancyGrid {
   [[nodiscard]] bool contains(CellIndex cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < width && cell.row < height;
   }
-  [[nodiscard]] std::int8_t at(CellIndex cell) const {
-    return occupancy_percent[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
-                             static_cast<std::size_t>(cell.column)];
+  [[nodiscard]] std::size_t cell_count() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
+  /// Place of a cell, row by row.
+  [[nodiscard]] std::size_t index_of(CellIndex cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(cell.column);
+  }
+  [[nodiscard]] CellIndex cell_at(std::size_t index) const {
+    const auto columns = static_cast<std::size_t>(width);
+    return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
+  }
+  [[nodiscard]] std::int8_t at(CellIndex cell) const { return occupancy_percent[index_of(cell)]; }
   /// The cell that holds a point of the map frame; it may lie outside of the grid.
   [[nodiscard]] CellIndex cell_of(double x_m, double y_m) const {
     const double c = std::cos(origin.heading_rad), s = std::sin(origin.heading_rad);

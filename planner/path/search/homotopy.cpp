@@ -24,12 +24,8 @@ int signed_crossings(const std::vector<Point2>& line, const Point2& p) {
 
 std::vector<Point2> island_points(const FreeSpace& space) {
   const OccupancyGrid& grid = space.field().map();
-  const auto at = [&](Cell cell) {
-    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.width) +
-           static_cast<std::size_t>(cell.column);
-  };
-  std::vector<std::uint8_t> seen(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
-                                 0);
+  const auto at = [&](Cell cell) { return grid.index_of(cell); };
+  std::vector<std::uint8_t> seen(grid.cell_count(), 0);
   std::vector<Point2> points;
   std::vector<Cell> open;
   for (int row = 0; row < grid.height; ++row)

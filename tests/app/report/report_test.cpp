@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/values/verdict.hpp"
 #include "tests/app/report/sample_data.hpp"
 
 namespace joulepath::report {
@@ -34,6 +35,17 @@ TEST(Report, AtSignsInDataAreNotPlaceholders) {
   auto plan = sample::plan();
   plan["legs"][0]["to"] = "@SCRIPT@ @DATA@";
   EXPECT_EQ(embedded_data(plan_report_html(plan, {})).at("plan"), plan);
+}
+
+TEST(Report, OfADiagnosisCarriesTheWordsOfEachVerdict) {
+  for (const VerdictWords& words : kVerdicts) {
+    auto diagnosis = sample::diagnosis();
+    diagnosis["verdict"] = words.name;
+    const auto data = embedded_data(diagnosis_report_html(diagnosis, {}));
+    EXPECT_EQ(data.at("verdict").at("title"), words.title);
+    EXPECT_EQ(data.at("verdict").at("meaning"), words.meaning);
+    EXPECT_EQ(data.at("verdict").at("good"), words.good);
+  }
 }
 
 TEST(Report, FetchesNothing) {
