@@ -1,25 +1,14 @@
 #include "app/cache_choice.hpp"
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
+#include "app/build_id.hpp"
 #include "app/command_line.hpp"
 #include "planner/values/answer_fields.hpp"
 #include "scenarios/robot_file.hpp"
 
 namespace joulepath {
 namespace {
-
-/// Key of the running program's file: answers of another build are not used.
-const ContentKey& program_key() {
-  static const ContentKey key = [] {
-    std::ostringstream content;
-    content << JOULEPATH_VERSION << std::ifstream("/proc/self/exe", std::ios::binary).rdbuf();
-    return content_key(content.str());
-  }();
-  return key;
-}
 
 void add(ByteWriter& writer, const OccupancyGrid& grid) {
   const auto& [width, height, resolution_m, origin, occupancy_percent, file] = grid;
@@ -75,7 +64,7 @@ ContentKey floor_key(const MissionRequest& mission, const MissionWorld& world) {
 
 ContentKey world_key(const ContentKey& floor, const Robot& robot) {
   ByteWriter writer;
-  writer(program_key().first, program_key().second, floor.first, floor.second, robot_text(robot));
+  writer(kBuildId, floor.first, floor.second, robot_text(robot));
   return content_key(writer.bytes());
 }
 

@@ -26,7 +26,7 @@ void add_cache_options(CommandLine& line, CacheChoice& choice);
 /// Identifies a floor: the content of all maps and graphs, and the clearance.
 [[nodiscard]] ContentKey floor_key(const MissionRequest& mission, const MissionWorld& world);
 
-/// The world of missions on that floor with this robot, including the program's content.
+/// The world of missions on that floor with this robot; answers of another build are those of another world.
 [[nodiscard]] ContentKey world_key(const ContentKey& floor, const Robot& robot);
 
 }  // namespace joulepath

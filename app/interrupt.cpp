@@ -17,9 +17,10 @@ void on_interrupt(int) {
 
 }  // namespace
 
-void install_interrupt_handler() {
+void install_signal_handlers() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 PoliteInterrupt::PoliteInterrupt() { polite = 1; }

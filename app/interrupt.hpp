@@ -12,8 +12,8 @@ class Interrupted : public std::exception {
 
 /// Ctrl-C ends the program at once with code 130 (results are renamed into place whole, so no half file
 /// remains). While a PoliteInterrupt exists, the first Ctrl-C only sets a flag and the second ends the
-/// program.
-void install_interrupt_handler();
+/// program. A write beyond a limit of file size fails as on a full disk, instead of ending the program.
+void install_signal_handlers();
 
 /// During its lifetime the command checks for Ctrl-C.
 class PoliteInterrupt {

@@ -5,6 +5,6 @@
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
-  joulepath::install_interrupt_handler();
+  joulepath::install_signal_handlers();
   return joulepath::program_main(argc, argv);
 }

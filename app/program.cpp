@@ -5,6 +5,7 @@
 #include <new>
 #include <system_error>
 
+#include "app/build_id.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
@@ -55,7 +56,8 @@ int guarded(Command& command) {
 
 int program_main(int argc, char** argv) try {
   const Commands commands = all_commands();
-  const ParsedCommandLine parsed = parse_command_line(argc, argv, commands, JOULEPATH_VERSION);
+  const std::string version = JOULEPATH_VERSION " (build " + std::string(kBuildId) + ")";
+  const ParsedCommandLine parsed = parse_command_line(argc, argv, commands, version);
   if (!parsed.error.empty()) return tell(parsed.error, parsed.exit_code, parsed.hint);
   if (parsed.command) return guarded(*parsed.command);
   (parsed.exit_code == kDone ? std::cout : std::cerr) << parsed.output;

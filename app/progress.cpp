@@ -18,8 +18,22 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
 
 }  // namespace
 
-Progress::Progress(std::string what, std::size_t total, bool quiet)
-    : what_(std::move(what)), total_(total), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+std::string progress_text(const std::string& what, std::size_t done, std::size_t total, std::size_t earlier,
+                          double elapsed_s) {
+  const double rate = static_cast<double>(done - earlier) / elapsed_s;
+  const double left_s = rate > 0 ? static_cast<double>(total - std::min(done, total)) / rate : 0.0;
+  char text[96];
+  std::snprintf(text, sizeof text, " %zu/%zu, %.3g/s, %.0f s left", done, total, rate, left_s);
+  return what + text;
+}
+
+Progress::Progress(std::string what, std::size_t total, bool quiet, std::size_t done)
+    : what_(std::move(what)),
+      total_(total),
+      done_(done),
+      earlier_(done),
+      quiet_(quiet),
+      on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
@@ -37,12 +51,8 @@ void Progress::advance(std::size_t steps) {
 void Progress::show(Clock::time_point now) {
   last_ = now;
   shown_ = true;
-  const double elapsed_s = seconds_between(start_, now);
-  const double rate = static_cast<double>(done_) / elapsed_s;
-  const double left_s = rate > 0 ? static_cast<double>(total_ - std::min(done_, total_)) / rate : 0.0;
-  std::fprintf(stderr,
-               on_terminal_ ? "\r\033[K%s %zu/%zu, %.3g/s, %.0f s left" : "%s %zu/%zu, %.3g/s, %.0f s left\n",
-               what_.c_str(), done_, total_, rate, left_s);
+  const std::string text = progress_text(what_, done_, total_, earlier_, seconds_between(start_, now));
+  std::fprintf(stderr, on_terminal_ ? "\r\033[K%s" : "%s\n", text.c_str());
   std::fflush(stderr);
 }
 

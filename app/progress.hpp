@@ -8,11 +8,16 @@
 
 namespace joulepath {
 
+/// `plans 8/36, 2/s, 14 s left`: of `total` steps, `done` are done, `earlier` of them before these seconds.
+[[nodiscard]] std::string progress_text(const std::string& what, std::size_t done, std::size_t total,
+                                        std::size_t earlier, double elapsed_s);
+
 /// Progress on stderr, silent for the first second: a line with rate and remaining time that is updated on a
 /// terminal, a plain line every ten seconds elsewhere. It is never part of a result.
 class Progress {
  public:
-  Progress(std::string what, std::size_t total, bool quiet);
+  /// `done`: steps that an earlier run has done; the rate is that of this run.
+  Progress(std::string what, std::size_t total, bool quiet, std::size_t done = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -25,7 +30,8 @@ class Progress {
 
   std::string what_;
   std::size_t total_;
-  std::size_t done_{};
+  std::size_t done_;
+  std::size_t earlier_;
   bool quiet_;
   bool on_terminal_;
   bool shown_{};

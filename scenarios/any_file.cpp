@@ -7,6 +7,7 @@
 #include "diagnosis/checks/data_checks.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
+#include "scenarios/counted.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
@@ -21,10 +22,6 @@
 
 namespace joulepath {
 namespace {
-
-std::string counted(std::size_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
 
 /// One note for each kind and channel, over all runs.
 std::vector<std::string> notes_of(const std::vector<LogArtifact>& artifacts) {
@@ -103,10 +100,13 @@ FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options
 
 FileSummary summary_of_study(const Document& document, const ReadOptions& options) {
   const Study study = study_from(document, options);
-  if (std::filesystem::is_regular_file(study.missions.front()))
-    check_designs(study, Document::load(study.missions.front()), options);
+  const std::vector<MissionItem> missions = study_missions(study);
+  check_designs(study, document_of(missions.front()), options);
+  for (const MissionItem& mission : missions)
+    static_cast<void>(mission_of_design(study, document_of(mission), study.designs.at(0), options));
   return {"study",
-          counted(study.designs.size(), "design") + " of " + counted(study.targets.size(), "parameter"),
+          counted(study.designs.size(), "design") + " of " + counted(study.targets.size(), "parameter") +
+              " on " + counted(missions.size(), "mission"),
           {}};
 }
 

@@ -190,10 +190,12 @@ Schema sweep_schema() {
 
 Schema shard_schema() {
   return open(map({required("schema", text()), required("command", choice({"batch", "sweep"})),
-                   required("version", text()), required("shard", integer({1, 1e6})),
-                   required("of", integer({1, 1e6})), required("jobs", integer({1, 1e8}), "of all shards"),
-                   required("title", text()),
-                   required("list", text(), "digest of the missions or designs and the options"),
+                   required("version", text()),
+                   required("build", text(), "digest of the program's sources and compiler"),
+                   required("shard", integer({1, 1e6})), required("of", integer({1, 1e6})),
+                   required("jobs", integer({1, 1e8}), "of all shards"), required("title", text()),
+                   required("options", dictionary(text()), "that change results, by their names"),
+                   required("list", text(), "digest of the missions or designs"),
                    required("files", dictionary(text()), "digest of each file that was read"),
                    required("results", text(), "digest of results.jsonl"), optional("study_file", text()),
                    optional("study_text", text())}));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "model/number_text.hpp"
 #include "scenarios/mission_file.hpp"
@@ -29,12 +30,29 @@ Schema sampling_schema() {
               optional("seed", integer(kNotNegative), "of a hypercube; default 1")});
 }
 
+constexpr double kLeastStep = 1e-11;  // between levels, of a range's larger end
+
+/// The levels of a list. Refuses a value that the list has already: its designs would be planned and counted
+/// twice.
+std::vector<std::string> levels_from(const Node& values) {
+  std::vector<std::string> levels;
+  std::set<std::string> texts;
+  std::set<double> numbers;
+  for (const Node& value : values.items()) {
+    const auto number = value.value().quoted ? std::nullopt : parse_number(value.text());
+    const bool is_new = number ? numbers.insert(*number).second : texts.insert(value.text()).second;
+    if (!is_new) value.fail("each value once");
+    levels.push_back(value.text());
+  }
+  return levels;
+}
+
 SweepParameter parameter_from(const std::string& name, const Node& node) {
   SweepParameter parameter{.name = name};
   if (const auto values = node.find("values")) {
     for (const char* key : {"to", "count", "scale"})
       if (node.has(key)) node[key].fail("this key together with from, not with values");
-    for (const Node& value : values->items()) parameter.levels.push_back(value.text());
+    parameter.levels = levels_from(*values);
     return parameter;
   }
   parameter.from = node["from"].number();
@@ -42,6 +60,11 @@ SweepParameter parameter_from(const std::string& name, const Node& node) {
   parameter.count = static_cast<std::size_t>(node.number_or("count", 5));
   parameter.logarithmic = node.text_or("scale", "linear") == "log";
   if (parameter.to <= parameter.from) node["to"].fail("a number > from");
+  const double step = parameter.to / static_cast<double>(parameter.count) -
+                      parameter.from / static_cast<double>(parameter.count);
+  if (step < kLeastStep * std::max(std::abs(parameter.from), std::abs(parameter.to)))
+    node["to"].fail("a number > from by more than rounding",
+                    "levels differ by at least 1e-11 of the larger end");
   if (parameter.logarithmic && parameter.from <= 0) node["from"].fail("a number > 0 with scale: log");
   return parameter;
 }
@@ -49,7 +72,7 @@ SweepParameter parameter_from(const std::string& name, const Node& node) {
 StudyTarget target_from(const Node& key) {
   const std::string& text = key.text();
   for (const auto& [prefix, in_robot] : {std::pair{"robot.", true}, {"mission.", false}})
-    if (text.rfind(prefix, 0) == 0)
+    if (text.rfind(prefix, 0) == 0 && text != prefix)
       return {
           .in_robot = in_robot, .path = text.substr(std::string(prefix).size()), .named_by = NamedBy(key)};
   key.fail("robot.KEY or mission.KEY",
@@ -58,7 +81,11 @@ StudyTarget target_from(const Node& key) {
 
 DesignTable designs_from(const Node& root, std::vector<SweepParameter> parameters) {
   const auto sampling = root.find("sampling");
-  if (sampling && (*sampling)["method"].text() == "latin_hypercube")
+  const bool hypercube = sampling && (*sampling)["method"].text() == "latin_hypercube";
+  for (const auto& [name, parameter] : root["parameters"].entries())
+    if (hypercube && parameter.has("count"))
+      parameter["count"].fail("this key on a grid", "a hypercube has one value of the range per design");
+  if (hypercube)
     return DesignTable::latin_hypercube(std::move(parameters),
                                         static_cast<std::size_t>((*sampling)["designs"].integer()),
                                         static_cast<std::uint64_t>(sampling->number_or("seed", 1)));
@@ -134,6 +161,7 @@ bool overlap(const StudyTarget& a, const StudyTarget& b) {
 /// Refuses names that are other columns of sweep.csv, and a value that two parameters change.
 void check_parameter(const std::string& name, const Node& node, const Study& study,
                      const std::vector<SweepParameter>& others) {
+  if (name.empty()) node.fail_found("an empty name", "a name for the column of sweep.csv");
   for (const auto* columns : {&sweep_results(), &kColumnsBefore, &kColumnsAfter})
     if (std::ranges::find(*columns, name) != columns->end())
       node.fail_found("the name " + name, "a name that no other column of sweep.csv has");
@@ -214,10 +242,11 @@ Study study_from(const Document& document, const ReadOptions& options) {
   const Node root = document.root();
   Study study{.file = document.file(), .name = root.text_or("name", "")};
   const Node missions = root["missions"];
-  if (missions.kind() == Value::Kind::list)
-    for (const Node& mission : missions.items()) study.missions.push_back(resolve_file(mission, options));
-  else
-    study.missions.push_back(resolve_file(missions, options));
+  for (const Node& mission :
+       missions.kind() == Value::Kind::list ? missions.items() : std::vector<Node>{missions}) {
+    study.missions.push_back(resolve_file(mission, options));
+    study.missions_named_by.emplace_back(mission);
+  }
   if (const auto robot = root.find("robot")) {
     study.robot_file = resolve_file(*robot, options);
     study.robot_named_by = NamedBy(*robot);

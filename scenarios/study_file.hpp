@@ -7,6 +7,7 @@
 #include "model/robot.hpp"
 #include "planner/sweep/design_table.hpp"
 #include "planner/values/mission_request.hpp"
+#include "scenarios/mission_list.hpp"
 #include "scenarios/schema.hpp"
 
 namespace joulepath {
@@ -39,7 +40,8 @@ struct Study {
   std::string text{};  ///< of the file; empty: the study was read from a document
   std::string name{};
   std::vector<std::string> missions{};  ///< files and folders
-  std::string robot_file{};             ///< empty: the missions' own
+  std::vector<NamedBy> missions_named_by{};
+  std::string robot_file{};  ///< empty: the missions' own
   NamedBy robot_named_by{};
   DesignTable designs{};
   std::vector<StudyTarget> targets{};  ///< one per parameter
@@ -65,6 +67,10 @@ inline const std::vector<std::string> kColumnsAfter{"status", "meets_constraints
 
 /// Reads a study file once: later changes of the file change nothing. Throws ConfigError.
 [[nodiscard]] Study read_study(const std::string& file, const ReadOptions& options = {});
+
+/// All missions of a study, each with a name of its own: that of its file (`line_3` in a list), or the file's
+/// path where two have the same name. Throws ConfigError: no missions, or the same mission twice.
+[[nodiscard]] std::vector<MissionItem> study_missions(const Study& study);
 
 /// The robot of a design: `robot` with the design's values. Throws ConfigError at the study's parameter.
 [[nodiscard]] Robot robot_of_design(const Study& study, const Document& robot,

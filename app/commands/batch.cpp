@@ -36,7 +36,7 @@ class BatchCommand : public Command {
   }
 
   int run() override {
-    const JobRun run = job_run(options_, "missions");
+    const JobRun run = job_run(options_, text().name, source_, "missions");
     std::vector<MissionItem> items = mission_items(source_);
     OutputDirectory out = job_output(options_, run.shard, kBatchFiles);
     plan_.solver = SolverChoice::fast;
@@ -48,7 +48,7 @@ class BatchCommand : public Command {
       add_timings(out, *results);
       finish_batch(out, title, lines_of(*results), options_.common);
     } else {
-      write_shard(out, jobs, *results, {.command = text().name, .shard = run.shard, .title = title});
+      write_shard(out, jobs, *results, {.command = run.command, .shard = run.shard, .title = title});
     }
     remove_journal(run.directory);
     return kDone;

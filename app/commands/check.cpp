@@ -35,8 +35,9 @@ class Check : public Command {
                              "  joulepath check dataset.yaml --repair dataset_repaired.yaml"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("FILE", files_,
-                "robot, map, mission, path, dataset, fleet, run log, bag, route graph, plan or diagnosis")
+    line.option(
+            "FILE", files_,
+            "robot, map, mission, path, dataset, fleet, study, run log, bag, route graph, plan or diagnosis")
         .required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");

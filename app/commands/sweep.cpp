@@ -44,9 +44,14 @@ class SweepCommand : public Command {
 
   int run() override {
     const Study study = read_study(source_, {.untrusted = options_.common.untrusted});
-    const JobRun run = job_run(options_, "designs");
+    const JobRun run = job_run(options_, text().name, source_, "plans");
     if (evaluations_ > 0 && !run.shard.is_whole())
       throw UsageError("--optimize: found together with --shard, accepted: a sweep without shards");
+    if (evaluations_ > 0 && std::ranges::none_of(study.designs.parameters(), &SweepParameter::has_ends))
+      throw ConfigError({{study.file, 0, 0},
+                         "parameters",
+                         "lists of values alone, with --optimize",
+                         "a parameter with from and to, which --optimize can move"});
     OutputDirectory out = job_output(options_, run.shard, kSweepFiles);
     plan_.solver = SolverChoice::fast;
     SweepJobs jobs(study, plan_, {.untrusted = options_.common.untrusted}, options_.cache);
@@ -54,7 +59,7 @@ class SweepCommand : public Command {
     if (!results) return kInterrupted;
     if (!run.shard.is_whole()) {
       write_shard(out, jobs, *results,
-                  {.command = text().name,
+                  {.command = run.command,
                    .shard = run.shard,
                    .title = title_of(study),
                    .study_file = study.file,
@@ -71,8 +76,8 @@ class SweepCommand : public Command {
   }
 
  private:
-  /// The result lines of the best design that the search finds; none if no parameter has a range, or if no
-  /// design of the sweep has a plan within the constraints.
+  /// The result lines of the best design that the search finds; none if no design of the sweep has a plan
+  /// within the constraints.
   std::vector<std::string> search(const Study& study, SweepJobs& jobs,
                                   const std::vector<std::string>& lines) const {
     const auto& parameters = study.designs.parameters();
@@ -83,9 +88,8 @@ class SweepCommand : public Command {
     const auto best = std::ranges::min_element(totals, {}, [](const DesignTotal& total) {
       return std::tuple(!total.is_within(), total.objectives[0]);
     });
-    if (ranges.empty() || best == totals.end() || !best->is_within()) {
-      std::cerr << "--optimize: " << (ranges.empty() ? "no parameter is a range" : "no design to start from")
-                << "\n";
+    if (best == totals.end() || !best->is_within()) {
+      std::cerr << "--optimize: no design is within the constraints, so that there is none to start from\n";
       return {};
     }
     std::vector<double> start;

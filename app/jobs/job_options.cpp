@@ -1,6 +1,7 @@
 #include "app/jobs/job_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "app/command_line.hpp"
@@ -22,8 +23,11 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   add_common_flags(line, options.common, "qjfu");
 }
 
-JobRun job_run(const JobOptions& options, const std::string& noun) {
-  return {.directory = options.out,
+JobRun job_run(const JobOptions& options, const std::string& command, const std::string& source,
+               const std::string& noun) {
+  return {.command = command,
+          .source = std::filesystem::weakly_canonical(source).string(),
+          .directory = options.out,
           .threads = options.jobs,
           .resume = options.resume,
           .force = options.common.force,

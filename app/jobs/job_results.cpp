@@ -5,11 +5,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/build_id.hpp"
 #include "app/jobs/content_hash.hpp"
 #include "app/jobs/sweep_result.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "scenarios/counted.hpp"
+#include "scenarios/significant.hpp"
 
 namespace joulepath {
 namespace {
@@ -26,13 +29,13 @@ std::string design_text(const Json& total) {
   std::string text;
   for (const auto& [name, value] : total["parameters"].items())
     text += (text.empty() ? "" : ", ") + name + " " +
-            (value.is_string() ? value.get<std::string>() : figure(value.get<double>(), 5));
+            (value.is_string() ? value.get<std::string>() : significant_text(value.get<double>()));
   return printable(text) + ": " + figure(total["energy_J"].get<double>(), 6) + " J, " +
          figure(total["duration_s"].get<double>(), 5) + " s";
 }
 
 void print_sweep(const Json& json) {
-  std::cout << json["designs"] << " designs: " << json["planned"] << " planned, "
+  std::cout << counted(json["designs"], "design") << ": " << json["planned"] << " planned, "
             << json["within_constraints"] << " within the constraints\n";
   for (const auto& [reason, count] : json["not_counted"].items())
     std::cout << "  " << count << " " << reason << "\n";
@@ -40,6 +43,7 @@ void print_sweep(const Json& json) {
     std::cout << "held constant: " << held.get<std::string>() << "\n";
   if (json.contains("best")) std::cout << "best design: " << design_text(json["best"]) << "\n";
   if (json.contains("optimized")) std::cout << "optimized: " << design_text(json["optimized"]) << "\n";
+  if (json["planned"] == 0) return;  // no energies to compare
   Table table({"parameter", "share of the variance of energy", "levels: mean J"});
   for (const auto& effect : json["effects"]["energy_J"]["main"]) {
     std::string levels;
@@ -83,6 +87,8 @@ void add_timings(OutputDirectory& out, const std::vector<JobResult>& results) {
 void write_shard(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,
                  ShardManifest about) {
   about.version = JOULEPATH_VERSION;
+  about.build = kBuildId;
+  about.options = jobs.options();
   about.jobs = jobs.size();
   about.list_digest = jobs.digest();
   about.files = jobs.files_read();
@@ -111,7 +117,7 @@ void finish_batch(OutputDirectory& out, const std::string& title, const std::vec
   if (common.json) {
     std::cout << results;
   } else if (!common.quiet) {
-    std::cout << lines.size() << " missions:";
+    std::cout << counted(lines.size(), "mission") << ":";
     for (const auto& [status, number] : count) std::cout << " " << number << " " << status;
     std::cout << ", " << figure(energy_J, 6) << " J in all\nresults in " << out.path() << "\n";
   }

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,19 @@ namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::optional<JournalRun> run_from(const Json& json) {
+  if (!json.is_object() || !json.contains("run") || !json["run"].is_object()) return std::nullopt;
+  JournalRun run;
+  for (const auto& [key, value] : {std::pair{"command", &run.command},
+                                   {"source", &run.source},
+                                   {"shard", &run.shard},
+                                   {"list", &run.list}}) {
+    if (!json["run"].contains(key) || !json["run"][key].is_string()) return std::nullopt;
+    *value = json["run"][key];
+  }
+  return run;
+}
 
 bool is_entry(const Json& json) {
   const auto has = [&](const char* key, auto is_right) { return json.contains(key) && is_right(json[key]); };
@@ -27,6 +39,18 @@ bool is_entry(const Json& json) {
 }
 
 }  // namespace
+
+std::string JournalRun::text() const {
+  return "joulepath " + command + " " + source + (shard.empty() ? "" : " --shard " + shard);
+}
+
+std::optional<JournalRun> run_of_journal(const std::string& file) {
+  std::optional<JournalRun> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if (const auto run = run_from(Json::parse(line, nullptr, false))) found = run;
+  return found;
+}
 
 JobJournal::JobJournal(std::string file, Use use) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -53,7 +77,8 @@ void JobJournal::read() {
   while (std::getline(in, line)) {
     cut = in.eof();
     const Json json = Json::parse(line, nullptr, false);
-    if (json.is_discarded() || !is_entry(json)) continue;
+    if (const auto run = run_from(json)) run_ = run;
+    if (!is_entry(json)) continue;
     const auto index = json["index"].get<std::size_t>();
     earlier_[index] = {.fingerprint = json["fingerprint"],
                        .result = {.index = index,
@@ -76,6 +101,14 @@ void JobJournal::append(const std::string& text) {
     throw EnvironmentError("cannot write " + file_ + ": " + std::strerror(errno));
 }
 
+void JobJournal::begin(const JournalRun& run) {
+  if (run_ == run) return;
+  const Json json{
+      {"run", {{"command", run.command}, {"source", run.source}, {"shard", run.shard}, {"list", run.list}}}};
+  append(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  run_ = run;
+}
+
 void JobJournal::add(const JobResult& result, const std::string& fingerprint) {
   append(Json{{"index", result.index},
               {"fingerprint", fingerprint},
@@ -91,7 +124,5 @@ const JobResult* JobJournal::find(std::size_t index, const std::string& fingerpr
     return nullptr;
   return &found->second.result;
 }
-
-void JobJournal::remove() { std::filesystem::remove(file_); }
 
 }  // namespace joulepath

@@ -1,15 +1,9 @@
 #include "app/jobs/mission_planner.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <thread>
 
+#include "app/build_id.hpp"
 #include "app/jobs/content_hash.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/plan_accounts.hpp"
@@ -20,31 +14,6 @@ namespace joulepath {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool is_yaml_name(const std::filesystem::path& file) {
-  return file.extension() == ".yaml" || file.extension() == ".yml";
-}
-
-std::vector<MissionItem> items_of_directory(const std::filesystem::path& directory) {
-  std::vector<MissionItem> items;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    if (entry.is_regular_file() && is_yaml_name(entry.path()))
-      items.push_back({.name = printable(entry.path().stem().string()), .file = entry.path().string()});
-  std::sort(items.begin(), items.end(),
-            [](const MissionItem& a, const MissionItem& b) { return a.file < b.file; });
-  return items;
-}
-
-std::vector<MissionItem> items_of_lines(const std::string& file) {
-  std::vector<MissionItem> items;
-  std::istringstream lines(read_text_file(file));
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number)
-    if (line.find_first_not_of(" \t\r") != std::string::npos)
-      items.push_back(
-          {.name = "line_" + std::to_string(number), .file = file, .text = line, .first_line = number});
-  return items;
-}
 
 /// A batch result of a plan: the figures for reports and fleet managers.
 Json plan_line(const Plan& plan) {
@@ -83,44 +52,34 @@ std::string text_of(const PlanOptions& o) {
 
 }  // namespace
 
-Document document_of(const MissionItem& item) {
-  return item.text.empty() ? Document::load(item.file)
-                           : Document::parse(item.text, item.file, item.first_line);
-}
-
-std::vector<MissionItem> mission_items(const std::string& source) {
-  std::vector<MissionItem> items;
-  if (std::filesystem::is_directory(source))
-    items = items_of_directory(source);
-  else if (is_yaml_name(source))
-    items = {{.name = printable(std::filesystem::path(source).stem().string()), .file = source}};
-  else
-    items = items_of_lines(source);
-  if (items.empty())
-    throw ConfigError({.mark = {.file = source},
-                       .key = {},
-                       .found = "no missions",
-                       .accepted = "a directory with *.yaml missions, or a file of JSON lines",
-                       .hint = {}});
-  return items;
-}
-
-const std::string& MissionPlanner::content_digest(const std::string& file) {
+std::string MissionPlanner::content_digest(const std::string& file) {
+  const std::lock_guard lock(digests_mutex_);
   const auto known = digests_.find(file);
   if (known != digests_.end()) return known->second;
   return digests_[file] = ContentHash().mix(read_text_file(file)).text();
 }
 
-std::string MissionPlanner::digest_of(const std::vector<MissionItem>& items) const {
+std::map<std::string, std::string> MissionPlanner::files_read() const {
+  const std::lock_guard lock(digests_mutex_);
+  return digests_;
+}
+
+std::map<std::string, std::string> MissionPlanner::options() const {
+  return {{"--nodes", std::to_string(options_.nodes)},
+          {"--seed", std::to_string(options_.seed)},
+          {"--baselines", options_.baselines ? "yes" : "no"},
+          {"--untrusted", reading_.untrusted ? "yes" : "no"}};
+}
+
+std::string digest_of(const std::vector<MissionItem>& items) {
   ContentHash hash;
-  hash.mix(text_of(options_));
   for (const MissionItem& item : items) hash.mix(item.name).mix(item.text.empty() ? item.file : item.text);
   return hash.text();
 }
 
 std::string MissionPlanner::fingerprint(const MissionItem& item, const MissionVariant* variant) try {
   ContentHash hash;
-  for (const std::string& part : {std::string(JOULEPATH_VERSION), item.name, item.text, text_of(options_)})
+  for (const std::string& part : {std::string(kBuildId), item.name, item.text, text_of(options_)})
     hash.mix(part);
   std::vector<std::string> files = files_read_by(mission_of(item, variant), reading_);
   if (item.text.empty()) files.push_back(item.file);

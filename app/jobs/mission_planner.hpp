@@ -10,24 +10,12 @@
 #include "app/cache_choice.hpp"
 #include "app/jobs/run_jobs.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/mission_list.hpp"
 
 namespace joulepath {
 
-/// One mission of many, not yet parsed, so that a broken one does not stop the others.
-struct MissionItem {
-  std::string name{};
-  std::string file{};
-  std::string text{};  ///< empty: in the file
-  int first_line{1};
-};
-
-/// The missions of a directory (*.yaml, by name), of a file of JSON lines, or of one YAML file. Throws
-/// ConfigError when there are none.
-[[nodiscard]] std::vector<MissionItem> mission_items(const std::string& source);
-
-/// The item's text, parsed. Throws ConfigError.
-[[nodiscard]] Document document_of(const MissionItem& item);
+/// Digest of missions without the files that they name.
+[[nodiscard]] std::string digest_of(const std::vector<MissionItem>& items);
 
 /// A variation of a mission: what a sweep changes.
 class MissionVariant {
@@ -43,7 +31,7 @@ class MissionVariant {
 };
 
 /// Plans many missions. Maps, keep-out masks and the floors prepared from them are built once and shared;
-/// answers about equal legs are shared as well. Safe to call from several threads, except fingerprint().
+/// answers about equal legs are shared as well. Safe to call from several threads.
 class MissionPlanner {
  public:
   MissionPlanner(const PlanOptions& options, const ReadOptions& reading,
@@ -57,9 +45,10 @@ class MissionPlanner {
   /// Identifies a mission and everything on which its result depends; empty when a file cannot be read.
   [[nodiscard]] std::string fingerprint(const MissionItem& item, const MissionVariant* variant = nullptr);
 
-  [[nodiscard]] const std::map<std::string, std::string>& files_read() const { return digests_; }
-  /// Digest of missions, without the files that they name, and of the options.
-  [[nodiscard]] std::string digest_of(const std::vector<MissionItem>& items) const;
+  /// Of all missions whose fingerprint was computed: files and the digests of their content.
+  [[nodiscard]] std::map<std::string, std::string> files_read() const;
+  /// The options of the command line that change results, by their names.
+  [[nodiscard]] std::map<std::string, std::string> options() const;
 
  private:
   struct Place {
@@ -70,13 +59,14 @@ class MissionPlanner {
   [[nodiscard]] MissionRequest mission_of(const MissionItem& item, const MissionVariant* variant) const;
   const Place& place_of(const MissionRequest& mission);
   [[nodiscard]] Plan plan_of(const MissionRequest& mission, const MissionVariant* variant);
-  [[nodiscard]] const std::string& content_digest(const std::string& file);
+  [[nodiscard]] std::string content_digest(const std::string& file);
 
   PlanOptions options_;
   ReadOptions reading_;
   std::unique_ptr<AnswerCache> answers_;
   std::mutex mutex_{};
   std::map<std::string, std::unique_ptr<Place>> places_{};
+  mutable std::mutex digests_mutex_{};
   std::map<std::string, std::string> digests_{};
 };
 
@@ -93,7 +83,8 @@ class MissionJobs : public JobList {
   [[nodiscard]] std::string fingerprint(std::size_t index) override {
     return planner_.fingerprint(items_[index]);
   }
-  [[nodiscard]] std::string digest() const override { return planner_.digest_of(items_); }
+  [[nodiscard]] std::string digest() const override { return digest_of(items_); }
+  [[nodiscard]] std::map<std::string, std::string> options() const override { return planner_.options(); }
   [[nodiscard]] std::map<std::string, std::string> files_read() const override {
     return planner_.files_read();
   }

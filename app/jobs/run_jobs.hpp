@@ -40,11 +40,15 @@ class JobList {
   [[nodiscard]] virtual std::string name_line(std::size_t index) const = 0;
 
   /// Identifies a job and everything on which its result depends: the content of every file that it reads,
-  /// the options and the program's version. Empty when a file cannot be read. Not safe for several threads.
+  /// the options and the program's build. Empty when a file cannot be read. Safe to call from several
+  /// threads.
   [[nodiscard]] virtual std::string fingerprint(std::size_t index) = 0;
 
-  /// Identifies the list: every job without the files that it names, and the options.
+  /// Identifies the list: every job without the files that it names.
   [[nodiscard]] virtual std::string digest() const = 0;
+
+  /// The options of the command line that change results, by their names.
+  [[nodiscard]] virtual std::map<std::string, std::string> options() const = 0;
 
   /// Files and the digests of their content, for all jobs whose fingerprint was computed.
   [[nodiscard]] virtual std::map<std::string, std::string> files_read() const = 0;
@@ -52,19 +56,21 @@ class JobList {
 
 /// Options for running a list of jobs.
 struct JobRun {
+  std::string command{};    ///< batch or sweep
+  std::string source{};     ///< the file or folder of the jobs
   std::string directory{};  ///< holds the journal
   unsigned threads{1};
   bool resume{};
   bool force{};
   bool quiet{};
-  std::string noun{"missions"};  ///< for the progress
+  std::string noun{"missions"};  ///< a job, for the progress
   Shard shard{};
   std::map<std::size_t, std::string> quarantine{};  ///< jobs that are not run, with the reason
 };
 
 /// Runs the jobs of the shard that are not in the journal. Results by index; none if the user interrupted the
 /// run (the journal then has the finished jobs). Throws ConfigError if an unfinished run would be
-/// overwritten, EnvironmentError.
+/// overwritten or if `resume` finds another run, EnvironmentError.
 [[nodiscard]] std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run);
 
 /// The journal of an unfinished run.

@@ -1,8 +1,10 @@
 #include "app/jobs/shard.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "app/build_id.hpp"
 #include "app/command.hpp"
 #include "scenarios/output_schemas.hpp"
 
@@ -15,27 +17,49 @@ constexpr std::size_t kMostShards = 1'000'000;
 
 std::string file_of(const std::string& directory) { return directory + "/shard.json"; }
 
-std::string name_of(const Shard& shard) {
-  return std::to_string(shard.number) + "/" + std::to_string(shard.of);
-}
-
 [[noreturn]] void refuse(const std::string& directory, const std::string& key, std::string found,
                          std::string accepted, std::string hint = {}) {
   throw ConfigError(
       {{file_of(directory), 0, 0}, key, std::move(found), std::move(accepted), std::move(hint)});
 }
 
-/// Values that must be the same in all shards, by their key of shard.json.
-std::map<std::string, std::string> common_values(const ShardManifest& manifest) {
-  return {{"command", manifest.command},
-          {"version", manifest.version},
-          {"of", std::to_string(manifest.shard.of)},
-          {"jobs", std::to_string(manifest.jobs)},
-          {"list", manifest.list_digest},
-          {"study_text", manifest.study_text}};
+/// A value that must be the same in all shards.
+struct CommonValue {
+  std::string key{};    ///< of shard.json, or an option
+  std::string value{};  ///< compared
+  std::string said{};   ///< for messages instead of a digest or a long text
+};
+
+/// The first ones explain most: a study with other levels has another number of jobs, too.
+std::vector<CommonValue> common_values(const ShardManifest& manifest) {
+  std::vector<CommonValue> values{
+      {"command", manifest.command}, {"version", manifest.version}, {"build", manifest.build}};
+  for (const auto& [option, value] : manifest.options) values.push_back({option, value});
+  values.insert(values.end(), {{"of", std::to_string(manifest.shard.of)},
+                               {"study_text", manifest.study_text, "another study"},
+                               {"jobs", std::to_string(manifest.jobs)},
+                               {"list", manifest.list_digest, "other missions or designs"}});
+  return values;
+}
+
+/// Throws ConfigError where two shards are of different runs.
+void check_common_values(const std::string& first_directory, const std::vector<CommonValue>& wanted,
+                         const std::string& directory, const std::vector<CommonValue>& found) {
+  for (std::size_t k = 0; k < std::min(wanted.size(), found.size()); ++k) {
+    const auto& [key, value, said] = found[k];
+    if (key == wanted[k].key && value == wanted[k].value) continue;
+    const std::string there = file_of(first_directory);
+    refuse(directory, key, said.empty() ? value : said,
+           said.empty() ? wanted[k].value + ", as in " + there : "the same as in " + there,
+           "shards of one run have the same inputs, options and program");
+  }
 }
 
 }  // namespace
+
+std::string Shard::text() const {
+  return is_whole() ? "" : std::to_string(number) + "/" + std::to_string(of);
+}
 
 std::vector<std::size_t> Shard::indices(std::size_t jobs) const {
   std::vector<std::size_t> indices;
@@ -56,11 +80,12 @@ Shard shard_from(const std::string& text) {
 }
 
 std::string manifest_text(const ShardManifest& manifest) {
-  Json json{{"schema", "joulepath/shard/1"}, {"command", manifest.command},
-            {"version", manifest.version},   {"shard", manifest.shard.number},
-            {"of", manifest.shard.of},       {"jobs", manifest.jobs},
-            {"title", manifest.title},       {"list", manifest.list_digest},
-            {"files", manifest.files},       {"results", manifest.results_digest}};
+  Json json{{"schema", "joulepath/shard/1"},  {"command", manifest.command},
+            {"version", manifest.version},    {"build", manifest.build},
+            {"shard", manifest.shard.number}, {"of", manifest.shard.of},
+            {"jobs", manifest.jobs},          {"title", manifest.title},
+            {"options", manifest.options},    {"list", manifest.list_digest},
+            {"files", manifest.files},        {"results", manifest.results_digest}};
   if (!manifest.study_file.empty()) {
     json["study_file"] = manifest.study_file;
     json["study_text"] = manifest.study_text;
@@ -75,6 +100,7 @@ ShardManifest read_manifest(const std::string& directory) {
   ShardManifest manifest{
       .command = root["command"].text(),
       .version = root["version"].text(),
+      .build = root["build"].text(),
       .shard = {static_cast<std::size_t>(root["shard"].integer()),
                 static_cast<std::size_t>(root["of"].integer()), true},
       .jobs = static_cast<std::size_t>(root["jobs"].integer()),
@@ -85,8 +111,14 @@ ShardManifest read_manifest(const std::string& directory) {
       .study_text = root.text_or("study_text", ""),
   };
   if (manifest.shard.number > manifest.shard.of) root["shard"].fail("at most the number in `of`");
+  for (const auto& [option, value] : root["options"].entries()) manifest.options[option] = value.text();
   for (const auto& [file, digest] : root["files"].entries()) manifest.files[file] = digest.text();
   return manifest;
+}
+
+bool has_manifest(const std::string& directory) {
+  std::error_code absent;
+  return std::filesystem::exists(file_of(directory), absent);
 }
 
 void check_complete(const std::vector<std::string>& directories, const std::vector<ShardManifest>& shards) {
@@ -94,14 +126,10 @@ void check_complete(const std::vector<std::string>& directories, const std::vect
   std::map<std::size_t, std::string> directory_of;
   std::map<std::string, std::pair<std::string, std::string>> digest_of;  // file -> digest, directory
   for (std::size_t i = 0; i < shards.size(); ++i) {
-    for (const auto& [key, value] : common_values(shards[i]))
-      if (value != wanted.at(key))
-        refuse(directories[i], key, key == "study_text" ? "another study" : value,
-               key == "study_text" ? "the same study" : wanted.at(key) + ", as in " + file_of(directories[0]),
-               "shards of one run have the same input, options and program version");
+    check_common_values(directories[0], wanted, directories[i], common_values(shards[i]));
     const auto [other, is_new] = directory_of.emplace(shards[i].shard.number, directories[i]);
     if (!is_new)
-      refuse(directories[i], "shard", name_of(shards[i].shard) + ", which " + other->second + " holds, too",
+      refuse(directories[i], "shard", shards[i].shard.text() + ", which " + other->second + " holds, too",
              "each shard once");
     for (const auto& [file, digest] : shards[i].files) {
       const auto [known, first] = digest_of.emplace(file, std::pair(digest, directories[i]));
@@ -120,6 +148,10 @@ void check_complete(const std::vector<std::string>& directories, const std::vect
            std::to_string(count) + " of " + std::to_string(shards.front().shard.of) +
                " shards missing: " + missing + (count > 10 ? ", ..." : ""),
            "the directories of all shards");
+  if (shards.front().build != kBuildId)
+    refuse(directories[0], "build", shards.front().version + ", build " + shards.front().build,
+           JOULEPATH_VERSION ", build " + std::string(kBuildId) + ", which this program is",
+           "merge with the program that planned; joulepath --version tells its build");
 }
 
 }  // namespace joulepath

@@ -41,9 +41,7 @@ Json json_value(const std::string& text) {
 
 SweepJobs::SweepJobs(const Study& study, const PlanOptions& options, const ReadOptions& reading,
                      const CacheChoice& cache)
-    : study_(study), reading_(reading), planner_(options, reading, cache) {
-  for (const std::string& source : study.missions)
-    for (MissionItem& item : mission_items(source)) missions_.push_back(std::move(item));
+    : study_(study), missions_(study_missions(study)), reading_(reading), planner_(options, reading, cache) {
   check_designs(study, document_of(missions_.front()), reading);
 }
 
@@ -78,15 +76,23 @@ std::vector<JobResult> SweepJobs::plan_design(const std::vector<std::string>& de
   return results;
 }
 
+/// Of the study, only what a plan depends on: constraints and objectives may change.
 std::string SweepJobs::fingerprint(std::size_t index) {
-  const std::vector<std::string> design = study_.designs.at(index / missions_.size());
+  const std::size_t number = index / missions_.size();
+  const MissionItem& mission = missions_[index % missions_.size()];
+  const std::vector<std::string> design = study_.designs.at(number);
   const DesignVariant variant(study_, design, reading_);  // its values may name files
-  const std::string mission = planner_.fingerprint(missions_[index % missions_.size()], &variant);
-  return mission.empty() ? "" : ContentHash().mix(mission).mix(study_.text).text();
+  const std::string of_mission = planner_.fingerprint(mission, &variant);
+  if (of_mission.empty()) return "";
+  ContentHash hash;
+  hash.mix(of_mission).mix(line_of(mission, design, number, index).dump());
+  for (const StudyTarget& target : study_.targets)
+    hash.mix((target.in_robot ? "robot." : "mission.") + target.path);
+  return hash.mix(study_.friction == FrictionHeld::wheel ? "wheel" : "motor").text();
 }
 
 std::string SweepJobs::digest() const {
-  return ContentHash().mix(planner_.digest_of(missions_)).mix(study_.text).text();
+  return ContentHash().mix(digest_of(missions_)).mix(study_.text).text();
 }
 
 }  // namespace joulepath

@@ -22,6 +22,7 @@ class SweepJobs : public JobList {
   [[nodiscard]] std::string name_line(std::size_t index) const override;
   [[nodiscard]] std::string fingerprint(std::size_t index) override;
   [[nodiscard]] std::string digest() const override;
+  [[nodiscard]] std::map<std::string, std::string> options() const override { return planner_.options(); }
   [[nodiscard]] std::map<std::string, std::string> files_read() const override {
     return planner_.files_read();
   }

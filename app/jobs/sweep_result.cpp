@@ -45,8 +45,13 @@ std::string unknown(const std::string& result) {
   return result + " is unknown: the robot file lacks its source";
 }
 
+/// Relative excess over a bound; 0 within the rounding errors of a plan, which may take 8.000000000000002 s
+/// of 8 s.
 double excess_of(const StudyConstraint& constraint, double value) {
-  const auto relative = [&](double beyond, double bound) { return beyond / std::max(std::abs(bound), 1e-9); };
+  const auto relative = [&](double beyond, double bound) {
+    const double excess = beyond / std::max(std::abs(bound), 1e-9);
+    return excess > 1e-9 ? excess : 0.0;
+  };
   double excess = 0.0;
   if (constraint.max) excess = std::max(excess, relative(value - *constraint.max, *constraint.max));
   if (constraint.min) excess = std::max(excess, relative(*constraint.min - value, *constraint.min));

@@ -1,7 +1,9 @@
 #include "planner/sweep/design_table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -16,6 +18,19 @@ std::string text_at(const SweepParameter& parameter, double fraction) {
   const auto count = parameter.levels.size();
   return parameter
       .levels[std::min(count - 1, static_cast<std::size_t>(fraction * static_cast<double>(count)))];
+}
+
+/// The number of at most 12 digits within the rounding errors of a level: 0.9 in place of 0.8999999999999999.
+double without_rounding_error(const SweepParameter& parameter, double level) {
+  const double size = parameter.logarithmic ? 4 * std::abs(level)  // errors of pow() grow with the ratio
+                                            : std::max(std::abs(parameter.from), std::abs(parameter.to));
+  const double error = 4 * std::numeric_limits<double>::epsilon() * size;
+  if (std::abs(level) <= error) return 0.0;
+  char digits[32];
+  const char* end = std::to_chars(digits, digits + sizeof digits, level, std::chars_format::general, 12).ptr;
+  double rounded{};
+  std::from_chars(digits, end, rounded);
+  return std::abs(rounded - level) <= error ? rounded : level;
 }
 
 /// A uniform number in [0, 1) with 53 bits; the standard's distributions differ between libraries.
@@ -43,7 +58,8 @@ DesignTable DesignTable::grid(std::vector<SweepParameter> parameters) {
       const double last = static_cast<double>(std::max<std::size_t>(parameter.count, 2) - 1);
       std::vector<std::string> levels;
       for (std::size_t i = 0; i < parameter.count; ++i)
-        levels.push_back(number_text(parameter.at(static_cast<double>(i) / last)));
+        levels.push_back(
+            number_text(without_rounding_error(parameter, parameter.at(static_cast<double>(i) / last))));
       parameter.levels = std::move(levels);
     }
     table.size_ *= parameter.levels.size();

@@ -16,7 +16,7 @@ void bind_program(nb::module_& module) {
         for (std::string& argument : arguments) words.push_back(argument.data());
         words.push_back(nullptr);
         const nb::gil_scoped_release release;
-        install_interrupt_handler();
+        install_signal_handlers();
         return program_main(static_cast<int>(arguments.size()), words.data());
       },
       nb::arg("arguments"),

@@ -21,11 +21,11 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import Any, cast
+from typing import Any
 
 from . import _core
+from ._cluster_inputs import check_flags, command, connected, shard_count, target_of
 from ._errors import refused
-from ._inputs import whole
 
 TRIES = 2  #: processes or workers that a job may end before it is quarantined
 
@@ -117,18 +117,18 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     A job that kills its process twice gets a line with the status ``quarantined`` and the reason. Ctrl-C ends all shards.
     ``resume=True`` keeps the finished jobs of a run that was ended; inputs must not have changed. Raises ClusterError, ConfigError.
     """
-    target, folder = FilePath(out).absolute(), FilePath(f"{FilePath(out).absolute()}.shards")
+    check_flags(resume, progress, memory_MiB)
+    target = target_of(out)
+    folder = FilePath(f"{target}.shards")
     held = sum(entry.name.isdigit() for entry in folder.glob("*"))  # shards of an unfinished run
-    if target.exists() or (held and not (resume and shards in (None, held))):
+    count = shard_count(shards, held, connected(client))
+    if target.exists() or (held and not (resume and count == held)):
         raise refused("out", f"{folder if held else target}, which exists", "a new name, or resume=True with as many shards")
     builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
     if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
         raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
-    count = whole("shards", shards or held or 4 * len(client.nthreads()), 1, 1_000_000)
-    is_study = FilePath(study).suffix in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(os.fspath(study)))
-    words = ("sweep" if is_study else "batch", os.fspath(study), *options)
+    common = (command(study, options), os.getcwd(), folder, memory_MiB, build_id())
     shutil.rmtree(folder / "cancelled", ignore_errors=True)
-    common = (words, os.getcwd(), folder, memory_MiB, build_id())
     parts = [_Shard(k, count, *common) for k in range(1, count + 1)]
     for part in parts:
         part.file().mkdir(parents=True, exist_ok=True)

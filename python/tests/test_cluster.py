@@ -132,7 +132,7 @@ def test_a_mission_that_kills_its_process_is_set_aside(client, missions, tmp_pat
     journal, killed = tmp_path / "many.shards" / "2" / "results.partial.jsonl", []
 
     def kill():
-        if journal.exists() and len(journal.read_text().splitlines()) == 1 and not quarantine.read_text():
+        if journal.exists() and journal.read_text().count('{"index"') == 1 and not quarantine.read_text():
             for pid, words in shard_processes(tmp_path):
                 if "2/4" in words and pid not in killed:
                     os.kill(pid, signal.SIGKILL)
@@ -202,6 +202,38 @@ def test_one_shard_is_a_run_too(client, missions):
     assert_same(one_process("batch", missions), cluster.run(missions, client, "many", shards=1))
 
 
-def test_a_mistake_in_the_options_ends_the_run(client, missions):
-    with pytest.raises(cluster.ClusterError, match="nodes"):
-        cluster.run(missions, client, "many", shards=2, options=("--nodes", "1"))
+@pytest.mark.parametrize("wrong, said", [
+    ({"shards": 0}, "shards: found 0, accepted: a whole number from 1"),
+    ({"shards": True}, "shards: found True"),
+    ({"shards": 2.0}, "shards: found 2.0"),
+    ({"memory_MiB": -1}, "memory_MiB: found -1, accepted: a whole number from 0"),
+    ({"memory_MiB": "800"}, "memory_MiB: found '800'"),
+    ({"resume": 1}, "resume: found 1, accepted: True or False"),
+    ({"progress": 3}, "progress: found 3, accepted: a function"),
+    ({"client": None}, "client: found a value of type NoneType, accepted: a distributed.Client"),
+    ({"study": 3}, "study: found a value of type int"),
+    ({"study": "none.jsonl"}, "none.jsonl"),
+    ({"out": None}, "out: found a value of type NoneType"),
+    ({"options": "--nodes 100"}, "options: found '--nodes 100', accepted: words"),
+    ({"options": ("--nodes", 100)}, "options.1.: found 100, accepted: a string"),
+    ({"options": ("--nodes", "1")}, "--nodes"),
+    ({"options": ("--out", "elsewhere")}, "--out"),
+    ({"options": ("--shard", "1/2")}, "--shard"),
+])
+def test_a_wrong_argument_is_refused_before_anything_is_written(client, missions, tmp_path, wrong, said):
+    before = sorted(tmp_path.rglob("*"))
+    arguments = {"study": missions, "client": client, "out": "many", **wrong}
+    with pytest.raises(jp.ConfigError, match=said):
+        cluster.run(**arguments)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_client_that_cannot_run_tasks_is_refused(client, missions, tmp_path):
+    closed = distributed.Client(client.scheduler.address)
+    closed.close()
+    with pytest.raises(jp.ConfigError, match="client: found a client that is closed"):
+        cluster.run(missions, closed, "many")
+    with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=None) as empty:
+        with distributed.Client(empty) as idle, pytest.raises(jp.ConfigError, match="client: found a cluster without workers"):
+            cluster.run(missions, idle, "many")
+    assert not (tmp_path / "many.shards").exists()

@@ -9,6 +9,7 @@
 
 #include "app/jobs/journal.hpp"
 #include "app/jobs/mission_planner.hpp"
+#include "app/progress.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -235,6 +236,55 @@ TEST(Batch, ResumeDoesNotReplaceAnotherRunsFinishedResults) {
   EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
   EXPECT_EQ(text_of(scratch.at("out/results.jsonl")), whole);
   EXPECT_FALSE(std::filesystem::exists(scratch.at("out/results.partial.jsonl")));
+}
+
+/// Of one file: what --resume may continue is decided by the list, then by the results that hold.
+TEST(Batch, ResumeDoesNotTakeOverAnotherUnfinishedRun) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n"),
+                    partial = scratch.at("out/results.partial.jsonl"),
+                    arguments = "batch " + file + " -q --nodes 20 --resume --out " + scratch.at("out");
+  const std::string list = digest_of(mission_items(file));
+  std::filesystem::create_directory(scratch.at("out"));
+  const auto resumed = [&](const JournalRun& run) {
+    {
+      JobJournal journal(partial, JobJournal::Use::anew);
+      journal.begin(run);
+      journal.add({.index = 0, .line = R"({"status": "optimal"})"}, "of other inputs");
+    }
+    const std::string before = text_of(partial);
+    const ProgramResult result = run_program(scratch, arguments);
+    if (result.code != 0) {
+      EXPECT_EQ(result.code, 2) << result.err;
+      EXPECT_NE(result.err.find(run.text()), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
+      EXPECT_EQ(text_of(partial), before);
+    }
+    std::filesystem::remove(scratch.at("out/results.jsonl"));
+    return result.code == 0;
+  };
+  EXPECT_FALSE(resumed({"batch", "/elsewhere/n.jsonl", "", "of other missions"}));
+  EXPECT_FALSE(resumed({"batch", file, "", "of other missions"})) << "the file was replaced";
+  EXPECT_FALSE(resumed({"batch", file, "1/2", list}));
+  EXPECT_FALSE(resumed({"sweep", file, "", list}));
+  for (const char* name : {"timings.jsonl", "report.html"})
+    EXPECT_FALSE(std::filesystem::exists(scratch.at(std::string("out/") + name)));
+  EXPECT_TRUE(resumed({"batch", "/moved/m.jsonl", "", list})) << "the same missions";
+}
+
+TEST(Batch, OneMissionIsNotCalledMissions) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kGoodRobot));
+  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n");
+  const auto result = run_program(scratch, "batch " + file + " --nodes 20 --out " + scratch.at("out"));
+  EXPECT_EQ(result.out.rfind("1 mission: 1 ", 0), 0u) << result.out;
+}
+
+TEST(Progress, CountsEarlierStepsAndTellsTheRateOfThisRun) {
+  EXPECT_EQ(progress_text("plans of shard 2/8", 8, 36, 0, 4.0), "plans of shard 2/8 8/36, 2/s, 14 s left");
+  EXPECT_EQ(progress_text("missions", 30, 36, 28, 4.0), "missions 30/36, 0.5/s, 12 s left");
+  EXPECT_EQ(progress_text("missions", 28, 36, 28, 4.0), "missions 28/36, 0/s, 0 s left");
 }
 
 TEST(Batch, MergeDoesNotWriteIntoAShard) {

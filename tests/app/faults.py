@@ -31,7 +31,7 @@ class Faults(WithScratch):
         process = self.start(*self.batch(out, *options))
         journal, end = self.at(out, "results.partial.jsonl"), time.monotonic() + 120
         while process.poll() is None and time.monotonic() < end:
-            if os.path.exists(journal) and content(journal).count(b"\n") >= lines:
+            if os.path.exists(journal) and content(journal).count(b'{"index"') >= lines:
                 break
             time.sleep(0.002)
         return process
@@ -85,6 +85,31 @@ class Faults(WithScratch):
             file.write(changed)
         self.assert_resumes_to("out", self.whole_batch())
 
+    def test_resume_refuses_the_unfinished_batch_of_other_missions(self):
+        process = self.started_batch("out", 4)
+        process.kill()
+        process.communicate()
+        journal = content(self.at("out/results.partial.jsonl"))
+        lines = content(self.at("m.jsonl")).decode().splitlines()
+        with open(self.at("other.jsonl"), "w") as file:  # the first missions are the same
+            file.write("\n".join(lines[:2] + [line.replace("1.05", "1.5") for line in lines[3:]]) + "\n")
+        for options, words in ((("--resume",), ("other.jsonl", "m.jsonl", "--force")), ((), ("m.jsonl", "--resume"))):
+            code, _, err = self.run_program("batch", "other.jsonl", "--nodes", "30", "-q", "--out", "out", *options)
+            self.assertEqual(code, BAD_INPUT, err)
+            for word in words:
+                self.assertIn(word, err)
+            self.assertEqual(content(self.at("out/results.partial.jsonl")), journal)
+        self.assert_resumes_to("out", self.whole_batch())
+
+    def test_resume_continues_a_list_in_which_one_mission_was_corrected(self):
+        process = self.started_batch("out", 4)
+        process.kill()
+        process.communicate()
+        missions = content(self.at("m.jsonl")).decode()
+        with open(self.at("m.jsonl"), "w") as file:
+            file.write(missions.replace('"m3"', '"corrected"'))
+        self.assert_resumes_to("out", self.whole_batch())
+
     def test_a_killed_or_interrupted_plan_leaves_no_half_result(self):
         mission = os.path.join(SOURCE, "tests/data/broken/good/mission.yaml")
         for number, delay_s in ((signal.SIGKILL, 0.05), (signal.SIGTERM, 0.1), (signal.SIGINT, 0.2)):
@@ -98,11 +123,11 @@ class Faults(WithScratch):
             self.assertFalse(os.path.exists(self.at("plan")) and tree(self.at("plan")))
 
     def full_disk(self, out, *options):
-        """Every write beyond a file size fails, as on a full disk."""
+        """Every write beyond a file size fails, as on a full disk. SIGXFSZ has its default action, as in a shell."""
         codes = set()
         for size in (0, 100, 3000, 20000):
             code, _, err = self.run_program(
-                *self.batch(out + str(size), *options), restore_signals=False,
+                *self.batch(out + str(size), *options),
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
             codes.add(code)
             if code == DONE:

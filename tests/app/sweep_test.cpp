@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/build_id.hpp"
+#include "app/jobs/sweep_jobs.hpp"
+#include "model/number_text.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {
@@ -131,6 +134,7 @@ TEST_F(Sweep, AMistakeInTheStudyIsToldAtItsPlace) {
   refused("  a: {key: robot.motor.gear_ratio, values: [-3, 10]}\n", "study.yaml:3", "-3");
   refused("  a: {key: 'mission.legs[7].payload_kg', values: [1]}\n", "study.yaml:3", "counted from 0");
   refused("  a: {key: limits.speed_m_s, values: [1]}\n", "study.yaml:3", "robot.limits.speed_m_s");
+  refused("  a: {key: robot., values: [1]}\n", "study.yaml:3", "robot.KEY or mission.KEY");
   refused("  a: {key: robot.limits.speed_m_s, from: 2, to: 1}\n", "study.yaml:3", "> from");
   for (const std::string column : {"energy_J", "design", "mission", "status", "meets_constraints", "reason"})
     refused("  " + column + ": {key: robot.limits.speed_m_s, values: [1]}\n", "study.yaml:3", column);
@@ -149,6 +153,110 @@ TEST_F(Sweep, AMistakeInTheStudyIsToldAtItsPlace) {
   refused(good + "constraints: {duration_s: {min: 9, max: 8}}\n", "study.yaml:4", "<= max");
   refused("  kind: {key: mission.objective.minimize, values: [time, energy]}\nobjectives: {kind: minimize}\n",
           "study.yaml:4", "a parameter with the value time");
+}
+
+TEST_F(Sweep, DesignsThatWouldBePlannedTwiceAreRefused) {
+  const auto refused = [&](const std::string& study, const std::string& place, const std::string& word) {
+    const auto done = sweep(study);
+    EXPECT_EQ(done.code, 2) << done.err;
+    EXPECT_NE(done.err.find(place), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find(word), std::string::npos) << done.err;
+    EXPECT_EQ(run_program(scratch, "check " + scratch.at("study.yaml")).code, 2);
+  };
+  const std::string gear = "parameters:\n  a: {key: robot.motor.gear_ratio, ";
+  refused("missions: mission.yaml\n" + gear + "values: [10, 20, 10.0]}\n", "study.yaml:3", "each value once");
+  refused("missions: mission.yaml\n" + gear + "from: 10, to: 10.000000000000002}\n", "study.yaml:3",
+          "more than rounding");
+  refused("missions: mission.yaml\nsampling: {method: latin_hypercube, designs: 3}\n" + gear +
+              "from: 10, to: 20, count: 3}\n",
+          "study.yaml:4", "on a grid");
+  refused("missions: mission.yaml\nparameters:\n  '': {key: robot.motor.gear_ratio, values: [10]}\n",
+          "study.yaml:3", "an empty name");
+  std::filesystem::create_directory(scratch.at("folder"));
+  std::filesystem::create_symlink(scratch.at("mission.yaml"), scratch.at("folder/again.yaml"));
+  refused("missions: [mission.yaml, mission.yaml]\n" + gear + "values: [10]}\n", "missions[1]", "already");
+  refused("missions: [mission.yaml, folder]\n" + gear + "values: [10]}\n", "missions[1]", "already");
+}
+
+TEST_F(Sweep, ABoundHoldsUpToRounding) {
+  const std::string study =
+      "missions: mission.yaml\nparameters: {a: {key: robot.motor.gear_ratio, values: [20]}}\n";
+  ASSERT_EQ(sweep(study).code, 0);
+  const double energy_J = result()["best"]["energy_J"];
+  for (const auto& [relative, within] : {std::pair{1e-12, 1}, {1e-6, 0}}) {
+    ASSERT_EQ(
+        sweep(study + "constraints: {energy_J: {max: " + number_text(energy_J * (1 - relative)) + "}}\n")
+            .code,
+        0);
+    EXPECT_EQ(result()["within_constraints"], within) << relative;
+    EXPECT_EQ(text_of(scratch.at("out/sweep.csv")).find(",yes,,") != std::string::npos, within == 1);
+    ASSERT_EQ(
+        sweep(study + "constraints: {energy_J: {min: " + number_text(energy_J * (1 + relative)) + "}}\n")
+            .code,
+        0);
+    EXPECT_EQ(result()["within_constraints"], within) << relative;
+  }
+}
+
+TEST_F(Sweep, MissionsThatDoNotExistAreToldAtTheStudy) {
+  std::filesystem::create_directory(scratch.at("empty"));
+  for (const std::string source : {"nowhere", "nowhere.yaml", "nowhere.jsonl", "empty"}) {
+    const std::string file =
+        scratch.write("study.yaml", "missions: [mission.yaml, " + source +
+                                        "]\nparameters: {a: {key: robot.motor.gear_ratio, values: [10]}}\n");
+    for (const std::string& command : {"check " + file, "sweep " + file + " --out " + scratch.at("out")}) {
+      const auto done = run_program(scratch, command);
+      EXPECT_EQ(done.code, 2) << command;
+      EXPECT_NE(done.err.find("study.yaml:1:"), std::string::npos) << done.err;
+      EXPECT_NE(done.err.find(source), std::string::npos) << done.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("out")));
+  }
+}
+
+TEST_F(Sweep, CheckReadsEveryMission) {
+  scratch.write("other.yaml", "robot: robot.yaml\nlegs:\n  - {pth: 3}\n");
+  const std::string file = scratch.write("study.yaml",
+                                         "missions: [mission.yaml, other.yaml]\n"
+                                         "parameters: {a: {key: robot.motor.gear_ratio, values: [10]}}\n");
+  const auto done = run_program(scratch, "check " + file);
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("other.yaml:3"), std::string::npos) << done.err;
+}
+
+/// Rows of two missions of one name could not be told apart.
+TEST_F(Sweep, MissionsOfOneNameAreNamedByTheirFiles) {
+  for (const char* folder : {"a", "b"}) {
+    std::filesystem::create_directory(scratch.at(folder));
+    scratch.write(std::string(folder) + "/pick.yaml", "robot: ../" + kMission.substr(7));
+  }
+  ASSERT_EQ(sweep("missions: [a, b, mission.yaml]\n"
+                  "parameters: {a: {key: robot.motor.gear_ratio, values: [10]}}\n")
+                .code,
+            0);
+  const std::string csv = text_of(scratch.at("out/sweep.csv"));
+  for (const std::string& name :
+       {scratch.at("a/pick.yaml"), scratch.at("b/pick.yaml"), std::string("mission")})
+    EXPECT_NE(csv.find("\n0," + name + ",10,optimal,"), std::string::npos) << csv;
+}
+
+TEST_F(Sweep, OptimizeWithoutARangeIsRefusedBeforeTheSweep) {
+  const auto done =
+      sweep("missions: mission.yaml\nparameters: {a: {key: robot.motor.gear_ratio, values: [10, 20]}}\n",
+            "--optimize 5");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("from and to"), std::string::npos) << done.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("out")));
+}
+
+TEST_F(Sweep, NoDesignWithAPlanHasNoTableOfEffects) {
+  const std::string file = scratch.write(
+      "study.yaml",
+      "missions: mission.yaml\nparameters: {v: {key: robot.limits.speed_m_s, values: [0.1]}}\n");
+  const auto done = run_program(scratch, "sweep " + file + " --nodes 20 --out " + scratch.at("out"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.out.rfind("1 design: 0 planned", 0), 0u) << done.out;
+  EXPECT_EQ(done.out.find("share of the variance"), std::string::npos) << done.out;
 }
 
 TEST_F(Sweep, CheckFindsTheMistakesOfTheDesigns) {
@@ -187,6 +295,27 @@ TEST_F(Sweep, APayloadIsHeldAgainstTheDesignsRobot) {
     ASSERT_NE(at, std::string::npos) << csv;
     EXPECT_EQ(csv.substr(at, csv.find('\n', at + 1) - at).find(",no,"), std::string::npos) << csv;
   }
+}
+
+/// --resume keeps the plans of a study whose constraints, objectives or name changed.
+TEST_F(Sweep, AFingerprintCoversWhatThePlanDependsOn) {
+  const auto fingerprint = [&](const std::string& parameters, const std::string& more = "") {
+    const Study study = read_study(scratch.write(
+        "study.yaml", "missions: mission.yaml\nparameters: {a: {key: " + parameters + "}}\n" + more));
+    return SweepJobs(study, {.nodes = 20}, {}).fingerprint(0);
+  };
+  const std::string gear = "robot.motor.gear_ratio, values: [10, 20]", before = fingerprint(gear);
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(fingerprint(gear, "constraints: {energy_J: {max: 60}}\nobjectives: {a: maximize}\nname: x\n"),
+            before);
+  EXPECT_EQ(fingerprint("robot.motor.gear_ratio, values: [10, 30]"), before)
+      << "the first design is the same";
+  for (const char* other :
+       {"robot.motor.gear_ratio, values: [11, 20]", "robot.limits.speed_m_s, values: [10, 20]"})
+    EXPECT_NE(fingerprint(other), before) << other;
+  EXPECT_NE(fingerprint(gear, "hold_friction: motor\n"), before);
+  scratch.write("robot.yaml", kSimpleRobot + "# changed\n");
+  EXPECT_NE(fingerprint(gear), before);
 }
 
 class Shards : public Sweep {
@@ -302,7 +431,13 @@ TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   refused("s1 s3", "missing: 2");
   refused("s1 s2 s2 s3", "each shard once");
   ASSERT_EQ(batch("other", "--shard 2/3 --seed 2").code, 0);
-  refused("s1 other s3", "list");
+  refused("s1 other s3", "--seed: found 2, accepted: 1, as in");
+  const std::string missions = text_of(source);
+  scratch.write("m.jsonl",
+                missions.substr(missions.find('\n') + 1) + missions.substr(0, missions.find('\n')));
+  ASSERT_EQ(batch("others", "--shard 2/3").code, 0);
+  refused("s1 others s3", "list: found other missions or designs");
+  scratch.write("m.jsonl", missions);
   scratch.write("robot.yaml", kSimpleRobot + "# the same robot\n");
   ASSERT_EQ(batch("s2", "--shard 2/3 --force").code, 0);
   refused("s1 s2 s3", "robot.yaml with another content");
@@ -313,6 +448,40 @@ TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   refused("s1 s3", "version");
   EXPECT_EQ(batch("bad", "--shard 4/3").code, 2);
   EXPECT_EQ(batch("bad", "--shard x").code, 2);
+}
+
+/// Two programs of one version may have other code: only the build says whether their results belong
+/// together.
+TEST_F(Shards, ShardsOfAnotherBuildAreRejected) {
+  for (const char* k : {"1", "2"})
+    ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/2").code, 0);
+  const std::string build(kBuildId), other = "0123456789abcdef";
+  EXPECT_NE(run_program(scratch, "--version").out.find(build), std::string::npos);
+  const auto refused = [&] {
+    const auto done = merge("s1 s2", "all");
+    EXPECT_EQ(done.code, 2) << done.err;
+    EXPECT_NE(done.err.find(build), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find(other), std::string::npos) << done.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("all")));
+  };
+  for (const std::string shard : {"s2", "s1"}) {  // then both are of another build than the merging program
+    std::string manifest = text_of(scratch.at(shard + "/shard.json"));
+    ASSERT_NE(manifest.find(build), std::string::npos) << manifest;
+    scratch.write(shard + "/shard.json", manifest.replace(manifest.find(build), build.size(), other));
+    refused();
+  }
+}
+
+TEST_F(Shards, ResumeKeepsTheFinishedShardOfOtherMissions) {
+  ASSERT_EQ(batch("s1", "--shard 1/2").code, 0);
+  const std::string finished = text_of(scratch.at("s1/results.jsonl"));
+  EXPECT_EQ(batch("s1", "--shard 1/2 --resume").code, 0);
+  EXPECT_EQ(batch("s1", "--shard 2/2 --resume").code, 2);
+  scratch.write("m.jsonl", text_of(source) + text_of(source));
+  const auto done = batch("s1", "--shard 1/2 --resume");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("the finished shard 1/2 of another batch"), std::string::npos) << done.err;
+  EXPECT_EQ(text_of(scratch.at("s1/results.jsonl")), finished);
 }
 
 TEST_F(Shards, ACutShardIsRefused) {

@@ -24,6 +24,24 @@ TEST(DesignTable, AGridHoldsEveryCombinationOnce) {
   EXPECT_TRUE(designs.contains({"y", "10", "0.25"}));
 }
 
+TEST(DesignTable, LevelsOfADecimalRangeHaveNoRoundingErrors) {
+  for (const auto& [from, step, count] :
+       {std::tuple{1, 1, 10}, {5, 4, 26}, {-10, 2, 11}, {-3, 3, 4}, {8, 1, 13}, {60, 2, 21}}) {
+    const DesignTable table = DesignTable::grid({{.name = "a",
+                                                  .from = from / 10.0,
+                                                  .to = (from + (count - 1) * step) / 10.0,
+                                                  .count = std::size_t(count)}});
+    for (int k = 0; k < count; ++k)
+      EXPECT_EQ(table.at(std::size_t(k)).front(), number_text((from + k * step) / 10.0));
+  }
+  const DesignTable ratios =
+      DesignTable::grid({{.name = "a", .from = 1e-3, .to = 1e3, .count = 7, .logarithmic = true}});
+  const char* powers[] = {"0.001", "0.01", "0.1", "1", "10", "100", "1000"};
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(ratios.at(k).front(), powers[k]);
+  const DesignTable thirds = DesignTable::grid({{.name = "a", .from = 0, .to = 1, .count = 4}});
+  EXPECT_EQ(thirds.at(1).front(), number_text(1.0 / 3)) << "only rounding errors are removed";
+}
+
 TEST(DesignTable, AHypercubeHasOneDesignInEachPartOfEachRange) {
   const std::vector<SweepParameter> parameters{{.name = "a", .from = -2, .to = 3},
                                                {.name = "b", .from = 1, .to = 1000, .logarithmic = true},
