@@ -16,6 +16,15 @@ Vector combine(double a, const Vector& u, double b, const Vector& v) {
 double cross(const Vector& u, const Vector& v) { return u[0] * v[1] - u[1] * v[0]; }
 double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1]; }
 double norm(const Vector& u) { return std::sqrt(dot(u, u)); }
+/// kappa = B' x B'' / |B'|^3 and its derivative by the arc length.
+PathBend bend_of(const BezierDerivatives& d) {
+  const double speed = norm(d.first_m), speed3 = speed * speed * speed;
+  const double bend = cross(d.first_m, d.second_m);
+  return {bend / speed3, (cross(d.first_m, d.third_m) / speed3 -
+                          3 * bend * dot(d.first_m, d.second_m) / (speed3 * speed * speed)) /
+                             speed};
+}
+
 double turn_rad(const Vector& from, const Vector& to) { return std::atan2(cross(from, to), dot(from, to)); }
 
 constexpr int kFirstIntervals = 4;
@@ -112,15 +121,22 @@ double BezierSegment::parameter(double s_m) const {
 PathPoint BezierSegment::at(double s_m) const {
   const Part& part = part_at(s_m);
   const BezierDerivatives d = derivatives(part.cell.parameter(s_m - part.s_m));
-  const double speed = norm(d.first_m), speed3 = speed * speed * speed;
-  const double bend = cross(d.first_m, d.second_m);
-  PathPoint point;
-  point.pose = {d.position_m[0], d.position_m[1], part.heading_rad + turn_rad(part.tangent_m, d.first_m)};
-  point.curvature_per_m = bend / speed3;
-  point.curvature_slope_per_m2 = (cross(d.first_m, d.third_m) / speed3 -
-                                  3 * bend * dot(d.first_m, d.second_m) / (speed3 * speed * speed)) /
-                                 speed;
-  return point;
+  const PathBend bend = bend_of(d);
+  return {{d.position_m[0], d.position_m[1], part.heading_rad + turn_rad(part.tangent_m, d.first_m)},
+          bend.curvature_per_m,
+          bend.curvature_slope_per_m2};
+}
+
+PathBend BezierSegment::bend(double s_m) const {
+  const double t = parameter(s_m);
+  if (rational_) return bend_of(derivatives(t));
+  BezierDerivatives d{.first_m = velocity_m(t)};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& c = velocity_coefficients_m_[axis];
+    d.second_m[axis] = c[1] + 2 * t * c[2];
+    d.third_m[axis] = 2 * c[2];
+  }
+  return bend_of(d);
 }
 
 }  // namespace joulepath

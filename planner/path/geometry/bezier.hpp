@@ -28,6 +28,7 @@ class BezierSegment {
 
   double length_m() const { return length_m_; }
   PathPoint at(double s_m) const;
+  PathBend bend(double s_m) const;  ///< the same without the pose, in less time
   /// Curve parameter at an arc length.
   double parameter(double s_m) const;
   const BezierPoints& points_m() const { return points_m_; }                   ///< of a cubic
