@@ -17,6 +17,13 @@ constexpr std::size_t kNodes = 300;
 LocalLimits::LocalLimits(const ProfileRequest& request) : request_(&request) {
   const PathMotion motion = path_motion(request);
   problem_ = nlp::transcribe(request, motion, nlp::make_grid(motion, request, kNodes), {}, nullptr);
+  for (const nlp::Segment& segment : problem_.segments) {
+    SegmentTurns& turns = turns_.emplace_back();
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const PathRates& rates = segment.limit_points[i].rates;
+      turns[i] = {std::abs(rates.turn), std::abs(rates.turn_slope), rates.turn * rates.turn_slope >= 0};
+    }
+  }
 }
 
 bool LocalLimits::curves() const {
@@ -63,11 +70,9 @@ LocalLimits::Grid LocalLimits::grid(double curve_share) const {
 double LocalLimits::steepest(std::size_t segment, double ds, double b, bool accelerates) const {
   const double limit = request_->limits.yaw_acceleration_rad_s2;
   double least = kNoLimit;
-  for (const nlp::SegmentPoint& point : problem_.segments[segment].limit_points) {
-    const double turn = std::abs(point.rates.turn), slope = std::abs(point.rates.turn_slope);
+  for (const auto& [turn, slope, winds] : turns_[segment]) {
     if (!(turn > 0)) continue;
     // b is the smaller square of the two ends; where both terms have the same sign, the larger square counts.
-    const bool winds = point.rates.turn * point.rates.turn_slope >= 0;
     const double most = winds == accelerates ? std::max(0.0, limit - slope * b) / (turn + 2 * ds * slope)
                                              : (limit + slope * b) / turn;
     least = std::min(least, most);

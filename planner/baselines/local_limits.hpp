@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "planner/nlp/transcription/problem.hpp"
 
 namespace joulepath {
@@ -38,8 +41,16 @@ class LocalLimits {
   /// Largest acceleration (deceleration) in a segment of problem() beside a node with the square b.
   double steepest(std::size_t segment, double ds, double b, bool accelerates) const;
 
+  /// How the path turns at a limit point.
+  struct Turn {
+    double per_s{}, slope{};  ///< |turn| and |turn'|
+    bool winds{};             ///< both have the same sign
+  };
+  using SegmentTurns = std::array<Turn, nlp::kLimitPoints>;
+
   const ProfileRequest* request_{};
   nlp::Problem problem_{};
+  std::vector<SegmentTurns> turns_{};  ///< per segment of problem(), close together in memory
 };
 
 }  // namespace joulepath

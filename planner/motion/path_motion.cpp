@@ -29,8 +29,8 @@ double PathMotion::payload_kg(double s) const {
 
 PathRates PathMotion::rates(double s) const {
   if (is_turn(*piece_)) return {0.0, static_cast<double>(turn_sign(*piece_)), 0.0};
-  const PathPoint point = piece_point(*piece_, s);
-  return {static_cast<double>(travel_sign(*piece_)), point.curvature_per_m, point.curvature_slope_per_m2};
+  const PathBend bend = piece_bend(*piece_, s);
+  return {static_cast<double>(travel_sign(*piece_)), bend.curvature_per_m, bend.curvature_slope_per_m2};
 }
 
 PathMotion::Place PathMotion::place(double s, double time_s) const {
@@ -43,6 +43,18 @@ PathMotion::Place PathMotion::place(double s, double time_s) const {
                        time_of_day_start_s_ + time_s);
   if (!memory_.empty()) place.site.memory = memory(s);
   return place;
+}
+
+PathMotion::Place PathMotion::laws(double s, double time_s) const {
+  if (!plant_->effects.empty()) return place(s, time_s);
+  const PathRates here = rates(s);
+  const Sided<double> wheels = wheel_speeds_rad_s(plant_->robot.geometry, here.along, here.turn);
+  return {here,
+          {.time_of_day_s = time_of_day_start_s_ + time_s,
+           .payload_kg = payload_kg(s),
+           .travel_direction = sign_of(here.along),
+           .turn_direction = sign_of(here.turn),
+           .wheel_direction = {sign_of(wheels.left), sign_of(wheels.right)}}};
 }
 
 Twist<double> PathMotion::twist(double s) const {

@@ -36,6 +36,8 @@ class PathMotion {
     Site site{};
   };
   Place place(double s, double time_s) const;
+  /// The same, in less time: without pose and course where no effect reads them.
+  Place laws(double s, double time_s) const;
   Site site(double s, double time_s) const { return place(s, time_s).site; }
   /// Memories of the casters at s.
   EffectMemory memory(double s) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "model/operating_point.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -12,27 +13,44 @@ namespace {
 
 constexpr std::size_t kScan = 1000;
 
-/// Torques of the wheels at negligible speed at s.
-Sided<double> rest_torque_Nm(const PathMotion& motion, double s) {
-  const PathMotion::Place place = motion.place(s, 0.0);
-  const auto wheels =
-      operating_point(motion.plant(), PathMotion::body_motion<double>(place.rates, 0.0, 0.0), place.site);
-  return {wheels.left.torque_Nm, wheels.right.torque_Nm};
-}
+/// Torques of the wheels at negligible speed. Without effects they depend on the wheels' directions alone and
+/// are computed only where a direction changes.
+class RestTorque {
+ public:
+  explicit RestTorque(const PathMotion& motion) : motion_(motion) {}
+
+  const PathMotion& motion() const { return motion_; }
+  Sided<double> at_Nm(double s) {
+    const PathMotion::Place place = motion_.laws(s, 0.0);
+    const bool known = motion_.plant().effects.empty() && direction_ == place.site.wheel_direction;
+    if (!known) {
+      const auto wheels = operating_point(motion_.plant(),
+                                          PathMotion::body_motion<double>(place.rates, 0.0, 0.0), place.site);
+      torque_Nm_ = {wheels.left.torque_Nm, wheels.right.torque_Nm};
+      direction_ = place.site.wheel_direction;
+    }
+    return torque_Nm_;
+  }
+
+ private:
+  const PathMotion& motion_;
+  std::optional<Sided<double>> direction_{};  ///< of the last torque
+  Sided<double> torque_Nm_{};
+};
 
 double difference(const Sided<double>& x, const Sided<double>& y) {
   return std::max(std::abs(x.left - y.left), std::abs(x.right - y.right));
 }
 
 /// Halves [low, high] towards the larger change; a jump keeps its size, a slope does not.
-void find_jump(const PathMotion& motion, double low, double high, const Sided<double>& at_low,
+void find_jump(RestTorque& torque, double low, double high, const Sided<double>& at_low,
                const Sided<double>& at_high, std::vector<double>& nodes) {
   const double whole = difference(at_low, at_high);
   Sided<double> left = at_low, right = at_high;
-  while (high - low > 1e-10 * motion.length()) {
+  while (high - low > 1e-10 * torque.motion().length()) {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high) break;
-    const Sided<double> inside = rest_torque_Nm(motion, middle);
+    const Sided<double> inside = torque.at_Nm(middle);
     if (difference(left, inside) >= difference(inside, right)) {
       high = middle;
       right = inside;
@@ -47,14 +65,15 @@ void find_jump(const PathMotion& motion, double low, double high, const Sided<do
 
 void add_jumps(const PathMotion& motion, std::vector<double>& nodes) {
   const double length = motion.length();
-  Sided<double> before = rest_torque_Nm(motion, 1e-9 * length);
+  RestTorque torque(motion);
+  Sided<double> before = torque.at_Nm(1e-9 * length);
   double scale = std::max({1e-9, std::abs(before.left), std::abs(before.right)});
   for (std::size_t i = 1; i <= kScan; ++i) {
     const double from = length * static_cast<double>(i - 1) / kScan,
                  to = length * static_cast<double>(i) / kScan;
-    const Sided<double> here = rest_torque_Nm(motion, i == kScan ? length * (1 - 1e-9) : to);
+    const Sided<double> here = torque.at_Nm(i == kScan ? length * (1 - 1e-9) : to);
     scale = std::max({scale, std::abs(here.left), std::abs(here.right)});
-    if (difference(before, here) > 1e-3 * scale) find_jump(motion, from, to, before, here, nodes);
+    if (difference(before, here) > 1e-3 * scale) find_jump(torque, from, to, before, here, nodes);
     before = here;
   }
 }
@@ -65,7 +84,7 @@ bool torque_is_the_same_everywhere(const ProfileRequest& request) {
   const Curve& curve = std::get<Curve>(request.piece);
   return std::all_of(curve.segments().begin(), curve.segments().end(), [](const CurveSegment& segment) {
     const auto* line = std::get_if<LinearCurvature>(&segment);
-    return line && line->at(0).curvature_per_m == 0 && line->at(0).curvature_slope_per_m2 == 0;
+    return line && line->curvature_per_m() == 0 && line->curvature_slope_per_m2() == 0;
   });
 }
 
@@ -82,7 +101,8 @@ bool wheel_may_reverse(const Curve& curve, double half_track_m) {
           const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
           double most_per_m = 0;
           for (int i = 0; i <= looks; ++i)
-            most_per_m = std::max(most_per_m, std::abs(part.at(part.length_m() * i / looks).curvature_per_m));
+            most_per_m =
+                std::max(most_per_m, std::abs(part.bend(part.length_m() * i / looks).curvature_per_m));
           return most_per_m * half_track_m > (linear ? 1 - 1e-9 : kSafeShare);
         },
         segment);

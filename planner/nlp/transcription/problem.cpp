@@ -100,7 +100,7 @@ class Transcriber {
   SegmentPoint point(const Segment& segment, double fraction, double time_share) const {
     const double s = segment.s0 + segment.ds * std::clamp(fraction, kInset, 1 - kInset);
     const double time_s = previous_ ? previous_->at_s(s).time_s : 0.0;
-    const PathMotion::Place place = motion_.place(s, time_s);
+    const PathMotion::Place place = motion_.laws(s, time_s);
     SegmentPoint result{
         .fraction = fraction, .time_share = time_share, .rates = place.rates, .site = place.site};
     result.affine = fit_affine(request_.plant, result.rates, result.site, result.wheel);

@@ -131,7 +131,7 @@ double largest_curvature_per_m(const CurveSegment& segment) {
   const auto sampled = [](const auto& s, int count) {
     double largest = 0;
     for (int i = 0; i <= count; ++i)
-      largest = std::max(largest, std::abs(s.at(s.length_m() * i / count).curvature_per_m));
+      largest = std::max(largest, std::abs(s.bend(s.length_m() * i / count).curvature_per_m));
     return largest;
   };
   if (const auto* linear = std::get_if<LinearCurvature>(&segment)) return sampled(*linear, 1);

@@ -42,11 +42,22 @@ Curve::Curve(std::vector<CurveSegment> segments, Direction direction)
   }
 }
 
+std::size_t Curve::segment_at(double s_m) const {
+  const auto after = std::upper_bound(breakpoints_m_.begin(), breakpoints_m_.end(), s_m);
+  return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+      after - breakpoints_m_.begin() - 1, 0, static_cast<std::ptrdiff_t>(segments_.size()) - 1));
+}
+
+PathBend Curve::bend(double s_m) const {
+  const double s = std::clamp(s_m, 0.0, length_m());
+  const std::size_t index = segment_at(s);
+  return std::visit([&](const auto& segment) { return segment.bend(s - breakpoints_m_[index]); },
+                    segments_[index]);
+}
+
 PathPoint Curve::at(double s_m) const {
   const double s = std::clamp(s_m, 0.0, length_m());
-  const auto after = std::upper_bound(breakpoints_m_.begin(), breakpoints_m_.end(), s);
-  const auto index = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-      after - breakpoints_m_.begin() - 1, 0, static_cast<std::ptrdiff_t>(segments_.size()) - 1));
+  const std::size_t index = segment_at(s);
   PathPoint point = segment_point(segments_[index], s - breakpoints_m_[index]);
   point.pose.heading_rad += heading_offset_rad_[index];
   return point;

@@ -32,11 +32,15 @@ class Curve {
   Direction direction() const { return direction_; }
   /// s outside of [0, length] is taken as the nearer end.
   PathPoint at(double s_m) const;
+  PathBend bend(double s_m) const;  ///< the same without the pose, in less time
   /// Where the segments meet, both ends included, ascending: kappa' may jump there, kappa does not.
   const std::vector<double>& breakpoints_m() const { return breakpoints_m_; }
   const std::vector<CurveSegment>& segments() const { return segments_; }
 
  private:
+  /// The segment at an arc length within the curve.
+  std::size_t segment_at(double s_m) const;
+
   std::vector<CurveSegment> segments_{};
   Direction direction_{};
   std::vector<double> breakpoints_m_{};

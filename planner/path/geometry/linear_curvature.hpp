@@ -20,6 +20,7 @@ class LinearCurvature {
 
   double length_m() const { return length_m_; }
   PathPoint at(double s_m) const;
+  PathBend bend(double s_m) const { return {curvature_ + slope_ * s_m, slope_}; }
   const Pose& start() const { return start_; }
   double curvature_per_m() const { return curvature_; }  ///< at the start
   double curvature_slope_per_m2() const { return slope_; }

@@ -23,6 +23,11 @@ PathPoint piece_point(const PathPiece& piece, double s) {
   return {pose, 0, 0};
 }
 
+PathBend piece_bend(const PathPiece& piece, double s) {
+  const auto* curve = std::get_if<Curve>(&piece);
+  return curve ? curve->bend(s) : PathBend{};
+}
+
 std::vector<double> piece_breakpoints(const PathPiece& piece) {
   if (const auto* curve = std::get_if<Curve>(&piece)) return curve->breakpoints_m();
   return {0, piece_length(piece)};

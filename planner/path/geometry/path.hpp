@@ -23,6 +23,8 @@ using PathPiece = std::variant<Curve, TurnInPlace>;
 /// Pose, curvature and its slope at s in [0, piece_length]. A turn in place has curvature 0 here: its
 /// heading changes by turn_sign() per unit of s.
 [[nodiscard]] PathPoint piece_point(const PathPiece& piece, double s);
+/// Its curvature and slope alone.
+[[nodiscard]] PathBend piece_bend(const PathPiece& piece, double s);
 /// Ascending, both ends included; between them curvature and its slope are smooth.
 [[nodiscard]] std::vector<double> piece_breakpoints(const PathPiece& piece);
 /// Sign of the robot's linear speed: +1 forward, -1 reverse, 0 for a turn in place.

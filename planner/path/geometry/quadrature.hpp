@@ -18,11 +18,4 @@ double integrate_gauss8(const Function& f, double a, double b) {
   return half * sum;
 }
 
-/// Gauss-Legendre with three points: exact for polynomials of degree 5.
-template <class Function>
-double integrate_gauss3(const Function& f, double a, double b) {
-  const double middle = 0.5 * (a + b), half = 0.5 * (b - a), x = 0.77459666924148337704 * half;
-  return half * (8.0 / 9.0 * f(middle) + 5.0 / 9.0 * (f(middle - x) + f(middle + x)));
-}
-
 }  // namespace joulepath

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "planner/nlp/fast/coarse_problem.hpp"
+#include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/nlp/transcription/jerk_program.hpp"
+#include "planner/profile/first_guess.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::nlp {
@@ -18,6 +20,22 @@ ProfileRequest curved() {
           .plant = make_plant(robot),
           .limits = *robot.limits,
           .nodes = 41};
+}
+
+/// From rest to rest in closed form, with a start speed by halving.
+TEST(FirstGuess, TakesTheTimeAsked) {
+  for (const double start_rate : {0.0, 0.3}) {
+    ProfileRequest request = curved();
+    request.start_rate = start_rate;
+    const PathMotion motion = path_motion(request);
+    const Problem problem = transcribe(request, motion, make_grid(motion, request, 41), {}, nullptr);
+    const RateEnvelope envelope = rate_envelope(problem);
+    const double least_s = duration_of(problem, envelope.fastest);
+    for (const double share : {1.05, 1.5, 20.0})
+      EXPECT_NEAR(duration_of(problem, first_guess(problem, envelope, share * least_s)), share * least_s,
+                  1e-9 * least_s)
+          << start_rate;
+  }
 }
 
 /// Every fifth node, and both ends; one segment carries the rows of all that it replaces.

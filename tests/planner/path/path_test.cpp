@@ -50,6 +50,20 @@ TEST(Curve, ChannelsAreEachOthersIntegrals) {
   }
 }
 
+TEST(Curve, BendsAsItsPointsDo) {
+  const LinearCurvature in({0, 0, 0.3}, 0.8, 0.0, 2.5);
+  const LinearCurvature arc(in.at(0.8).pose, 1.1, 2.0);
+  const BezierSegment swing(BezierPoints{{{0, 0}, {-0.1, 0.05}, {0.1, 0.9}, {3, 0}}});
+  for (const Direction direction : {Direction::forward, Direction::reverse})
+    for (const Curve& curve : {Curve({in, arc}, direction), Curve({swing}, direction)})
+      for (int i = -1; i <= 101; ++i) {
+        const double s_m = curve.length_m() * i / 100;
+        const PathPoint point = curve.at(s_m);
+        EXPECT_NEAR(curve.bend(s_m).curvature_per_m, point.curvature_per_m, 1e-12);
+        EXPECT_NEAR(curve.bend(s_m).curvature_slope_per_m2, point.curvature_slope_per_m2, 1e-9);
+      }
+}
+
 TEST(Curve, RefusesSegmentsThatDoNotMeet) {
   const LinearCurvature a({0, 0, 0}, 1.0);
   EXPECT_THROW(Curve({a, LinearCurvature({1.1, 0, 0}, 1.0)}), InternalError);
