@@ -10,7 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr std::size_t kPolishedKnots = 4;  ///< greatest number of moving knots
-constexpr std::size_t kSameSpans = 2;      ///< polished guesses with the same number of spans
+constexpr std::size_t kSameSpans = 3;      ///< polished guesses with the same number of spans
 
 struct JudgedGuess {
   SwingGuess guess{};

@@ -22,7 +22,7 @@ struct SwingRequest {
 };
 
 struct SwingOptions {
-  std::size_t starts{3};  ///< number of first guesses that are polished
+  std::size_t starts{5};  ///< number of first guesses that are polished
   SearchEffort effort{};  ///< per polished guess
 };
 
