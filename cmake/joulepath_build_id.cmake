@@ -1,4 +1,4 @@
-# joulepath_build_id(TARGET): adds build_id.cpp with the digest of app/build_id.hpp. It covers the content of all sources of the
+# joulepath_build_id(NAME): a library with the digest of app/build_id.hpp. It covers the content of all sources of the
 # program, the compiler and its flags; no time and no folder. The folders are searched, so that no source can be forgotten.
 # Design: docs/decisions/0430-a-build-is-its-sources.md
 set(JOULEPATH_BUILD_PATTERNS "")
@@ -22,7 +22,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 set(JOULEPATH_BUILD_ID_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
-function(joulepath_build_id target)
+function(joulepath_build_id name)
   list(TRANSFORM JOULEPATH_BUILD_PATTERNS PREPEND ${PROJECT_SOURCE_DIR}/)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${JOULEPATH_BUILD_PATTERNS})
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
@@ -33,5 +33,7 @@ function(joulepath_build_id target)
     COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DOUT=${out} "-DCOMPILER=${compiler}" -P ${JOULEPATH_BUILD_ID_SCRIPT}
     DEPENDS ${PROJECT_SOURCE_DIR}/CMakeLists.txt ${files} ${JOULEPATH_BUILD_ID_SCRIPT} VERBATIM
     COMMENT "Digest of the sources")
-  target_sources(${target} PRIVATE ${out})
+  add_library(${name} STATIC ${out}) # for itself: a generated source of another library waits for all that the library links
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
