@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 
 namespace joulepath {
@@ -56,6 +57,12 @@ std::string gap_words(const Diagnosis& d) {
          percent_text(e.after_percent) + floor;
 }
 
+/// " above 2.3 % of the energy": what the runs would have shown, where more than what matters.
+std::string size_not_seen(const Diagnosis& d) {
+  const double percent = d.gap.energy.detectable_percent;
+  return percent > 100 * kMaterialEnergy ? " above " + three_digits(percent) + " % of the energy" : "";
+}
+
 std::string unknown_words(const Diagnosis& d) {
   if (!d.leftover_significant || d.leftover_description.empty()) return "";
   return " What no effect explains " + d.leftover_description + ".";
@@ -84,7 +91,7 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
 std::string diagnosis_sentence(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::no_gap:
-      return "No gap: calibration errors and noise explain the runs." + gap_words(d);
+      return "No gap" + size_not_seen(d) + ": calibration errors and noise explain the runs." + gap_words(d);
     case Verdict::explained:
       return "Explained: " + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
