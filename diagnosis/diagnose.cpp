@@ -8,6 +8,7 @@
 #include "diagnosis/correction/correction.hpp"
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
+#include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/next_run/next_run.hpp"
 #include "diagnosis/where/localize.hpp"
 
@@ -107,6 +108,10 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
           .control_effect = control.effect,
           .control_shrink_fraction = control.shrink_fraction,
           .pinned_combination = causes.pinned_combination,
+          .correlations = causes.correlations,
+          .isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
+                                     {id.equations.noise, id.equations.run_variance, id.dispersion},
+                                     survey.invisible_effects),
           .missing_channels = survey.missing_channels,
           .notes = joined({survey.notes,
                            taken_out(options.without),

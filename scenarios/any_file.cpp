@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/evidence/isolability.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/counted.hpp"
@@ -74,9 +75,13 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
       read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
   for (const auto& run : dataset.runs) samples += run.log.size();
+  const RunsByUse runs = sort_runs(dataset);
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
-                      notes_of(dataset.artifacts), check_data(dataset, sort_runs(dataset))};
+                      notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
+  if (!summary.data_checks.empty() || runs.signals.empty()) return summary;
+  summary.isolability = isolability(dataset, runs);
+  std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));
   return summary;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/values/data_check.hpp"
+#include "diagnosis/values/isolability.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -14,6 +15,7 @@ struct FileSummary {
   std::string text{};
   std::vector<std::string> notes{};
   std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
+  Isolability isolability{};             ///< of a dataset whose channels are sound
   std::string proposal{};                ///< a proposed file: the dataset of a bag
 };
 

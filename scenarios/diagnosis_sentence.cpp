@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 
+#include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 
 namespace joulepath {
@@ -57,6 +58,12 @@ std::string gap_words(const Diagnosis& d) {
          percent_text(e.after_percent) + floor;
 }
 
+/// " above 2.3 % of the energy": what the runs would have shown, where more than what matters.
+std::string size_not_seen(const Diagnosis& d) {
+  const double percent = d.gap.energy.detectable_percent;
+  return percent > 100 * kMaterialEnergy ? " above " + three_digits(percent) + " % of the energy" : "";
+}
+
 std::string unknown_words(const Diagnosis& d) {
   if (!d.leftover_significant || d.leftover_description.empty()) return "";
   return " What no effect explains " + d.leftover_description + ".";
@@ -92,6 +99,8 @@ std::string diagnosis_sentence(const Diagnosis& d) {
   const VerdictWords& words = words_of(d.verdict);
   const std::string title = std::string(words.title) + ": ";
   switch (d.verdict) {
+    case Verdict::no_gap:
+      return std::string(words.title) + size_not_seen(d) + ": " + clause(words.meaning) + gap_words(d);
     case Verdict::explained:
       return title + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
@@ -102,7 +111,6 @@ std::string diagnosis_sentence(const Diagnosis& d) {
       return title + suspects_words(d.data_checks) + ". " + words.next_step;
     case Verdict::unexplained:
       return title + clause(words.meaning) + gap_words(d) + unknown_words(d);
-    case Verdict::no_gap:
     case Verdict::too_little_data:
       return title + clause(words.meaning) + gap_words(d);
   }

@@ -132,6 +132,21 @@ Schema plan_schema() {
            optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
 }
 
+Schema isolability_schema() {
+  return open(map(
+      {required("effects",
+                list(open(map({required("effect", text()),
+                               required("probability_seen", number(kFraction), "at its usual size")})))),
+       required("not_seen", list(text()), "effects with a probability below 0.9"),
+       required("not_told_apart",
+                list(open(map(
+                    {required("effect", text()), required("other", text()),
+                     required("two_ln_likelihood_ratio", result(), "expected, against the other's best fit"),
+                     required("probability_told_apart", number(kFraction))}))),
+                "pairs with a probability below 0.9; every other pair of seen effects has a higher one"),
+       required("groups", list(list(text())), "sets without a pair that is told apart")}));
+}
+
 Schema diagnosis_schema() {
   return open(map(
       {required("schema", text()),
@@ -156,18 +171,24 @@ Schema diagnosis_schema() {
        optional("ceiling", open(map({}))),
        optional("control", open(map({}))),
        optional("pinned_combination", text()),
+       optional("correlations",
+                list(open(map({required("parameter", text()),
+                               required("other", text(), "may be a calibration constant"),
+                               required("correlation", result())}))),
+                "estimates of the fit that depend on each other"),
+       optional("isolability", isolability_schema(), "what the runs' design shows and tells apart"),
        optional("data_checks",
                 list(open(map({required("run", text(), "names, or `all`"), required("channel", text()),
                                required("kind", text(), "dead | inverted | swapped | unit | scaled | clock"),
                                required("evidence", text()), required("repair", text())}))),
                 "channels that contradict physics; with any of them the verdict is data_suspect"),
        optional("artifacts", list(any_of({text(), open(map({}))}))),
-       optional(
-           "signals",
-           list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
-                          required("columns", dictionary(list(number())),
-                                   "time_s, and measured_X, predicted_X, corrected_X for each signal X")}))),
-           "with --signals: measured against predicted, before and after the correction"),
+       optional("signals",
+                list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
+                               required("columns", dictionary(list(number())),
+                                        "time_s; motion_X: what was driven; measured_X, predicted_X, "
+                                        "corrected_X for each signal X")}))),
+                "with --signals: measured against predicted, before and after the correction"),
        optional("missing_channels", list(text())),
        optional("decisions", open(map({}))),
        optional("validation", open(map({required("runs", list(text())), required("method", text())})))}));

@@ -102,7 +102,8 @@ Json next_json(const NextExperiment& next) {
   }
   return {{"separates", next.separates},
           {"motion", motion},
-          {"expected_evidence", six_digits(next.expected_evidence)}};
+          {"expected_evidence", six_digits(next.expected_evidence)},
+          {"probability_settled", six_digits(next.probability_settled)}};
 }
 
 }  // namespace
@@ -116,6 +117,21 @@ Json data_checks_json(const std::vector<DataCheck>& checks) {
                     {"evidence", check.evidence},
                     {"repair", check.repair}});
   return json;
+}
+
+Json isolability_json(const Isolability& isolability) {
+  Json effects = Json::array(), pairs = Json::array();
+  for (const Isolability::Effect& effect : isolability.effects)
+    effects.push_back({{"effect", effect.effect}, {"probability_seen", six_digits(effect.probability_seen)}});
+  for (const Isolability::Pair& pair : inseparable_pairs(isolability))
+    pairs.push_back({{"effect", pair.effect},
+                     {"other", pair.other},
+                     {"two_ln_likelihood_ratio", six_digits(pair.likelihood_ratio)},
+                     {"probability_told_apart", six_digits(pair.probability_told_apart)}});
+  return {{"effects", effects},
+          {"not_seen", unseen_effects(isolability)},
+          {"not_told_apart", pairs},
+          {"groups", inseparable_groups(isolability)}};
 }
 
 std::string diagnosis_json(const Diagnosis& d) {
@@ -134,6 +150,10 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {"probability", six_digits(s.probability)},
                      {"evidence", six_digits(s.evidence)},
                      {"size", six_digits(s.size)}});
+  Json correlations = Json::array();
+  for (const ParameterCorrelation& c : d.correlations)
+    correlations.push_back(
+        {{"parameter", c.parameter}, {"other", c.other}, {"correlation", six_digits(c.correlation)}});
   const Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
@@ -152,6 +172,8 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
+      {"correlations", correlations},
+      {"isolability", isolability_json(d.isolability)},
       {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
       {"missing_channels", d.missing_channels},

@@ -13,6 +13,9 @@ namespace joulepath {
 /// The `data_checks` of a diagnosis and of `check --json`.
 [[nodiscard]] nlohmann::ordered_json data_checks_json(const std::vector<DataCheck>& checks);
 
+/// The `isolability` of the same two.
+[[nodiscard]] nlohmann::ordered_json isolability_json(const Isolability& isolability);
+
 /// A mission of prescribed motions: the run that the diagnosis proposes.
 [[nodiscard]] std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file);
 

@@ -55,7 +55,10 @@ class Check : public Command {
                                       {"kind", summary.kind},
                                       {"summary", summary.text},
                                       {"notes", summary.notes}};
-        if (summary.kind == "dataset") result["data_checks"] = data_checks_json(summary.data_checks);
+        if (summary.kind == "dataset") {
+          result["data_checks"] = data_checks_json(summary.data_checks);
+          result["isolability"] = isolability_json(summary.isolability);
+        }
         if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
         results.push_back(std::move(result));
         if (!options_.json) tell(file, summary);

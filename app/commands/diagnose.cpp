@@ -93,6 +93,7 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   print_where(out, d);
   if (!d.next.motions.empty())
     out << "next run: " << d.next.why << " (expected evidence " << figure(d.next.expected_evidence, 3)
+        << ", settles the question with a probability of " << figure(d.next.probability_settled, 2)
         << "); joulepath experiment writes it\n";
 }
 

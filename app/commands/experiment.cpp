@@ -4,6 +4,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
+#include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/write_diagnosis.hpp"
@@ -45,7 +46,8 @@ class Experiment : public Command {
         common_.force);
     if (!common_.quiet)
       std::cout << out_ << ": " << diagnosis.next.why << " (expected evidence "
-                << diagnosis.next.expected_evidence << ")\n";
+                << diagnosis.next.expected_evidence << ", settles the question with a probability of "
+                << figure(diagnosis.next.probability_settled, 2) << ")\n";
     return kDone;
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/prediction/prediction.hpp"
+#include "model/kinematics.hpp"
 
 namespace joulepath::report {
 namespace {
@@ -16,6 +17,8 @@ constexpr std::size_t kMostRuns = 40;
 std::vector<double> values_of(const Eigen::VectorXd& vector) {
   return {vector.data(), vector.data() + vector.size()};
 }
+
+bool is_measured(const Columns::value_type& column) { return column.first.starts_with("measured_"); }
 
 /// Measured and predicted columns of one run, signal by signal.
 class Comparison {
@@ -40,6 +43,21 @@ class Comparison {
     if (measured.size() == 0) return;
     const auto since_start = [](const Eigen::VectorXd& v) { return Eigen::VectorXd(v.array() - v[0]); };
     add(name, since_start(measured), [&](const Prediction& p) { return since_start(p.*predicted); });
+  }
+
+  /// What the motion was, to show what a difference depends on.
+  void add_motion(const Geometry& geometry) {
+    for (Eigen::Index j = 0; j < signals_.size(); ++j) {
+      const auto at = [&](const Sided<Eigen::VectorXd>& wheel) {
+        return body_twist(geometry, Sided<double>{wheel.left[j], wheel.right[j]});
+      };
+      const Twist<double> twist = at(signals_.wheel_speed_rad_s),
+                          rate = at(signals_.wheel_acceleration_rad_s2);
+      columns_["motion_speed_m_s"].push_back(twist.speed_m_s);
+      columns_["motion_acceleration_m_s2"].push_back(rate.speed_m_s);
+      columns_["motion_yaw_rate_rad_s"].push_back(twist.yaw_rate_rad_s);
+    }
+    columns_["motion_payload_kg"] = values_of(signals_.payload_kg);
   }
 
   [[nodiscard]] Columns columns() && { return std::move(columns_); }
@@ -77,6 +95,7 @@ Columns compared(const RunSignals& run, const ModelPoint& nominal,
     all.add_change("change_of_heading_rad", run.heading_rad, &Prediction::heading_rad);
   all.add_change("change_of_x_m", run.x_m, &Prediction::x_m);
   all.add_change("change_of_y_m", run.y_m, &Prediction::y_m);
+  all.add_motion(nominal.robot.geometry);
   return std::move(all).columns();
 }
 
@@ -94,7 +113,7 @@ std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dat
     const RunSignals signals = make_run_signals(dataset.runs[k], k, dataset.robot);
     const bool is_validation = std::ranges::count(diagnosis.validation_runs, signals.name) > 0;
     Columns columns = compared(signals, nominal, corrected);
-    if (columns.size() > 1)
+    if (std::ranges::any_of(columns, is_measured))
       runs.push_back({signals.name, is_validation ? "validation" : "diagnosis", std::move(columns)});
   }
   // Held-out runs come first.

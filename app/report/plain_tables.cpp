@@ -27,7 +27,24 @@ bool is_plain(const json& value) {
   return !value.is_object();
 }
 
+/// Named values of one row, such as the parameters of a cause with their intervals.
+bool is_list_of_values(const json& value) {
+  return value.is_object() && !value.empty() && std::ranges::all_of(value, [](const json& entry) {
+           return entry.is_object() && std::ranges::all_of(entry, is_plain);
+         });
+}
+
+bool fits_a_cell(const json& value) { return is_plain(value) || is_list_of_values(value); }
+
 std::string cell_text(const json& value) {
+  if (value.is_object()) {
+    std::string text;
+    for (const auto& [name, entry] : value.items()) {
+      text += (text.empty() ? "" : "; ") + spaced(name);
+      for (const auto& [key, part] : entry.items()) text += ", " + spaced(key) + " " + cell_text(part);
+    }
+    return text;
+  }
   if (value.is_null()) return "–";
   if (value.is_string()) return escaped(value.get<std::string>());
   if (value.is_number_float()) {
@@ -50,14 +67,14 @@ std::string table_of(const json& rows) {
   std::vector<std::string> columns;
   for (const json& row : rows)
     for (const auto& [key, value] : row.items())
-      if (is_plain(value) && std::ranges::count(columns, key) == 0) columns.push_back(key);
+      if (fits_a_cell(value) && std::ranges::count(columns, key) == 0) columns.push_back(key);
   std::string text = "<table><thead><tr>";
   for (const std::string& column : columns) text += "<th scope=\"col\">" + spaced(column) + "</th>";
   text += "</tr></thead><tbody>\n";
   for (std::size_t k = 0; k < std::min(rows.size(), kMostTableRows); ++k) {
     text += "<tr>";
     for (const std::string& column : columns) {
-      const bool has = rows[k].contains(column) && is_plain(rows[k][column]);
+      const bool has = rows[k].contains(column) && fits_a_cell(rows[k][column]);
       text += "<td>" + (has ? cell_text(rows[k][column]) : "") + "</td>";
     }
     text += "</tr>\n";

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/evidence/power.hpp"
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0221-an-all-clear-needs-power.md
 namespace joulepath {
@@ -51,15 +52,10 @@ std::vector<DetectionPower> detection_powers(const Examination& x) {
   return effects;
 }
 
-/// Probability that the search accepts the effect at a gap of this size. The gain in log evidence is 1/2 z^2,
-/// where z is normal about its expectation with unit deviation; it must exceed the cost of the effect and of
-/// its width.
 double probability_seen(const DetectionPower& effect, double gap_percent) {
-  const double expected = effect.sigmas_per_percent * gap_percent;
-  const double width = effect.prior_sigmas_per_percent * effect.sigmas_per_percent;
-  const double cost = kEffectCost + 0.5 * std::log1p(width * width);
-  const double below_material = gap_percent < 100 * kMaterialEnergy ? kSmallEffectEvidence : 0.0;
-  return 0.5 * std::erfc((std::sqrt(2 * (cost + below_material)) - expected) / std::sqrt(2.0));
+  return probability_taken_up(effect.sigmas_per_percent * gap_percent,
+                              effect.prior_sigmas_per_percent * effect.sigmas_per_percent,
+                              gap_percent < 100 * kMaterialEnergy ? kSmallEffectEvidence : 0.0);
 }
 
 double detectable_percent(const std::vector<DetectionPower>& effects) {

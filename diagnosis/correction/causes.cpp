@@ -42,6 +42,7 @@ Causes report_causes(const Examination& x, const Names& names, const Validation&
     }
     report.causes.push_back(std::move(cause));
   }
+  if (!report.causes.empty()) report.correlations = parameter_correlations(v.fitted, x.id.nuisances);
   std::ranges::stable_sort(report.causes, std::ranges::greater{}, &Cause::energy_share);
   return report;
 }

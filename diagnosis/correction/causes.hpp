@@ -8,6 +8,7 @@ namespace joulepath {
 struct Causes {
   std::vector<Cause> causes{};
   std::string pinned_combination{};
+  std::vector<ParameterCorrelation> correlations{};
 };
 
 /// Reports each named effect with its probability, parameters, share of the energy, the gap that it closes

@@ -72,6 +72,18 @@ double half_interval(const Refit& fitted, std::size_t effect, const std::string&
          boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
+const Column& column_of(const Refit& fitted, Eigen::Index row) {
+  return fitted.equations.columns[static_cast<std::size_t>(fitted.columns[static_cast<std::size_t>(row)])];
+}
+
+/// "gear_efficiency loss_fraction", "friction_torque_Nm (left)".
+std::string name_of(const Refit& fitted, const std::vector<Nuisance>& nuisances, const Column& column) {
+  const auto owner = static_cast<std::size_t>(column.owner);
+  if (column.kind == Column::Kind::nuisance) return text_of(nuisances[owner]);
+  const Candidate& candidate = fitted.state.effects[owner].candidate;
+  return candidate.label() + " " + candidate.amplitude[static_cast<std::size_t>(column.part)];
+}
+
 }  // namespace
 
 std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t effect, const Robot& robot) {
@@ -89,6 +101,26 @@ std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t ef
     }
     found.push_back({parameter.name, at->second, interval});
   }
+  return found;
+}
+
+std::vector<ParameterCorrelation> parameter_correlations(const Refit& fitted,
+                                                         const std::vector<Nuisance>& nuisances) {
+  std::vector<ParameterCorrelation> found;
+  const Eigen::MatrixXd& covariance = fitted.covariance;
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const Column &one = column_of(fitted, i), &other = column_of(fitted, j);
+      const bool two_effects = other.kind == Column::Kind::amplitude && other.owner != one.owner;
+      if (one.kind != Column::Kind::amplitude || (!two_effects && other.kind != Column::Kind::nuisance))
+        continue;
+      const double square = covariance(i, i) * covariance(j, j);
+      const double correlation = square > 0 ? covariance(i, j) / std::sqrt(square) : 0.0;
+      if (std::abs(correlation) < kNotableCorrelation) continue;
+      found.push_back({name_of(fitted, nuisances, one), name_of(fitted, nuisances, other), correlation});
+    }
+  std::ranges::stable_sort(found, std::ranges::greater{},
+                           [](const ParameterCorrelation& c) { return std::abs(c.correlation); });
   return found;
 }
 

@@ -9,6 +9,11 @@ namespace joulepath {
 [[nodiscard]] std::vector<FoundParameter> found_parameters(const Refit& fitted, std::size_t effect,
                                                            const Robot& robot);
 
+/// Correlations of the effects' strengths with each other and with calibration constants, where they matter,
+/// by the noise model's covariance; the strongest first.
+[[nodiscard]] std::vector<ParameterCorrelation> parameter_correlations(
+    const Refit& fitted, const std::vector<Nuisance>& nuisances);
+
 /// Whether the 95 % interval of an effect's strength leaves out 0 (no effect).
 [[nodiscard]] bool is_told_from_zero(const Refit& fitted, std::size_t effect);
 

@@ -29,7 +29,7 @@ std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
 /// Columns: nuisances, doubts about the motions, amplitudes of the candidates.
 std::vector<Column> columns_of(const Robot& robot, const std::vector<Nuisance>& nuisances,
                                const ModelState& nominal, const std::vector<Candidate>& candidates) {
-  std::vector<Column> columns = list_columns(robot, nuisances, nominal, candidates, 0, false);
+  std::vector<Column> columns = list_columns(nuisances, nominal, candidates, 0, Forms::none);
   const auto count = static_cast<int>(nuisances.size());
   for (int k = 0; k < static_cast<int>(kMotionDoubts.size()); ++k)
     columns.insert(columns.begin() + count + k, {Column::Kind::nuisance, count + k, 0, 1.0, 0.0});

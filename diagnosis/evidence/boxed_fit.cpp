@@ -55,9 +55,7 @@ int effect_of_constant(const Identification& id, int column) {
 
 std::string calibration_name(const Identification& id, int column) {
   const int owner = id.equations.columns[static_cast<std::size_t>(column)].owner;
-  const Nuisance& nuisance = id.nuisances[static_cast<std::size_t>(owner)];
-  if (!nuisance.side) return nuisance.key;
-  return nuisance.key + " (" + side_name(*nuisance.side) + ")";
+  return text_of(id.nuisances[static_cast<std::size_t>(owner)]);
 }
 
 }  // namespace joulepath

@@ -241,8 +241,8 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
   const std::vector<DictionaryEntry> entries = dictionary_entries(layout);
   const std::vector<std::size_t> chosen = chosen_entries(entries, options);
   for (std::size_t k : chosen) equations.dictionary.push_back(entries[k]);
-  equations.columns = list_columns(robot, nuisances, state, equations.candidates, equations.dictionary.size(),
-                                   options.whole_catalog);
+  equations.columns =
+      list_columns(nuisances, state, equations.candidates, equations.dictionary.size(), options.forms);
   equations.unknowns = unknown_terms(equations.columns, equations.dictionary);
 
   std::vector<RunRows> rows(signals.size());

@@ -44,9 +44,14 @@ struct Equations {
   std::vector<int> columns_of_candidate(int candidate, bool with_shapes) const;
 };
 
+/// Laws whose strength may vary as their form allows: none, those of the state's effects, or those of every
+/// candidate, as at its typical size.
+enum class Forms { none, active, all };
+
 struct EquationOptions {
   bool whole_catalog{true};  ///< false: the state's own effects alone
   bool dictionary{true};
+  Forms forms{Forms::active};
   std::set<std::string> unknowns{};  ///< labels of the terms that enter without the whole dictionary
   const NoiseModel* noise{};         ///< reuse instead of estimating
   const Eigen::VectorXd* run_variance{};

@@ -15,14 +15,6 @@
 namespace joulepath {
 namespace {
 
-/// Columns of the fit of everything: its scatter from run to run measures what the noise model lacks.
-std::vector<int> rich_columns(const Equations& equations) {
-  std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
-  const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
-  columns.insert(columns.end(), dictionary.begin(), dictionary.end());
-  return columns;
-}
-
 std::vector<std::string> labels_of(const Equations& equations, const Explanation& explanation) {
   std::vector<std::string> labels;
   for (int c : explanation.candidates)

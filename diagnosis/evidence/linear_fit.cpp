@@ -17,6 +17,13 @@ LinearProblem without_calibration(const Equations& equations, const std::vector<
   return project_out(all, nuisances, kept, dispersion);
 }
 
+std::vector<int> rich_columns(const Equations& equations) {
+  std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
+  const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
+  columns.insert(columns.end(), dictionary.begin(), dictionary.end());
+  return columns;
+}
+
 double run_dispersion(const Equations& equations, const std::vector<int>& fitted) {
   Eigen::MatrixXd covariance;
   const Eigen::VectorXd parameters =

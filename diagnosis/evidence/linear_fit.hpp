@@ -12,6 +12,9 @@ namespace joulepath {
                                                 const std::vector<std::size_t>& runs,
                                                 double dispersion = 1.0);
 
+/// Columns of the fit of everything: its scatter from run to run measures what the noise model lacks.
+[[nodiscard]] std::vector<int> rich_columns(const Equations& equations);
+
 /// How much more runs scatter about the fit of some columns than the noise model says (>= 1): squares of
 /// run-wise scores over their expectation, over all columns but the dictionary's. Of a run with Gram matrix
 /// G the scores about the fit have the covariance G - G S G, S being the fit's covariance: what the fit

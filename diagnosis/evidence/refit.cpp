@@ -78,6 +78,7 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
   Refit result;
   EquationOptions options{.whole_catalog = false,
                           .dictionary = false,
+                          .forms = Forms::none,
                           .unknowns = unknowns,
                           .noise = &noise,
                           .run_variance = &run_variance};

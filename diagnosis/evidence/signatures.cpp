@@ -116,8 +116,7 @@ class Differencer {
     });
   }
 
-  /// The contribution of the effect, weighted by the variable. Poses are integrals along the way and stay
-  /// unchanged.
+  /// The contribution of an effect of the state, weighted by the variable.
   Eigen::MatrixXd form(const Candidate& candidate, int variable) const {
     std::size_t index;
     if (!is_active(candidate, state_, index)) return {};
@@ -125,6 +124,11 @@ class Differencer {
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(index));
     Eigen::MatrixXd rows = -signature_rows(signals_, point_, base_, at(without));
     if (candidate.effect().delays_channels) rows = state_.effects[index].amplitude[0] * delay();
+    return weighted(std::move(rows), variable);
+  }
+
+  /// A contribution times the form's variable. Poses are integrals along the way and stay unchanged.
+  Eigen::MatrixXd weighted(Eigen::MatrixXd rows, int variable) const {
     for (Eigen::Index j = 0; j < rows.rows(); ++j)
       rows.row(j) *= form_variable(signals_, robot_.geometry, variable, j);
     for (Channel pose : {kHeading, kPositionX, kPositionY}) rows.col(pose).setZero();
@@ -165,6 +169,22 @@ class Differencer {
   ModelPoint point_;
 };
 
+/// Rows of a form: of an effect of the state at its strength, of any other one at its typical size.
+Eigen::MatrixXd form_rows(const Differencer& differencer, const ModelState& state,
+                          const std::vector<Candidate>& candidates, const std::vector<Column>& columns,
+                          const std::vector<Eigen::MatrixXd>& rows, const Column& form) {
+  const Candidate& candidate = candidates[static_cast<std::size_t>(form.owner)];
+  const int variable = form.part % kFormCount, amplitude = form.part / kFormCount;
+  std::size_t index;
+  if (is_active(candidate, state, index)) return differencer.form(candidate, variable);
+  const auto at = std::ranges::find_if(columns, [&](const Column& column) {
+    return column.kind == Column::Kind::amplitude && column.owner == form.owner && column.part == amplitude;
+  });
+  return differencer.weighted(candidate.step[static_cast<std::size_t>(amplitude)] *
+                                  rows[static_cast<std::size_t>(at - columns.begin())],
+                              variable);
+}
+
 }  // namespace
 
 AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate, std::size_t part) {
@@ -183,10 +203,9 @@ ModelState with_change(const ModelState& state, const Candidate& candidate, cons
   return with_effect(state, candidate, moved);
 }
 
-std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
-                                 const ModelState& state, const std::vector<Candidate>& candidates,
-                                 std::size_t dictionary_entries, bool forms) {
-  (void)robot;
+std::vector<Column> list_columns(const std::vector<Nuisance>& nuisances, const ModelState& state,
+                                 const std::vector<Candidate>& candidates, std::size_t dictionary_entries,
+                                 Forms forms) {
   std::vector<Column> columns;
   using Kind = Column::Kind;
   for (std::size_t k = 0; k < nuisances.size(); ++k)
@@ -205,10 +224,12 @@ std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>
       columns.push_back({Kind::shape, static_cast<int>(c), static_cast<int>(s),
                          shape_prior_sd(candidates[c], shapes[s]), 0.0});
   }
-  for (std::size_t c = 0; forms && c < candidates.size(); ++c) {
+  for (std::size_t c = 0; forms != Forms::none && c < candidates.size(); ++c) {
     std::size_t index;
-    if (!is_active(candidates[c], state, index)) continue;
-    for (int f = 0; f < kFormCount; ++f)
+    const bool active = is_active(candidates[c], state, index);
+    if (!active && forms != Forms::all) continue;
+    const int parts = active ? 1 : static_cast<int>(candidates[c].amplitude.size());
+    for (int f = 0; f < parts * kFormCount; ++f)
       columns.push_back({Kind::form, static_cast<int>(c), f, kFormSpread, 0.0});
   }
   for (std::size_t d = 0; d < dictionary_entries; ++d)
@@ -228,7 +249,8 @@ std::vector<Eigen::MatrixXd> signatures(const RunSignals& signals, const Robot& 
       result.push_back(differencer.nuisance(owner, nuisances[owner].sigma));
     if (column.kind == Column::Kind::amplitude)
       result.push_back(differencer.amplitude(candidates[owner], part));
-    if (column.kind == Column::Kind::form) result.push_back(differencer.form(candidates[owner], column.part));
+    if (column.kind == Column::Kind::form)
+      result.push_back(form_rows(differencer, state, candidates, columns, result, column));
     if (column.kind == Column::Kind::shape)
       result.push_back(
           differencer.shape(candidates[owner], shape_parameters(candidates[owner].shape.name)[part]));

@@ -28,11 +28,12 @@ inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw ra
                                                                 "acceleration", "time of day"};
 
 /// Columns of the linear problem at a state, without rows: nuisances, candidates, shapes of the state's
-/// effects, dictionary.
-[[nodiscard]] std::vector<Column> list_columns(const Robot& robot, const std::vector<Nuisance>& nuisances,
+/// effects, forms, dictionary. The part of a form is its variable, then variable by variable for each
+/// further amplitude.
+[[nodiscard]] std::vector<Column> list_columns(const std::vector<Nuisance>& nuisances,
                                                const ModelState& state,
                                                const std::vector<Candidate>& candidates,
-                                               std::size_t dictionary_entries, bool forms);
+                                               std::size_t dictionary_entries, Forms forms);
 
 /// d(structured rows)/d(parameter) of nuisances, amplitudes and shapes, each samples x kChannelCount: central
 /// differences of noise-free predictions.

@@ -2,6 +2,10 @@
 
 namespace joulepath {
 
+std::string text_of(const Nuisance& nuisance) {
+  return nuisance.side ? nuisance.key + " (" + side_name(*nuisance.side) + ")" : nuisance.key;
+}
+
 std::vector<Nuisance> calibration_nuisances(const Robot& robot) {
   std::vector<Nuisance> nuisances = nuisances_of(robot);
   nuisances.push_back({kCreepNuisance, std::nullopt, 1.0});

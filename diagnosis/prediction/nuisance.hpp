@@ -15,6 +15,9 @@ inline double usual_creep_m_s_N(const Robot& robot) {
   return kUsualCreep_kg_m_s_N / robot.total_mass_kg(0.0);
 }
 
+/// A calibration constant in words: "wheel_radius_m" or "friction_torque_Nm (left)".
+std::string text_of(const Nuisance& nuisance);
+
 /// Nuisances: the `uncertainty:` of the robot file, tire creep and time stamps.
 std::vector<Nuisance> calibration_nuisances(const Robot& robot);
 

@@ -190,6 +190,11 @@ std::vector<bool> beyond(const Eigen::VectorXd& values, double least) {
 
 }  // namespace
 
+void mark_conducting(RunSignals& run, const Robot& robot) {
+  for (Side side : kSides)
+    run.conducting[side] = beyond(run.motor_current_A[side], dead_band_A(robot.motor[side]));
+}
+
 bool measures_motors(const RunSignals& run) {
   return run.size() > 0 &&
          (run.motor_power_W.left.size() == run.size() || run.motor_power_W.right.size() == run.size());
@@ -234,13 +239,13 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
         thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));
     signals.motor_current_A[side] =
         thinner.smooth(thinner.on_grid(log.motor_current_A[side], options.channel_delay_s));
-    signals.conducting[side] = beyond(signals.motor_current_A[side], dead_band_A(robot.motor[side]));
     Samples power = log.motor_power_W[side];
     if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
     if (power.empty())
       power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
     signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, options.channel_delay_s));
   }
+  mark_conducting(signals, robot);
   signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));
   signals.battery_current_A = thinner.smooth(thinner.on_grid(log.battery_current_A));
   signals.battery_power_W =

@@ -53,6 +53,9 @@ struct RunSignals {
   Eigen::Index size() const { return time_s.size(); }
 };
 
+/// Marks the samples whose currents are beyond the driver's dead band.
+void mark_conducting(RunSignals& run, const Robot& robot);
+
 /// True if the motor power is measured or known from the currents.
 [[nodiscard]] bool measures_motors(const RunSignals& run);
 /// True if an energy is measured: at the motors or at the battery's terminals.

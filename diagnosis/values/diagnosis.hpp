@@ -9,6 +9,7 @@
 
 #include "diagnosis/values/data_check.hpp"
 #include "diagnosis/values/dataset.hpp"
+#include "diagnosis/values/isolability.hpp"
 #include "diagnosis/values/verdict.hpp"
 #include "model/prescribed_motion.hpp"
 
@@ -63,6 +64,13 @@ struct Cause {
   double shrink_fraction_alone{};
 };
 
+/// Two estimates of one fit that depend on each other; the second may be a calibration constant.
+struct ParameterCorrelation {
+  std::string parameter{};
+  std::string other{};
+  double correlation{};
+};
+
 /// A cause that no law of the catalog stands for: a smooth curve of what was measured.
 struct UnknownCause {
   std::string depends_on{};  ///< and where it acts: "wheel speed (current)"
@@ -88,7 +96,8 @@ struct NextExperiment {
   std::vector<PrescribedMotion> motions{};  ///< one after the other; empty = nothing to separate
   double payload_kg{};
   std::string why{};
-  double expected_evidence{};
+  double expected_evidence{};    ///< log-likelihood between the closest pair
+  double probability_settled{};  ///< that the run tells the true one from each other one
 };
 
 /// The result of `diagnose`.
@@ -108,7 +117,9 @@ struct Diagnosis {
   std::string control_effect{};
   double control_shrink_fraction{};
   std::string pinned_combination{};
+  std::vector<ParameterCorrelation> correlations{};  ///< of the causes' strengths, the strongest first
   std::vector<DataCheck> data_checks{};  ///< channels that contradict physics: nothing else is examined
+  Isolability isolability{};             ///< of the diagnosis runs; empty where no log can be used
   std::vector<std::string> artifacts{};
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};  ///< what the runs cannot show

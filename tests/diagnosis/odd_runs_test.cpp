@@ -57,8 +57,9 @@ TEST(OddRuns, AShapeParameterAtItsBoundCanBeLinearized) {
     swivel.shape.parameters["trail_m"] = trail_m;
     const ModelState state{.nuisance_fraction = std::vector<double>(nuisances.size()),
                            .effects = {{.candidate = swivel, .amplitude = {0.5}}}};
-    const Equations equations = build_equations(signals, dataset.robot, nuisances, state, {},
-                                                {.whole_catalog = false, .dictionary = false});
+    const Equations equations =
+        build_equations(signals, dataset.robot, nuisances, state, {},
+                        {.whole_catalog = false, .dictionary = false, .forms = Forms::none});
     for (const RunEquations& run : equations.runs) EXPECT_TRUE(run.gram.allFinite()) << trail_m;
   }
 }

@@ -50,6 +50,16 @@ TEST(DiagnosisSentence, WithoutMeasuredEnergySaysNothingOfIt) {
       "Unexplained: no effect of the catalog fits. What no effect explains depends on heading (current).");
 }
 
+/// An all-clear says how small a gap it has looked for, where more than one percent would have been missed.
+TEST(DiagnosisSentence, OfAnAllClearSaysAboveWhichSize) {
+  Diagnosis d = with_gap(Verdict::no_gap, 0.4, 0.4);
+  d.gap.energy.detectable_percent = 2.34;
+  EXPECT_EQ(diagnosis_sentence(d).rfind("No gap above 2.34 % of the energy: ", 0), 0u)
+      << diagnosis_sentence(d);
+  d.gap.energy.detectable_percent = 0.5;
+  EXPECT_EQ(diagnosis_sentence(d).rfind("No gap: ", 0), 0u) << diagnosis_sentence(d);
+}
+
 TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
   Diagnosis group = with_gap(Verdict::ambiguous, 4, 1);
   group.causes = {dragging(Side::left)};

@@ -4,8 +4,10 @@ import {fraction, is_number, number, percent, short, split_key, with_unit, words
 import {run_signals} from "page/run_signals.js";
 import {jp} from "report/core.js";
 import "report/bars.js";
+import "report/isolability.js";
 import "report/map.js";
 import "report/plots.js";
+import "report/residuals.js";
 
 jp.cause_name = (cause) => words(cause.effect) + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
 
@@ -13,10 +15,17 @@ jp.cause_name = (cause) => words(cause.effect) + (cause.parameters && cause.para
 jp.cause_cards = function (d) {
   const line = (text) => h("div", {}, text);
   const interval = (entry) => (entry.interval_95 ? ` (95 %: ${number(entry.interval_95[0])} to ${number(entry.interval_95[1])})` : "");
-  const card = (cause) => jp.tile(jp.cause_name(cause), is_number(cause.energy_share) ? fraction(cause.energy_share, 3) + " of the gap" : "–", [
-    ...Object.entries(cause.parameters || {}).filter(([key]) => key !== "side").map(([key, entry]) => line(jp.key_value(key, entry.value) + interval(entry))),
-    line(`probability ${fraction(cause.probability, 3)}`), line(`closes ${fraction(cause.shrink_fraction_alone, 3)} of the gap alone`),
-    (cause.indistinguishable_from || []).length ? line("these runs cannot tell it from " + cause.indistinguishable_from.map(words).join(", ")) : null].filter(Boolean));
+  const several = (d.causes || []).length > 1;
+  const card = (cause) => {
+    const [strength, ...others] = Object.entries(cause.parameters || {}).filter(([key]) => key !== "side");
+    const size = strength ? with_unit(strength[1].value, split_key(strength[0]).unit, 4) : "–";
+    return jp.tile(jp.cause_name(cause), size, [
+      strength ? line(split_key(strength[0]).words + interval(strength[1])) : null,
+      ...others.map(([key, entry]) => line(jp.key_value(key, entry.value) + interval(entry))),
+      line(`probability ${fraction(cause.probability, 3)}`), line(`closes ${fraction(cause.shrink_fraction_alone, 3)} of the energy gap alone`),
+      several && is_number(cause.energy_share) ? line(`${fraction(cause.energy_share, 3)} of the energy that the causes change`) : null,
+      (cause.indistinguishable_from || []).length ? line("these runs cannot tell it from " + cause.indistinguishable_from.map(words).join(", ")) : null].filter(Boolean));
+  };
   const unknown = (one) => jp.tile("Unknown cause", fraction(one.share, 3) + " of what is explained", [line("depends on " + one.depends_on), line(`probability ${fraction(one.probability, 3)}`)]);
   const cards = [...(d.causes || []).map(card), ...(d.unknowns || []).map(unknown)];
   return cards.length ? h("div", {class: "tiles causes"}, cards) : null;
@@ -69,6 +78,7 @@ jp.how_far_section = function (d) {
 };
 
 const kMostRows = 10;
+const kLeastShare = 0.01;  // of an axis: smaller cells tell nothing
 
 /** A floor cell from its entry: bounds given as keys, or as "x0..x1, y0..y1" in the value. */
 jp.floor_cell = function (entry) {
@@ -87,37 +97,47 @@ const share_text = (entry) => (Math.abs(entry.share_of_gap) < 1e-4 ? "< 0.01\u20
 /** Shares of the gap along one axis: phases, speeds, runs, cells of the floor ...; the largest of them. */
 jp.axis_block = function (where, axis) {
   const every = where.filter((entry) => entry.axis === axis), by_share = axis === "floor" || axis === "run";
-  const entries = every.slice().sort((a, b) => (by_share ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
+  const telling = every.filter((entry) => entry.share_of_gap >= kLeastShare);
+  const entries = (telling.length ? telling : every).sort((a, b) => (by_share ? b.share_of_gap - a.share_of_gap : 0)).slice(0, kMostRows);
   const name = (entry) => { const cell = axis === "floor" ? jp.floor_cell(entry) : null; return cell ? cell_text(cell) : axis === "run" ? String(entry.value) : words(entry.value); };
   return h("div", {}, h("h3", {}, axis === "floor" ? "floor: x, y in m" : words(axis)),
     jp.bar_rows(entries.map((entry) => ({label: name(entry), value: entry.share_of_gap, interval: entry.interval_95, text: share_text(entry)})), {most: Math.max(...entries.map((entry) => Math.max(entry.share_of_gap, (entry.interval_95 || [0, 0])[1])), 0.01)}),
-    every.length > entries.length ? h("p", {class: "soft small"}, `The largest ${entries.length} of ${every.length}.`) : null);
+    every.length > entries.length ? h("p", {class: "soft small"}, by_share ? `The largest ${entries.length} of ${every.length}.` : `${entries.length} of ${every.length}; the others have less than ${fraction(kLeastShare)} each.`) : null);
 };
 
 jp.where_section = function (data) {
   const where = data.diagnosis.where || [];
   if (!where.length) return null;
-  const axes = [...new Set(where.map((entry) => entry.axis))];
-  const blocks = axes.filter((axis) => axis !== "floor").map((axis) => jp.axis_block(where, axis)), cells = where.filter((entry) => entry.axis === "floor").map(jp.floor_cell).filter(Boolean);
+  const axes = [...new Set(where.map((entry) => entry.axis))].filter((axis) => axis !== "floor");
+  const cells = where.filter((entry) => entry.axis === "floor").map(jp.floor_cell).filter(Boolean);
+  const parts = [h("p", {class: "soft"}, "Shares of the summed absolute power gap, with the expected noise subtracted. The shares of one axis add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted minus measured, relative to the cell's own energy.")];
   if (cells.length) {
     const map = jp.floor_map({grid: data.map, cells, label: "Floor map of the gap"});
     const ramp = h("span", {class: "ramp", style: "background:linear-gradient(90deg, transparent, var(--second))"});
-    blocks.push(h("div", {class: "columns"}, jp.axis_block(where, "floor"), h("div", {}, h("h3", {}, "on the floor"), map.element, h("div", {class: "scale"}, "0", ramp, fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap"))));
+    parts.push(h("div", {class: "columns"}, h("div", {}, h("h3", {}, "on the floor"), map.element, h("div", {class: "scale"}, "0", ramp, fraction(Math.max(...cells.map((cell) => cell.share)), 3) + " of the gap")), jp.axis_block(where, "floor")));
   }
-  const section = jp.section("Where", h("p", {class: "soft"}, "Shares of the summed absolute power gap, with the expected noise subtracted. The shares of one axis add up to 100 %. Whiskers: 95 % intervals over whole runs. Bias: predicted minus measured, relative to the cell's own energy."), h("div", {class: "columns"}, blocks));
+  if (axes.length) parts.push(h("details", {}, h("summary", {}, "Shares by " + axes.map(words).join(", ")), h("div", {class: "columns"}, axes.map((axis) => jp.axis_block(where, axis)))));
+  const section = jp.section("Where", parts);
   section.classList.add("long");
   return section;
 };
 
 jp.which_section = function (d) {
   const causes = d.causes || [], ranking = d.ranking || [];
-  const grouped = new Set(causes.flatMap((cause) => (cause.indistinguishable_from || []).length ? [cause.effect, ...cause.indistinguishable_from] : []));
-  const named = new Set(causes.map((cause) => cause.effect));
+  const label = (cause) => cause.effect + (cause.parameters && cause.parameters.side ? ` (${cause.parameters.side.value})` : "");
+  const grouped = new Set(causes.flatMap((cause) => (cause.indistinguishable_from || []).length ? [label(cause), ...cause.indistinguishable_from] : []));
+  const named = new Set(causes.map(label));
   return jp.section("Which effect", causes.length ? null : h("p", {}, "No cause is named."),
-  jp.small_effects(d),
+  jp.small_effects(d), jp.correlations(d),
   d.pinned_combination ? h("p", {}, "Determined by the data: " + (typeof d.pinned_combination === "string" ? d.pinned_combination : JSON.stringify(d.pinned_combination))) : null,
   ranking.length ? [h("h3", {}, "Ranking"), jp.bar_rows(ranking.slice(0, 12).map((entry) => ({label: words(entry.effect) + (grouped.has(entry.effect) ? " ◇" : ""), value: entry.probability, text: fraction(entry.probability, 3), color: named.has(entry.effect) ? "var(--plan)" : grouped.has(entry.effect) ? "var(--third)" : "var(--soft)"})), {most: 1}),
     grouped.size ? h("p", {class: "soft small"}, "◇ one group: these runs cannot separate its members.") : null] : null);
+};
+
+/** Estimates that depend on each other: what one of them loses, the other may have. */
+jp.correlations = function (d) {
+  const rows = (d.correlations || []).map((one) => [words(one.parameter), words(one.other), {n: number(one.correlation, 2)}]);
+  return rows.length ? [h("h3", {}, "Estimates that depend on each other"), jp.table(["parameter", "other parameter or calibration constant", {n: "correlation"}], rows)] : null;
 };
 
 jp.small_effects = function (d) {
@@ -134,15 +154,28 @@ jp.runs_section = function (data) {
   return section;
 };
 
+/** What to do where no run is proposed. */
+function advice(d) {
+  const unknown = (d.unknowns || []).map((one) => one.depends_on).join(", ");
+  switch (d.verdict) {
+    case "no_gap": return "Nothing: the model needs no correction.";
+    case "explained": return (d.decisions || {}).missions ? "Plan with robot_corrected.yaml, which is beside this page." : "Use the corrected files beside this page; where none is written, a note below says why.";
+    case "partly_explained": return "Plan with the corrected file, if there is one beside this page. Then look for what is left" + (unknown ? `: examine the robot where it depends on ${unknown}.` : ".");
+    case "unexplained": return "Nothing is corrected. " + (unknown ? `Examine the robot where the gap depends on ${unknown}.` : "Look at the runs and places with the largest shares of the gap.");
+    default: return "Log more runs and channels: the notes below list what is missing.";
+  }
+}
+
 jp.next_section = function (d) {
   const next = d.next_experiment || {};
   const separates = next.separates || [];
   const {legs, why, ...circumstances} = next.motion || {};
   const text = (one) => Object.entries(one).map(([key, value]) => jp.key_value(key, value)).join(", ");
   const motion = legs ? h("ol", {}, legs.map((leg) => h("li", {}, text(leg)))) : text(circumstances);
-  if ((!legs && !motion) || (!separates.length && !next.motion)) return null;
-  return jp.section("The next run", separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ")) : null,
-    why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), legs && is_number(circumstances.payload_kg) ? `with ${short(circumstances.payload_kg)} kg on board` : "", motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair).`) : null);
+  if (!legs && !motion) return jp.section("What next", h("p", {}, advice(d)));
+  const chance = is_number(next.probability_settled) ? ` It settles the question with a probability of ${fraction(next.probability_settled)}.` : "";
+  return jp.section("What next: one more run", separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ") + "." + chance) : null,
+    why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), legs && is_number(circumstances.payload_kg) ? `with ${short(circumstances.payload_kg)} kg on board` : "", motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair). joulepath experiment writes the run as a mission.`) : null);
 };
 
 jp.caveats_section = function (d) {
@@ -170,5 +203,5 @@ jp.draw_diagnosis = function (data) {
   const d = data.diagnosis, verdict = data.verdict || {title: words(d.verdict), meaning: "", good: false};
   const header = jp.header(data.title || "Diagnosis", d.sentence || verdict.meaning, verdict.title, verdict.good);
   if (d.verdict === "data_suspect") return jp.page(header, jp.suspect_section(d), jp.runs_section(data), jp.caveats_section(d));
-  jp.page(header, jp.cause_cards(d), jp.diagnosis_tiles(d), jp.where_section(data), jp.which_section(d), jp.how_far_section(d), jp.runs_section(data), jp.next_section(d), jp.caveats_section(d));
+  jp.page(header, jp.cause_cards(d), jp.diagnosis_tiles(d), jp.next_section(d), jp.runs_section(data), jp.residuals_section(data), jp.how_far_section(d), jp.which_section(d), jp.where_section(data), jp.isolability_section(d), jp.caveats_section(d));
 };

@@ -235,13 +235,32 @@ def check_signals(browser, file):
     assert all("model less measured" in title for title in browser.run(titles)), browser.run(titles)
 
 
-def check_without_scripts(browser, file):
+def check_without_scripts(browser, file, said):
     """With scripts off the numbers stand in tables."""
     browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": True}})
     browser.call("POST", "/url", {"url": pathlib.Path(file).resolve().as_uri()})
     browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setScriptExecutionDisabled", "params": {"value": False}})
     text = browser.run("return document.querySelector('noscript').innerText || document.querySelector('noscript').textContent")
-    assert "energy J" in text and "duration s" in text, text[:300]
+    missing = [word for word in said if word not in text]
+    assert not missing, f"{missing} not in {text[:300]}"
+
+
+def check_diagnosis(browser, file):
+    """The first screen answers: causes, what next; long tables are folded, and everything fits a phone, unfolded, too."""
+    for pixels in (400, 1280, 1920):
+        browser.width(pixels)
+        browser.open(file, "light")
+        sections = browser.run("return [...document.querySelectorAll('main section')].map((e) => e.ariaLabel)")
+        order = ["What next", "Measured against predicted", "What is left depends on", "How much", "Which effect", "Where", "What these runs can show", "Notes"]
+        assert [next(one for one in order if name.startswith(one)) for name in sections] == order, sections
+        assert browser.run("return [...document.querySelectorAll('main details')].every((e) => !e.open || !e.querySelector('table, .rows'))"), "a table is not folded"
+        browser.run("document.querySelectorAll('main details').forEach((e) => { e.open = true; })")
+        wide = browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+        assert wide <= 0, f"at {pixels} px the unfolded page is {wide} px wider than the window"
+        matrix = browser.run("const box = document.querySelector('.matrix').parentElement; return [box.scrollWidth, box.clientWidth, document.querySelectorAll('.matrix tbody tr').length]")
+        assert matrix[0] <= matrix[1] and matrix[2] == 2, f"at {pixels} px the matrix (content, box, rows): {matrix}"
+        browser.check_barriers(f"{file}, {pixels} px")
+    browser.width(1280)
 
 
 def main():
@@ -258,8 +277,10 @@ def main():
             check_plan(browser, f"{folder}/plan.html")
             check_layout(browser, f"{folder}/plan.html")
             check_signals(browser, f"{folder}/diagnosis.html")
-            check_without_scripts(browser, f"{folder}/plan.html")
-            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 2), ("compare", 3), ("front", 5), ("batch", 0)):
+            check_without_scripts(browser, f"{folder}/plan.html", ("energy J", "duration s"))
+            check_without_scripts(browser, f"{folder}/diagnosis.html", ("rolling_resistance", "interval 95", "probability told apart"))
+            check_diagnosis(browser, f"{folder}/diagnosis.html")
+            for kind, plots in (("plan", 5), ("infeasible", 0), ("diagnosis", 4), ("compare", 3), ("front", 5), ("batch", 0)):
                 for theme in ("dark", "light"):
                     check_page(browser, f"{folder}/{kind}.html", theme, plots)
                     print(f"ok: {kind}, {theme}")

@@ -68,6 +68,14 @@ TEST(Report, WithoutScriptsItsNumbersStandInTables) {
   EXPECT_EQ(text.find("<script"), std::string::npos);
 }
 
+TEST(Report, WithoutScriptsACauseHasItsSizeAndInterval) {
+  const std::string html = diagnosis_report_html(sample::diagnosis(), {});
+  const auto from = html.find("<noscript>"), to = html.find("</noscript>");
+  const std::string text = html.substr(from, to - from);
+  EXPECT_NE(text.find("coefficient, interval 95 0.0152, 0.0166, value 0.0159"), std::string::npos) << text;
+  EXPECT_NE(text.find("<th scope=\"col\">probability told apart</th>"), std::string::npos);
+}
+
 TEST(Report, SignalsOfManyRunsStaySmall) {
   RunComparison run{"run", "diagnosis", {}};
   for (const char* name : {"time_s", "measured_motor_power_W", "predicted_motor_power_W"})

@@ -203,6 +203,19 @@ json diagnosis() {
        {{"separates", json::array({json::array({"rolling_resistance", "gear_efficiency"})})},
         {"motion", {{"profile", "constant_ramp"}, {"acceleration_m_s2", 0.2}, {"distance_m", 10}}},
         {"expected_evidence", 8.2}}},
+      {"isolability",
+       {{"effects",
+         {{{"effect", "rolling_resistance"}, {"probability_seen", 1.0}},
+          {{"effect", "gear_efficiency"}, {"probability_seen", 1.0}},
+          {{"effect", "dragging_wheel (left)"}, {"probability_seen", 1.0}},
+          {{"effect", "turning_scrub"}, {"probability_seen", 0.01}}}},
+        {"not_seen", {"turning_scrub"}},
+        {"not_told_apart",
+         {{{"effect", "rolling_resistance"},
+           {"other", "gear_efficiency"},
+           {"two_ln_likelihood_ratio", 4.2},
+           {"probability_told_apart", 0.33}}}},
+        {"groups", json::array({json::array({"rolling_resistance", "gear_efficiency"})})}}},
       {"ceiling", {{"shrink_fraction", 0.97}}},
       {"control", {{"effect", "floor_slope"}, {"shrink_fraction", 0.1}}},
       {"missing_channels", {"battery_voltage_V"}},
@@ -223,6 +236,8 @@ std::vector<RunComparison> runs() {
       run.columns["corrected_motor_power_W"].push_back(power);
       run.columns["measured_yaw_rate_rad_s"].push_back(std::cos(0.3 * t));
       run.columns["predicted_yaw_rate_rad_s"].push_back(1.02 * std::cos(0.3 * t));
+      run.columns["motion_speed_m_s"].push_back(0.4 + 0.3 * std::sin(0.7 * t + k));
+      run.columns["motion_payload_kg"].push_back(3.0 * k);
     }
     list.push_back(run);
   }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+
+#include "diagnosis/thresholds.hpp"
+
+namespace joulepath {
+
+/// Probability that a normal value of unit deviation about `expected` exceeds `least`.
+inline double probability_above(double least, double expected) {
+  return 0.5 * std::erfc((least - expected) / std::sqrt(2.0));
+}
+
+/// Probability that the search takes an effect up whose change of the data is `expected` sigmas. The gain in
+/// log evidence is z^2/2 with z normal about its expectation; it must exceed the cost of the effect, of its
+/// prior width (in sigmas), and `more_evidence`.
+inline double probability_taken_up(double expected, double width, double more_evidence = 0.0) {
+  const double cost = kEffectCost + 0.5 * std::log1p(width * width) + more_evidence;
+  return probability_above(std::sqrt(2 * cost), expected);
+}
+
+/// Probability that a likelihood ratio with the expectation D of 2 ln LR tells two effects apart:
+/// 2 ln LR ~ N(D, 4 D).
+inline double probability_told_apart(double likelihood_ratio) {
+  if (likelihood_ratio <= 0) return 0.0;
+  const double deviation = 2 * std::sqrt(likelihood_ratio);
+  return probability_above(kStandInLoss / deviation, likelihood_ratio / deviation);
+}
+
+}  // namespace joulepath
