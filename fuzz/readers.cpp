@@ -106,15 +106,21 @@ struct Figures {
   }
 };
 
-void read_as_chosen(const std::string& input) {
+void read_as(const std::string& kind, const std::string& input) {
   static const std::string read = chosen().read.empty() ? input : in_scratch(chosen().read);
   try {
-    if (chosen().kind.empty() && chosen().file == "input.jsonl")
+    if (kind.empty() && chosen().file == "input.jsonl")
       joulepath::JobJournal(input, joulepath::JobJournal::Use::resume).add({.line = "{}"}, "0");
     else
-      static_cast<void>(joulepath::read_any_file(read, chosen().kind));
+      static_cast<void>(joulepath::read_any_file(read, kind));
   } catch (const joulepath::ConfigError&) {
   }
+}
+
+/// A bag is read twice: its topics, then the run in it.
+void read_as_chosen(const std::string& input) {
+  read_as(chosen().kind, input);
+  if (chosen().kind == "bag") read_as("run log", input);
 }
 
 }  // namespace

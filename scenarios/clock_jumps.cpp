@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "diagnosis/values/constant_payload.hpp"
 #include "scenarios/log_columns.hpp"
 // Design: docs/decisions/0150-input-is-bounded.md
 
@@ -85,6 +86,10 @@ void begin_anew(Run& later, double log_begin_s, std::size_t number) {
   for (double& time_s : later.log.time_s) time_s -= begin_s;
   if (begin_s - log_begin_s > kKnownTimeOfDay_s) later.start_time_s.reset();
   if (later.start_time_s) *later.start_time_s += begin_s;
+  if (later.log.payload_kg.empty()) {
+    later.payload = {{later.log.time_s.front(), constant_payload_kg(later)}};
+    return;
+  }
   later.payload.clear();
   for (std::size_t i = 0; i < later.log.payload_kg.size(); ++i)
     if (i == 0 || later.log.payload_kg[i] != later.log.payload_kg[i - 1])

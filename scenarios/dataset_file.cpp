@@ -27,24 +27,25 @@ std::vector<PayloadStep> read_payload(const Node& node) {
   return steps;
 }
 
+/// The steps of the payload; a column of it only where it changes, because that of a long log takes memory.
 void fill_payload(Run& run) {
   Trajectory& log = run.log;
+  std::vector<double>& column = log.payload_kg;
   if (run.payload.empty()) {
-    run.payload_known = !log.payload_kg.empty();
-    if (log.payload_kg.empty()) log.payload_kg.assign(log.size(), 0.0);
-    if (!log.size()) run.payload = {{0.0, 0.0}};
-    for (std::size_t i = 0; i < log.size(); ++i)
-      if (i == 0 || log.payload_kg[i] != log.payload_kg[i - 1])
-        run.payload.push_back({log.time_s[i], log.payload_kg[i]});
-    return;
+    run.payload_known = !column.empty();
+    if (column.empty()) run.payload = {{log.size() ? log.time_s.front() : 0.0, 0.0}};
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (i == 0 || column[i] != column[i - 1]) run.payload.push_back({log.time_s[i], column[i]});
+  } else {
+    run.payload_known = true;
+    column.resize(run.payload.size() > 1 ? log.size() : 0);
+    std::size_t step = 0;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      while (step + 1 < run.payload.size() && log.time_s[i] >= run.payload[step + 1].from_s) ++step;
+      column[i] = run.payload[step].payload_kg;
+    }
   }
-  run.payload_known = true;
-  log.payload_kg.resize(log.size());
-  std::size_t step = 0;
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    while (step + 1 < run.payload.size() && log.time_s[i] >= run.payload[step + 1].from_s) ++step;
-    log.payload_kg[i] = run.payload[step].payload_kg;
-  }
+  if (run.payload.size() == 1) column = std::vector<double>();
 }
 
 class RunReader {

@@ -12,6 +12,8 @@ namespace {
 /// True if a column of a file is a channel of its run.
 bool wanted(const std::string& header, const ColumnSources& sources) {
   const auto names = [&](const std::string& column) {
+    const auto source = sources.find(column);
+    if (source != sources.end() && source->second.is_absent) return false;
     const auto in_file = names_in_file(column, sources);
     return std::find(in_file.begin(), in_file.end(), header) != in_file.end();
   };

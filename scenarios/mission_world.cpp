@@ -17,7 +17,8 @@ void check_payloads(const MissionRequest& request, const Robot& robot) {
     if (payload_kg <= most_kg) return;
     std::ostringstream found, accepted;
     found << payload_kg;
-    accepted << "at most " << most_kg << ", the " << payload_limit().key << " of " << request.robot_file;
+    accepted << "at most " << most_kg << ", limits." << payload_limit().key << " of "
+             << (request.robot_file.empty() ? "the robot" : request.robot_file);
     throw ConfigError(
         {marks.at("payload_kg"), marks.key_path("payload_kg"), found.str(), accepted.str(), ""});
   };

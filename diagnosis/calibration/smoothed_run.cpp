@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
 
 namespace joulepath::calibration {
@@ -58,8 +59,9 @@ std::vector<double> on_even_steps(const std::vector<double>& time_s, const std::
   return even;
 }
 
-Stretch stretch_of(const Trajectory& log, const Sided<std::vector<double>>& speeds, std::size_t first,
+Stretch stretch_of(const Run& run, const Sided<std::vector<double>>& speeds, std::size_t first,
                    std::size_t last) {
+  const Trajectory& log = run.log;
   const auto span = static_cast<double>(last - first - 1);
   Stretch stretch{.start_s = log.time_s[first],
                   .period_s = (log.time_s[last - 1] - log.time_s[first]) / span};
@@ -80,7 +82,8 @@ Stretch stretch_of(const Trajectory& log, const Sided<std::vector<double>>& spee
     stretch.current[side] = cut(log.motor_current_A[side]);
     stretch.voltage[side] = cut(log.motor_voltage_V[side]);
   }
-  stretch.payload = log.payload_kg.empty() ? std::vector<double>(last - first, 0.0) : cut(log.payload_kg);
+  stretch.payload = log.payload_kg.empty() ? std::vector<double>(last - first, constant_payload_kg(run))
+                                           : cut(log.payload_kg);
   return stretch;
 }
 
@@ -151,7 +154,7 @@ std::optional<SmoothedRun> smoothed(const Run& source, const Geometry& geometry)
   std::size_t first = 0;
   for (std::size_t i = 1; i <= log.size(); ++i) {
     if (i < log.size() && log.time_s[i] - log.time_s[i - 1] < kLongestGap_periods * period_s) continue;
-    if (i - first > 2 * run.kernel.reach() + 1) append_smoothed(stretch_of(log, speeds, first, i), run);
+    if (i - first > 2 * run.kernel.reach() + 1) append_smoothed(stretch_of(source, speeds, first, i), run);
     first = i;
   }
   return run;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/thresholds.hpp"
+#include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
 #include "model/printable.hpp"
@@ -28,6 +29,12 @@ double greatest(const std::vector<double>& values) {
   double most = 0;
   for (double value : values) most = std::max(most, std::abs(value));
   return most;
+}
+
+/// The greatest absolute value of a column; of the payload, that of a run without such a column.
+double greatest_of(const std::string& column, const Run& run) {
+  const std::vector<double>& values = find_log_column(column)->of(run.log);
+  return values.empty() && column == "payload_kg" ? std::abs(constant_payload_kg(run)) : greatest(values);
 }
 
 using Findings = std::vector<Implausible>;
@@ -88,7 +95,7 @@ std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot
   check_time(log, findings);
   check_wheels(log, robot.geometry, findings);
   for (const Bound& bound : kColumnBounds)
-    if (const double most = greatest(find_log_column(bound.column)->of(log)); most > bound.most)
+    if (const double most = greatest_of(bound.column, run); most > bound.most)
       findings.push_back({bound.column, std::string(bound.column) + " up to " + four_digits(most),
                           "at most " + four_digits(bound.most), bound.hint});
   check_robot(log, robot.geometry, findings);

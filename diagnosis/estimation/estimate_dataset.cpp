@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "diagnosis/values/constant_payload.hpp"
 #include "model/motions.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
@@ -11,9 +12,11 @@ namespace {
 
 /// The motion of a run: its log, or its prescribed motion.
 Trajectory motion_of(const Run& run, const Robot& robot) {
-  if (!run.motion) return run.log;
-  const double payload_kg = run.payload.empty() ? 0.0 : run.payload.front().payload_kg;
-  return timed_motion(robot, {*run.motion}, {.payload_kg = payload_kg}).trajectory;
+  const double payload_kg = constant_payload_kg(run);
+  if (run.motion) return timed_motion(robot, {*run.motion}, {.payload_kg = payload_kg}).trajectory;
+  Trajectory log = run.log;
+  if (log.payload_kg.empty()) log.payload_kg.assign(log.size(), payload_kg);
+  return log;
 }
 
 RunEstimate estimate_run(const Run& run, const Robot& robot, const Plant& plant, EstimateOptions options) {

@@ -5,6 +5,7 @@
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "diagnosis/values/constant_payload.hpp"
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
 #include "model/motor.hpp"
@@ -233,7 +234,8 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   signals.time_of_day_known = run.start_time_s.has_value();
   signals.time_of_day_s = signals.time_s.array() + run.start_time_s.value_or(0.0);
   signals.payload_kg = thinner.held(log.payload_kg);
-  if (signals.payload_kg.size() == 0) signals.payload_kg = Eigen::VectorXd::Zero(signals.size());
+  if (signals.payload_kg.size() == 0)
+    signals.payload_kg = Eigen::VectorXd::Constant(signals.size(), constant_payload_kg(run));
   for (Side side : kSides) {
     signals.motor_voltage_V[side] =
         thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));

@@ -6,6 +6,7 @@
 
 #include "diagnosis/numerics/folds.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "diagnosis/values/constant_payload.hpp"
 
 namespace joulepath {
 namespace {
@@ -28,7 +29,8 @@ Stratum stratum_of(const Run& run) {
   }
   const double travelled = forward + backward;
   const int kind = (turn > travelled ? 2 : turn > 0.1 * travelled ? 1 : 0) + (backward > forward ? 3 : 0);
-  return {kind, log.payload_kg.empty() ? 0.0 : *std::ranges::max_element(log.payload_kg), sum};
+  return {kind, log.payload_kg.empty() ? constant_payload_kg(run) : *std::ranges::max_element(log.payload_kg),
+          sum};
 }
 
 std::vector<std::size_t> folds_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {

@@ -33,7 +33,7 @@ enum class RunUse { any, diagnosis, validation };
 /// One run: a log with its conditions, or a prescribed motion with measured energies.
 struct Run {
   std::string name{};  ///< the file as named in the dataset; `runs[3]` for a run with energies only
-  Trajectory log{};    ///< payload_kg is filled for every sample; empty for a run with energies only
+  Trajectory log{};    ///< payload_kg only where it changes; empty for a run with energies only
   std::optional<Trajectory> predicted{};  ///< another simulator's prediction, its own time base
   std::optional<PrescribedMotion> motion{};
   std::optional<Sided<double>> measured_energy_J{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/limit_table.hpp"
 #include "planner/nlp/transcription/row_selection.hpp"
 
 namespace joulepath {
@@ -57,6 +58,7 @@ void OnlineProblem::take_limits(const Situation& situation) {
   extra_kg_ = situation.payload_kg - planned_kg;
   if (std::abs(extra_kg_) <= kNoMargin * (1 + planned_kg)) extra_kg_ = 0;
   const auto [least_kg, most_kg] = std::minmax(planned_kg, request_.payload.to_kg);
+  overloaded_ = extra_kg_ > 0 && most_kg + extra_kg_ > payload_limit_kg(request_.plant.robot);
   request_.limits =
       extra_kg_ == 0 ? limits_.planned() : limits_.between(least_kg + extra_kg_, most_kg + extra_kg_);
   table_.update_caps();

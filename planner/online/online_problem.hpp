@@ -27,6 +27,8 @@ class OnlineProblem {
   /// Up to this coordinate caps are raised to what braking from the situation's rate leaves; the
   /// situation's own place where none is.
   double raised_until() const { return raised_until_; }
+  /// More is on board than planned, and more than the robot may carry.
+  bool overloaded() const { return overloaded_; }
 
  private:
   void take_limits(const Situation& situation);
@@ -45,6 +47,7 @@ class OnlineProblem {
   std::vector<double> squares_{};
   double extra_kg_{};
   double raised_until_{};
+  bool overloaded_{};
 };
 
 }  // namespace joulepath

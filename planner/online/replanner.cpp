@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/limit_table.hpp"
 #include "planner/nlp/fast/thread_clock.hpp"
 #include "planner/online/emergency_stop.hpp"
 
@@ -69,6 +70,10 @@ const Replan& Replanner::replan(const Situation& situation, const ReplanBudget& 
     return answer_;
   }
   problem_.set(situation, price_W_);
+  if (problem_.overloaded()) {
+    stop(situation, {.limit = payload_limit().name});
+    return answer_;
+  }
   const Problem& problem = problem_.problem();
   if (problem_.raised_until() > situation.s) answer_.above_cap_until = problem_.raised_until();
   const RateEnvelope& envelope = sweeps_.run(problem);

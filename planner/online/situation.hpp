@@ -13,7 +13,7 @@ struct Situation {
   double s{};                              ///< path coordinate
   double rate{};                           ///< of the path coordinate, >= 0
   double acceleration{};                   ///< of the path coordinate; of use under a jerk limit only
-  double payload_kg{};                     ///< on board now, as stated
+  double payload_kg{};                     ///< on board now, as stated; above the robot's limit it stops
   double time_left_s{kNoLimit};            ///< to the deadline of the piece's end
   std::span<const SpeedCap> speed_caps{};  ///< besides the request's
   double stop_at{kNoLimit};                ///< the path is blocked from here on: stand before it

@@ -4,6 +4,8 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <iterator>
+
 #include "python/bindings/bindings.hpp"
 #include "scenarios/log_columns.hpp"
 #include "scenarios/physical_bounds.hpp"
@@ -23,6 +25,15 @@ nb::ndarray<nb::numpy, const double, nb::ndim<1>> view_of(const std::vector<doub
 void bind_arrays(nb::module_& module) {
   module.def("greatest_size", &greatest_size, nb::arg("key"),
              "The greatest size of a number whose name ends in this unit.");
+  module.def(
+      "log_column_names",
+      [] {
+        std::vector<std::string> names(std::begin(kOrientationColumns), std::end(kOrientationColumns));
+        for (const LogColumn& column : log_columns())
+          if (column.measured) names.push_back(column.name);
+        return names;
+      },
+      "Names of the columns that a run log may have.");
   nb::class_<Log>(module, "Log", "Samples over time; absent channels are empty.")
       .def(
           "columns",

@@ -40,8 +40,9 @@ DiagnosisResults diagnose_text(const std::string& text, const std::string& name,
   for (const auto& [log, columns] : frames) logs[log] = table_of(log, columns);
   const LongCall call;
   const Document document = from_object(name, [&] { return Document::parse(text, name); });
-  Dataset dataset = from_object(
-      name, [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
+  Dataset dataset = from_objects(
+      [&](const std::string& file) { return file == name || logs.contains(file); },
+      [&] { return dataset_from(document, kReading, {}, {.robot = &robot.robot, .logs = &logs}); });
   dataset.file.clear();  // without a file, no corrected dataset can be written
   return diagnosis_results(std::move(dataset), options, &document);
 }

@@ -1,5 +1,8 @@
 #include <nanobind/stl/string.h>
 
+#include <string_view>
+#include <utility>
+
 #include "app/command.hpp"
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
@@ -7,6 +10,25 @@
 
 namespace joulepath::python {
 namespace {
+
+/// Options of the command line and the arguments of the package that take their place.
+constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
+    {"--payload", "payload_kg"}, {"--time", "time_s"}, {"--robot", "robot"}, {"--map", "map"}};
+
+/// The error of an option as that of its argument.
+ConfigError of_argument(const ConfigError& error) {
+  ConfigError::Detail detail = error.detail();
+  for (const auto& [option, argument] : kArguments) {
+    if (detail.mark.file == option) {
+      detail.mark = {};
+      if (detail.key.empty()) detail.key = argument;
+    }
+    for (std::string* text : {&detail.accepted, &detail.hint})
+      if (const auto at = text->find(option); at != std::string::npos)
+        text->replace(at, option.size(), std::string(argument) + "=");
+  }
+  return ConfigError(detail);
+}
 
 nb::object optional_number(int number) { return number > 0 ? nb::cast(number) : nb::none(); }
 
@@ -28,7 +50,7 @@ void bind_errors(nb::module_&) {
     try {
       std::rethrow_exception(raised);
     } catch (const ConfigError& error) {
-      raise_config_error(error);
+      raise_config_error(of_argument(error));
     } catch (const UsageError& error) {
       raise_config_error(ConfigError({{}, "without", printable(error.what()), "names of the catalog", ""}));
     } catch (const EnvironmentError& error) {

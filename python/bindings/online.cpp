@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/limit_table.hpp"
 #include "planner/online/follower.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
@@ -56,6 +57,8 @@ void bind_drives(nb::module_& module) {
       .def_prop_ro("is_turn", [](const PlannedDrive& self) { return is_turn(self.request.piece); })
       .def_prop_ro("length", [](const PlannedDrive& self) { return piece_length(self.request.piece); })
       .def_prop_ro("payload_kg", [](const PlannedDrive& self) { return self.request.payload.from_kg; })
+      .def_prop_ro("max_payload_kg",
+                   [](const PlannedDrive& self) { return payload_limit_kg(self.request.plant.robot); })
       .def(
           "pose",
           [](const PlannedDrive& self, double s) {
@@ -113,20 +116,23 @@ void bind_follower(nb::module_& module) {
   nb::class_<FollowCommand>(module, "FollowCommand",
                             "Speed and yaw rate from when the command takes effect, their derivatives, and "
                             "`state`: driving, finished (at the end, at rest) or off_path (handed over).")
-      .def_prop_ro("state",
-                   [](const FollowCommand& self) {
-                     constexpr const char* kNames[] = {"driving", "finished", "off_path"};
-                     return kNames[static_cast<std::size_t>(self.state)];
-                   })
-      .def_ro("speed_m_s", &FollowCommand::speed_m_s)
-      .def_ro("yaw_rate_rad_s", &FollowCommand::yaw_rate_rad_s)
-      .def_ro("acceleration_m_s2", &FollowCommand::acceleration_m_s2)
-      .def_ro("yaw_acceleration_rad_s2", &FollowCommand::yaw_acceleration_rad_s2)
-      .def_ro("s", &FollowCommand::s)
-      .def_ro("lateral_m", &FollowCommand::lateral_m)
-      .def_ro("heading_error_rad", &FollowCommand::heading_error_rad)
-      .def_ro("late_s", &FollowCommand::late_s)
-      .def_ro("replanned", &FollowCommand::replanned);
+      .def_prop_ro(
+          "state",
+          [](const FollowCommand& self) {
+            constexpr const char* kNames[] = {"driving", "finished", "off_path"};
+            return kNames[static_cast<std::size_t>(self.state)];
+          },
+          "driving, finished or off_path.")
+      .def_ro("speed_m_s", &FollowCommand::speed_m_s, "Signed; of the middle between the wheels.")
+      .def_ro("yaw_rate_rad_s", &FollowCommand::yaw_rate_rad_s, "Positive to the left.")
+      .def_ro("acceleration_m_s2", &FollowCommand::acceleration_m_s2,
+              "From when the command takes effect, for a period.")
+      .def_ro("yaw_acceleration_rad_s2", &FollowCommand::yaw_acceleration_rad_s2, "For the same period.")
+      .def_ro("s", &FollowCommand::s, "Path coordinate (m or rad) of the pose's projection.")
+      .def_ro("lateral_m", &FollowCommand::lateral_m, "Distance of the pose to the left of the path.")
+      .def_ro("heading_error_rad", &FollowCommand::heading_error_rad, "Heading less that of the path.")
+      .def_ro("late_s", &FollowCommand::late_s, "Of the profile's end, after the deadline.")
+      .def_ro("replanned", &FollowCommand::replanned, "Whether this call made a new profile.");
   nb::class_<Follower>(module, "Follower")
       .def(
           "__init__",

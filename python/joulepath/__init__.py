@@ -17,8 +17,9 @@ from .diagnosis import Diagnosis, Run, diagnose
 from .energies import Energy, energy
 from .logs import Log
 from .mapping import map  # noqa: A004
-from .online import Command, Drive, Follower, Replan, Replanner, drives
+from .online import Command, Follower, Replan, Replanner
 from .paths import Path
+from .pieces import Drive, drives
 from .plans import Plan, Profile, plan, profile
 from .robots import Robot
 from .simulation import Simulation, simulate

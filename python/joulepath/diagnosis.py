@@ -15,19 +15,22 @@ from numpy.typing import NDArray
 from . import _core
 from ._errors import refused
 from ._files import save
-from ._inputs import file_name, text_of
+from ._frames import columns_of, is_frame, names_read
+from ._inputs import encodable, file_name, text_of
 from ._records import Record
+from ._values import Value
 from .robots import Robot, robot_of
 
 #: A file, or columns by name: a pandas.DataFrame, a Log, a dict of arrays.
 LogLike = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Run:
     """One log with its circumstances; the keys are those of ``runs:`` in a dataset file.
 
-    ``payload_kg`` is a number, or steps ``[{"from_s": 0, "kg": 5}, ...]``; None: the log's column, or 0.
+    ``payload_kg`` is a number, or steps ``[{"from_s": 0, "kg": 5}, ...]``; None: the log's column, or 0. ``start_time_s``:
+    time of day of its start. ``use``: ``any``, ``diagnosis`` or ``validation``. ``name``: in the answer, for a log in memory.
     """
 
     log: LogLike
@@ -38,7 +41,7 @@ class Run:
     name: str | None = None
 
 
-class Diagnosis:
+class Diagnosis(Value):
     """The result of ``diagnose``. ``json`` holds all of diagnosis.json."""
 
     def __init__(self, value: _core.DiagnosisValue) -> None:
@@ -76,7 +79,10 @@ class Diagnosis:
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes the same files as ``joulepath diagnose``, byte for byte."""
+        """Writes the same files as ``joulepath diagnose``, byte for byte.
+
+        Files that exist are overwritten with ``force`` alone, else ConfigError. Returns the directory.
+        """
         return save(directory, {"diagnosis.json": self._value.json, "report.html": self.report(),
                                 "robot_corrected.yaml": None if self.robot is None else self.robot.text(),
                                 "dataset_corrected.yaml": self._value.corrected_dataset(os.fspath(directory))}, force)
@@ -92,51 +98,47 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
     """Locates the gap between model and logs, names its cause, measures how much a correction shrinks it.
 
     ``logs``: a dataset file, or a list of logs: file names, data frames, dicts of arrays, Logs, or a Run of one of them
-    with its circumstances. Columns are those of the run log format; ``columns`` maps other names and units as in a
-    dataset file. ``without``: effects taken out of the catalog. ``robot`` may be None with a dataset file, which names
-    its own. Raises ConfigError.
+    with its circumstances. Columns are those of the run log format, in SI units, of one length; NaN and None are missing
+    values. ``columns`` maps other names and units as in a dataset file. ``without``: effects taken out of the catalog.
+    ``robot`` may be None with a dataset file, which names its own. Raises ConfigError, for a value that is no number with
+    its column and row.
+
+    >>> diagnose(Robot.example(), [{"time_s": [0, 1], "linear_speed_m_s": [0, "fast"], "angular_speed_rad_s": [0, 0]}])
+    Traceback (most recent call last):
+    joulepath._errors.ConfigError: logs[0].linear_speed_m_s[1]: found 'fast' of type str, accepted: a finite number, or NaN where a value is missing
     """
-    left_out = [without] if isinstance(without, str) else list(without)
+    left_out = [without] if isinstance(without, str) else _words("without", without)
     if isinstance(logs, (str, os.PathLike)):
         value = None if robot is None else robot_of(robot)._value
         return Diagnosis(_core.diagnose_file(file_name("logs", logs), value, left_out))
-    if not isinstance(logs, Iterable):
-        raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, or a list of logs")
+    if isinstance(logs, Run) or is_frame(logs) or not isinstance(logs, Iterable):
+        raise refused("logs", f"a value of type {type(logs).__name__}", "a dataset file, or a list of logs",
+                      "put it into a list: [log]" if isinstance(logs, Run) or is_frame(logs) else "")
     if robot is None:
         raise refused("robot", "None", "a Robot", "only a dataset file names its robot")
+    if columns is not None and not isinstance(columns, Mapping):
+        raise refused("columns", f"a value of type {type(columns).__name__}", "a dict, as columns: of a dataset file")
     frames: dict[str, dict[str, NDArray[np.float64]]] = {}
-    runs = [_entry(index, log if isinstance(log, Run) else Run(log), frames) for index, log in enumerate(logs)]
+    read = names_read(columns or {})
+    runs = [_entry(index, log if isinstance(log, Run) else Run(log), frames, read) for index, log in enumerate(logs)]
     dataset: dict[str, Any] = {"runs": runs} if columns is None else {"runs": runs, "columns": dict(columns)}
     return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out))
 
 
-def _entry(index: int, run: Run, frames: dict[str, dict[str, NDArray[np.float64]]]) -> dict[str, Any]:
+def _words(name: str, words: Iterable[str]) -> list[str]:
+    if isinstance(words, Iterable):
+        listed = list(words)
+        if all(isinstance(word, str) for word in listed):
+            return [encodable(name, word) for word in listed]
+    raise refused(name, repr(words), "names of effects")
+
+
+def _entry(index: int, run: Run, frames: dict[str, dict[str, NDArray[np.float64]]], read: frozenset[str]) -> dict[str, Any]:
     if isinstance(run.log, (str, os.PathLike)):
         name = file_name(f"logs[{index}]", run.log)
     else:
-        name = run.name or f"logs[{index}]"
-        frames[name] = _columns_of(name, run.log)
+        name = file_name(f"logs[{index}].name", run.name or f"logs[{index}]")
+        frames[name] = columns_of(name, run.log, read)
     entry = {"file": name, "payload_kg": run.payload_kg, "start_time_s": run.start_time_s, "surface": run.surface,
              "use": run.use}
     return {key: value for key, value in entry.items() if value is not None}
-
-
-def _columns_of(name: str, log: Any) -> dict[str, NDArray[np.float64]]:
-    """Columns of numbers; NaN is a missing value, as an empty cell of a file is. Columns of text are left out."""
-    keys = getattr(log, "columns", None)
-    if keys is None and not isinstance(log, Mapping):
-        raise refused(name, f"a value of type {type(log).__name__}", "a file's name, a data frame, or columns by name")
-    columns: dict[str, NDArray[np.float64]] = {}
-    for key in (log if keys is None else keys):
-        array = np.asarray(log[key])
-        if array.dtype.kind not in "fiu":
-            continue
-        if array.ndim != 1:
-            raise refused(f"{name}.{key}", f"shape {array.shape}", "an array with 1 axis")
-        if np.isinf(array).any():
-            raise refused(f"{name}.{key}", "an infinite value", "finite numbers; NaN where a value is missing")
-        columns[str(key)] = np.ascontiguousarray(array, dtype=np.float64)
-    lengths = {len(column) for column in columns.values()}
-    if len(lengths) > 1:
-        raise refused(name, "columns of different lengths", "columns of one length")
-    return columns

@@ -7,11 +7,12 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import refused
 from ._inputs import samples, times
+from ._values import Value
 from .logs import Log
 from .robots import Robot, robot_of
 
 
-class Energy:
+class Energy(Value):
     """Energy of a motion at the battery's terminals."""
 
     __slots__ = ("_value",)
@@ -36,10 +37,12 @@ class Energy:
 
     @property
     def distance_m(self) -> float:
+        """Distance driven, forward and back."""
         return self._value.distance_m
 
     @property
     def duration_s(self) -> float:
+        """From the first to the last sample."""
         return self._value.duration_s
 
     @property
@@ -52,7 +55,7 @@ class Energy:
 
 
 def energy(robot: Robot, t: ArrayLike, v: ArrayLike, w: ArrayLike = 0.0, *, payload_kg: ArrayLike = 0.0) -> Energy:
-    """Energy of a motion: times ``t`` (s), speeds ``v`` (m/s), yaw rates ``w`` (rad/s), payload (kg).
+    """Energy of a motion: times ``t`` (s), speeds ``v`` (m/s), yaw rates ``w`` (rad/s), ``payload_kg``.
 
     ``t`` has shape (N,) and increases; the others have shape (N,) or are one number. Speeds are linear between the
     samples. Raises ConfigError.

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from ._values import Value
 
 
-class Log(Mapping[str, "NDArray[np.float64]"]):
-    """Channels by the names of a run log's columns (``time_s``, ``linear_speed_m_s`` ...): read-only views
-    of equal length, without copies.
+class Log(Value, Mapping[str, "NDArray[np.float64]"]):
+    """Channels by the names of a run log's columns (``time_s``, ``linear_speed_m_s`` ...), in SI units: read-only views
+    of shape (N,), without copies. A name that is not there raises KeyError. Two logs are equal that have the same channels
+    with the same numbers.
     """
 
     __slots__ = ("_columns", "_value")
@@ -33,6 +35,11 @@ class Log(Mapping[str, "NDArray[np.float64]"]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Log):
+            return NotImplemented
+        return self._columns == other._columns and all(np.array_equal(self[name], other[name], equal_nan=True) for name in self)
 
     def __repr__(self) -> str:
         rows = len(self[self._columns[0]]) if self._columns else 0

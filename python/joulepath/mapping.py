@@ -32,8 +32,8 @@ def map(function: Callable[..., Result], jobs: Iterable[Any], *, threads: int = 
             return error
 
     with ThreadPoolExecutor(threads, initializer=_core.use_stop_token, initargs=(token,)) as pool:
-        futures = [pool.submit(call, job) for job in jobs]
         try:
+            futures = [pool.submit(call, job) for job in jobs]
             return [future.result() for future in futures]
         except BaseException:
             token.stop()

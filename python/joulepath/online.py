@@ -7,7 +7,6 @@ change per second. One Replanner or Follower serves one piece, in one thread.
 from __future__ import annotations
 
 import math
-import os
 from typing import Sequence
 
 import numpy as np
@@ -15,81 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._errors import refused
-from ._inputs import file_name, number, numbers, whole
-from .plans import Plan
-from .robots import Robot, robot_of
+from ._inputs import number, numbers, whole
+from ._values import Value
+from .pieces import Drive, given_drive, on_board_kg
 
 Command = _core.FollowCommand
 
 
-class Drive:
-    """A piece of a plan that is driven without a stop; ``start_s`` and ``end_s`` are in the plan's time."""
-
-    __slots__ = ("_value",)
-
-    def __init__(self, value: _core.PlannedDrive) -> None:
-        self._value = value
-
-    @property
-    def start_s(self) -> float:
-        """When the piece begins."""
-        return self._value.start_s
-
-    @property
-    def end_s(self) -> float:
-        """When its end is due."""
-        return self._value.end_s
-
-    @property
-    def leg(self) -> int:
-        """Number of the leg, from 0."""
-        return self._value.leg
-
-    @property
-    def is_turn(self) -> bool:
-        """A turn in place."""
-        return self._value.is_turn
-
-    @property
-    def length(self) -> float:
-        """Of the path coordinate: m, or rad of a turn in place."""
-        return self._value.length
-
-    @property
-    def payload_kg(self) -> float:
-        """On board at the start, as planned."""
-        return self._value.payload_kg
-
-    def pose(self, s: float) -> tuple[float, float, float]:
-        """x (m), y (m) and heading (rad) at a path coordinate."""
-        x, y, heading = self._value.pose(number("s", s, least=0.0, most=self.length))
-        return (x, y, heading)
-
-    def __repr__(self) -> str:
-        what = f"turn of {self.length:.4g} rad" if self.is_turn else f"curve of {self.length:.4g} m"
-        return f"Drive(leg {self.leg}, {what}, {self.start_s:.4g} to {self.end_s:.4g} s)"
-
-
-def drives(plan: Plan | str | os.PathLike[str], robot: Robot | None = None) -> tuple[Drive, ...]:
-    """The pieces of a plan that are driven without a stop, in order.
-
-    ``plan``: a Plan, or the directory of one; a directory needs the ``robot``. Raises ConfigError.
-
-    >>> import joulepath as jp
-    >>> drives(jp.profile(jp.Robot.example(), [[0, 0], [2, 0]], time_s=6))
-    (Drive(leg 0, curve of 2 m, 0 to 6 s),)
-    """
-    if isinstance(plan, Plan):
-        planned_for = robot_of(plan.robot if robot is None else robot)
-        found = _core.drives_of(plan.trajectory._value, planned_for._value)
-    else:
-        if robot is None:
-            raise refused("robot", "None", "the robot of the plan in this directory")
-        found = _core.drives_in(file_name("plan", plan), robot_of(robot)._value)
-    return tuple(Drive(value) for value in found)
-
-
-class Replan:
+class Replan(Value):
     """A profile from a situation on: ``t`` (s, from 0), ``s`` (from the situation's place on) and ``rate`` at its nodes.
 
     Between nodes the acceleration is constant. ``status``: ``optimal`` (on the grid, to 1e-6), ``feasible`` (the budget
@@ -108,17 +40,17 @@ class Replan:
 
     @property
     def t(self) -> NDArray[np.float64]:
-        """Times of the nodes, s."""
+        """Times of the nodes, s, shape (N,)."""
         return self._value.t
 
     @property
     def s(self) -> NDArray[np.float64]:
-        """Path coordinates of the nodes; the first is the situation's place."""
+        """Path coordinates of the nodes, m or rad, shape (N,); the first is the situation's place."""
         return self._value.s
 
     @property
     def rate(self) -> NDArray[np.float64]:
-        """Change of the path coordinate per second at the nodes."""
+        """Change of the path coordinate per second at the nodes, m/s or rad/s, shape (N,)."""
         return self._value.rate
 
     @property
@@ -173,8 +105,10 @@ class Replan:
 class Replanner:
     """Plans the rest of a piece from any state on it, in about a millisecond. A jerk limit is not kept.
 
+    ``drive``: one of ``drives(plan)``. ``nodes``: of the grid, 10 to 20000. Raises ConfigError.
+
     >>> import joulepath as jp
-    >>> piece, = drives(jp.profile(jp.Robot.example(), [[0, 0], [2, 0]]))
+    >>> piece, = jp.drives(jp.profile(jp.Robot.example(), [[0, 0], [2, 0]]))
     >>> rest = Replanner(piece).replan(0.5, 0.4, time_left_s=5.0)
     >>> rest.status, rest.duration_s < 5, float(rest.s[0]), round(float(rest.s[-1]), 9)
     ('optimal', True, 0.5, 2.0)
@@ -183,7 +117,7 @@ class Replanner:
     __slots__ = ("_drive", "_value")
 
     def __init__(self, drive: Drive, *, nodes: int = 200) -> None:
-        self._drive = drive
+        self._drive = given_drive(drive)
         self._value = _core.Replanner(drive._value, whole("nodes", nodes, 10, 20000))
 
     def replan(self, s: float, rate: float, *, payload_kg: float | None = None, time_left_s: float | None = None,
@@ -191,7 +125,8 @@ class Replanner:
                cpu_s: float | None = None) -> Replan:
         """The profile of least energy from the path coordinate ``s`` at ``rate`` to the end of the piece, at rest, in time.
 
-        ``payload_kg``: on board now (None: as planned). ``time_left_s``: to the deadline (None: free).
+        ``payload_kg``: on board now, at most what the robot may carry (None: as planned). ``time_left_s``: to the deadline
+        (None: free).
         ``speed_caps``: shape (N, 3), from (m), to (m), speed (m/s). ``stop_at``: the path is blocked from there on.
         ``iterations`` and ``cpu_s`` bound the work; the GIL is released meanwhile. Raises ConfigError.
         """
@@ -202,8 +137,7 @@ class Replanner:
             raise refused("speed_caps", "a row that no robot can keep", "from <= to, and a speed > 0")
         return Replan(self._value.replan(
             number("s", s, least=0.0, most=self._drive.length), number("rate", rate, least=0.0),
-            self._drive.payload_kg if payload_kg is None else number("payload_kg", payload_kg, least=0.0),
-            math.inf if time_left_s is None else number("time_left_s", time_left_s), caps,
+            on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s), caps,
             math.inf if stop_at is None else number("stop_at", stop_at), whole("iterations", iterations, 1, 10000),
             math.inf if cpu_s is None else number("cpu_s", cpu_s, above=0.0)))
 
@@ -213,9 +147,10 @@ class Follower:
 
     A command holds from ``latency_s`` after its pose on. ``deadline_s``: of the piece's end, from its start (None: as
     planned). A pose farther than ``off_path_m`` or ``off_path_rad`` from the path is handed over: ``off_path``.
+    Raises ConfigError.
 
     >>> import joulepath as jp
-    >>> piece, = drives(jp.profile(jp.Robot.example(), [[0, 0], [2, 0]], time_s=6))
+    >>> piece, = jp.drives(jp.profile(jp.Robot.example(), [[0, 0], [2, 0]], time_s=6))
     >>> command = Follower(piece).command(0.0, piece.pose(0.0), 0.0, 0.0)
     >>> command.state, command.acceleration_m_s2 > 0
     ('driving', True)
@@ -225,7 +160,7 @@ class Follower:
 
     def __init__(self, drive: Drive, *, deadline_s: float | None = None, period_s: float = 0.05, latency_s: float = 0.05,
                  off_path_m: float = 0.3, off_path_rad: float = 0.8) -> None:
-        self._drive = drive
+        self._drive = given_drive(drive)
         due_s = drive.end_s - drive.start_s if deadline_s is None else number("deadline_s", deadline_s, above=0.0)
         self._value = _core.Follower(
             drive._value, due_s, number("period_s", period_s, least=0.001, most=1.0),
@@ -237,7 +172,8 @@ class Follower:
                 stop_at_m: float | None = None) -> Command:
         """The command for a pose (x in m, y in m, heading in rad) and the speeds that are measured with it.
 
-        ``time_s``: since the piece's start was due. ``speed_limit_m_s``: for the rest of the piece. ``stop_at_m``: the path
+        ``time_s``: since the piece's start was due. ``payload_kg``: on board now, at most what the robot may carry (None: as
+        planned). ``speed_limit_m_s``: for the rest of the piece. ``stop_at_m``: the path
         is blocked from this coordinate on. Raises ConfigError.
         """
         at = numbers("pose", pose)
@@ -246,6 +182,5 @@ class Follower:
         return self._value.command(
             number("time_s", time_s), [float(x) for x in at], number("speed_m_s", speed_m_s),
             number("yaw_rate_rad_s", yaw_rate_rad_s),
-            self._drive.payload_kg if payload_kg is None else number("payload_kg", payload_kg, least=0.0),
-            None if speed_limit_m_s is None else number("speed_limit_m_s", speed_limit_m_s, least=0.0),
+            on_board_kg(self._drive, payload_kg), None if speed_limit_m_s is None else number("speed_limit_m_s", speed_limit_m_s, least=0.0),
             None if stop_at_m is None else number("stop_at_m", stop_at_m))

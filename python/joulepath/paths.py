@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._errors import refused
 from ._inputs import file_name, number, numbers, points
+from ._values import Value
 
 
-class Path:
+class Path(Value):
     """A path on the floor: curves with continuous curvature, and turns in place between them.
 
     >>> path = Path([[0, 0], [1, 0], [2, 1]])
@@ -41,7 +42,7 @@ class Path:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Path:
-        """The path of a file: waypoints (CSV) or Bezier curves (YAML)."""
+        """The path of a file: waypoints (CSV) or Bezier curves (YAML). Raises ConfigError."""
         path = cls.__new__(cls)
         path._value = _core.load_path(file_name("file", file))
         return path
@@ -57,7 +58,7 @@ class Path:
         return self._value.turned_rad
 
     def poses(self, step_m: float = 0.05) -> NDArray[np.float64]:
-        """Poses along the path, shape (N, 3): x and y in m, heading in rad."""
+        """Poses along the path, ``step_m`` apart at most, shape (N, 3): x and y in m, heading in rad. Raises ConfigError."""
         log = self._value.poses(number("step_m", step_m, 1e-6 * self.length_m, above=0.0))
         return np.stack([log.column(name) for name in ("position_x_m", "position_y_m", "heading_rad")], axis=1)
 

@@ -18,6 +18,7 @@ from ._errors import Infeasible, PlanningError, refused
 from ._files import save
 from ._inputs import file_name, number, numbers, one_of, text_of, times, whole
 from ._records import Record
+from ._values import Value
 from .logs import Log
 from .paths import Path
 from .robots import Robot, robot_of
@@ -25,7 +26,7 @@ from .robots import Robot, robot_of
 SOLVERS = ("ipopt", "fast")
 
 
-class Plan:
+class Plan(Value):
     """An energy-optimal plan. ``json`` holds all of plan.json; the commonest parts are attributes here."""
 
     def __init__(self, value: _core.PlanValue) -> None:
@@ -75,7 +76,7 @@ class Plan:
 
     @functools.cached_property
     def trajectory(self) -> Log:
-        """The samples of trajectory.csv (50 Hz)."""
+        """The samples of trajectory.csv (50 Hz). A plan that cannot be driven has none: AttributeError."""
         if not self._driven:
             raise AttributeError(f"no trajectory: the plan is {self.status}")
         return Log(self._value.trajectory())
@@ -85,7 +86,10 @@ class Plan:
         return self._value.driven
 
     def at(self, t: ArrayLike) -> Log:
-        """The plan at a time or at increasing times (s), exact at each; ``energy_J`` counts from the first."""
+        """The plan at a time or at increasing times (s), shape (N,), exact at each; ``energy_J`` counts from the first.
+
+        Raises ConfigError for times outside of the plan.
+        """
         at = times("t", np.atleast_1d(numbers("t", t, ndim=np.ndim(t))))
         if not self._driven:
             raise AttributeError(f"no trajectory: the plan is {self.status}")
@@ -117,7 +121,10 @@ class Plan:
         return self._value.report()
 
     def save(self, directory: str | os.PathLike[str], *, force: bool = False) -> FilePath:
-        """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does."""
+        """Writes plan.json, trajectory.csv, profile.csv and report.html, byte for byte as ``joulepath plan`` does.
+
+        Files that exist are overwritten with ``force`` alone, else ConfigError. Returns the directory.
+        """
         return save(directory, {"plan.json": self._value.json,
                                 "trajectory.csv": self.trajectory.text() if self._driven else None,
                                 "profile.csv": self._value.profile_text() if self._driven else None,
@@ -145,32 +152,32 @@ class Profile(Plan):
 
     @property
     def t(self) -> NDArray[np.float64]:
-        """Time, s."""
+        """Time, s, shape (N,)."""
         return self.trajectory["time_s"]
 
     @property
     def s(self) -> NDArray[np.float64]:
-        """Arc length, m."""
+        """Arc length, m, shape (N,)."""
         return self.trajectory["arc_length_m"]
 
     @property
     def v(self) -> NDArray[np.float64]:
-        """Speed, m/s."""
+        """Speed, m/s, shape (N,)."""
         return self.trajectory["linear_speed_m_s"]
 
     @property
     def a(self) -> NDArray[np.float64]:
-        """Acceleration, m/s2."""
+        """Acceleration, m/s2, shape (N,)."""
         return self.trajectory["linear_acceleration_m_s2"]
 
     @property
     def w(self) -> NDArray[np.float64]:
-        """Yaw rate, rad/s."""
+        """Yaw rate, rad/s, shape (N,)."""
         return self.trajectory["angular_speed_rad_s"]
 
     @property
     def power_W(self) -> NDArray[np.float64]:
-        """Power at the battery's terminals, W."""
+        """Power at the battery's terminals, W, shape (N,)."""
         return self.trajectory["battery_power_W"]
 
 
@@ -187,8 +194,9 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
             solver: str = "ipopt", nodes: int = 200, accuracy: float = 1e-4) -> Profile:
     """The speed profile of least energy along a path, from rest to rest, within every limit of the robot.
 
-    ``xy``: waypoints, shape (N, 2) in m, or a Path. ``time_s``: duration; None is that of least energy.
-    ``solver``: ``ipopt`` (reference) or ``fast``. The GIL is released meanwhile. Raises Infeasible, ConfigError.
+    ``xy``: waypoints, shape (N, 2) in m, or a Path. ``payload_kg``: at most what the robot may carry. ``time_s``: duration;
+    None is that of least energy. ``solver``: ``ipopt`` (reference) or ``fast``. ``nodes``: of the grid, 10 to 20000.
+    ``accuracy``: relative, of the energy. The GIL is released meanwhile. Raises Infeasible, PlanningError, ConfigError.
     """
     if not (type(robot) is Robot and type(xy) is Path and type(payload_kg) is float and 0.0 <= payload_kg < math.inf
             and (time_s is None or type(time_s) is float and 0.0 < time_s < math.inf)
@@ -213,7 +221,14 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
 
     ``mission``: a file (mission, VDA 5050 order, path), or a dict with the keys of a mission file, whose file names
     are seen from the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
-    mission's; ``payload_kg`` and ``time_s`` are for a path. Raises Infeasible, PlanningError, ConfigError.
+    mission's; ``payload_kg`` and ``time_s`` are for a path. ``solver``, ``nodes`` and ``accuracy`` as of ``profile``;
+    ``seed``: of the search for a path; ``baselines``: whether classic profiles are planned for comparison. The GIL is
+    released meanwhile. Raises Infeasible, PlanningError, ConfigError.
+
+    >>> route = [[0, 0], [1, 0], [1, 0], [1, 1]]
+    >>> drive = plan({"robot": Robot.example(), "legs": [{"path": {"bezier_m": [route]}, "payload_kg": 5}]}, solver="fast")
+    >>> drive.status, len(drive.legs), drive.legs[0].payload_kg
+    ('optimal', 1, 5.0)
     """
     solver, nodes, accuracy = _solver_options(solver, nodes, accuracy)
     options = (solver, nodes, whole("seed", seed, 0, 2**32 - 1), accuracy, bool(baselines))

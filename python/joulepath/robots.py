@@ -57,8 +57,11 @@ class Robot:
 
     @classmethod
     def parse(cls, text: str, name: str = "robot.yaml") -> Robot:
-        """The robot of a file's text; ``name`` appears in error messages."""
-        return cls._of(_core.parse_robot(encodable("text", text), name))
+        """The robot of a file's text; ``name`` appears in error messages. Raises ConfigError with line and key."""
+        for key, value in (("text", text), ("name", name)):
+            if not isinstance(value, str):
+                raise refused(key, f"a value of type {type(value).__name__}", "a text")
+        return cls._of(_core.parse_robot(encodable("text", text), encodable("name", name)))
 
     @classmethod
     def example(cls) -> Robot:

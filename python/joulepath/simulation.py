@@ -36,6 +36,7 @@ class Simulation(Log):
 
     @property
     def duration_s(self) -> float:
+        """Until the robot stands at the end."""
         return self._run.duration_s
 
 
@@ -45,7 +46,8 @@ def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Seque
 
     ``robot`` is what the controller believes (None: the plan's). ``effects`` are those of the catalog that it does not
     know: ``{"rolling_resistance": {"coefficient": 0.01}}``, or a list of such dicts where one stands twice; a ``side``
-    is ``left`` or ``right``. ``seed`` is that of the sensors' noise. Raises ConfigError.
+    is ``left`` or ``right``. ``seed`` is that of the sensors' noise; ``ideal_sensors`` have none. ``sample_rate_Hz``: 1 to
+    1000. ``time_of_day_s``: at the start, for effects that change with it. The GIL is released meanwhile. Raises ConfigError.
 
     >>> from joulepath import profile
     >>> p = profile(Robot.example(), [[0, 0], [2, 0]])

@@ -2,6 +2,7 @@
 import copy
 import os
 import pickle
+import time
 
 import numpy as np
 import pytest
@@ -50,6 +51,16 @@ for _ in range(100_000):
     (lambda r: jp.Robot({"a": deep}), "great depth"),
     (lambda r: jp.Robot({(1, 2): 3}), "a key that is not a string"),
     (lambda r: jp.Robot([1]), "robot: found a value of type list"),
+    (lambda r: jp.Robot.parse(b"name: a"), "text: found a value of type bytes"),
+    (lambda r: jp.Robot.parse(r.text(), name=3), "name: found a value of type int"),
+    (lambda r: jp.Robot.parse(""), "robot.yaml"),
+    (lambda r: jp.profile(r, []), r"xy_m: found shape \(0,\)"),
+    (lambda r: jp.profile(r, np.empty((0, 2))), "xy_m: found 0 points"),
+    (lambda r: jp.profile(r, [(0, 0)]), "xy_m: found 1 points"),
+    (lambda r: jp.profile(r, [(0, 0), (0, 0)]), r"xy_m\[1\]"),
+    (lambda r: jp.profile(r, {"x": [0, 1], "y": [0, 1]}), "xy_m: found values of type object"),
+    (lambda r: jp.profile(r, [(0, 0), (1, None)]), "xy_m: found values of type object"),
+    (lambda r: jp.plan("path.csv"), "path.csv: found no readable file"),
     (lambda r: r.replace(name="a\udcffb"), "text that UTF-8 can encode"),
     (lambda r: r.replace(name="a\0b"), "control character"),
     (lambda r: jp.plan(None), "mission: found a value of type NoneType"),
@@ -78,6 +89,60 @@ def test_every_kind_of_number_is_converted(robot, xy):
     assert jp.profile(robot, xy, solver="fast", nodes=40).energy_J == PLAN(robot).energy_J
     payload_kg = [kind(3) for kind in (int, float, np.float32, np.int8, np.array)]
     assert len({jp.profile(robot, XY, payload_kg=p, solver="fast", nodes=np.int32(40)).energy_J for p in payload_kg}) == 1
+
+
+def test_arrays_of_every_layout_give_the_same(robot):
+    t = np.linspace(0, 4, 50)
+    v = 0.3 * np.sin(np.pi * t / 4) ** 2
+    expected = jp.energy(robot, t, v).total_J
+    frozen = v.copy()
+    frozen.flags.writeable = False
+    for same in (frozen, v[::-1].copy()[::-1], np.stack([v, v], 1)[:, 1], np.asfortranarray(v), v.astype(">f8"), list(v), tuple(v)):
+        assert jp.energy(robot, t, same).total_J == expected
+    assert jp.energy(robot, t, v.astype(np.float32)).total_J == pytest.approx(expected, rel=1e-6)
+    xy = np.array([[4.0, 1], [2, 0], [0, 0]])[::-1]
+    frozen = xy.copy()
+    frozen.flags.writeable = False
+    assert len({jp.Path(same).length_m for same in (xy, frozen, [tuple(p) for p in xy], np.flip(np.flip(xy, 0), 0))}) == 1
+
+
+def test_results_are_values(robot):
+    plan, path = PLAN(robot), jp.Path(XY)
+    for value in (plan, path, plan.trajectory, jp.energy(robot, plan.t, plan.v), jp.drives(plan)[0], jp.simulate(plan)):
+        assert copy.copy(value) is value and copy.deepcopy({"of": [value]})["of"][0] is value
+        with pytest.raises(TypeError, match=f"a {type(value).__name__} belongs to its process and cannot be pickled"):
+            pickle.dumps(value)
+    assert plan == plan and hash(plan) == hash(plan) and plan != PLAN(robot) and plan != 3
+    assert plan.trajectory == PLAN(robot).trajectory and not plan.trajectory != PLAN(robot).trajectory
+    assert plan.trajectory != jp.profile(robot, XY, payload_kg=3, solver="fast", nodes=40).trajectory and plan.trajectory != {}
+    assert pickle.loads(pickle.dumps(plan.json)) == plan.json == copy.deepcopy(plan.json)
+    assert robot == robot.replace() and robot != robot.replace(name="other") and robot != robot.text() and robot in {robot.replace()}
+    error = pickle.loads(pickle.dumps(refusal(lambda: jp.profile(robot, XY, payload_kg=50))))
+    assert error.key == "payload_kg" and error.file is None and error.found == "50" and str(error).startswith("payload_kg: found 50")
+
+
+def refusal(call):
+    with pytest.raises(jp.ConfigError) as raised:
+        call()
+    return raised.value
+
+
+def test_errors_of_files_name_arguments_not_options(robot, tmp_path):
+    (tmp_path / "path.csv").write_text("x_m,y_m\n0,0\n2,0\n")
+    (tmp_path / "mission.yaml").write_text("robot: none.yaml\nlegs: [{path: {bezier_m: [[[0, 0], [1, 0], [1, 0], [1, 1]]]}}]\n")
+    told = refusal(lambda: jp.plan(tmp_path / "path.csv", robot=robot, payload_kg=50))
+    assert told.file is None and str(told) == "payload_kg: found 50, accepted: at most 12, limits.max_payload_kg of the robot"
+    told = refusal(lambda: jp.plan(tmp_path / "mission.yaml", robot=robot, time_s=5))
+    assert told.file is None and told.key == "time_s" and "--" not in str(told)
+    assert "robot=" in str(refusal(lambda: jp.plan(tmp_path / "path.csv")))
+
+
+def test_the_end_of_a_new_profile_is_on_its_piece(robot):
+    piece, = jp.drives(jp.profile(robot, [[0, 0], [2, 0.3], [4, 1], [7, -2]], solver="fast"))
+    for start in (0.0, 0.1, 1.7, piece.length):
+        rest = jp.Replanner(piece).replan(start, 0.0)
+        for s in (rest.s[0], rest.s[-1]):
+            assert all(np.isfinite(piece.pose(s)))
 
 
 def test_a_plan_that_was_not_found_has_no_trajectory(robot, tmp_path):
@@ -120,6 +185,39 @@ def test_the_robot_of_an_argument_is_used_whatever_its_form(robot, tmp_path):
 def test_every_name_reads_back(robot, name):
     named = robot.replace(name=name)
     assert named.name == name and jp.Robot.parse(named.text()) == named == copy.deepcopy(named)
+
+
+def test_map_ends_with_what_ends_it():
+    """What is no failure of a job is raised, at once: of the list of jobs, an interrupt, an exit."""
+    started = []
+
+    def jobs():
+        yield 0.01
+        raise RuntimeError("no more jobs")
+
+    with pytest.raises(RuntimeError, match="no more jobs"):
+        jp.map(started.append, jobs(), threads=1)
+    for end in (KeyboardInterrupt, SystemExit):
+        def call(k):
+            started.append(k)
+            if k == 3:
+                raise end
+            time.sleep(0.01)
+            return k
+
+        started.clear()
+        with pytest.raises(end):
+            jp.map(call, range(1000), threads=2)
+        assert len(started) < 100
+    assert jp.map(int, [], threads=3) == []
+
+
+def test_map_in_a_map_and_in_threads(robot):
+    def inner(k):
+        return [p.energy_J for p in jp.map(jp.profile, [(robot, [[0, 0], [1 + k, 0]])] * 2, threads=2)]
+
+    pairs = jp.map(inner, range(3), threads=3)
+    assert all(first == second for first, second in pairs) and pairs[0] < pairs[1] < pairs[2]
 
 
 def test_map_tells_every_failure_as_a_value(robot):

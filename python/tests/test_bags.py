@@ -1,6 +1,7 @@
 """Bags that other programs wrote are read as those programs read them; bags that joulepath writes are read by them."""
 import json
 import subprocess
+import zlib
 
 import numpy as np
 import pytest
@@ -140,6 +141,39 @@ def test_a_simulated_log_is_read_by_others_as_a_bag(program, robot, tmp_path):
     assert types == {("/log/path", "nav_msgs/msg/Path"), ("/log/odom", "nav_msgs/msg/Odometry"), ("/log/power", "joulepath/power/1")}
     for column in ("motor_current_left_A", "battery_voltage_V", "wheel_speed_right_rad_s"):
         np.testing.assert_array_equal([message[column] for message in power], log[column])
+
+
+def test_the_index_of_an_exported_bag_is_that_of_another_reader(program, robot, tmp_path):
+    """Counts, times and topics by the summary alone; messages by the index are those of a reader that ignores it."""
+    reader, records = pytest.importorskip("mcap.reader"), pytest.importorskip("mcap.records")
+    stream_reader = pytest.importorskip("mcap.stream_reader")
+    log = jp.simulate(jp.profile(robot, [[0, 0], [8, 0]], time_s=60, solver="fast"), seed=3)
+    log.save(tmp_path / "run.csv")
+    robot.save(tmp_path / "robot.yaml")
+    subprocess.run([program, "export", tmp_path / "run.csv", "--robot", tmp_path / "robot.yaml", "--to", "bag", "--out",
+                    tmp_path / "log.mcap"], check=True, stdout=subprocess.DEVNULL)
+    with open(tmp_path / "log.mcap", "rb") as stream:
+        summary = reader.make_reader(stream, validate_crcs=True).get_summary()
+    topics = {channel.topic: number for number, channel in summary.channels.items()}
+    counts = summary.statistics.channel_message_counts
+    rows = len(log["time_s"])
+    assert {topic: counts[number] for topic, number in topics.items()} == {"/log/path": 1, "/log/odom": rows, "/log/power": rows}
+    assert summary.statistics.message_count == 2 * rows + 1 and summary.statistics.chunk_count == len(summary.chunk_indexes) >= 3
+    assert summary.statistics.message_end_time == max(chunk.message_end_time for chunk in summary.chunk_indexes)
+    assert set(summary.schemas) == {channel.schema_id for channel in summary.channels.values()}
+    with open(tmp_path / "log.mcap", "rb") as stream:  # checks the sums of all chunks
+        read = list(stream_reader.StreamReader(stream, validate_crcs=True).records)
+    linear = [(m.channel_id, m.log_time, m.data) for m in read if isinstance(m, records.Message)]
+    with open(tmp_path / "log.mcap", "rb") as stream:
+        indexed = reader.make_reader(stream, validate_crcs=True)
+        for topic, number in topics.items():
+            found = [(m.channel_id, m.log_time, m.data) for _, _, m in indexed.iter_messages(topics=[topic])]
+            assert found == [message for message in linear if message[0] == number]
+        last = list(indexed.iter_messages(topics=["/log/power"], starting_at=59 * 10**9, ending_before=60 * 10**9))
+        assert len(last) == 50
+    data = (tmp_path / "log.mcap").read_bytes()
+    footer = records.Footer(*np.frombuffer(data[-28:-12], "<u8").tolist(), int.from_bytes(data[-12:-8], "little"))
+    assert zlib.crc32(data[footer.summary_start:-12]) == footer.summary_crc
 
 
 @pytest.mark.parametrize("compressed", [False, True])

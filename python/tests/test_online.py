@@ -105,6 +105,10 @@ def test_a_pose_far_off_is_handed_over(piece):
     (lambda one: jp.Replanner(one).replan(1.0, 0.2, speed_caps=[1, 2, 3]), "speed_caps"),
     (lambda one: jp.Replanner(one).replan(1.0, 0.2, speed_caps=[[1, 2, 0]]), "speed_caps"),
     (lambda one: jp.Replanner(one, nodes=1), "nodes"),
+    (lambda one: jp.Replanner(one).replan(1.0, 0.2, payload_kg=12.5), "payload_kg"),
+    (lambda one: jp.Follower(one).command(0, (0, 0, 0), 0, 0, payload_kg=12.5), "payload_kg"),
+    (lambda one: jp.Replanner(jp.Robot.example()), "drive"),
+    (lambda one: jp.Follower(None), "drive"),
     (lambda one: jp.Follower(one, period_s=0), "period_s"),
     (lambda one: jp.Follower(one).command(0, (0, 0), 0, 0), "pose"),
     (lambda one: jp.Follower(one).command(0, (0, math.inf, 0), 0, 0), "pose[1]"),
@@ -113,6 +117,13 @@ def test_what_makes_no_sense_is_refused(piece, call, key):
     with pytest.raises(jp.ConfigError) as told:
         call(piece)
     assert told.value.key == key
+
+
+def test_the_greatest_payload_is_accepted_and_more_is_told(piece):
+    most_kg = jp.Robot.example().limits.max_payload_kg
+    assert jp.Replanner(piece).replan(1.0, 0.5, payload_kg=most_kg).status == "optimal"
+    with pytest.raises(jp.ConfigError, match=f"payload_kg: found 50, accepted: at most {most_kg:g}, limits.max_payload_kg of the robot"):
+        jp.Replanner(piece).replan(1.0, 0.5, payload_kg=50)
 
 
 def test_a_directory_needs_its_robot(tmp_path, robot):

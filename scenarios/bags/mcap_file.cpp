@@ -19,14 +19,6 @@ constexpr std::uint64_t kMostChunkBytes = 256u << 20;
 constexpr std::uint64_t kMostRecordBytes = 256u << 20;
 constexpr std::size_t kMostChannels = 65536;
 
-enum Opcode : std::uint8_t {
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F
-};
-
 void decompress_lz4(std::string_view from, std::string& to) {
   LZ4F_dctx* raw = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION))) throw std::bad_alloc();
@@ -73,39 +65,41 @@ class McapReader {
       std::uint64_t length{};
       std::memcpy(&length, head + 1, sizeof length);
       at += sizeof head;
-      if (head[0] == kDataEnd) {
+      const McapRecord kind{head[0]};
+      if (kind == McapRecord::data_end) {
         damage_.unread_bytes = 0;
         return damage_;
       }
       if (length > size_ - at) break;
       at += length;
-      if (!wanted(head[0]) || length > kMostRecordBytes) {
-        if (wanted(head[0])) ++damage_.broken_records;
+      if (!wanted(kind) || length > kMostRecordBytes) {
+        if (wanted(kind)) ++damage_.broken_records;
         in_.seekg(static_cast<std::streamoff>(at));
         continue;
       }
       content.resize(length);
       if (!in_.read(content.data(), static_cast<std::streamsize>(length))) break;
-      record(head[0], content);
+      record(kind, content);
     }
     damage_.truncated = true;
     return damage_;
   }
 
  private:
-  static bool wanted(std::uint8_t opcode) {
-    return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
+  static bool wanted(McapRecord kind) {
+    return kind == McapRecord::schema || kind == McapRecord::channel || kind == McapRecord::message ||
+           kind == McapRecord::chunk;
   }
 
-  void record(std::uint8_t opcode, std::string_view content) {
+  void record(McapRecord kind, std::string_view content) {
     try {
       ByteReader in(content);
-      if (opcode == kSchema) schema(in);
-      if (opcode == kChannel) channel(in);
-      if (opcode == kMessage) message(in);
-      if (opcode == kChunk) chunk(in);
+      if (kind == McapRecord::schema) schema(in);
+      if (kind == McapRecord::channel) channel(in);
+      if (kind == McapRecord::message) message(in);
+      if (kind == McapRecord::chunk) chunk(in);
     } catch (const BytesEnd&) {
-      ++(opcode == kChunk ? damage_.broken_chunks : damage_.broken_records);
+      ++(kind == McapRecord::chunk ? damage_.broken_chunks : damage_.broken_records);
     }
   }
 
@@ -167,9 +161,9 @@ class McapReader {
     if (check_sum != 0 && crc32_z(0, bytes, records.size()) != check_sum) throw BytesEnd();
     ByteReader in(records);
     while (in.left() > 0) {
-      const auto opcode = in.number<std::uint8_t>();
+      const McapRecord kind{in.number<std::uint8_t>()};
       const std::string_view content = in.take(in.number<std::uint64_t>());
-      if (opcode != kChunk) record(opcode, content);
+      if (kind != McapRecord::chunk) record(kind, content);
     }
   }
 

@@ -12,6 +12,21 @@ namespace joulepath {
 /// The bytes at the start and the end of an MCAP file.
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 
+/// Kinds of records. A record is its kind, the size of its content (64 bits) and the content.
+enum class McapRecord : std::uint8_t {
+  header = 0x01,
+  footer,
+  schema,
+  channel,
+  message,
+  chunk,
+  message_index,
+  chunk_index,
+  statistics = 0x0B,
+  summary_offset = 0x0E,
+  data_end
+};
+
 /// A topic of a bag, with its messages' schema.
 struct BagChannel {
   std::string topic{};

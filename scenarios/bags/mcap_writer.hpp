@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -9,7 +10,8 @@
 
 namespace joulepath {
 
-/// Writes a bag in memory: MCAP without chunks and without an index.
+/// Writes a bag in memory: uncompressed MCAP in chunks of about 1 MiB, with an index of every message and a
+/// summary, so that a reader finds topics and times without reading the whole file.
 class McapWriter {
  public:
   McapWriter();
@@ -21,11 +23,27 @@ class McapWriter {
   [[nodiscard]] std::string finish();
 
  private:
-  void record(std::uint8_t opcode, std::string_view content);
+  /// First and last time of messages.
+  struct Times {
+    std::uint64_t first_ns{~std::uint64_t{0}}, last_ns{};
+    void add(std::uint64_t time_ns);
+    void put(std::string& bytes) const;
+  };
+
+  void close_chunk();
+  void add_chunk_index(std::uint64_t start, std::uint64_t index_start, const std::string& offsets);
+  [[nodiscard]] std::string statistics() const;
+  void put_summary();
 
   std::string bytes_{};
   std::uint16_t channels_{};
-  std::uint32_t messages_{};
+  std::uint32_t messages_{}, chunks_{};
+  Times times_{};
+  std::map<std::uint16_t, std::uint64_t> messages_of_channel_{};
+  std::string chunk_{};  ///< records of the open chunk
+  Times chunk_times_{};
+  std::map<std::uint16_t, std::string> chunk_messages_{};      ///< times and places, by channel
+  std::string schemas_{}, channel_records_{}, chunk_index_{};  ///< records of the summary
 };
 
 /// A message in CDR, little-endian.

@@ -58,6 +58,7 @@ TEST(Payload, AStepWithinARunIsNotInterpolated) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset day = quiet_day("--effect none --protocol 6");
   std::vector<double>& payload = day.runs[0].log.payload_kg;
+  payload.resize(day.runs[0].log.size());
   for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = 2 * i < payload.size() ? 0.0 : 8.0;
   const RunsByUse runs = sort_runs(day);
   ASSERT_EQ(runs.signals.front().run_index, 0u);

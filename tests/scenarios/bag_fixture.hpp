@@ -10,6 +10,7 @@
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/bags/mcap_writer.hpp"
 #include "scenarios/bags/ros_definitions.hpp"
+#include "tests/scenarios/chunked_bag.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath::testing {
@@ -56,8 +57,8 @@ inline std::string joints(std::uint64_t time_ns,
 
 inline double speed_at(int k) { return 0.3 * std::sin(0.05 * k); }
 
-/// Two seconds of odometry at 100 Hz.
-inline std::string drive() {
+/// Two seconds of odometry at 100 Hz, as joulepath writes bags.
+inline std::string drive_with_index() {
   McapWriter bag;
   const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
   for (int k = 0; k < 200; ++k) {
@@ -66,6 +67,9 @@ inline std::string drive() {
   }
   return bag.finish();
 }
+
+/// The same drive, every record by itself.
+inline std::string drive() { return unchunked(drive_with_index()); }
 
 class Bags : public ::testing::Test {
  protected:

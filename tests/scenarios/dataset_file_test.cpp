@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "diagnosis/values/constant_payload.hpp"
 #include "scenarios/run_log.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -36,10 +37,24 @@ TEST(DatasetFile, ColumnsMayStandInAnyOrderAndUnknownOnesAreListed) {
   EXPECT_EQ(run.name, "a.csv");
   EXPECT_EQ(run.log.wheel_speed_rad_s.right, (std::vector<double>{2, 2.5}));
   EXPECT_EQ(run.log.wheel_speed_rad_s.left, (std::vector<double>{1, 1.5}));
-  EXPECT_EQ(run.log.payload_kg, (std::vector<double>{5.7, 5.7}));
+  EXPECT_TRUE(run.log.payload_kg.empty());  // it does not change
+  EXPECT_EQ(constant_payload_kg(run), 5.7);
   EXPECT_EQ(run.start_time_s, 60.0);
   ASSERT_TRUE(artifact(dataset, "ignored_columns"));
   EXPECT_EQ(artifact(dataset, "ignored_columns")->description, "note");
+}
+
+TEST(DatasetFile, AnAbsentColumnMayHoldAnything) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv",
+                "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,motor_current_left_A\n"
+                "0,1,1,broken\n1,1,1,sensor\n");
+  const std::string whole = dataset_yaml("runs: [{file: a.csv}]\n");
+  EXPECT_THROW((void)read_dataset(scratch.write("d.yaml", whole)), ConfigError);
+  const std::string absent = whole + "columns: {motor_current_left_A: {absent: true}}\n";
+  const Dataset dataset = read_dataset(scratch.write("e.yaml", absent));
+  EXPECT_TRUE(dataset.runs.at(0).log.motor_current_A.left.empty());
+  EXPECT_EQ(dataset.runs[0].log.wheel_speed_rad_s.left, (std::vector<double>{1, 1}));
 }
 
 TEST(DatasetFile, MappingScalesOffsetsSignsAndUnwraps) {

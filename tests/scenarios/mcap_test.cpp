@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -21,6 +22,74 @@ TEST_F(Bags, ChunksOfEveryCompressionReadTheSame) {
     EXPECT_EQ(log.tables[0].columns, plain.tables[0].columns) << compression;
     EXPECT_TRUE(log.artifacts.empty()) << compression;
   }
+}
+
+TEST_F(Bags, ABagWithAnIndexReadsAsOneWithoutChunks) {
+  const BagLog plain = read(drive()), indexed = read(drive_with_index());
+  EXPECT_EQ(indexed.tables.at(0).columns, plain.tables.at(0).columns);
+  EXPECT_TRUE(indexed.artifacts.empty());
+}
+
+std::uint32_t check_sum_of(const std::string& bytes, std::size_t from, std::size_t size) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()) + from, size));
+}
+
+/// Every message of a bag by the way of its index: footer, chunk index, message index, message.
+std::vector<std::uint64_t> times_by_index(const std::string& bag, std::size_t chunk_index) {
+  std::vector<std::uint64_t> times;
+  const auto start = number_at<std::uint64_t>(bag, chunk_index + 9 + 16);
+  const auto offsets_bytes = number_at<std::uint32_t>(bag, chunk_index + 9 + 32);
+  for (std::size_t k = 0; k < offsets_bytes; k += 10) {
+    const auto channel = number_at<std::uint16_t>(bag, chunk_index + 9 + 36 + k);
+    const auto index = number_at<std::uint64_t>(bag, chunk_index + 9 + 36 + k + 2);
+    EXPECT_EQ(bag[index], '\x07');
+    EXPECT_EQ(number_at<std::uint16_t>(bag, index + 9), channel);
+    for (std::size_t n = 0; n < number_at<std::uint32_t>(bag, index + 11); n += 16) {
+      times.push_back(number_at<std::uint64_t>(bag, index + 15 + n));
+      const std::size_t message = start + 9 + 40 + number_at<std::uint64_t>(bag, index + 15 + n + 8);
+      EXPECT_EQ(bag[message], '\x05');
+      EXPECT_EQ(number_at<std::uint16_t>(bag, message + 9), channel);
+      EXPECT_EQ(number_at<std::uint64_t>(bag, message + 15), times.back());
+    }
+  }
+  return times;
+}
+
+/// By the format's specification; python/tests/test_bags.py asks another reader.
+TEST_F(Bags, TheIndexLeadsToEveryMessage) {
+  McapWriter writer;
+  const auto odom = writer.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+  const auto other = writer.channel(ros("/other", "nav_msgs/msg/Odometry"));
+  constexpr std::uint64_t kMessages = 4000;  // about 3 MiB
+  for (std::uint64_t k = 0; k < kMessages; ++k)
+    writer.message(k % 3 == 0 ? other : odom, k, odometry(k, 0.1, 0));
+  const std::string bag = writer.finish();
+  const std::size_t footer = bag.size() - 8 - 29;
+  ASSERT_EQ(bag[footer], '\x02');
+  const auto summary = number_at<std::uint64_t>(bag, footer + 9),
+             offsets = number_at<std::uint64_t>(bag, footer + 17);
+  EXPECT_EQ(number_at<std::uint32_t>(bag, footer + 25), check_sum_of(bag, summary, footer + 25 - summary));
+  std::vector<std::uint64_t> times;
+  std::uint64_t statistics = 0;
+  std::string kinds;
+  for (std::size_t at = summary; at < offsets; at += 9 + number_at<std::uint64_t>(bag, at + 1)) {
+    kinds += bag[at];
+    if (bag[at] == '\x08') {
+      const std::vector<std::uint64_t> of_chunk = times_by_index(bag, at);
+      times.insert(times.end(), of_chunk.begin(), of_chunk.end());
+      const auto chunk = number_at<std::uint64_t>(bag, at + 9 + 16);
+      EXPECT_EQ(number_at<std::uint32_t>(bag, chunk + 9 + 24),
+                check_sum_of(bag, chunk + 9 + 40, number_at<std::uint64_t>(bag, chunk + 9 + 16)));
+    }
+    if (bag[at] == '\x0B') statistics = number_at<std::uint64_t>(bag, at + 9);
+  }
+  EXPECT_EQ(kinds.substr(0, 5), "\x03\x03\x04\x04\x0B");
+  EXPECT_GE(kinds.size(), 5u + 3u);  // several chunks
+  EXPECT_EQ(statistics, kMessages);
+  std::ranges::sort(times);
+  ASSERT_EQ(times.size(), kMessages);
+  for (std::uint64_t k = 0; k < kMessages; ++k) EXPECT_EQ(times[k], k);
 }
 
 TEST_F(Bags, MessagesCompressedOneByOneReadTheSame) {

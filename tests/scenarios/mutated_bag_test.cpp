@@ -83,7 +83,8 @@ TEST_F(Bags, MutatedBagsAreReadOrRefused) {
       {"b.mcap", chunked(drive(), "lz4")},
       {"c.mcap", chunked(drive(), "zstd")},
       {"d.db3", sqlite_drive(scratch_.at("whole.db3"))},
-      {"e.jsonl", states()}};
+      {"e.jsonl", states()},
+      {"f.mcap", drive_with_index()}};
   unsigned read = 0;
   for (unsigned i = 0; i < count; ++i) {
     const auto& [name, whole] = bags[i % bags.size()];

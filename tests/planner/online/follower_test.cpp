@@ -223,6 +223,16 @@ TEST(Follower, WheelsThatSlipAreNotBelieved) {
   EXPECT_GE(replans_with_wheels_off(0.4, 1), 10u);
 }
 
+/// Known at 3 s: 40 kg where the robot may carry 12. It stands at the end.
+TEST(Follower, StopsWithAPayloadThatTheRobotMayNotCarry) {
+  const PlannedPiece piece = bend();
+  const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::payload, 2, 1, 10}}));
+  EXPECT_EQ(result.finished, 0u);
+  EXPECT_FALSE(result.off_path);
+  EXPECT_LT(std::abs(result.executed.linear_speed_m_s.back()), 0.01);
+  EXPECT_LE(use_of(result, "deceleration"), 1 + 1e-4);
+}
+
 TEST(Follower, HandsOverFarFromThePath) {
   const PlannedPiece piece = bend();
   const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::slip, 4, 0, 1.5}}));

@@ -254,6 +254,21 @@ TEST(Replanner, BrakesAtTheLimitWhereItCannotStopInTime) {
   EXPECT_LT(worst_use(piece.request, *replan.profile), 1.001);
 }
 
+/// The robot may carry 12 kg. v^2/(2 d) = 0.25/(2 0.5) = 0.25 m.
+TEST(Replanner, StopsWithAPayloadThatTheRobotMayNotCarry) {
+  const PlannedPiece piece = straight(8);
+  Replanner replanner(piece.request, piece.plan);
+  EXPECT_EQ(replanner.replan({.s = 2, .rate = 0.5, .payload_kg = 12}).status, ReplanStatus::optimal);
+  const Replan& replan = replanner.replan({.s = 2, .rate = 0.5, .payload_kg = 12.001, .time_left_s = 60});
+  EXPECT_EQ(replan.status, ReplanStatus::stopping);
+  EXPECT_EQ(replan.limit, "max_payload");
+  EXPECT_NEAR(replan.profile->s.back(), 2.25, 2e-3);
+  EXPECT_EQ(replan.profile->rate.back(), 0);
+  EXPECT_EQ(replan.overrun, 0);
+  EXPECT_EQ(replanner.replan({.s = 2.25, .rate = 0, .payload_kg = 40}).profile->s.back(), 2.25);
+  EXPECT_EQ(replanner.replan({.s = 2.25, .rate = 0, .payload_kg = 4}).status, ReplanStatus::optimal);
+}
+
 /// From 0.8 to 0.3 m/s at 0.5 m/s^2: (0.64 - 0.09)/(2 0.5) = 0.55 m.
 TEST(Replanner, BrakesToANewSpeedLimitThatHoldsAtOnce) {
   const PlannedPiece piece = straight(8);

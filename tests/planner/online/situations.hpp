@@ -118,7 +118,9 @@ class RandomSituations {
     Situation situation{.s = std::min(state.s * random_.uniform(0.97, 1.0), 0.98 * length),
                         .rate = state.rate * random_.uniform(0.8, 1.05),
                         .payload_kg = motion.payload_kg(state.s)};
-    if (random_.choice(3) == 0) situation.payload_kg *= random_.uniform(0.0, 1.3);
+    if (random_.choice(3) == 0)
+      situation.payload_kg = std::min(situation.payload_kg * random_.uniform(0.0, 1.3),
+                                      payload_limit_kg(piece.request.plant.robot));
     if (piece.request.time.mode == TimeMode::time_budget)
       situation.time_left_s = (piece.request.time.duration_s - time_s) * random_.uniform(0.95, 1.1);
     if (random_.choice(4) == 0) {

@@ -1,0 +1,156 @@
+"""Frames for the diagnosis: numbers in every form are read, anything else is refused with its column and row."""
+import decimal
+import fractions
+
+import numpy as np
+import pytest
+
+import joulepath as jp
+
+ACCEPTED = "accepted: a finite number, or NaN where a value is missing"
+
+
+@pytest.fixture(scope="module")
+def log(robot):
+    plan = jp.profile(robot, [[0, 0], [2, 0], [4, 1], [6, 1]], payload_kg=5, solver="fast", nodes=60)
+    return {name: np.array(column) for name, column in jp.simulate(plan, seed=3).items()}
+
+
+def changed(log, row, value):
+    column = log["motor_current_left_A"].astype(object)
+    column[row] = value
+    return {**log, "motor_current_left_A": column}
+
+
+def answer(robot, frame, **options):
+    """All of the diagnosis but its notes on the columns."""
+    found = jp.diagnose(robot, [frame], **options).json.to_dict()
+    found.pop("artifacts")
+    return found
+
+
+@pytest.mark.parametrize(("value", "found"), [
+    ("n/a", "'n/a' of type str"), ("1.5", "'1.5' of type str"), (True, "True of type bool"), (np.bool_(False), "of type bool"),
+    (1j, "1j of type complex"), ([1.0], r"\[1.0\] of type list"), (np.datetime64("2026-01-01"), "of type datetime64"),
+    (float("inf"), "inf"), (-np.inf, "-inf"), (10**400, "of type int"), (decimal.Decimal("sNaN"), "of type Decimal"),
+    ("x" * 500, "of type str")], ids=lambda value: repr(value)[:20])
+def test_what_is_no_number_is_refused_with_its_column_and_row(robot, log, value, found):
+    with pytest.raises(jp.ConfigError, match=found + ", " + ACCEPTED) as raised:
+        jp.diagnose(robot, [log, changed(log, 17, value)])
+    assert raised.value.key == "logs[1].motor_current_left_A[17]" and len(str(raised.value)) < 250
+
+
+@pytest.mark.parametrize("column", [
+    np.array(["a", "b", "c"]), np.array([True, False, True]), np.array([b"1", b"2", b"3"]), np.array([1j, 2, 3]),
+    np.arange(3).astype("datetime64[s]"), np.arange(3).astype("timedelta64[s]"), ["1", "2", "3"], [1.0, "2", 3.0]],
+    ids=lambda column: str(getattr(column, "dtype", column)))
+def test_columns_of_another_type_are_refused(robot, column):
+    frame = {"time_s": [0.0, 1, 2], "linear_speed_m_s": [0.0, 1, 0], "angular_speed_rad_s": column}
+    with pytest.raises(jp.ConfigError, match=ACCEPTED) as raised:
+        jp.diagnose(robot, [frame])
+    assert raised.value.key.startswith("logs[0].angular_speed_rad_s[")
+
+
+@pytest.mark.parametrize("value", [None, np.nan, decimal.Decimal("NaN")])
+def test_a_missing_value_is_that_of_a_file(robot, log, value):
+    assert answer(robot, changed(log, 17, value)) == answer(robot, changed(log, 17, np.nan).copy())
+
+
+@pytest.mark.parametrize("kind", [int, np.int16, np.float32, fractions.Fraction, decimal.Decimal, np.longdouble])
+def test_numbers_of_every_kind_are_converted(robot, log, kind):
+    column = np.round(log["motor_current_left_A"])
+    expected = answer(robot, {**log, "motor_current_left_A": column})
+    assert answer(robot, {**log, "motor_current_left_A": [kind(int(x)) for x in column]}) == expected
+
+
+def test_every_layout_is_converted(robot, log):
+    expected = answer(robot, log)
+    wide = {name: np.stack([column, column], 1)[:, 0] for name, column in log.items()}
+    backward = {name: column[::-1].copy()[::-1] for name, column in log.items()}
+    foreign = {name: column.astype(">f8") for name, column in log.items()}
+    frozen = {name: column.copy() for name, column in log.items()}
+    for column in frozen.values():
+        column.flags.writeable = False
+    for same in (wide, backward, foreign, frozen, {name: column.tolist() for name, column in log.items()}):
+        assert answer(robot, same) == expected
+
+
+def test_frames_of_pandas(robot, log):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(log)
+    expected = answer(robot, frame)
+    assert answer(robot, log) == expected == answer(robot, frame.convert_dtypes()) == answer(robot, frame.set_index(frame.index + 7))
+    assert answer(robot, frame.assign(note="a text beside the numbers", day=pandas.Timestamp(0))) == expected
+    missing = frame.convert_dtypes()
+    missing.loc[17, "motor_current_left_A"] = pandas.NA
+    assert answer(robot, missing) == answer(robot, changed(log, 17, None))
+    with pytest.raises(jp.ConfigError, match="time_s.*'a day'"):
+        jp.diagnose(robot, [frame.assign(time_s="a day")])
+    with pytest.raises(jp.ConfigError, match="time_s.*of type (Timestamp|datetime64)"):
+        jp.diagnose(robot, [frame.assign(time_s=pandas.to_datetime(frame.time_s, unit="s"))])
+    twice = pandas.concat([frame, frame[["wheel_speed_left_rad_s"]]], axis=1)
+    with pytest.raises(jp.ConfigError, match="logs\\[0\\].wheel_speed_left_rad_s: found 2 columns of this name"):
+        jp.diagnose(robot, [twice])
+
+
+@pytest.mark.parametrize(("change", "message"), [
+    ({"linear_speed_m_s": [0, 1]}, r"logs\[0\].linear_speed_m_s: found 2 rows, accepted: 3 rows, as time_s has"),
+    ({"linear_speed_m_s": [np.nan] * 3}, r"logs\[0\].linear_speed_m_s: found no number in 3 rows"),
+    ({"linear_speed_m_s": [None] * 3}, r"logs\[0\].linear_speed_m_s: found no number in 3 rows"),
+    ({"linear_speed_m_s": 5.0}, r"found shape \(\)"),
+    ({"linear_speed_m_s": np.zeros((3, 2))}, r"found shape \(3, 2\)"),
+    ({"linear_speed_m_s": [[1], [1, 2], [3]]}, "rows of different lengths"),
+    ({"linear_speed_m_s": np.ma.masked_array([1.0, 2, 3], [0, 1, 0])}, "a masked array"),
+    ({"time_s": [], "linear_speed_m_s": [], "angular_speed_rad_s": []}, "0 rows"),
+    ({1: [0.0, 1, 2], "1": [0.0, 1, 2]}, "found 2 columns of this name"),
+    ({"a\udcff": [0.0, 1, 2]}, "UTF-8"),
+])
+def test_frames_of_another_shape_are_refused(robot, change, message):
+    frame = {"time_s": [0.0, 1, 2], "linear_speed_m_s": [0.0, 1, 0], "angular_speed_rad_s": [0.0, 0, 0], **change}
+    with pytest.raises(jp.ConfigError, match=message):
+        jp.diagnose(robot, [frame])
+
+
+def test_what_is_not_read_may_be_anything(robot, log):
+    """As in a file: text beside the numbers is no error."""
+    beside = {"note": ["text"] * len(log["time_s"]), "picture": np.zeros((2, 2)), "flag": True, "two": [1, 2]}
+    assert answer(robot, {**log, **beside}) == answer(robot, log)
+    absent = {"battery_voltage_V": {"absent": True}}
+    assert answer(robot, {**log, "battery_voltage_V": ["broken"] * len(log["time_s"])}, columns=absent) == answer(
+        robot, log, columns=absent)
+
+
+@pytest.mark.parametrize("source", ["amps", ["none", "amps"]])
+def test_mapped_columns_are_checked_by_their_own_names(robot, log, source):
+    named = {**log, "amps": log["motor_current_left_A"], "motor_current_left_A": ["not read"] * len(log["time_s"])}
+    columns = {"motor_current_left_A": {"from": source}}
+    assert answer(robot, named, columns=columns) == answer(robot, log)
+    named["amps"] = named["motor_current_left_A"]
+    with pytest.raises(jp.ConfigError, match=r"logs\[0\].amps\[0\]: found 'not read'"):
+        jp.diagnose(robot, [named], columns=columns)
+
+
+@pytest.mark.parametrize(("call", "message"), [
+    (lambda r, log: jp.diagnose(r, log), r"logs: found a value of type dict.*\[log\]"),
+    (lambda r, log: jp.diagnose(r, jp.Run(log)), r"logs: found a value of type Run.*\[log\]"),
+    (lambda r, log: jp.diagnose(r, []), "runs"),
+    (lambda r, log: jp.diagnose(r, [log], columns=["time_s"]), "columns: found a value of type list"),
+    (lambda r, log: jp.diagnose(r, [log], columns={"time": {"from": "t"}}), "columns.*time"),
+    (lambda r, log: jp.diagnose(r, [log], columns={"time_s": 3}), "columns.time_s"),
+    (lambda r, log: jp.diagnose(r, [log], columns={"time_s": {"from": 3}}), r"^logs\[0\]: found no column 3"),
+    (lambda r, log: jp.diagnose(r, [{**log, 3: "today"}], columns={"time_s": {"from": 3}}), r"logs\[0\].3: found shape"),
+    (lambda r, log: jp.diagnose(r, [log], without=None), "without: found None"),
+    (lambda r, log: jp.diagnose(r, [log], without=[3]), "without: found"),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, name=3)]), r"logs\[0\].name: found a value of type int"),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, payload_kg="5 kg")]), "payload_kg"),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, use="nothing")]), "use"),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, name="a"), jp.Run(log, name="a")]), "a log that no other run has"),
+])
+def test_wrong_arguments_are_refused(robot, log, call, message):
+    with pytest.raises(jp.ConfigError, match=message):
+        call(robot, log)
+
+
+def test_runs_of_frames_are_values(log):
+    run = jp.Run(log)
+    assert run == run and run != jp.Run(log) and len({run, jp.Run(log)}) == 2
