@@ -49,7 +49,7 @@ jp.draw_sweep = function (data) {
   const row = (one) => [...names.map((name) => ({n: value(one, name)})), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s, 5)}];
   const best = sweep.optimized && sweep.optimized.within_constraints ? sweep.optimized : sweep.best;
   const reasons = Object.entries(sweep.not_counted || {});
-  jp.page(jp.header(data.title || "Sweep", `${short(sweep.designs, 9)} designs`, best ? `${short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
+  jp.page(jp.header(data.title || "Sweep", `${short(sweep.designs, 9)} design${sweep.designs === 1 ? "" : "s"}`, best ? `${short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
     best ? h("div", {class: "tiles"}, jp.tile("Best energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
     h("div", {class: "notice aside"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
