@@ -27,8 +27,8 @@ std::set<std::string> beyond_energies(const std::vector<EnergyRun>& runs) {
 }
 
 /// Columns: nuisances, doubts about the motions, amplitudes of the candidates.
-std::vector<Column> columns_of(const Robot& robot, const std::vector<Nuisance>& nuisances,
-                               const ModelState& nominal, const std::vector<Candidate>& candidates) {
+std::vector<Column> columns_of(const std::vector<Nuisance>& nuisances, const ModelState& nominal,
+                               const std::vector<Candidate>& candidates) {
   std::vector<Column> columns = list_columns(nuisances, nominal, candidates, 0, Forms::none);
   const auto count = static_cast<int>(nuisances.size());
   for (int k = 0; k < static_cast<int>(kMotionDoubts.size()); ++k)
@@ -176,7 +176,7 @@ EnergyProblem pose_energy_problem(const Robot& robot, std::vector<EnergyRun> run
   left_out.insert(without.begin(), without.end());
   Equations& equations = problem.equations;
   equations.candidates = catalog_candidates(robot, left_out);
-  equations.columns = columns_of(robot, nuisances, nominal, equations.candidates);
+  equations.columns = columns_of(nuisances, nominal, equations.candidates);
   equations.prior_sd.resize(std::ssize(equations.columns));
   for (std::size_t k = 0; k < equations.columns.size(); ++k)
     equations.prior_sd[static_cast<Eigen::Index>(k)] = equations.columns[k].prior_sd;

@@ -12,13 +12,8 @@ jp.draw_batch = function (data) {
   const per_meter = (one) => one.energy_J / one.distance_m;
   const shown = worst.slice(0, 15), compared = shown.some((one) => is_number(one.saving_percent)), saving = (cell) => (compared ? [cell] : []);
   const histogram = (key, title, unit) => (spread[key] && spread[key].length ? h("div", {}, h("h3", {}, title), jp.histogram(spread[key], unit)) : null);
-<<<<<<< ours
-  jp.page(jp.header(data.title || "Batch", data.subtitle || `${short(count, 9)} missions`, without ? `${without} without a plan` : "all planned", !without),
-    h("div", {class: "tiles"}, jp.tile("Missions", short(count, 9), Object.entries(status).map(([one, n]) => `${n} ${words(one)}`).join(", ")), jp.tile("Energy", with_unit(total.energy_Wh || 0, "Wh"), with_unit(total.energy_J || 0, "J")),
-=======
   jp.page(jp.header(data.title || "Batch", data.subtitle || `${short(count, 9)} mission${count === 1 ? "" : "s"}`, without ? `${without} without a plan` : "all planned", !without),
-    h("div", {class: "tiles"}, jp.tile("Missions", short(count, 9), Object.entries(status).map(([one, n]) => `${n} ${words(one)}`).join(", ")), jp.tile("Energy", with_unit((total.energy_J || 0) / 3600, "Wh"), with_unit(total.energy_J || 0, "J")),
->>>>>>> theirs
+    h("div", {class: "tiles"}, jp.tile("Missions", short(count, 9), Object.entries(status).map(([one, n]) => `${n} ${words(one)}`).join(", ")), jp.tile("Energy", with_unit(total.energy_Wh || 0, "Wh"), with_unit(total.energy_J || 0, "J")),
       jp.tile("Distance", with_unit(total.distance_m || 0, "m")), jp.tile("Time", with_unit(total.duration_s || 0, "s"))),
     jp.section("Distribution", h("div", {class: "columns"}, histogram("energy_J", "Energy of a mission", "J"), histogram("duration_s", "Duration", "s"), histogram("saving_percent", "Saving against the best tuned trapezoid", "%"), histogram("optimality_gap_percent", "Optimality gap", "%"))),
     unsolved.length ? jp.section("Without a plan", unsolved.length < without ? h("p", {class: "soft"}, `The first ${unsolved.length} of ${without}.`) : null, jp.table(["mission", "status", "why"], unsolved.map((one) => [name(one), words(one.status), why(one)]))) : null,
