@@ -317,6 +317,8 @@ inline constexpr double kLeastEnergyOfStep = 0.002;
 
 /// Held-out energy gap that a correction without influence on energies may add. Declared.
 inline constexpr double kToleratedWorsening_percent = 0.05;
+/// Two parameters of a correction whose correlation is smaller are not listed together. Declared.
+inline constexpr double kNotableCorrelation = 0.5;
 /// A held-out gap above this many noise floors is more than noise. Chosen (0042).
 inline constexpr double kFloorsLeft = 2.0;
 /// A smaller held-out gap is not examined further. Chosen (0042).

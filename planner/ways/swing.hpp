@@ -8,7 +8,7 @@
 #include "planner/path/shape/refine.hpp"
 #include "planner/ways/spline_search.hpp"
 
-// Design: docs/decisions/0170-ways-as-whole-curves.md
+// Design: docs/decisions/0170-ways-as-whole-curves.md, docs/decisions/0461-five-guesses-are-polished.md
 namespace joulepath {
 
 /// A leg between two stops with a free path: the robot leaves in its present heading, turns while it drives,

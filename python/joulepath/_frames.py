@@ -1,4 +1,7 @@
-"""Logs in memory: the columns of a frame as the compiled module takes them."""
+"""Logs in memory: the columns of a frame as the compiled module takes them.
+
+Design: docs/decisions/0450-frames-are-checked-by-cell.md
+"""
 
 from __future__ import annotations
 
