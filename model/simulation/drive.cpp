@@ -84,7 +84,7 @@ Site Drive::site_at(const DriveState& state, double time_s, const FrictionMode& 
   const double v = state[kVelocity + kTravel];
   const double omega = state[kVelocity + kTurn];
   const double course = course_of(geometry, v, omega);
-  return {.pose = {state[kX], state[kY], state[kHeading]},
+  return {.pose = {state[kX], state[kY], state[kYaw]},
           .time_of_day_s = time_of_day_s_ + time_s,
           .payload_kg = input_.payload_kg,
           .travel_direction = active_[kTravel] ? mode[kTravel] : sign_of(v),
@@ -108,13 +108,13 @@ void Drive::motors(const DriveState& state, double hot, Instant& instant, Forces
     if (input_.coasting) {
       voltage_V = back_emf_V;
     } else if (motor.inductance_H > 0) {
-      current_A = state[kCurrentLeft + k];
+      current_A = state[kArmatureLeft + k];
       const double held_V = sign_of(current_A) * drop_V;
       const double widest_V = R * motor.max_current_A + drop_V;
       voltage_V = std::isfinite(widest_V)
                       ? back_emf_V + clamp_to(input_.voltage_V[side] - back_emf_V, widest_V)
                       : input_.voltage_V[side];
-      instant.derivative[kCurrentLeft + k] =
+      instant.derivative[kArmatureLeft + k] =
           (voltage_V - held_V - R * current_A - back_emf_V) / motor.inductance_H;
     } else {
       const double across_V = input_.voltage_V[side] - back_emf_V;
@@ -178,9 +178,9 @@ void Drive::motion(const DriveState& state, const Site& site, const Velocity& ac
     omega -= plant_.creep_m_s_N * (f.right - f.left) / (2 * plant_.robot.geometry.half_track_m);
   }
   DriveState& rate = instant.derivative;
-  rate[kX] = v * std::cos(state[kHeading]);
-  rate[kY] = v * std::sin(state[kHeading]);
-  rate[kHeading] = omega;
+  rate[kX] = v * std::cos(state[kYaw]);
+  rate[kY] = v * std::sin(state[kYaw]);
+  rate[kYaw] = omega;
   rate[kAngleLeft] = state[kVelocity + kLeftWheel];
   rate[kAngleRight] = state[kVelocity + kRightWheel];
   for (std::size_t s = 0; s < kSurfaces; ++s) rate[kVelocity + s] = acceleration[s];

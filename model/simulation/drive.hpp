@@ -12,12 +12,12 @@ namespace joulepath {
 enum DriveIndex : std::size_t {
   kX,
   kY,
-  kHeading,
+  kYaw,
   kAngleLeft,
   kAngleRight,
   kVelocities,  ///< four: v, omega, left wheel, right wheel; see Surface
-  kCurrentLeft = kVelocities + 4,
-  kCurrentRight,
+  kArmatureLeft = kVelocities + 4,
+  kArmatureRight,
   kMemory,                                ///< kMaxMemories of them
   kVoltSeconds = kMemory + kMaxMemories,  ///< left, right
   kCharge = kVoltSeconds + 2,

@@ -44,7 +44,7 @@ double Drive::stored_energy_J(const DriveState& state) const {
   double energy_J = kinetic_energy_J(robot, mass_, state[kVelocity + kTravel], state[kVelocity + kTurn],
                                      {state[kVelocity + kLeftWheel], state[kVelocity + kRightWheel]});
   for (Side side : kSides) {
-    const double i = state[kCurrentLeft + static_cast<std::size_t>(side == Side::right)];
+    const double i = state[kArmatureLeft + static_cast<std::size_t>(side == Side::right)];
     energy_J += 0.5 * robot.motor[side].inductance_H * i * i;
   }
   return energy_J;

@@ -129,7 +129,7 @@ void DriveIntegrator::advance_to(double end_s) {
 }
 
 void DriveIntegrator::displace(double ahead_m, double left_m) {
-  const double c = std::cos(state_[kHeading]), s = std::sin(state_[kHeading]);
+  const double c = std::cos(state_[kYaw]), s = std::sin(state_[kYaw]);
   state_[kX] += c * ahead_m - s * left_m;
   state_[kY] += s * ahead_m + c * left_m;
 }

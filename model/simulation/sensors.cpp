@@ -60,10 +60,10 @@ Trajectory read_sensors(const std::vector<Snapshot>& truth, const SensorSettings
       log.battery_current_A.push_back(
           rounded_to(noisy(mean(kBatteryCharge), settings.current_noise_A), settings.current_resolution_A));
     }
-    log.gyro_yaw_rate_rad_s.push_back(noisy(mean(kHeading), settings.gyro_noise_rad_s));
+    log.gyro_yaw_rate_rad_s.push_back(noisy(mean(kYaw), settings.gyro_noise_rad_s));
     log.position_x_m.push_back(noisy(now.state[kX], settings.position_noise_m));
     log.position_y_m.push_back(noisy(now.state[kY], settings.position_noise_m));
-    log.heading_rad.push_back(noisy(now.state[kHeading], settings.heading_noise_rad));
+    log.heading_rad.push_back(noisy(now.state[kYaw], settings.heading_noise_rad));
     log.command_linear_speed_m_s.push_back(now.command_speed_m_s);
     log.command_angular_speed_rad_s.push_back(now.command_yaw_rate_rad_s);
     log.payload_kg.push_back(now.payload_kg);

@@ -14,7 +14,7 @@ DriveState start_state(const Plant& plant, const BodyMotion<double>& motion, con
   DriveState state{};
   state[kX] = pose.x_m;
   state[kY] = pose.y_m;
-  state[kHeading] = pose.heading_rad;
+  state[kYaw] = pose.heading_rad;
   state[kVelocity + kTravel] = motion.speed_m_s;
   state[kVelocity + kTurn] = motion.yaw_rate_rad_s;
   const Sided<double> wheels =
@@ -81,7 +81,7 @@ class Run {
                       .creep_J = state[kCreepLoss],
                       .stored_J = integrator_.drive().stored_energy_J(state) -
                                   integrator_.drive().stored_energy_J(truth_.front().state)};
-    result.final_pose = {state[kX], state[kY], state[kHeading]};
+    result.final_pose = {state[kX], state[kY], state[kYaw]};
     result.planned_pose = reference_.pose(reference_.end_s());
     result.worst_speed_error_rad_s = worst_error_rad_s_;
     result.saturated_fraction =
@@ -170,7 +170,7 @@ class Run {
       }
       t.position_x_m.push_back(s.state[kX]);
       t.position_y_m.push_back(s.state[kY]);
-      t.heading_rad.push_back(s.state[kHeading]);
+      t.heading_rad.push_back(s.state[kYaw]);
       t.payload_kg.push_back(s.payload_kg);
       t.battery_power_W.push_back(s.instant.derivative[kBatteryEnergy]);
       t.energy_J.push_back(s.state[kBatteryEnergy]);

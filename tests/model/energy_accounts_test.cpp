@@ -74,7 +74,7 @@ TEST(Drive, CurrentStoresHalfInductanceTimesItsSquareInEachWinding) {
   const Drive drive(make_plant(robot));
   DriveState state{};
   EXPECT_EQ(drive.stored_energy_J(state), 0.0);
-  state[kCurrentLeft] = 3, state[kCurrentRight] = -4;
+  state[kArmatureLeft] = 3, state[kArmatureRight] = -4;
   EXPECT_NEAR(drive.stored_energy_J(state), 0.5 * 0.002 * 9 + 0.5 * 0.005 * 16, 1e-15);
 }
 
