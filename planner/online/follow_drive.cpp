@@ -18,7 +18,7 @@ DriveState standing_at(const Pose& pose) {
   DriveState state{};
   state[kX] = pose.x_m;
   state[kY] = pose.y_m;
-  state[kHeading] = pose.heading_rad;
+  state[kYaw] = pose.heading_rad;
   return state;
 }
 
@@ -59,7 +59,7 @@ class FollowRun {
 
   Pose pose() const {
     const DriveState& state = integrator_.state();
-    return {state[kX], state[kY], state[kHeading]};
+    return {state[kX], state[kY], state[kYaw]};
   }
 
   template <class Use>
@@ -188,7 +188,7 @@ class FollowRun {
     }
     log.position_x_m.push_back(state[kX]);
     log.position_y_m.push_back(state[kY]);
-    log.heading_rad.push_back(state[kHeading]);
+    log.heading_rad.push_back(state[kYaw]);
     log.payload_kg.push_back(planned_kg());
     log.battery_power_W.push_back(instant.derivative[kBatteryEnergy]);
     log.energy_J.push_back(state[kBatteryEnergy]);
