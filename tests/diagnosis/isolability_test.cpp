@@ -158,8 +158,9 @@ TEST_F(AgainstDiagnoses, WhatIsNotToldApartIsAGroupAndWhatIsHasOneName) {
   const std::set<std::string> group = group_of(of_one, "rolling_resistance");
   EXPECT_TRUE(group.contains("coulomb_friction"));
   for (const std::string& other : group)
-    if (other != "rolling_resistance")
+    if (other != "rolling_resistance") {
       EXPECT_LT(told_apart(of_one.isolability, "rolling_resistance", other), 0.9) << other;
+    }
   EXPECT_EQ(group_of(of_all, "rolling_resistance"), std::set<std::string>{"rolling_resistance"});
   for (const char* other : {"viscous_friction", "gear_efficiency", "dragging_wheel (left)", "floor_slope"})
     EXPECT_GT(told_apart(of_all.isolability, "rolling_resistance", other), 0.9) << other;
