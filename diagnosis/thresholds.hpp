@@ -117,8 +117,8 @@ inline constexpr double kMostScale = 1.4;
 inline constexpr double kLeastFriction = 0.3;
 /// See kLeastFriction. Chosen (0220).
 inline constexpr double kMostFriction = 5.0;
-/// Viscous friction over the file's, or drag that looks like it. Chosen (0220).
-inline constexpr double kMostViscousFriction = 20.0;
+/// Torque per wheel speed over the file's, of bearings or of drag that looks like it. Chosen (0220).
+inline constexpr double kMostTorquePerSpeed = 20.0;
 /// Inertia over the file's. Chosen (0220).
 inline constexpr double kLeastInertia = 0.4;
 /// See kLeastInertia. Chosen (0220).

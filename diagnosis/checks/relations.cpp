@@ -89,7 +89,7 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
                         motor.torque_per_ampere_Nm_A();
   std::vector<BoxedTerm> terms{
       factor(expected.friction_A[side], kLeastFriction, kMostFriction, freedom),
-      {expected.viscous_A[side], 0.0, kMostViscousFriction},
+      {expected.viscous_A[side], 0.0, kMostTorquePerSpeed},
       factor(expected.inertia_A[side], kLeastInertia, kMostInertia, freedom),
       {VectorXd::Ones(run.size()), -kGreatestOffset * friction_A, kGreatestOffset * friction_A},
       {directions(yaw * 2), -kGreatestTurningLoad * load_A, kGreatestTurningLoad * load_A}};

@@ -76,7 +76,7 @@ const Column& column_of(const Refit& fitted, Eigen::Index row) {
   return fitted.equations.columns[static_cast<std::size_t>(fitted.columns[static_cast<std::size_t>(row)])];
 }
 
-/// "gear_efficiency loss_fraction", "friction_torque_Nm (left)".
+/// An effect and its parameter, or "friction_torque_Nm (left)".
 std::string name_of(const Refit& fitted, const std::vector<Nuisance>& nuisances, const Column& column) {
   const auto owner = static_cast<std::size_t>(column.owner);
   if (column.kind == Column::Kind::nuisance) return text_of(nuisances[owner]);

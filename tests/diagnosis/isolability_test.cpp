@@ -9,6 +9,7 @@
 #include <string>
 
 #include "diagnosis/evidence/power.hpp"
+#include "diagnosis/values/constant_payload.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 #include "tests/support/nomad.hpp"
@@ -129,7 +130,9 @@ class AgainstDiagnoses : public ::testing::Test {
 };
 
 /// A run's payload; each is constant.
-double payload_of_kg(const Run& run) { return *std::ranges::max_element(run.log.payload_kg); }
+double payload_of_kg(const Run& run) {
+  return run.log.payload_kg.empty() ? constant_payload_kg(run) : run.log.payload_kg.front();
+}
 
 /// The payload that most runs have.
 double usual_payload_kg(const Dataset& day) {
