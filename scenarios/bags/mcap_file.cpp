@@ -64,19 +64,15 @@ class McapReader {
   }
 
   BagDamage read() {
-    std::uint64_t at = kMcapMagic.size();
+    std::uint64_t at = kMcapMagic.size(), begin = at;
     std::string content;
-    for (;;) {
-      damage_.unread_bytes = size_ - at;
+    for (;; begin = at) {
       std::uint8_t head[9];
       if (!in_.read(reinterpret_cast<char*>(head), sizeof head)) break;
       std::uint64_t length{};
       std::memcpy(&length, head + 1, sizeof length);
       at += sizeof head;
-      if (head[0] == kDataEnd) {
-        damage_.unread_bytes = 0;
-        return damage_;
-      }
+      if (head[0] == kDataEnd) return damage_;
       if (length > size_ - at) break;
       at += length;
       if (!wanted(head[0]) || length > kMostRecordBytes) {
@@ -89,6 +85,7 @@ class McapReader {
       record(head[0], content);
     }
     damage_.truncated = true;
+    damage_.unread_bytes = size_ - begin;
     return damage_;
   }
 
