@@ -138,8 +138,8 @@ def table(header, rows):
     return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]) + "\n"
 
 
-def bench_peers(command, problems, nodes=200):
-    """The program's own answers, by problem."""
+def answered(command, problems, *options):
+    """What a program of build/release/bin answers to a file of problems: command, file, answers, options."""
     data = {
         "robots": {p["robot"]: p["robot_values"] for p in problems},
         "problems": [{k: v for k, v in p.items() if k != "robot_values"} for p in problems],
@@ -147,8 +147,14 @@ def bench_peers(command, problems, nodes=200):
     with tempfile.TemporaryDirectory() as scratch:
         asked, answers = pathlib.Path(scratch) / "asked.json", pathlib.Path(scratch) / "answers.json"
         asked.write_text(json.dumps(data))
-        subprocess.run([ROOT / "build/release/bin/bench_peers", command, asked, answers, str(nodes)], check=True)
+        program, *words = command
+        subprocess.run([ROOT / "build/release/bin" / program, *words, asked, answers, *map(str, options)], check=True)
         return json.loads(answers.read_text())
+
+
+def bench_peers(command, problems, nodes=200):
+    """The program's own answers, by problem."""
+    return answered(["bench_peers", command], problems, nodes)
 
 
 def rigid_body(problem):

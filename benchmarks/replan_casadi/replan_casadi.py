@@ -5,18 +5,15 @@ problem, with the place, the speed, the geometry of the rest and the time left a
 and multipliers of the last one. Both answers are judged by one fine integration of the energy.
 """
 
-import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks/peers"))
 from casadi_peer import IPOPT, REST, WARM, segment_function  # noqa: E402
-from common import Path, cpu_ms, package, problem_set, spread, table  # noqa: E402
+from common import Path, answered, cpu_ms, package, problem_set, spread, table  # noqa: E402
 
 SEGMENTS, FINE, SEED = 200, 4000, 20261122
 KINDS, SITUATIONS = ("straight", "bend", "corners", "tight_corners"), 20
@@ -114,16 +111,7 @@ def problems(count):
 
 def ours(asked):
     """The replanner's answers by problem: the situations, what it found and its CPU times."""
-    data = {
-        "robots": {p["robot"]: p["robot_values"] for p in asked},
-        "problems": [{k: v for k, v in p.items() if k != "robot_values"} for p in asked],
-    }
-    with tempfile.TemporaryDirectory() as scratch:
-        file, answers = pathlib.Path(scratch) / "asked.json", pathlib.Path(scratch) / "answers.json"
-        file.write_text(json.dumps(data))
-        program = ROOT / "build/release/bin/bench_replan_situations"
-        subprocess.run([program, file, answers, str(SEED), str(SITUATIONS), str(SEGMENTS), str(SLACK)], check=True)
-        return json.loads(answers.read_text())
+    return answered(["bench_replan_situations"], asked, SEED, SITUATIONS, SEGMENTS, SLACK)
 
 
 def compared(problem, replans):

@@ -30,20 +30,26 @@ std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
   return text.empty() ? text : text + ": ";
 }
 
-/// A sentence that lists the effects that cannot be seen without a channel or motion.
-std::string hidden_without(bool Needs::*need) {
-  std::string text;
+/// The effects that cannot be seen without a channel or motion.
+std::vector<std::string> hidden_without(bool Needs::*need) {
+  std::vector<std::string> effects;
   for (const EffectDescription& effect : effect_catalog())
-    if (effect.info.needs.*need) text += (text.empty() ? "" : ", ") + std::string(effect.info.name);
+    if (effect.info.needs.*need) effects.emplace_back(effect.info.name);
+  return effects;
+}
+
+std::string hidden_text(const std::vector<std::string>& effects) {
+  std::string text;
+  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
   return text + " cannot be seen";
 }
 
-/// A channel that runs may lack.
+/// A channel that runs may lack: the effects that need it, or another consequence.
 struct Channel {
   const char* name{};
-  std::string consequence{};
   bool (*is_in)(const RunSignals&){};
-  bool Needs::*need{};  ///< nothing: effects need no such channel
+  bool Needs::*need{};
+  const char* consequence{};
 };
 
 bool measures_pose(const RunSignals& run) { return run.x_m.size() > 0 && run.heading_measured; }
@@ -51,26 +57,25 @@ bool measures_gyro(const RunSignals& run) { return run.gyro_yaw_rate_rad_s.size(
 bool measures_yaw_rate(const RunSignals& run) { return measures_gyro(run) || measures_pose(run); }
 bool measures_battery(const RunSignals& run) { return run.battery_power_W.size() > 0; }
 
-std::vector<Channel> channels() {
-  return {
-      {"motor_current", "mechanics are visible in the voltage only, mixed with winding and sensor errors",
-       [](const RunSignals& r) {
-         return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
-       }},
-      {"motor_voltage",
-       "winding, driver and magnet errors cannot be separated from errors of the current sensor; energies "
-       "are computed from the currents and the robot file's winding",
-       [](const RunSignals& r) {
-         return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
-       }},
-      {"battery", hidden_without(&Needs::battery), measures_battery, &Needs::battery},
-      {"pose", hidden_without(&Needs::pose), measures_pose, &Needs::pose},
-      {"gyro", "yaw rates are visible in the pose only", measures_gyro},
-      {"yaw_rate", hidden_without(&Needs::yaw_rate), measures_yaw_rate, &Needs::yaw_rate},
-      {"start_time", hidden_without(&Needs::time_of_day),
-       [](const RunSignals& r) { return r.time_of_day_known; }, &Needs::time_of_day},
-  };
-}
+constexpr Channel kChannels[] = {
+    {"motor_current",
+     [](const RunSignals& r) {
+       return r.motor_current_A.left.size() > 0 && r.motor_current_A.right.size() > 0;
+     },
+     nullptr, "mechanics are visible in the voltage only, mixed with winding and sensor errors"},
+    {"motor_voltage",
+     [](const RunSignals& r) {
+       return r.motor_voltage_V.left.size() > 0 && r.motor_voltage_V.right.size() > 0;
+     },
+     nullptr,
+     "winding, driver and magnet errors cannot be separated from errors of the current sensor; energies are "
+     "computed from the currents and the robot file's winding"},
+    {"battery", measures_battery, &Needs::battery},
+    {"pose", measures_pose, &Needs::pose},
+    {"gyro", measures_gyro, nullptr, "yaw rates are visible in the pose only"},
+    {"yaw_rate", measures_yaw_rate, &Needs::yaw_rate},
+    {"start_time", [](const RunSignals& r) { return r.time_of_day_known; }, &Needs::time_of_day},
+};
 
 /// Shares of all samples.
 struct Manoeuvres {
@@ -103,30 +108,27 @@ bool has_one_payload(const std::vector<RunSignals>& signals) {
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
   Survey survey;
-  const auto hide = [&](bool Needs::*need) {
-    for (const EffectDescription& effect : effect_catalog())
-      if (effect.info.needs.*need) survey.invisible_effects.insert(std::string(effect.info.name));
+  const auto lacks = [&](const std::string& what, bool in_all_runs, bool Needs::*need) {
+    const std::vector<std::string> effects = hidden_without(need);
+    survey.notes.push_back(what + ": " + hidden_text(effects));
+    if (in_all_runs) survey.invisible_effects.insert(effects.begin(), effects.end());
   };
-  for (const Channel& channel : channels()) {
+  for (const Channel& channel : kChannels) {
     const double share = share_of(signals, channel.is_in);
     if (share >= 1) continue;
     survey.missing_channels.push_back(channel.name);
-    survey.notes.push_back(std::string(share > 0 ? "some runs have no " : "no ") + channel.name + ": " +
-                           channel.consequence);
-    if (channel.need && share == 0) hide(channel.need);
+    const std::string what = std::string(share > 0 ? "some runs have no " : "no ") + channel.name;
+    if (channel.need)
+      lacks(what, share == 0, channel.need);
+    else
+      survey.notes.push_back(what + ": " + channel.consequence);
   }
   if (has_one_payload(signals))
     survey.notes.push_back(
         "one payload only: losses that grow with the load cannot be separated from constant ones");
   const auto [turning, reverse, still] = manoeuvres_of(signals);
-  if (turning < kLeastManoeuvreShare) {
-    survey.notes.push_back("no turns: " + hidden_without(&Needs::turns));
-    hide(&Needs::turns);
-  }
-  if (reverse < kLeastManoeuvreShare) {
-    survey.notes.push_back("no reversing: " + hidden_without(&Needs::reversing));
-    hide(&Needs::reversing);
-  }
+  if (turning < kLeastManoeuvreShare) lacks("no turns", true, &Needs::turns);
+  if (reverse < kLeastManoeuvreShare) lacks("no reversing", true, &Needs::reversing);
   if (still < kLeastManoeuvreShare) survey.notes.push_back("no standstill: sensor offsets are less visible");
   if (std::ranges::any_of(dataset.runs, [](const Run& run) { return !run.payload_known; }))
     survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");

@@ -87,8 +87,7 @@ std::string in_words(const std::vector<ActiveEffect>& effects) {
 
 /// The first part of the names that does not widen the held-out energy gap. Constants are moved only where
 /// that reduces the gap. Names that widen it by more than kMaterialGap_percent are withdrawn.
-void choose_correction(const Examination& x, Validation& v) {
-  const double before = nominal_gap_percent(x);
+void choose_correction(const Examination& x, double before, Validation& v) {
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
     const bool all = part.size() == v.judgment.named.size();
     const Refit fitted = all ? v.fitted : fit_names(x, part);
@@ -134,9 +133,9 @@ JudgedModel within_calibration(const Examination& x, JudgedModel model) {
 }
 
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
-void judge_what_is_left(const Examination& x, Validation& v) {
+void judge_what_is_left(const Examination& x, double before, Validation& v) {
   const bool named = !v.judgment.named.empty();
-  const double before = nominal_gap_percent(x), floor = noise_floor_percent(x, v.fitted),
+  const double floor = noise_floor_percent(x, v.fitted),
                after = gap_percent(x, named ? v.model : within_calibration(x, v.model));
   const double least =
       (named ? caution(x) : kCautionFactor) * std::max(kFloorsLeft * floor, kMaterialGap_percent);
@@ -168,8 +167,10 @@ Validation validate(const Examination& x, const Judgment& by_race) {
   Validation v{.judgment = by_race};
   fit_what_can_be_told(x, v);
   v.model = judged_model(x, v.fitted);
-  if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, v);
-  if (v.judgment.verdict != Verdict::too_little_data) judge_what_is_left(x, v);
+  if (v.judgment.verdict == Verdict::too_little_data) return v;
+  const double before = nominal_gap_percent(x);
+  if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, before, v);
+  judge_what_is_left(x, before, v);
   return v;
 }
 

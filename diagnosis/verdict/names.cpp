@@ -35,15 +35,20 @@ void share_probabilities(const Examination& x, const Inclusion& inclusion, Names
   }
 }
 
-/// Share of what the best set explains beyond calibration errors that is lost without some of its columns.
-double share_lost(const Examination& x, const BoxedFit& nothing, const std::vector<int>& without) {
+/// The best set's columns without some.
+std::vector<int> columns_without(const Examination& x, const std::vector<int>& left_out) {
   std::vector<int> kept;
   std::ranges::copy_if(x.best().columns, std::back_inserter(kept),
-                       [&](int k) { return std::ranges::count(without, k) == 0; });
+                       [&](int k) { return std::ranges::count(left_out, k) == 0; });
+  return kept;
+}
+
+/// Share of what the best set explains beyond calibration errors that is lost without some of its columns.
+double share_lost(const Examination& x, const BoxedFit& nothing, const std::vector<int>& without) {
   const double all = nothing.loss - x.best().loss;
-  return all > 0
-             ? std::clamp((solve(x.id.problem, kept, x.id.dispersion).loss - x.best().loss) / all, 0.0, 1.0)
-             : 0.0;
+  if (all <= 0) return 0.0;
+  const double kept = solve(x.id.problem, columns_without(x, without), x.id.dispersion).loss;
+  return std::clamp((kept - x.best().loss) / all, 0.0, 1.0);
 }
 
 /// Unknown terms of one channel: that there is an unknown cause is often surer than what it depends on.
@@ -69,13 +74,10 @@ double size_of(const Examination& x, const UnknownTerm& term) {
 
 /// What the best set's log evidence loses without a term.
 double evidence_of(const Examination& x, const UnknownTerm& term) {
-  std::vector<int> kept;
-  std::ranges::copy_if(x.best().columns, std::back_inserter(kept),
-                       [&](int k) { return std::ranges::count(term.columns, k) == 0; });
   const auto evidence = [&](const std::vector<int>& columns) {
     return solve(x.id.problem, columns, x.id.dispersion, false).log_evidence;
   };
-  return evidence(x.best().columns) - evidence(kept);
+  return evidence(x.best().columns) - evidence(columns_without(x, term.columns));
 }
 
 /// A term below the materiality floor is a cause only if it brings as much evidence as a pliable law must.
@@ -87,6 +89,7 @@ bool is_cause_though_small(const Examination& x, double size, double evidence) {
 /// The unknown terms of the best set that are sure enough: causes, or small effects below the materiality
 /// floor.
 void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& names) {
+  if (x.best().unknowns.empty()) return;
   const BoxedFit nothing = fit_within_calibration(x.id);
   for (int u : x.best().unknowns) {
     const UnknownTerm& term = x.id.equations.unknowns[static_cast<std::size_t>(u)];

@@ -56,20 +56,16 @@ class McapReader {
   }
 
   BagDamage read() {
-    std::uint64_t at = kMcapMagic.size();
+    std::uint64_t at = kMcapMagic.size(), begin = at;
     std::string content;
-    for (;;) {
-      damage_.unread_bytes = size_ - at;
+    for (;; begin = at) {
       std::uint8_t head[9];
       if (!in_.read(reinterpret_cast<char*>(head), sizeof head)) break;
       std::uint64_t length{};
       std::memcpy(&length, head + 1, sizeof length);
       at += sizeof head;
       const McapRecord kind{head[0]};
-      if (kind == McapRecord::data_end) {
-        damage_.unread_bytes = 0;
-        return damage_;
-      }
+      if (kind == McapRecord::data_end) return damage_;
       if (length > size_ - at) break;
       at += length;
       if (!wanted(kind) || length > kMostRecordBytes) {
@@ -82,6 +78,7 @@ class McapReader {
       record(kind, content);
     }
     damage_.truncated = true;
+    damage_.unread_bytes = size_ - begin;
     return damage_;
   }
 

@@ -38,13 +38,13 @@ class Scorer(unittest.TestCase):
     def test_right_wrong_and_silent_answers(self):
         cases = [(label("single", "a"), said("explained", "a")), (label("single", "a"), said("explained", "b")),
                  (label("single", "a"), said("no_gap")), (label("single", "a", detectable=False), said("no_gap"))]
-        self.assertAlmostEqual(self.value(cases, "top-1"), 1 / 3)
+        self.assertAlmostEqual(self.value(cases, "top-1, single detectable effect"), 1 / 3)
         self.assertAlmostEqual(self.value(cases, "wrong name"), 1 / 2)
         self.assertAlmostEqual(self.value(cases, "silent"), 1 / 3)
 
     def test_a_group_that_holds_the_truth_is_no_wrong_name_but_no_top_1(self):
         cases = [(label("single", "a"), said("ambiguous", "b", group=["a"]))]
-        self.assertEqual(self.value(cases, "top-1"), 0)
+        self.assertEqual(self.value(cases, "top-1, single detectable effect"), 0)
         self.assertEqual(self.value(cases, "true effect inside"), 1)
         self.assertEqual(self.value(cases, "wrong name"), 0)
 
@@ -56,7 +56,7 @@ class Scorer(unittest.TestCase):
     def test_a_diagnosis_that_failed_is_wrong_wherever_it_stands(self):
         failed = judge.Answer(None)
         self.assertEqual(self.value([(label("null"), failed)], "false alarm"), 1)
-        self.assertEqual(self.value([(label("single", "a"), failed)], "top-1"), 0)
+        self.assertEqual(self.value([(label("single", "a"), failed)], "top-1, single detectable effect"), 0)
         self.assertEqual(self.value([(label("foreign", "f"), failed)], "foreign effect"), 0)
         self.assertEqual(self.value([(label("null"), failed), (label("null"), said("no_gap"))], "no answer"), 0.5)
 
@@ -78,7 +78,7 @@ class Scorer(unittest.TestCase):
         self.assertAlmostEqual(judge.true_shrink({"before_J": 100, "after_J": 10}), 0.9)
         self.assertIsNone(judge.true_shrink({"before_J": None, "after_J": 10}))
         self.assertIsNone(judge.true_shrink(None))
-        answer = {**said("explained", "a").raw, "gap": {"energy": {"shrink_fraction": 0.8, "shrink_interval_95": [0.7, 0.85]}}}
+        answer = {**said("explained", "a").raw, "gap": {"energy": {"shrink_fraction": 0.8, "shrink_interval_95": [0.7, 0.85], "before_percent": 10}}}
         results = {"x": {"diagnosis": answer, "fresh_day": {"before_J": 100, "after_J": 10}},
                    "y": {"diagnosis": answer, "fresh_day": {"before_J": 100, "after_J": 25}}}
         coverage, difference = scorecard.shrink_values({}, results)
@@ -100,6 +100,29 @@ class Scorer(unittest.TestCase):
         self.assertEqual(self.value(cases, "pairs: at least one"), 1)
         self.assertEqual(self.value(cases, "foreign effect: says none fits"), 0.5)
         self.assertEqual(self.value(cases, "true effect removed"), 1)
+
+    def test_a_spoilt_channel_is_named_by_its_kind_its_column_and_its_scope(self):
+        day = {**label("spoilt", "a"), "spoil": {"way": "currents inverted", "all_runs": True}}
+        suspect = lambda **check: judge.Answer({"verdict": "data_suspect", "data_checks": [{"kind": "inverted", "channel": "motor_current_left_A", "run": "all", **check}]})
+        self.assertTrue(judge.names_spoilt_channel(suspect(), day))
+        for wrong in ({"kind": "dead"}, {"channel": "motor_voltage_left_V"}, {"run": "run_01.csv"}):
+            self.assertFalse(judge.names_spoilt_channel(suspect(**wrong), day))
+        self.assertFalse(judge.invents_a_cause(suspect(), day))
+        self.assertTrue(judge.invents_a_cause(said("explained", "b"), day))
+        self.assertFalse(judge.invents_a_cause(said("explained", "a"), day))
+        self.assertEqual(self.value([(label("null"), suspect()), (label("null"), said("no_gap"))], "sound day called"), 0.5)
+
+    def test_a_correction_is_judged_on_a_fresh_day_and_may_lose_a_fifth_of_a_percent(self):
+        day = lambda after: {"before_percent": 5.0, "after_percent": after}
+        self.assertEqual([judge.correction_is_worse(d) for d in (day(1.0), day(5.1), day(5.3), None)], [False, False, True, None])
+        results = {"x": {"fresh_day": day(5.3), "corrected": True}, "y": {"fresh_day": None, "corrected": False}}
+        labels = {key: {**label("single", "a"), "oracle": {"detectable": True, "effect_percent": 3}} for key in results}
+        self.assertEqual([(r.hits, r.total) for r in scorecard.correction_rates(labels, results)], [(1, 1), (1, 2)])
+
+    def test_a_gap_in_the_battery_alone_has_to_be_seen_where_it_is_large(self):
+        day = lambda percent: {**label("battery", "a"), "oracle": {"detectable": True, "battery_percent": percent}}
+        cases = [(day(8), said("unexplained")), (day(8), said("no_gap")), (day(1), said("no_gap"))]
+        self.assertEqual(self.value(cases, "odometry and battery alone: a gap"), 0.5)
 
     def test_parameter_error_and_interval(self):
         self.assertEqual([(e, round(x, 6), c) for e, x, c in judge.parameter_errors(said("explained", "a"), label("single", "a"))], [("a", 0.1, True)])
@@ -156,7 +179,8 @@ class Sealing(unittest.TestCase):
         self.assertGreaterEqual(len(full), 2000)
         self.assertEqual(len({c["seed"] for c in full}), len(full))
         share = lambda cases: sum(c["bin"] == "null" for c in cases) / len(cases)
-        self.assertGreaterEqual(share(full), 0.25)
+        for bin_name, least in (("null", 300), ("pair", 300), ("triple", 50), ("foreign", 200), ("removed", 200), ("spoilt", 150), ("battery", 100), ("long", 50)):
+            self.assertGreaterEqual(sum(c["bin"] == bin_name for c in full), least)
         self.assertAlmostEqual(share(full[:280]), share(full), delta=0.02)
         self.assertEqual(len(plan.plan("commit", *names, plan.SHORT)), 60)
 

@@ -12,11 +12,15 @@ import time
 
 import seal
 import workspace
+from spoils import read_rows, spoils, write_rows
 
-KEEP = ("gap", "where", "verdict", "causes", "ranking", "leftover", "next_experiment", "ceiling", "control")
+KEEP = ("gap", "where", "verdict", "causes", "ranking", "leftover", "next_experiment", "ceiling", "control", "data_checks",
+        "below_materiality", "unknowns")
 LIMIT_s = 180  # of one program: what takes longer has failed
 ANSWERED = (0, 1)  # exit codes of a diagnosis that gave an answer
-LEAST_GAP_percent = 2  # below it the share of the gap that is closed says nothing
+FITTED_RUNS = 4  # of a fresh day: the others judge alone
+BATTERY_CHANNELS = ("time_s", "wheel_speed_left_rad_s", "wheel_speed_right_rad_s", "position_x_m", "position_y_m", "heading_rad",
+                    "battery_voltage_V", "battery_current_A")  # odometry and battery: the commonest log
 
 
 def run_quietly(command, folder):
@@ -37,6 +41,9 @@ def hash_of(folder):
     return total.hexdigest()
 
 
+CHANGED = ("removed", "spoilt", "battery", "long")  # bins without further looks: their catalog, channels or runs are changed
+
+
 class Examination:
     """One case in a scratch folder of its own."""
 
@@ -47,6 +54,21 @@ class Examination:
         data = self.scratch / tag / self.case["id"]
         subprocess.run(seal.plant_command(self.case) + ["--out", str(data), "--label", "none", *more], check=True,
                        capture_output=True, timeout=LIMIT_s)
+        return data
+
+    def prepared(self, data):
+        """The day as the case's bin logs it: a channel spoilt, or odometry and battery alone."""
+        runs = sorted(data.glob("run_*.csv"))
+        if "spoil" in self.case:
+            _, _, spoil = spoils()[self.case["spoil"]["way"]]
+            chosen = runs if self.case["spoil"]["all_runs"] else [random.Random(self.case["seed"]).choice(runs)]
+            for run in chosen:
+                rows = read_rows(run)
+                spoil(rows)
+                write_rows(run, rows)
+        if self.case["bin"] == "battery":
+            for run in runs:
+                write_rows(run, [{name: row[name] for name in BATTERY_CHANNELS} for row in read_rows(run)])
         return data
 
     def diagnose(self, dataset, out):
@@ -79,20 +101,20 @@ class Examination:
                 found[name] = {"motion": description, **self.diagnose(data / "dataset.yaml", self.scratch / name / "out")}
         return found
 
-    def fresh_day(self, answer, out):
+    def fresh_day(self, out):
         """The energy gap on a day of 24 runs that nobody saw, with the robot file as it was and as corrected."""
         robot = out / "robot_corrected.yaml"
-        gap = answer.get("gap", {}).get("energy", {})
-        if not robot.exists() or (out / "dataset_corrected.yaml").exists() or (gap.get("before_percent") or 0) < LEAST_GAP_percent:
+        if not robot.exists() or (out / "dataset_corrected.yaml").exists():
             return None
         data = self.generate("fresh", ["--day", "1", "--protocol", "24"])
-        text = (data / "dataset.yaml").read_text().replace("start_time_s", "use: validation, start_time_s")
+        parts = (data / "dataset.yaml").read_text().split("start_time_s")
+        text = "start_time_s".join(parts[:FITTED_RUNS + 1]) + "".join("use: validation, start_time_s" + part for part in parts[FITTED_RUNS + 1:])
         found = {}
-        for name, file in (("before_J", "robot.yaml"), ("after_J", robot)):
+        for name, file in (("before", "robot.yaml"), ("after", robot)):
             dataset = data / f"{name}.yaml"
             dataset.write_text(text.replace("robot: robot.yaml", f"robot: {file}"))
-            result = self.diagnose(dataset, self.scratch / "fresh" / name)
-            found[name] = result.get("diagnosis", {}).get("gap", {}).get("energy", {}).get("before_J")
+            gap = self.diagnose(dataset, self.scratch / "fresh" / name).get("diagnosis", {}).get("gap", {}).get("energy", {})
+            found |= {f"{name}_J": gap.get("before_J"), f"{name}_percent": gap.get("before_percent")}
         return found
 
     def controls(self, data):
@@ -123,14 +145,15 @@ def examine(case, with_controls=True):
     result = {"id": case["id"]}
     try:
         examination = Examination(case, scratch)
-        data, out = examination.generate("data"), scratch / "data" / "out"
+        data, out = examination.prepared(examination.generate("data")), scratch / "data" / "out"
         result["data_sha256"] = hash_of(data)
         result.update(examination.diagnose(data / "dataset.yaml", out))
         answer = result.get("diagnosis") or {}
-        if case["bin"] != "removed":
+        result["corrected"] = any((out / name).exists() for name in ("robot_corrected.yaml", "dataset_corrected.yaml"))
+        if case["bin"] not in CHANGED:
             result["next_runs"] = examination.next_runs(answer)
-            result["fresh_day"] = examination.fresh_day(answer, out)
-        if with_controls:
+            result["fresh_day"] = examination.fresh_day(out)
+        if with_controls and case["bin"] not in CHANGED:
             result["controls"] = examination.controls(data)
     except (OSError, ValueError, subprocess.SubprocessError) as error:
         result.setdefault("error", f"{type(error).__name__}: {error}"[-500:])

@@ -2,6 +2,9 @@
 
 import re
 
+import workspace  # noqa: F401 (knows where spoils is)
+from spoils import spoils
+
 SILENT = ("no_gap", "too_little_data")  # data_suspect is none: on a sound day it is a false alarm
 SIDED = ("dragging_wheel", "current_sensor_offset", "wheel_radius_mismatch")
 
@@ -18,6 +21,14 @@ def material(label):
     """The effects change the motors' or the battery's energy by at least 1 %, or the pose by 0.02 (m and rad, rms)."""
     oracle = label["oracle"]
     return detectable(label) and (oracle.get("effect_percent", 0) >= 1 or oracle.get("effect_pose_rms", 0) >= 0.02)
+
+
+LEAST_BATTERY_percent = 5  # of the battery's energy: a gap that a log of odometry and battery has to show
+SILENT_LOSS_percent = 0.2  # of energy, by which a correction may be worse than the nominal file on a fresh day
+
+
+def shows_in_battery(label):
+    return label["oracle"]["battery_percent"] >= LEAST_BATTERY_percent
 
 
 def effect_of(label):
@@ -73,6 +84,10 @@ class Answer:
     def says_none_fits(self):
         return self.verdict in ("unexplained", "partly_explained")
 
+    def small(self):
+        """The effects that are stated as below the materiality floor."""
+        return {effect_of(entry["effect"]) for entry in self.raw.get("below_materiality") or []}
+
     def energy(self, key):
         return self.raw.get("gap", {}).get("energy", {}).get(key)
 
@@ -84,6 +99,24 @@ class Answer:
 def wrong_name(answer, label):
     """A name is given, and none of what is named first is among the true effects (or in the group with one)."""
     return answer.gives_a_name and not (answer.group_of_first & set(truth_of(label)))
+
+
+def names_spoilt_channel(answer, label):
+    """A data check states a right kind, holds a column that was spoilt, and tells one run from all."""
+    kinds, columns, _ = spoils()[label["spoil"]["way"]]
+    return any(check["kind"] in kinds and any(column in check["channel"] for column in columns)
+               and (check["run"] == "all") == label["spoil"]["all_runs"] for check in answer.raw.get("data_checks") or [])
+
+
+def invents_a_cause(answer, label):
+    """A name from spoilt data that is not among the true effects."""
+    return bool(answer.names) and not answer.silent and answer.verdict != "data_suspect" and not (answer.group & set(truth_of(label)))
+
+
+def correction_is_worse(fresh_day):
+    """On a day that nobody saw; None where no correction was written or driven."""
+    before, after = ((fresh_day or {}).get(key) for key in ("before_percent", "after_percent"))
+    return after > before + SILENT_LOSS_percent if before is not None and after is not None else None
 
 
 def parameter_errors(answer, label):

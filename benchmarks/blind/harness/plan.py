@@ -2,10 +2,16 @@
 import hashlib
 import random
 
-ROBOTS = [("nomad", 0.6), ("warehouse", 0.2), ("small", 0.2)]
+import workspace  # noqa: F401 (knows where spoils is)
+from spoils import spoils
+
+ROBOTS = [("nomad", 0.5), ("warehouse", 0.2), ("small", 0.15), ("tug", 0.15)]
 PROTOCOLS = [(24, 0.6), (12, 0.25), (6, 0.15)]
-FULL = {"single": 40, "null": 560, "pair": 220, "foreign": 20, "removed": 100}  # single, foreign: per effect
-SHORT = {"single": 1, "null": 15, "pair": 4, "foreign": 1, "removed": 2}        # 60 cases: mechanics only
+FULL = {"single": 24, "null": 320, "pair": 300, "triple": 50, "foreign": 20, "removed": 200,  # single, foreign: per effect
+        "spoilt": 150, "battery": 100, "long": 50}
+SHORT = {"single": 1, "null": 11, "pair": 3, "triple": 1, "foreign": 1, "removed": 2, "spoilt": 2, "battery": 1, "long": 1}
+MIXED = {"pair": 2, "triple": 3, "removed": 1, "battery": 1, "long": 1}  # bins whose effects are drawn: how many
+SMALL_MEMBER = 1 / 3  # share of the pairs with a small second effect
 
 
 def digest(*parts):
@@ -24,16 +30,27 @@ def weighted(rng, choices):
 def case(frozen, bin_name, number, effects):
     key = f"{bin_name}/{'+'.join(effects)}/{number}"
     rng = random.Random(digest("draw", frozen, key))
-    if bin_name in ("pair", "removed"):
-        effects = rng.sample(effects, 2 if bin_name == "pair" else 1)
-    return {"bin": bin_name, "effects": effects, "robot": weighted(rng, ROBOTS),
-            "protocol": weighted(rng, PROTOCOLS), "level": rng.randrange(2), "seed": seed_of(frozen, key)}
+    if bin_name in MIXED:
+        effects = rng.sample(effects, MIXED[bin_name])
+    drawn = {"bin": bin_name, "effects": effects, "robot": weighted(rng, ROBOTS),
+             "protocol": weighted(rng, PROTOCOLS), "level": rng.randrange(2), "seed": seed_of(frozen, key)}
+    if bin_name == "pair" and rng.random() < SMALL_MEMBER:
+        drawn["shares"] = [0.7, 0.1]
+    elif bin_name == "triple":
+        drawn["shares"] = [round(rng.uniform(0.25, 1), 3) for _ in effects]
+    elif bin_name == "battery":
+        drawn["shares"] = [1]
+    elif bin_name == "spoilt":
+        drawn["effects"] = rng.sample(effects, number % 2)  # every other day holds an effect as well
+        drawn["spoil"] = {"way": rng.choice(sorted(spoils())), "all_runs": rng.random() < 0.5}
+    return drawn
 
 
 def plan(frozen, catalog, foreign, counts):
     """All cases, ordered so that every prefix holds the bins in the proportions of the whole; numbered after
     a shuffle within the prefix order, so that a case's number says nothing about its bin."""
-    strata = [("null", [], counts["null"]), ("pair", catalog, counts["pair"]), ("removed", catalog, counts["removed"])]
+    strata = [("null", [], counts["null"])]
+    strata += [(name, catalog, counts.get(name, 0)) for name in (*MIXED, "spoilt")]
     strata += [("single", [name], counts["single"]) for name in catalog]
     strata += [("foreign", [name], counts["foreign"]) for name in foreign]
     ranked = []

@@ -6,6 +6,7 @@ import sys
 import time
 
 from campaign import done_cases
+import plan
 import plots
 import scorecard
 import seal
@@ -25,11 +26,18 @@ def load(frozen, name):
     return usable, {i: result for i, result in results.items() if i in usable}, sorted(set(labels) - set(usable))
 
 
-def card_table(cases, seconds, labels, results):
-    rows = scorecard.rates(cases) + scorecard.place_rates(cases) + scorecard.next_run_rates(labels, results)
+def card_table(cases, seconds, labels, results, last):
+    rows = scorecard.rates(cases) + scorecard.correction_rates(labels, results) + scorecard.interval_values(cases)
+    rows += scorecard.place_rates(cases) + scorecard.next_run_rates(labels, results)
     rows += scorecard.values(cases, seconds) + scorecard.shrink_values(labels, results)
-    lines = ["| measure | value | 95 % interval | cases | aim / fails | |", "|---|---|---|---|---|---|"]
-    return lines + [row.row() for row in rows]
+    lines = ["| measure | value | 95 % interval | cases | aim / fails | | last campaign |", "|---|---|---|---|---|---|---|"]
+    return lines + [f"{row.row()} {last.get(row.name, '')} |" for row in rows]
+
+
+def last_campaign(page):
+    """Measure and value of the page that this campaign replaces."""
+    lines = page.read_text().split("## Controls")[0].splitlines() if page.exists() else []
+    return {cells[1].strip(): cells[2].strip() for cells in (line.split("|") for line in lines) if len(cells) > 6}
 
 
 def control_table(labels, results):
@@ -67,15 +75,18 @@ def confusion_lines(table):
 
 def split_table(cases):
     """The first measures by level, robot and protocol: where it is weak."""
-    lines = ["| part | top-1 | top-1, material | wrong name | false alarm | pairs: both | pairs: both, material | foreign says none fits |", "|---|---|---|---|---|---|---|---|"]
+    wanted = {"top-1": "top-1, single detectable effect", "group, material": "inside the named group, detectable and material",
+              "wrong name": "wrong name, when a name is given", "false alarm": "false alarm on null sets (a failure counts as one)",
+              "pairs: both": "pairs: both", "pairs: both, material": "pairs: both, detectable and material",
+              "foreign says none fits": "foreign effect: says none fits (unexplained or partly)"}
+    lines = ["| part | " + " | ".join(wanted) + " |", "|---" * (len(wanted) + 1) + "|"]
     parts = [(f"level {v}", lambda l, v=v: l["level"] == v) for v in (0, 1)]
-    parts += [(v, lambda l, v=v: l["robot"] == v) for v in ("nomad", "warehouse", "small")]
+    parts += [(v, lambda l, v=v: l["robot"] == v) for v, _ in plan.ROBOTS]
     parts += [(f"{v} runs", lambda l, v=v: l["runs"] == v) for v in (24, 12, 6)]
     for name, inside in parts:
         rates = {r.name: r for r in scorecard.rates([(l, a) for l, a in cases if inside(l)])}
-        wanted = [r for key in ("top-1", "wrong name", "false alarm", "pairs: both", "foreign effect: says none")
-                  for r in rates.values() if r.name.startswith(key)]
-        lines.append(f"| {name} | " + " | ".join(f"{r.value:.2f} ({r.hits}/{r.total})" if r.total else "–" for r in wanted) + " |")
+        shown = [rates[title] for title in wanted.values()]
+        lines.append(f"| {name} | " + " | ".join(f"{r.value:.2f} ({r.hits}/{r.total})" if r.total else "–" for r in shown) + " |")
     return lines
 
 
@@ -139,12 +150,12 @@ def head_lines(frozen, name, sealed, labels, results, prefix):
             f"Every case stands in `{prefix}/cases.tsv`. What counts as right: `benchmarks/blind/harness/judge.py`.", ""]
 
 
-DETECTABLE = """Wilson intervals. "aim": reaches the aim; "ok": between aim and failing; "FAILS": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25. Material: the effect changes the energy by 1 % or the pose by 0.02 (m, rad, rms); the diagnosis declares a materiality floor, and below it silence is its answer. Fresh day: 24 runs of the same machine on another day, driven after the diagnosis; its energy gap with the robot file as it was and as corrected. Run times are those of several diagnoses at once, one per core."""
+DETECTABLE = """Wilson intervals. "aim": reaches the aim; "ok": between aim and failing; "FAILS": beyond. Detectable: an observer who knows the effect's law and size and all of the noise, but not the calibration error, expects 2 ln(likelihood ratio) of at least 25. Material: the effect changes the energy by 1 % or the pose by 0.02 (m, rad, rms); the diagnosis declares a materiality floor, and below it silence is its answer. Explainable: a single effect or a pair, detectable and material. Odometry and battery alone: wheel speeds, pose, and the battery's voltage and current. Last campaign: the value of the page that this one replaced, on its own cases. Fresh day: 24 runs of the same machine on another day, driven after the diagnosis; its energy gap with the robot file as it was and as corrected. Run times are those of several diagnoses at once, one per core."""
 
 CONTROL_METHODS = """`always_friction` names Coulomb friction whatever happens; `plain_refit` fits the robot file's own parameters and names the one that moved furthest; `stlsq` is sequentially thresholded least squares over the effects' library; `black_box` fits the residual power with a polynomial and names nothing."""
 
 
-def report_files(frozen, name, sealed, prefix, labels, results, unusable=()):
+def report_files(frozen, name, sealed, prefix, labels, results, unusable=(), last=None):
     """{path below the results folder: text} of the whole report."""
     cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
     seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
@@ -156,7 +167,7 @@ def report_files(frozen, name, sealed, prefix, labels, results, unusable=()):
     lines = head_lines(frozen, name, sealed, labels, results, prefix)
     if unusable:
         lines += [f"Left out, their labels hold no finite numbers: {', '.join(unusable)}.", ""]
-    lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results) + ["", DETECTABLE, ""]
+    lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results, last or {}) + ["", DETECTABLE, ""]
     lines += ["## Controls on the same cases", ""] + control_table(labels, results) + ["", CONTROL_METHODS, ""]
     lines += ["## By robot, protocol and level", ""] + split_table(cases) + [""]
     lines += ["## Confusion", "", picture("confusion", "confusion.svg"), ""] + confusion_lines(confusion) + [""]
@@ -182,7 +193,7 @@ def score(frozen, name, folder, sealed, prefix, partial=False):
     missing = len(labels) - len(results)
     if missing and not partial:
         sys.exit(f"{missing} cases are not diagnosed yet: call `diagnose` again, or score --partial (which is the only score there will be)")
-    files = report_files(frozen, name, sealed, prefix, labels, results, unusable)
+    files = report_files(frozen, name, sealed, prefix, labels, results, unusable, last_campaign(folder / f"{prefix}.md"))
     marker.write_text(time.strftime("%Y-%m-%d %H:%M:%S") + "\n")
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)

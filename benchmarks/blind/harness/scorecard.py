@@ -5,6 +5,9 @@ import judge
 from statistics_of import calibration, median, smallest_found, wilson
 
 
+LEAST_GAP_percent = 2  # below it the share of the gap that is closed says nothing
+
+
 class Rate:
     """A proportion with its interval, the aim and what counts as failed."""
 
@@ -64,36 +67,72 @@ class Within(Value):
 
 
 def rates(cases):
-    """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions."""
-    of = lambda name: [(l, a) for l, a in cases if l["bin"] == name]
-    singles = [(l, a) for l, a in of("single") if judge.detectable(l)]
-    pairs = [(l, a) for l, a in of("pair") if judge.detectable(l)]
-    nulls = of("null")
-    foreign = [(l, a) for l, a in of("foreign") if judge.detectable(l)]
-    removed = [(l, a) for l, a in of("removed") if judge.detectable(l)]
-    known = of("single") + of("pair")
+    """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions of answers."""
+    of = lambda *names: [(l, a) for l, a in cases if l["bin"] in names]
+    seen = lambda entries: [(l, a) for l, a in entries if judge.detectable(l)]
+    large = lambda entries: [(l, a) for l, a in entries if judge.material(l)]
+    singles, pairs, triples = seen(of("single")), seen(of("pair")), seen(of("triple"))
+    many, few = ([(l, a) for l, a in large(singles) if (l["runs"] > 6) == more] for more in (True, False))
+    known = of("single", "pair", "triple", "long")
     named = [(l, a) for l, a in known if a.gives_a_name]
-    both = lambda l, a: set(judge.truth_of(l)) <= a.group and not a.silent
+    battery = of("battery")
+    first = lambda l, a: a.first in judge.truth_of(l)
+    exact = lambda l, a: set(a.names) == set(judge.truth_of(l)) and not a.silent
+    every = lambda l, a: set(judge.truth_of(l)) <= a.group and not a.silent
+    any_of = lambda l, a: bool(set(judge.truth_of(l)) & a.group) and not a.silent
+    rate = lambda name, hit, entries, aim=None, fails=None, up=True: Rate(name, (hit(l, a) for l, a in entries), aim, fails, up)
     return [
-        Rate("top-1, single detectable effect", (a.first in judge.truth_of(l) for l, a in singles), 0.95, 0.85),
-        Rate("top-3, single detectable effect", (judge.truth_of(l)[0] in a.top(3) for l, a in singles), 0.99, 0.95),
-        Rate("true effect inside the named group", (judge.truth_of(l)[0] in a.group and not a.silent for l, a in singles), 0.98, 0.95),
-        Rate("exactly the true set, single detectable", (set(a.names) == set(judge.truth_of(l)) and not a.silent for l, a in singles), None, None),
-        Rate("top-1, single effect detectable and material", (a.first in judge.truth_of(l) for l, a in singles if judge.material(l)), None, None),
-        Rate("inside the named group, detectable and material", (judge.truth_of(l)[0] in a.group and not a.silent for l, a in singles if judge.material(l)), None, None),
-        Rate("silent on a detectable single effect", (a.silent for l, a in singles), None, None, False),
-        Rate("wrong name, when a name is given", (judge.wrong_name(a, l) for l, a in named), 0.02, 0.05, False),
-        Rate("a name too many, when a name is given", (bool(set(a.names) - set(judge.truth_of(l))) for l, a in named), None, None, False),
-        Rate("false alarm on null sets (a failure counts as one)", (a.failed or not a.silent for l, a in nulls), 0.01, 0.05, False),
-        Rate("pairs: both", (both(l, a) for l, a in pairs), 0.85, 0.65),
-        Rate("pairs: both, detectable and material", (both(l, a) for l, a in pairs if judge.material(l)), None, None),
-        Rate("pairs: at least one", (bool(set(judge.truth_of(l)) & a.group) and not a.silent for l, a in pairs), 0.98, 0.95),
-        Rate("foreign effect: says none fits (unexplained or partly)", (a.says_none_fits() for l, a in foreign), 0.9, 0.75),
-        Rate("foreign effect: says unexplained, names nothing", (a.verdict == "unexplained" for l, a in foreign), None, None),
-        Rate("true effect removed: says none fits", (a.says_none_fits() for l, a in removed), 0.85, 0.75),
-        Rate("no answer at all", (a.failed for l, a in cases), 0.0, 0.0, False),
-        Rate("correction makes held-out runs worse", ((a.energy("shrink_fraction") or 0) < 0 for l, a in cases if a.gives_a_name), None, None, False),
+        rate("top-1, single detectable and material, 24 and 12 runs", first, many, 0.98, 0.96),
+        rate("top-1, single detectable and material, 6 runs", first, few, 0.92, 0.88),
+        rate("exactly the true set, single material, 24 and 12 runs", exact, many, 0.96, 0.92),
+        rate("exactly the true set, single material, 6 runs", exact, few, 0.90, 0.85),
+        rate("top-1, single detectable effect", first, singles),
+        rate("top-1 or below_materiality, single detectable effect", lambda l, a: first(l, a) or bool(set(judge.truth_of(l)) & a.small()), singles),
+        rate("top-3, single detectable effect", lambda l, a: judge.truth_of(l)[0] in a.top(3), singles),
+        rate("true effect inside the named group", any_of, singles),
+        rate("exactly the true set, single detectable", exact, singles),
+        rate("inside the named group, detectable and material", any_of, large(singles)),
+        rate("single material called unexplained or no_gap", lambda l, a: a.verdict in ("unexplained", "no_gap"), large(singles), 0.02, 0.05, False),
+        rate("silent on a detectable single effect", lambda l, a: a.silent, singles, None, None, False),
+        rate("wrong name, when a name is given", lambda l, a: judge.wrong_name(a, l), named, 0.01, 0.025, False),
+        rate("a name too many, when a name is given", lambda l, a: bool(set(a.names) - set(judge.truth_of(l))), named, None, None, False),
+        rate("false alarm on null sets (a failure counts as one)", lambda l, a: a.failed or not a.silent, of("null"), 0.01, 0.025, False),
+        rate("pairs: both", every, pairs),
+        rate("pairs: both, detectable and material", every, large(pairs), 0.88, 0.78),
+        rate("pairs: at least one", any_of, pairs, 0.98, 0.95),
+        rate("triples: all three", every, triples),
+        rate("triples: at least one", any_of, triples),
+        rate("foreign effect: says none fits (unexplained or partly)", lambda l, a: a.says_none_fits(), seen(of("foreign")), 0.93, 0.88),
+        rate("foreign effect: says unexplained, names nothing", lambda l, a: a.verdict == "unexplained", seen(of("foreign"))),
+        rate("true effect removed: says none fits", lambda l, a: a.says_none_fits(), seen(of("removed")), 0.90, 0.85),
+        rate("sound day called data_suspect", lambda l, a: a.verdict == "data_suspect",
+             [(l, a) for l, a in cases if l["bin"] not in ("spoilt", "removed")], 0.005, 0.015, False),
+        rate("spoilt channel is named", lambda l, a: judge.names_spoilt_channel(a, l), of("spoilt"), 0.95, 0.9),
+        rate("spoilt channel: a cause is invented", lambda l, a: judge.invents_a_cause(a, l), of("spoilt"), 0.0, 0.02, False),
+        rate("odometry and battery alone: a gap of at least 5 % is seen", lambda l, a: not a.silent, [e for e in battery if judge.shows_in_battery(e[0])], 0.95, 0.9),
+        rate("odometry and battery alone: wrong name", lambda l, a: judge.wrong_name(a, l), battery, 0.01, 0.03, False),
+        rate("one long log: true effect inside the named group, material", any_of, large(of("long"))),
+        rate("no answer at all", lambda l, a: a.failed, cases, 0.0, 0.0, False),
     ]
+
+
+def correction_rates(labels, results):
+    """Corrections on a day that nobody saw, and how many explainable cases got one."""
+    worse = [judge.correction_is_worse(result.get("fresh_day")) for result in results.values()]
+    explainable = [result for case_id, result in results.items() if labels[case_id]["bin"] in ("single", "pair") and judge.material(labels[case_id])]
+    return [Rate("correction is worse than the nominal file on a fresh day", (w for w in worse if w is not None), 0.005, 0.02, False),
+            Rate("material single or pair that got a correction", (bool(result.get("corrected")) for result in explainable), 0.9, 0.8)]
+
+
+def interval_values(cases):
+    """Coverage of the 95 % intervals of the parameters, by level of noise."""
+    rows = []
+    for level, kind in ((0, "white"), (1, "rough")):
+        covered = [c for l, a in cases if l["level"] == level and l["bin"] in ("single", "pair") and judge.detectable(l)
+                   for _, _, c in judge.parameter_errors(a, l) if c is not None]
+        share = sum(covered) / len(covered) if covered else float("nan")
+        rows.append(Within(f"95 % interval of a parameter covers the truth, {kind} noise", share, len(covered), (0.93, 0.97), (0.90, 0.98)))
+    return rows
 
 
 def place_rates(cases):
@@ -141,7 +180,7 @@ def shrink_values(labels, results):
         answer = judge.Answer(result.get("diagnosis"))
         true = judge.true_shrink(result.get("fresh_day"))
         interval = answer.energy("shrink_interval_95")
-        if true is None or not interval or not answer.gives_a_name:
+        if true is None or not interval or not answer.gives_a_name or answer.energy("before_percent") < LEAST_GAP_percent:
             continue
         covered.append(interval[0] <= true <= interval[1])
         errors.append(abs(answer.energy("shrink_fraction") - true))
@@ -159,7 +198,6 @@ def values(cases, seconds):
                   if (a.raw.get("ceiling") or {}).get("shrink_fraction", 0) > 0.05]
     detectable = [(l, a) for l, a in cases if judge.detectable(l) and l["bin"] in ("single", "pair")]
     errors = [e for l, a in detectable for e in judge.parameter_errors(a, l)]
-    covered = [c for _, _, c in errors if c is not None]
     groups = [len(a.group_of_first) for l, a in detectable if a.names]
     told = [(a.probability, a.first in judge.truth_of(l)) for l, a in cases if a.gives_a_name]
     ece, brier, _ = calibration(told)
@@ -168,7 +206,6 @@ def values(cases, seconds):
         Value("held-out energy gap closed, median fraction of the gap (gap > 2 %)", median(shrink), len(shrink), 0.85, 0.6, True),
         Value("the same, of the ceiling", median(of_ceiling), len(of_ceiling), 0.95, 0.6, True),
         Value("median error of the effect's first parameter", median([e for _, e, _ in errors]), len(errors), 0.05, 0.15),
-        Within("95 % interval of that parameter covers the truth", sum(covered) / len(covered) if covered else float("nan"), len(covered), (0.90, 0.98), (0.80, 1.0)),
         Value("mean size of the named group", mean, len(groups), 1.5, 3.0),
         Value("expected calibration error of the probabilities", ece, len(told), 0.03, 0.08),
         Value("Brier score of the probabilities", brier, len(told), None, None),

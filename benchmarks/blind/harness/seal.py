@@ -14,8 +14,11 @@ import workspace
 
 
 def plant_command(case):
-    return [workspace.program("blind_plant"), "--effect", ",".join(case["effects"]) or "none", "--robot", case["robot"],
-            "--protocol", str(case["protocol"]), "--level", str(case["level"]), "--seed", str(case["seed"])]
+    command = [workspace.program("blind_plant"), "--effect", ",".join(case["effects"]) or "none", "--robot", case["robot"],
+               "--protocol", str(case["protocol"]), "--level", str(case["level"]), "--seed", str(case["seed"])]
+    if "shares" in case:
+        command += ["--share", ",".join(map(str, case["shares"]))]
+    return command + (["--one-log"] if case["bin"] == "long" else [])
 
 
 def label_of(case):
@@ -28,7 +31,7 @@ def label_of(case):
         label = json.loads(text)
     except ValueError:  # nan or inf: what the oracle could not compute cannot be scored
         return {"id": case["id"], "bin": case["bin"], "unusable": text}
-    return {"id": case["id"], "bin": case["bin"], **label}
+    return {**{key: case[key] for key in ("id", "bin", "spoil") if key in case}, **label}
 
 
 def commitment(salt, label):

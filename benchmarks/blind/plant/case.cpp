@@ -113,6 +113,7 @@ Case draw_case(const CaseRequest& request) {
   draw_roughness(c);
   Random days = day_stream(c, 4);
   c.runs = test_day(c.nominal, request.runs, days);
+  if (request.one_log) c.runs = {one_long_run(c.runs)};
   for (const std::string& description : request.appended) {
     Run run = described_run(description, c.nominal);
     run.start_time_s = std::round(c.runs.back().start_time_s + c.runs.back().duration_s() + 5);

@@ -21,6 +21,7 @@ struct CaseRequest {
   int level{0};  ///< 0 = white noise and textbook forms, 1 = rough
   std::uint64_t seed{1};
   std::uint64_t day{0};                 ///< another day of the same machine: other runs, scatter and noise
+  bool one_log{};                       ///< the day's motions in one long log
   std::vector<std::string> appended{};  ///< descriptions of runs after the test day, see described_run
 };
 

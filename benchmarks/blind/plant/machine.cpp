@@ -101,13 +101,46 @@ Machine small() {
   return m;
 }
 
+// The tug of scenarios/robots/tug_600kg.yaml; inductance and creep of the order of its motors and tyres.
+Machine tug() {
+  Machine m;
+  m.name = "tug_600";
+  m.wheel_radius_m = {0.125, 0.125};
+  m.half_track_m = 0.3;
+  m.chassis_mass_kg = 584.0;
+  m.wheel_mass_kg = 8.0;
+  m.chassis_yaw_inertia_kg_m2 = 113.0;
+  m.payload_yaw_inertia_m2 = 0.12;
+  m.wheel_axle_inertia_kg_m2 = 0.22;
+  m.wheel_diameter_inertia_kg_m2 = 0.031;
+  m.gear_ratio = 25.0;
+  m.resistance_ohm = {0.12, 0.12};
+  m.torque_constant_Nm_A = 0.13;
+  m.viscous_friction_Nm_s_rad = 0.1;
+  m.friction_torque_Nm = {7.0, 7.0};
+  m.max_voltage_V = 48.0;
+  m.max_current_A = 55.0;
+  m.standby_W = 80.0;
+  m.regeneration_efficiency = 0.6;
+  m.open_circuit_voltage_V = 51.2;
+  m.internal_resistance_ohm = 0.02;
+  m.inductance_H = 0.0002;
+  m.tyre_creep_N_s_m = 240000;
+  m.top_speed_m_s = 1.2;
+  m.base_acceleration_m_s2 = 0.2;
+  m.base_yaw_rate_rad_s = 0.5;
+  m.max_payload_kg = 500.0;
+  return m;
+}
+
 }  // namespace
 
 Machine nominal_machine(const std::string& name) {
   if (name == "nomad") return nomad();
   if (name == "warehouse") return warehouse();
   if (name == "small") return small();
-  throw std::invalid_argument("no robot '" + name + "': nomad, warehouse or small");
+  if (name == "tug") return tug();
+  throw std::invalid_argument("no robot '" + name + "': nomad, warehouse, small or tug");
 }
 
 Machine with_nuisance(Machine machine, int index, double sigmas) {

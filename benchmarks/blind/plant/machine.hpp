@@ -66,7 +66,7 @@ struct Uncertainty {
 
 inline constexpr int kNuisances = 11;
 
-/// The nominal machine of that name: nomad, warehouse or small. Throws std::invalid_argument.
+/// The nominal machine of that name: nomad, warehouse, small or tug. Throws std::invalid_argument.
 [[nodiscard]] Machine nominal_machine(const std::string& name);
 
 /// `machine` with nuisance `index` (0 .. kNuisances-1) moved by `sigmas` standard deviations.

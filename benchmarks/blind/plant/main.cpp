@@ -15,12 +15,12 @@
 namespace {
 
 constexpr const char* kUsage =
-    "usage: blind_plant --effect NAME[,NAME] [--size X[,X] | --share X[,X]] [--robot nomad|warehouse|small] "
-    "[--protocol "
-    "24|12|6]\n"
+    "usage: blind_plant --effect NAME[,NAME] [--size X[,X] | --share X[,X]] [--robot "
+    "nomad|warehouse|small|tug]\n"
+    "                   [--protocol 24|12|6] [--one-log]\n"
     "                   [--level 0|1] [--seed S] [--day D] [--out DIR] [--label FILE|none] [--oracle]\n"
     "       blind_plant --list\n"
-    "  --effect   none, a catalog name, a foreign kind, or two of them\n"
+    "  --effect   none, a catalog name, a foreign kind, or up to three of them\n"
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
     "  --share    shares of a large effect, which is half of the strongest of its range\n"
     "  --out      folder of the data set; absent: the label alone is written\n"
@@ -29,6 +29,7 @@ constexpr const char* kUsage =
     "  --append   more runs after the test day: legs key:value,... joined by + (keys of a mission's "
     "`motion:`),\n"
     "             runs by ;\n"
+    "  --one-log  the day's motions in one long log, with the payload of the first\n"
     "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
 
 std::vector<std::string> split(const std::string& text) {
@@ -67,19 +68,21 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
   std::istringstream appended(get("--append", ""));
   for (std::string one; std::getline(appended, one, ';');) request.appended.push_back(one);
   if (request.runs < 1 || request.runs > 24 || request.level < 0 || request.level > 1 ||
-      request.effects.size() > 2)
-    throw std::invalid_argument("protocol is 1 to 24 runs, level 0 or 1, at most two effects");
+      request.effects.size() > 3)
+    throw std::invalid_argument("protocol is 1 to 24 runs, level 0 or 1, at most three effects");
   return request;
 }
 
 int run(int argc, char** argv) {
   std::map<std::string, std::string> given;
-  bool oracle = false;
+  bool oracle = false, one_log = false;
   for (int k = 1; k < argc; ++k) {
     const std::string key = argv[k];
     if (key == "--list") return list_names();
     if (key == "--oracle")
       oracle = true;
+    else if (key == "--one-log")
+      one_log = true;
     else if (key.rfind("--", 0) == 0 && k + 1 < argc)
       given[key] = argv[++k];
     else
@@ -95,7 +98,9 @@ int run(int argc, char** argv) {
       given.count("--label") ? given["--label"] : (out.empty() ? "" : out + "/truth.yaml");
   if (out.empty() && (label.empty() || label == "none"))
     throw std::invalid_argument("neither --out nor --label");
-  const blind::Case c = blind::draw_case(request_of(given));
+  blind::CaseRequest request = request_of(given);
+  request.one_log = one_log;
+  const blind::Case c = blind::draw_case(request);
   if (!out.empty()) blind::write_case(c, out);
   if (label != "none") blind::write_label(c, label, oracle);
   return 0;

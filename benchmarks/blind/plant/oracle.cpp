@@ -214,7 +214,8 @@ void localize(const Case& c, OracleResult& result) {
     for (const auto& [cell, joules] : cells) sum += joules;
     for (auto& [cell, joules] : cells) joules /= std::max(sum, 1e-12);
   }
-  result.effect_percent = 100 * std::max(changed_J / std::max(total_J, 1e-12), battery_changed_J / battery_J);
+  result.battery_percent = 100 * battery_changed_J / battery_J;
+  result.effect_percent = std::max(100 * changed_J / std::max(total_J, 1e-12), result.battery_percent);
   result.effect_pose_rms = std::sqrt(pose / samples);
   result.energy_gap_percent = 100 * missed_J / std::max(total_J, 1e-12);
 }
@@ -237,8 +238,11 @@ OracleResult consult_oracle(const Case& c) {
     result.each[c.effects[0].name] = result.likelihood_ratio;
     return result;
   }
-  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect; the other one's size is free
-    const Scene other = scene_with(c, {1 - k}), own = scene_with(c, {k});
+  for (std::size_t k = 0; k < c.effects.size(); ++k) {  // this effect; the common size of the others is free
+    std::vector<std::size_t> others;
+    for (std::size_t j = 0; j < c.effects.size(); ++j)
+      if (j != k) others.push_back(j);
+    const Scene other = scene_with(c, others), own = scene_with(c, {k});
     std::vector<Vector> free;
     for (std::size_t run = 0; run < c.runs.size(); ++run)
       free.push_back(difference(full[run], simulate(c, own, run), 1.0));
@@ -258,7 +262,8 @@ std::string oracle_json(const OracleResult& r) {
   for (const auto& [name, ratio] : r.each) all = all && ratio >= kDetectable;
   std::ostringstream out;
   out << "{\"likelihood_ratio\": " << r.likelihood_ratio << ", \"detectable\": " << (all ? "true" : "false")
-      << ", \"effect_percent\": " << r.effect_percent << ", \"effect_pose_rms\": " << r.effect_pose_rms
+      << ", \"battery_percent\": " << r.battery_percent << ", \"effect_percent\": " << r.effect_percent
+      << ", \"effect_pose_rms\": " << r.effect_pose_rms
       << ", \"energy_gap_percent\": " << r.energy_gap_percent << ", \"each\": " << object(r.each)
       << ", \"where\": {";
   const char* comma = "";

@@ -18,6 +18,7 @@ struct OracleResult {
   std::map<std::string, double> each{};
   /// Share of the summed absolute power gap to the nominal model, by axis and cell.
   std::map<std::string, std::map<std::string, double>> where{};
+  double battery_percent{};     ///< change of the energy of the battery
   double effect_percent{};      ///< change of the energy of the motors or of the battery, the larger one
   double effect_pose_rms{};     ///< change of the pose (m and rad together)
   double energy_gap_percent{};  ///< sum over runs |nominal - true| energy / true energy

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRest_s = 0.3;
+constexpr double kRestBetweenRuns_s = 5.0;
 
 void rest(Run& run, double duration_s) {
   const auto ticks = static_cast<std::size_t>(std::lround(duration_s / kControlPeriod_s));
@@ -165,6 +166,18 @@ std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random)
     clock_s += run.duration_s() + random.uniform(3.0, 9.0);
   }
   return runs;
+}
+
+Run one_long_run(const std::vector<Run>& day) {
+  Run all = day.front();
+  all.kind = "day";
+  for (std::size_t k = 1; k < day.size(); ++k) {
+    rest(all, kRestBetweenRuns_s);
+    all.speed_m_s.insert(all.speed_m_s.end(), day[k].speed_m_s.begin(), day[k].speed_m_s.end());
+    all.yaw_rate_rad_s.insert(all.yaw_rate_rad_s.end(), day[k].yaw_rate_rad_s.begin(),
+                              day[k].yaw_rate_rad_s.end());
+  }
+  return all;
 }
 
 namespace {

@@ -26,6 +26,9 @@ struct Run {
 /// curves, reverse, slow and fast, several headings, payloads mixed, in random order.
 [[nodiscard]] std::vector<Run> test_day(const Machine& nominal, int run_count, Random& random);
 
+/// The day as one long run: its motions one after the other with a rest between, the payload of the first.
+[[nodiscard]] Run one_long_run(const std::vector<Run>& day);
+
 /// One more run from a description such as a diagnosis proposes: legs from rest to rest joined by `+`, each
 /// `profile:trapezoid,speed_m_s:0.5,...` with the keys of a prescribed motion (profile, speed_m_s,
 /// acceleration_m_s2, distance_m, duration_s, ramp_s, radius_m, angle_rad, yaw_rate_rad_s,
