@@ -1,10 +1,14 @@
 # joulepath_build_id(NAME): a library with the digest of app/build_id.hpp. It covers the content of all sources of the
-# program, the compiler and its flags; no time and no folder. The folders are searched, so that no source can be forgotten.
+# program and its pages, the compiler and its flags; no time and no folder. The folders are searched, so that no source can be forgotten.
 # Design: docs/decisions/0430-a-build-is-its-sources.md
 set(JOULEPATH_BUILD_PATTERNS "")
 foreach(folder model planner diagnosis scenarios studio app)
   list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.cpp ${folder}/*.hpp ${folder}/CMakeLists.txt)
 endforeach()
+foreach(folder studio app) # what the program's pages hold
+  list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.js ${folder}/*.css ${folder}/*.html)
+endforeach()
+list(APPEND JOULEPATH_BUILD_PATTERNS cmake/*.cmake)
 
 if(CMAKE_SCRIPT_MODE_FILE)
   list(TRANSFORM JOULEPATH_BUILD_PATTERNS PREPEND ${ROOT}/)

@@ -70,7 +70,7 @@ FileSummary summary_of_mission(const std::string& file, const ReadOptions& optio
   return summary;
 }
 
-FileSummary summary_of_dataset(const std::string& file, const ReadOptions& options) {
+FileSummary summary_of_dataset(const std::string& file, const ReadOptions& options, bool brief) {
   const Dataset dataset =
       read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
@@ -79,7 +79,7 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
                       notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
-  if (!summary.data_checks.empty() || runs.signals.empty()) return summary;
+  if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
   summary.isolability = isolability(dataset, runs);
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));
   return summary;
@@ -201,8 +201,8 @@ std::string kind_of(const Document& document) {
 
 }  // namespace
 
-FileSummary read_any_file(const std::string& file, const std::string& given_kind,
-                          const ReadOptions& options) {
+FileSummary read_any_file(const std::string& file, const std::string& given_kind, const ReadOptions& options,
+                          bool brief) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (is_waypoint_file(file) && (given_kind == "path" || (given_kind.empty() && has_waypoints(file))))
     return summary_of_path(read_waypoints(file));
@@ -215,7 +215,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "robot") return summary_of_robot(file);
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
-  if (kind == "dataset") return summary_of_dataset(file, options);
+  if (kind == "dataset") return summary_of_dataset(file, options, brief);
   if (kind == "path") return summary_of_chain(document, options);
   if (kind == "study") return summary_of_study(document, options);
   if (kind == "fleet") return summary_of_fleet(file, options);

@@ -20,8 +20,9 @@ struct FileSummary {
 };
 
 /// Reads a file of any kind, with the files that it names, to check it. `kind`, the `schema:` line, the
-/// file's extension or its keys determine the kind. Throws ConfigError.
+/// file's extension or its keys determine the kind. `brief`: without the isolability of a dataset, which fits
+/// the catalog to all runs. Throws ConfigError.
 [[nodiscard]] FileSummary read_any_file(const std::string& file, const std::string& kind = {},
-                                        const ReadOptions& options = {});
+                                        const ReadOptions& options = {}, bool brief = false);
 
 }  // namespace joulepath

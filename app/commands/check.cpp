@@ -41,6 +41,7 @@ class Check : public Command {
         .required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");
+    line.flag("--brief", brief_, "check the data of a dataset only, not which effects its runs tell apart");
     add_common_flags(line, options_, "qjfu");
   }
 
@@ -49,7 +50,7 @@ class Check : public Command {
     auto results = nlohmann::ordered_json::array();
     for (const auto& file : files_) {
       try {
-        const FileSummary summary = read_any_file(file, kind_, {options_.untrusted});
+        const FileSummary summary = read_any_file(file, kind_, {options_.untrusted}, brief_);
         nlohmann::ordered_json result{{"file", file},
                                       {"ok", summary.data_checks.empty()},
                                       {"kind", summary.kind},
@@ -57,7 +58,7 @@ class Check : public Command {
                                       {"notes", summary.notes}};
         if (summary.kind == "dataset") {
           result["data_checks"] = data_checks_json(summary.data_checks);
-          result["isolability"] = isolability_json(summary.isolability);
+          if (!brief_) result["isolability"] = isolability_json(summary.isolability);
         }
         if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
         results.push_back(std::move(result));
@@ -113,6 +114,7 @@ class Check : public Command {
   std::vector<std::string> files_{};
   std::string kind_{};
   std::string repair_{};
+  bool brief_{};
   CommonOptions options_{};
 };
 

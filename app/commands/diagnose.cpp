@@ -32,6 +32,8 @@ std::string advice(const Diagnosis& d) {
   std::string next = words.next_step;
   if (d.verdict == Verdict::explained && !d.corrected_robot && d.corrected_instruments.empty())
     next = "No correction shrinks it on held-out runs: none is written.";
+  if (d.verdict == Verdict::ambiguous && d.next.motions.empty())
+    next = "Log more runs and channels: the notes list what is missing.";
   if (d.verdict == Verdict::data_suspect)
     next += " joulepath check DATASET --repair FILE writes it repaired.";
   return words.meaning + (next.empty() ? "" : " " + next);
@@ -94,7 +96,7 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (!d.next.motions.empty())
     out << "next run: " << d.next.why << " (expected evidence " << figure(d.next.expected_evidence, 3)
         << ", settles the question with a probability of " << figure(d.next.probability_settled, 2)
-        << "); joulepath experiment writes it\n";
+        << " by the model, not calibrated); joulepath experiment writes it\n";
 }
 
 class Diagnose : public Command {

@@ -47,7 +47,7 @@ class Experiment : public Command {
     if (!common_.quiet)
       std::cout << out_ << ": " << diagnosis.next.why << " (expected evidence "
                 << diagnosis.next.expected_evidence << ", settles the question with a probability of "
-                << figure(diagnosis.next.probability_settled, 2) << ")\n";
+                << figure(diagnosis.next.probability_settled, 2) << " by the model, not calibrated)\n";
     return kDone;
   }
 

@@ -24,7 +24,7 @@ runs:
   - {file: day.mcap, payload_kg: 0}
 """
 STEPS = (("list the topics", ("check", "day.mcap"), ""),
-         ("read all columns", ("check", "dataset.yaml"), "10 s, 300 MiB"),
+         ("read all columns, check the data", ("check", "dataset.yaml", "--brief"), "10 s, 300 MiB"),
          ("diagnose", ("diagnose", "dataset.yaml", "--out", "diagnosis", "--force", "--quiet"), "30 s"))
 
 

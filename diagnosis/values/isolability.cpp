@@ -11,18 +11,26 @@ namespace joulepath {
 namespace {
 
 /// All sets of nodes that are neighbors each of each and that no further node extends (Bron and Kerbosch,
-/// Communications of the ACM 16, 1973).
+/// Communications of the ACM 16, 1973). Neighbors of the pivot are found in sets with it or with a node that
+/// is none of its neighbors (Tomita, Tanaka and Takahashi, Theoretical Computer Science 363, 2006).
 void maximal_cliques(const std::vector<std::set<std::size_t>>& neighbors, std::vector<std::size_t> clique,
                      std::set<std::size_t> open, std::set<std::size_t> done,
                      std::vector<std::vector<std::size_t>>& found) {
-  if (open.empty() && done.empty() && clique.size() > 1) found.push_back(clique);
+  if (open.empty() && done.empty() && clique.size() > 1) {
+    std::ranges::sort(clique);
+    found.push_back(clique);
+  }
   const auto among = [&](const std::set<std::size_t>& nodes, std::size_t node) {
     std::set<std::size_t> both;
     std::ranges::set_intersection(nodes, neighbors[node], std::inserter(both, both.end()));
     return both;
   };
-  while (!open.empty()) {
-    const std::size_t node = *open.begin();
+  if (open.empty()) return;
+  const std::size_t pivot =
+      *std::ranges::max_element(open, {}, [&](std::size_t node) { return among(open, node).size(); });
+  std::vector<std::size_t> starts;
+  std::ranges::set_difference(open, neighbors[pivot], std::back_inserter(starts));
+  for (const std::size_t node : starts) {
     std::vector<std::size_t> larger = clique;
     larger.push_back(node);
     maximal_cliques(neighbors, larger, among(open, node), among(done, node), found);

@@ -43,8 +43,8 @@ class LocalLimits {
 
   /// How the path turns at a limit point.
   struct Turn {
-    double per_s{}, slope{};  ///< |turn| and |turn'|
-    bool winds{};             ///< both have the same sign
+    double turn{}, turn_slope{};  ///< |turn| and |turn'|
+    bool winds{};                 ///< both have the same sign
   };
   using SegmentTurns = std::array<Turn, nlp::kLimitPoints>;
 

@@ -1,5 +1,6 @@
 #include <nanobind/stl/string.h>
 
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,21 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kArguments[] = {
     {"--payload", "payload_kg"}, {"--time", "time_s"}, {"--robot", "robot"}, {"--map", "map"}};
 
+/// A whole word: `--time` is no part of `--time-of-day-s`.
+void replace_word(std::string& text, std::string_view word, std::string_view by) {
+  const auto goes_on = [&](std::size_t at) {
+    return at < text.size() && (text[at] == '-' || std::isalnum(static_cast<unsigned char>(text[at])));
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
+    if (goes_on(at + word.size())) {
+      at += word.size();
+      continue;
+    }
+    text.replace(at, word.size(), by);
+    at += by.size();
+  }
+}
+
 /// The error of an option as that of its argument.
 ConfigError of_argument(const ConfigError& error) {
   ConfigError::Detail detail = error.detail();
@@ -23,9 +39,7 @@ ConfigError of_argument(const ConfigError& error) {
       detail.mark = {};
       if (detail.key.empty()) detail.key = argument;
     }
-    for (std::string* text : {&detail.accepted, &detail.hint})
-      if (const auto at = text->find(option); at != std::string::npos)
-        text->replace(at, option.size(), std::string(argument) + "=");
+    for (std::string* text : {&detail.accepted, &detail.hint}) replace_word(*text, option, argument);
   }
   return ConfigError(detail);
 }

@@ -66,7 +66,7 @@ def _numbers(name: str, column: Any) -> NDArray[np.float64]:
         raise refused(name, "rows of different lengths", "one number per row") from error
     if array.ndim != 1:
         raise refused(name, f"shape {array.shape}", "an array with 1 axis")
-    if isinstance(column, (list, tuple)) and (array.dtype.kind not in "fiu" or any(isinstance(item, bool) for item in column)):
+    if isinstance(column, (list, tuple)) and (array.dtype.kind not in "fiu" or any(isinstance(item, (bool, np.bool_)) for item in column)):
         array = np.array(column, dtype=object)  # numpy would turn all into texts, or truth values into numbers
     values = array if array.dtype.kind in "fiu" else _from_objects(name, array)
     with np.errstate(over="ignore"):  # of long double

@@ -132,14 +132,14 @@ def test_a_mission_that_kills_its_process_is_set_aside(client, missions, tmp_pat
     journal, killed = tmp_path / "many.shards" / "2" / "results.partial.jsonl", []
 
     def kill():
-        if journal.exists() and journal.read_text().count('{"index"') == 1 and not quarantine.read_text():
+        if journal.exists() and journal.read_text().count('\n{"index"') == 1 and not quarantine.read_text():
             for pid, words in shard_processes(tmp_path):
                 if "2/4" in words and pid not in killed:
                     os.kill(pid, signal.SIGKILL)
                     killed.append(pid)
 
     with Repeated(kill):
-        found = cluster.run(missions, client, "many", shards=4, options=("--nodes", "100"))
+        found = cluster.run(missions, client, "many", shards=4, options=("--nodes", "100", "--no-cache"))
     assert len(killed) == 2
     got = [json.loads(line) for line in (found / "results.jsonl").read_text().splitlines()]
     assert [line["index"] for line in got if line["status"] == "quarantined"] == [target]

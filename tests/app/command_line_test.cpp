@@ -215,6 +215,31 @@ TEST(CommandLine, BadInputIsOneLineOnStandardError) {
   }
 }
 
+TEST(CommandLine, AGraphForMoreThanTheRobotMayCarryIsRefused) {
+  const ScratchDirectory scratch;
+  const std::string maps = JOULEPATH_SOURCE_DIR "/scenarios/maps/",
+                    robots = JOULEPATH_SOURCE_DIR "/scenarios/robots/";
+  for (const char* payload : {"12.5", "nan"}) {
+    const auto result = run_program(scratch, "export " + maps + "depot_graph.geojson --robot " + robots +
+                                                 "nomad_super_scout.yaml --to route_graph --out " +
+                                                 scratch.at("g.geojson") + " --payload " + payload);
+    EXPECT_EQ(result.code, 2) << payload;
+    EXPECT_NE(result.err.find("at most"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("g.geojson")));
+  }
+}
+
+/// Without the statement of what the runs tell apart, which takes most of the time.
+TEST(CommandLine, ABriefCheckHoldsTheDataChecksAlone) {
+  const ScratchDirectory scratch;
+  const std::string dataset = kBroken + "good/dataset.yaml";
+  const auto brief = nlohmann::json::parse(run_program(scratch, "check --json --brief " + dataset).out)[0];
+  const auto whole = nlohmann::json::parse(run_program(scratch, "check --json " + dataset).out)[0];
+  EXPECT_TRUE(brief.contains("data_checks"));
+  EXPECT_FALSE(brief.contains("isolability"));
+  EXPECT_TRUE(whole.contains("isolability"));
+}
+
 TEST(CommandLine, CheckContinuesAfterABadFileAndReportsAllAsJson) {
   const ScratchDirectory scratch;
   const auto result = run_program(

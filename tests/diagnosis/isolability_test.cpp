@@ -122,6 +122,20 @@ TEST(Isolability, GroupsAreMaximal) {
   EXPECT_EQ(inseparable_groups(made), (std::vector<std::vector<std::string>>{{"a", "b", "c"}, {"c", "d"}}));
 }
 
+/// A poor dataset shows many effects that it does not tell apart: without a pivot this takes 2^30 steps.
+TEST(Isolability, ThirtyEffectsThatAreNotToldApartAreOneGroup) {
+  Isolability made;
+  for (int k = 0; k < 30; ++k) {
+    made.effects.push_back({"effect " + std::to_string(100 + k), 1});
+    for (int j = 0; j < k; ++j)
+      made.pairs.push_back(
+          {made.effects[static_cast<std::size_t>(j)].effect, made.effects.back().effect, 1, 0.1});
+  }
+  const auto groups = inseparable_groups(made);
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups.front().size(), 30U);
+}
+
 class AgainstDiagnoses : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -173,7 +173,7 @@ jp.next_section = function (d) {
   const text = (one) => Object.entries(one).map(([key, value]) => jp.key_value(key, value)).join(", ");
   const motion = legs ? h("ol", {}, legs.map((leg) => h("li", {}, text(leg)))) : text(circumstances);
   if (!legs && !motion) return jp.section("What next", h("p", {}, advice(d)));
-  const chance = is_number(next.probability_settled) ? ` It settles the question with a probability of ${fraction(next.probability_settled)}.` : "";
+  const chance = is_number(next.probability_settled) ? ` It settles the question with a probability of ${fraction(next.probability_settled)} by the model; this number is not calibrated.` : "";
   return jp.section("What next: one more run", separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ") + "." + chance) : null,
     why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), legs && is_number(circumstances.payload_kg) ? `with ${short(circumstances.payload_kg)} kg on board` : "", motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair). joulepath experiment writes the run as a mission.`) : null);
 };

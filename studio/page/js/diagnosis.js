@@ -10,8 +10,7 @@ import {store} from "studio/store.js";
 function finding(d) {
   const energy = (d.gap || {}).energy || {}, causes = (d.causes || []).map((cause) => `${words(cause.effect)} (${fraction(cause.probability, 3)})`);
   const after = causes.length && typeof energy.after_percent === "number" ? `, ${percent(energy.after_percent)} after the correction` : "";
-  const verdict = words(d.verdict), sentence = (d.sentence || "").replace(/^[A-Z][a-z ]*: /, "");  // without its title, the verdict
-  return [h("p", {}, h("b", {}, verdict), sentence ? `: ${sentence}` : ""), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
+  return [h("p", {}, d.sentence || words(d.verdict)), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
     typeof energy.before_percent === "number" ? h("p", {class: "small"}, `Energy gap ${percent(energy.before_percent)}${after}, noise floor ${number(energy.noise_floor_percent, 3)}\u202f%`) : null];
 }
 
