@@ -28,12 +28,13 @@ bool delays(const Identification& id, const Explanation& explanation) {
 /// The best explanation with a label and without the other ones.
 const Explanation* explanation_with(const Identification& id, const std::string& label,
                                     const std::vector<std::string>& labels) {
-  for (const Explanation& e : id.explanations)
-    if (has_label(id, e, label) && !delays(id, e) &&
-        std::ranges::none_of(
-            labels, [&](const std::string& other) { return other != label && has_label(id, e, other); }))
-      return &e;
-  return nullptr;
+  const auto fits = [&](const Explanation& e) {
+    return has_label(id, e, label) && !delays(id, e) && std::ranges::none_of(labels, [&](const auto& other) {
+             return other != label && has_label(id, e, other);
+           });
+  };
+  const auto found = std::ranges::find_if(id.explanations, fits);
+  return found == id.explanations.end() ? nullptr : &*found;
 }
 
 Equations equations_about(const Identification& id, const Robot& robot,

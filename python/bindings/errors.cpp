@@ -39,7 +39,8 @@ ConfigError of_argument(const ConfigError& error) {
       detail.mark = {};
       if (detail.key.empty()) detail.key = argument;
     }
-    for (std::string* text : {&detail.accepted, &detail.hint}) replace_word(*text, option, argument);
+    for (std::string* text : {&detail.accepted, &detail.hint})
+      replace_word(*text, option, std::string(argument) + "=");
   }
   return ConfigError(detail);
 }
