@@ -27,6 +27,10 @@ namespace joulepath {
 /// Without an outline, nothing can be checked against a map. Throws ConfigError.
 void check_footprint(const MissionRequest& request, const Robot& robot);
 
+/// Throws ConfigError, named by `named_by`, if the robot may not carry the payload.
+void check_payload(double payload_kg, const Robot& robot, const std::string& robot_file,
+                   const NamedBy& named_by);
+
 /// All files that the plan of a mission depends on, except the mission's own: robot, order, route graph, and
 /// maps with their images. Throws ConfigError if a map file cannot be read.
 [[nodiscard]] std::vector<std::string> files_read_by(const MissionRequest& request,

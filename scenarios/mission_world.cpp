@@ -12,21 +12,26 @@ namespace {
 
 /// A payload above the robot's limit is an error of the mission, reported at the leg.
 void check_payloads(const MissionRequest& request, const Robot& robot) {
-  const double most_kg = payload_limit_kg(robot);
   const auto check = [&](double payload_kg, const ItemMarks& marks) {
-    if (payload_kg <= most_kg) return;
-    std::ostringstream found, accepted;
-    found << payload_kg;
-    accepted << "at most " << most_kg << ", limits." << payload_limit().key << " of "
-             << (request.robot_file.empty() ? "the robot" : request.robot_file);
-    throw ConfigError(
-        {marks.at("payload_kg"), marks.key_path("payload_kg"), found.str(), accepted.str(), ""});
+    check_payload(payload_kg, robot, request.robot_file,
+                  {marks.at("payload_kg"), marks.key_path("payload_kg")});
   };
   for (const auto& leg : request.legs) check(std::max(leg.payload.from_kg, leg.payload.to_kg), leg.marks);
   for (const auto& visit : request.visit) check(visit.payload_kg, visit.marks);
 }
 
 }  // namespace
+
+void check_payload(double payload_kg, const Robot& robot, const std::string& robot_file,
+                   const NamedBy& named_by) {
+  const double most_kg = payload_limit_kg(robot);
+  if (payload_kg <= most_kg) return;
+  std::ostringstream found, accepted;
+  found << payload_kg;
+  accepted << "at most " << most_kg << ", limits." << payload_limit().key << " of "
+           << (robot_file.empty() ? "the robot" : robot_file);
+  throw ConfigError({named_by.mark, named_by.key, found.str(), accepted.str(), ""});
+}
 
 void check_footprint(const MissionRequest& request, const Robot& robot) {
   if (has_footprint(robot) || request.map_file.empty()) return;

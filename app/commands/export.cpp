@@ -8,7 +8,6 @@
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/terminal.hpp"
-#include "model/limit_table.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/export/exports.hpp"
@@ -133,14 +132,8 @@ class ExportCommand : public Command {
   int write_route_graph() const {
     need_robot("a route graph");
     const Robot robot = read_robot(source_.robot_file);
-    const double payload_kg = source_.payload_kg.value_or(0.0), most_kg = payload_limit_kg(robot);
-    if (!(payload_kg <= most_kg))
-      throw ConfigError({{"--payload", 0, 0},
-                         "",
-                         figure(payload_kg, 6),
-                         "at most " + figure(most_kg, 6) + ", limits." + std::string(payload_limit().key) +
-                             " of " + source_.robot_file,
-                         ""});
+    const double payload_kg = source_.payload_kg.value_or(0.0);
+    check_payload(payload_kg, robot, source_.robot_file, {{"--payload", 0, 0}, ""});
     const RouteGraphExport result =
         export_route_graph({source_.file, out_, payload_kg, corner_radius_m_, expand_turns_}, robot);
     write_files(result.files);

@@ -117,9 +117,7 @@ CalibratedParameter parameter_of(std::size_t p, double nominal, double value, do
                                 .value = value,
                                 .standard_deviation = deviation,
                                 .effective_runs = effective};
-  const double half = student_t_975(effective - 1) * deviation;
-  parameter.interval_95 = {value - half, value + half};
-  parameter.visibility = 2 * half > 0.5 * std::abs(value) ? Visibility::weak : Visibility::seen;
+  state_interval(parameter);
   return parameter;
 }
 
@@ -238,6 +236,12 @@ CalibrationResult calibrate_full(const Dataset& dataset, const std::vector<Smoot
 }
 
 }  // namespace
+
+void state_interval(CalibratedParameter& parameter) {
+  const double half = student_t_975(parameter.effective_runs - 1) * parameter.standard_deviation;
+  parameter.interval_95 = {parameter.value - half, parameter.value + half};
+  parameter.visibility = 2 * half > 0.5 * std::abs(parameter.value) ? Visibility::weak : Visibility::seen;
+}
 
 CalibrationResult calibrate(const Dataset& dataset, CalibrationMethod method) {
   if (!dataset.robot.effects.empty())

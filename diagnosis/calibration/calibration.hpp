@@ -33,6 +33,9 @@ struct CalibratedParameter {
   std::string note{};  ///< why the parameter is unseen, or what its value depends on
 };
 
+/// Sets interval and visibility by Student's t from the value, its deviation and its effective runs.
+void state_interval(CalibratedParameter& parameter);
+
 /// Fit of [P1, Eq. (30)] to one motor: i = b1 + b2 q', V = c1 + c2 q' (signs of forward motion).
 struct SteadyLine {
   double b1_A{}, b2_A_s_rad{}, c1_V{}, c2_V_s_rad{};

@@ -148,9 +148,7 @@ CalibratedParameter parameter_of(const Motor& motor, std::size_t k, double value
       .value = value,
       .standard_deviation = deviation,
       .effective_runs = units};
-  const double half = student_t_975(units - 1) * deviation;
-  parameter.interval_95 = {value - half, value + half};
-  parameter.visibility = 2 * half > 0.5 * std::abs(value) ? Visibility::weak : Visibility::seen;
+  state_interval(parameter);
   if (value < 0) {
     parameter.note = "the fit is negative: the robot file keeps its value";
     parameter.visibility = Visibility::weak;

@@ -19,12 +19,12 @@ inline double probability_taken_up(double expected, double width, double more_ev
   return probability_above(std::sqrt(2 * cost), expected);
 }
 
-/// Probability that a likelihood ratio with the expectation D of 2 ln LR tells two effects apart:
-/// 2 ln LR ~ N(D, 4 D).
-inline double probability_told_apart(double likelihood_ratio) {
+/// Probability that a likelihood ratio with the expectation D of 2 ln LR tells two effects apart, added to
+/// the 2 ln LR that other runs gave: 2 ln LR ~ N(D, 4 D).
+inline double probability_told_apart(double likelihood_ratio, double given = 0.0) {
   if (likelihood_ratio <= 0) return 0.0;
   const double deviation = 2 * std::sqrt(likelihood_ratio);
-  return probability_above(kStandInLoss / deviation, likelihood_ratio / deviation);
+  return probability_above(kStandInLoss / deviation, (likelihood_ratio + given) / deviation);
 }
 
 }  // namespace joulepath

@@ -57,14 +57,6 @@ struct Trial {
   double probability_settled{};
 };
 
-/// Probability that present and further runs together tell the true rival from another one, with the odds
-/// that the present runs already give.
-double probability_settled(double ratio, const Rival& truth, const Rival& other) {
-  if (ratio <= 0) return 0.0;
-  const double deviation = 2 * std::sqrt(ratio);
-  return probability_above(kStandInLoss / deviation, (ratio + other.loss - truth.loss) / deviation);
-}
-
 Trial tried(const Identification& id, const Robot& robot, const std::vector<Rival>& rivals,
             const Circumstances& circumstances, const Manoeuvre& manoeuvre) {
   Trial trial{.manoeuvre = manoeuvre, .payload_kg = manoeuvre.load * circumstances.heaviest_kg};
@@ -79,7 +71,7 @@ Trial tried(const Identification& id, const Robot& robot, const std::vector<Riva
         if (&other == &truth) continue;
         const double ratio = expected_ratio(id, robot, shown, other);
         least = std::min(least, ratio);
-        surest = std::min(surest, probability_settled(ratio, truth, other));
+        surest = std::min(surest, probability_told_apart(ratio, other.loss - truth.loss));
       }
       settled += surest / static_cast<double>(rivals.size());
     }
@@ -91,9 +83,11 @@ Trial tried(const Identification& id, const Robot& robot, const std::vector<Riva
   return trial;
 }
 
-/// The best of some manoeuvres, the first one of equals.
+/// The best of some manoeuvres, the first one of equals. A robot that carries nothing drives none twice.
 Trial best_of(const Identification& id, const Robot& robot, const std::vector<Rival>& rivals,
-              const Circumstances& circumstances, const std::vector<Manoeuvre>& manoeuvres) {
+              const Circumstances& circumstances, std::vector<Manoeuvre> manoeuvres) {
+  if (circumstances.heaviest_kg == 0)
+    std::erase_if(manoeuvres, [](const Manoeuvre& manoeuvre) { return manoeuvre.load > 0; });
   std::vector<Trial> trials(manoeuvres.size());
   parallel_for(trials.size(),
                [&](std::size_t k) { trials[k] = tried(id, robot, rivals, circumstances, manoeuvres[k]); });

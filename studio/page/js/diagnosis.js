@@ -10,7 +10,9 @@ import {store} from "studio/store.js";
 function finding(d) {
   const energy = (d.gap || {}).energy || {}, causes = (d.causes || []).map((cause) => `${words(cause.effect)} (${fraction(cause.probability, 3)})`);
   const after = causes.length && typeof energy.after_percent === "number" ? `, ${percent(energy.after_percent)} after the correction` : "";
-  return [h("p", {}, d.sentence || words(d.verdict)), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
+  const verdict = words(d.verdict), [, title = "", rest = d.sentence || ""] = (d.sentence || "").match(/^([A-Z][^:]*): (.*)$/) || [];  // "No gap above 2 % of the energy: …"
+  const more = title.toLowerCase().startsWith(verdict) ? title.slice(verdict.length) : "";
+  return [h("p", {}, h("b", {}, verdict + more), rest ? `: ${rest}` : ""), causes.length ? h("p", {class: "small"}, `Causes: ${causes.join(", ")}`) : null,
     typeof energy.before_percent === "number" ? h("p", {class: "small"}, `Energy gap ${percent(energy.before_percent)}${after}, noise floor ${number(energy.noise_floor_percent, 3)}\u202f%`) : null];
 }
 
