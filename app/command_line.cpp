@@ -58,6 +58,15 @@ std::string unknown_argument(const CLI::App& app) {
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 
+/// A check whose message says what was found and what is accepted.
+CLI::Validator number_check(const std::string& accepted, bool (*fits)(double)) {
+  const auto check = [accepted, fits](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    return value && fits(*value) ? std::string() : "found " + text + ", accepted: " + accepted;
+  };
+  return {check, ""};
+}
+
 ParsedCommandLine usage_error(const std::string& message, const CLI::App& app) {
   const auto typed = app.get_subcommands();
   const std::string command = typed.empty() ? "" : " " + typed.front()->get_name();
@@ -87,12 +96,12 @@ OptionRules& OptionRules::between(double least, double most) {
 }
 
 OptionRules& OptionRules::not_negative() {
-  option_->check(CLI::NonNegativeNumber);
+  option_->check(number_check("a number of at least 0", [](double value) { return value >= 0; }));
   return *this;
 }
 
 OptionRules& OptionRules::positive() {
-  option_->check(CLI::PositiveNumber);
+  option_->check(number_check("a number above 0", [](double value) { return value > 0; }));
   return *this;
 }
 

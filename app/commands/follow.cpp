@@ -34,7 +34,11 @@ const Preset kPresets[] = {
     {"push", "N along the heading", {Kind::push, 0, 1.0, -40.0}, -1e4, 1e4},
     {"slip", "wheel travel lost to slip, m", {Kind::slip, 0, 0.0, 0.1}, 0, 10},
     {"late_start", "s", {Kind::late_start, 0, 0.0, 2.0}, 0, kLongest_s},
-    {"payload", "times the stated payload, known for_s later", {Kind::payload, 0, 1.0, 1.3}, 0, 10},
+    {"payload",
+     "times the stated payload, known for_s later; above max_payload_kg the robot stops",
+     {Kind::payload, 0, 1.0, 1.3},
+     0,
+     10},
     {"obstacle", "m ahead, for for_s", {Kind::obstacle, 0, 4.0, 1.5}, 0, 1000},
     {"speed_limit", "m/s, for for_s", {Kind::speed_limit, 0, 5.0, 0.3}, 1e-3, 100},
 };
@@ -167,11 +171,16 @@ class FollowPlanCommand : public Command {
               {"pieces", result.finished},
               {"of_pieces", plan.drives.size()},
               {"off_path", result.off_path},
+              {"stopped_by", result.stopped_by.empty() ? Json(nullptr) : Json(result.stopped_by)},
               {"replans", result.replans},
               {"worst_lateral_m", result.worst_lateral_m},
               {"end_error_m", result.end_error_m},
               {"end_error_rad", result.end_error_rad}}},
             {"command_limits", limits}};
+  }
+
+  static std::string stop_reason(const Json& limit) {
+    return limit.is_null() ? "" : "; stopped by " + limit.get<std::string>();
   }
 
   static void print(const Json& report) {
@@ -183,7 +192,8 @@ class FollowPlanCommand : public Command {
     if (executed["off_path"])
       std::cout << "left the path: handed over\n";
     else if (executed["late_s"].is_null())
-      std::cout << "did not arrive: " << executed["pieces"] << " of " << executed["of_pieces"] << " pieces\n";
+      std::cout << "did not arrive: " << executed["pieces"] << " of " << executed["of_pieces"] << " pieces"
+                << stop_reason(executed["stopped_by"]) << "\n";
     else
       std::cout << "late by at most " << figure(executed["late_s"], 3) << " s; off by "
                 << figure(executed["end_error_m"], 3) << " m, " << figure(executed["worst_lateral_m"], 3)

@@ -125,6 +125,7 @@ class FollowRun {
     result_.worst_lateral_m = std::max(result_.worst_lateral_m, std::abs(last_.lateral_m));
     pending_.push_back({t + request_.follower.latency_s, last_, now.payload_kg});
     if (last_.state == FollowState::off_path) result_.off_path = true;
+    result_.stopped_by = last_.stopped_by;
     if (last_.state == FollowState::finished) arrive(t);
   }
 

@@ -53,6 +53,7 @@ FollowCommand Follower::command(const Measurement& measured) {
   }
   shift_s_ = measured.time_s + profile_->time_s.back() - profile_time_s_ - deadline_s_;
   if (has_to_replan(measured)) replan(measured, command);
+  command.stopped_by = stopped_by_;
   command.late_s = std::isfinite(deadline_s_) ? std::max(0.0, shift_s_) : 0.0;
   steer(measured, command);
   return command;
@@ -130,6 +131,7 @@ void Follower::replan(const Measurement& measured, FollowCommand& command) {
   last_limit_m_s_ = measured.speed_limit_m_s;
   last_stop_m_ = measured.stop_at_m;
   last_payload_kg_ = measured.payload_kg;
+  stopped_by_ = fresh.status == ReplanStatus::stopping ? fresh.limit : std::string_view{};
   command.replanned = true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "planner/online/command_shaper.hpp"
 #include "planner/online/loaded_limits.hpp"
@@ -49,8 +50,9 @@ struct FollowCommand {
   double s{};          ///< projection of the pose
   double lateral_m{};  ///< to the left of the path
   double heading_error_rad{};
-  double late_s{};   ///< of the profile's end, against the deadline
-  bool replanned{};  ///< in this call
+  double late_s{};                ///< of the profile's end, against the deadline
+  bool replanned{};               ///< in this call
+  std::string_view stopped_by{};  ///< the limit without which the robot would drive on; empty while it does
 };
 
 /// Leads a robot along a planned piece: from its pose to the speed and yaw rate that it should have when the
@@ -108,6 +110,7 @@ class Follower {
   bool handed_over_{};
   double shift_s_{};     ///< expected end of the profile less the deadline
   double accepted_s_{};  ///< lateness that the last new profile could not avoid
+  std::string_view stopped_by_{};
 };
 
 }  // namespace joulepath

@@ -177,6 +177,18 @@ TEST(CommandLine, OptionsThatAPathOrAMissionDoesNotTakeAreReportedInOneLine) {
   refused("compare " + path + " --time 1 --robot " + kRobot, "the fastest drive takes", 1);
 }
 
+TEST(CommandLine, ANumberThatIsNoneOrNegativeIsNamedWithWhatIsAccepted) {
+  const ScratchDirectory scratch;
+  for (const std::string bad : {"abc", "-1", "nan", "1e", ""}) {
+    const auto result =
+        run_program(scratch, "compare " + kRobot + " --payload=" + (bad.empty() ? "''" : bad));
+    EXPECT_EQ(result.code, 2) << bad;
+    EXPECT_NE(result.err.find("--payload: found " + bad + ", accepted: a number of at least 0"),
+              std::string::npos)
+        << result.err;
+  }
+}
+
 TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
   const ScratchDirectory scratch;
   const std::string path = scratch.write("path.csv", "x_m,y_m,corner_radius_m\n0,0,\n2,0,0.4\n2,2,\n");

@@ -98,6 +98,7 @@ TEST(Follower, ArrivesInTimeAtThePlacesAndTheJoulesOfThePlan) {
     const FollowResult result = follow(request_for(piece));
     EXPECT_EQ(result.finished, 1u);
     EXPECT_LT(result.late_s, 0.05);
+    EXPECT_EQ(result.stopped_by, "");
     EXPECT_LT(result.end_error_m, 0.02);
     EXPECT_LT(result.end_error_rad, 0.03);
     EXPECT_LT(result.worst_lateral_m, 0.02);
@@ -228,6 +229,7 @@ TEST(Follower, StopsWithAPayloadThatTheRobotMayNotCarry) {
   const PlannedPiece piece = bend();
   const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::payload, 2, 1, 10}}));
   EXPECT_EQ(result.finished, 0u);
+  EXPECT_EQ(result.stopped_by, "max_payload");
   EXPECT_FALSE(result.off_path);
   EXPECT_LT(std::abs(result.executed.linear_speed_m_s.back()), 0.01);
   EXPECT_LE(use_of(result, "deceleration"), 1 + 1e-4);
