@@ -43,6 +43,11 @@ inline constexpr double kPeriod_s = 0.1;
 inline constexpr double kLeastKernelPeriods = 1.2;
 /// A period off by this share makes the log one that is resampled. Chosen: guards logs with lost samples.
 inline constexpr double kUnevenPeriod = 0.05;
+/// Mean square of an acceleration over that of the encoders' noise, below which it counts as none. Derived:
+/// 99.9 % of windows of eleven samples of noise are below (0510).
+inline constexpr double kAccelerationOverNoise = 3.0;
+/// Half the width of such a window. Chosen (0510).
+inline constexpr double kAccelerationWindow_s = 0.5;
 /// Below it dry friction has no known direction under the kernel. Chosen.
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Below it the direction of a wheel's rotation is uncertain. Chosen.
@@ -197,8 +202,8 @@ inline constexpr double kRunStandby_W = 0.05;
 
 /// Log prior odds against a first effect. Chosen.
 inline constexpr double kEffectCost = 6.0;
-/// Against each further one: a law's inexact form breeds ghosts. Chosen.
-inline constexpr double kFurtherEffectCost = 14.0;
+/// Against each further one: a law's inexact form breeds ghosts. Chosen (0511).
+inline constexpr double kFurtherEffectCost = 12.0;
 /// Against an unknown term: the catalog holds what usually happens. Chosen.
 inline constexpr double kUnknownCost = 16.0;
 /// Sum of squares of a law beside unknown terms over what its set explains. Chosen: parts that overlap, not

@@ -18,9 +18,12 @@ LinearProblem without_calibration(const Equations& equations, const std::vector<
 }
 
 std::vector<int> rich_columns(const Equations& equations) {
-  std::vector<int> columns = equations.columns_of(Column::Kind::amplitude);
-  const std::vector<int> dictionary = equations.columns_of(Column::Kind::dictionary);
-  columns.insert(columns.end(), dictionary.begin(), dictionary.end());
+  std::vector<int> columns;
+  for (auto kind :
+       {Column::Kind::amplitude, Column::Kind::dictionary, Column::Kind::shape, Column::Kind::form}) {
+    const std::vector<int> of_kind = equations.columns_of(kind);
+    columns.insert(columns.end(), of_kind.begin(), of_kind.end());
+  }
   return columns;
 }
 

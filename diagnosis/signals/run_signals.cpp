@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/numerics/smoothing.hpp"
+#include "diagnosis/signals/acceleration_noise.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/assert.hpp"
@@ -82,6 +84,11 @@ class Thinner {
 
   Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
   Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
+  /// Variance of a slope over that of the white noise of the channel, 1/s^2.
+  double slope_noise_gain() const {
+    return std::inner_product(kernel_.slope_weight.begin(), kernel_.slope_weight.end(),
+                              kernel_.slope_weight.begin(), 0.0);
+  }
 
  private:
   Eigen::VectorXd thin(const Samples& on_grid, const Samples& weights) const {
@@ -155,10 +162,13 @@ Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const
 
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
                  const Samples& heading, double least_speed_rad_s) {
+  signals.wheel_acceleration_rad_s2 = {thinner.slope(wheels.left), thinner.slope(wheels.right)};
+  const double noise = 0.5 * (white_noise_variance(wheels.left) + white_noise_variance(wheels.right));
+  remove_acceleration_noise(signals.wheel_acceleration_rad_s2, thinner.slope_noise_gain() * noise,
+                            thinner.period_s());
   for (Side side : kSides) {
     const Samples& speed = wheels[side];
     signals.wheel_speed_rad_s[side] = thinner.smooth(speed);
-    signals.wheel_acceleration_rad_s2[side] = thinner.slope(speed);
     signals.wheel_angle_rad[side] = thinner.smooth(integrate_to_middle(speed, thinner.grid_period_s()));
     Samples along_x(speed.size()), along_y(speed.size());
     for (std::size_t i = 0; i < speed.size(); ++i) {
