@@ -2,7 +2,8 @@
 
 #include <cstddef>
 // Design: docs/decisions/0130-thresholds-in-one-header.md,
-// docs/decisions/0440-thresholds-that-guard-nothing.md
+// docs/decisions/0440-thresholds-that-guard-nothing.md,
+// docs/decisions/0511-a-further-effect-costs-12.md
 namespace joulepath {
 
 // Every number that decides what a diagnosis says, with its origin:
