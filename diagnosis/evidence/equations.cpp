@@ -11,7 +11,8 @@
 #include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/signals/resolution.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0042-a-laws-form-is-uncertain.md
+// Design: docs/decisions/0042-a-laws-form-is-uncertain.md,
+// docs/decisions/0481-straight-runs-have-no-yaw-rate.md
 namespace joulepath {
 namespace {
 
@@ -183,19 +184,19 @@ bool has_payload_column(const std::vector<RunSignals>& signals, const EquationOp
   return std::ranges::any_of(signals, [](const RunSignals& run) { return !run.payload_known; });
 }
 
-/// Residuals and signatures of one run.
-RunRows rows_of(const RunSignals& signals, const Robot& robot, const std::vector<Nuisance>& nuisances,
-                const ModelState& state, const Equations& equations, const DictionaryLayout& layout,
-                const std::vector<std::size_t>& chosen, bool payload_column) {
+/// Residuals of one run, and signatures for its motion as `moves` has it.
+RunRows rows_of(const RunSignals& signals, const RunSignals& moves, const Robot& robot,
+                const std::vector<Nuisance>& nuisances, const ModelState& state, const Equations& equations,
+                const DictionaryLayout& layout, const std::vector<std::size_t>& chosen, bool payload_column) {
   const ModelPoint point = model_point(robot, nuisances, state);
-  const Prediction base = predict(signals, point);
+  const Prediction base = predict(moves, point);
   RunRows rows{
-      .residual = residual_rows(signals, point, base),
-      .columns = signatures(signals, robot, nuisances, state, equations.candidates, equations.columns, base),
-      .own = run_signatures(signals, robot, base)};
-  if (payload_column) rows.own.push_back(payload_signature(signals, point, base));
+      .residual = residual_rows(signals, point, &moves == &signals ? base : predict(signals, point)),
+      .columns = signatures(moves, robot, nuisances, state, equations.candidates, equations.columns, base),
+      .own = run_signatures(moves, robot, base)};
+  if (payload_column) rows.own.push_back(payload_signature(moves, point, base));
   if (!chosen.empty()) {
-    std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals, robot, base);
+    std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, moves, robot, base);
     for (std::size_t k : chosen) rows.columns.push_back(std::move(all[k]));
   }
   make_absolute(equations.columns, rows);
@@ -262,8 +263,12 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
 
   std::vector<RunRows> rows(signals.size());
   const bool payload_column = has_payload_column(signals, options, robot);
+  const bool straight = !turns(manoeuvres_of(signals));
   parallel_for(signals.size(), [&](std::size_t r) {
-    rows[r] = rows_of(signals[r], robot, nuisances, state, equations, layout, chosen, payload_column);
+    const auto rows_for = [&](const RunSignals& moves) {
+      return rows_of(signals[r], moves, robot, nuisances, state, equations, layout, chosen, payload_column);
+    };
+    rows[r] = straight ? rows_for(straightened(signals[r])) : rows_for(signals[r]);
   });
   std::vector<RawRunEquations> raw;
   if (options.noise) {

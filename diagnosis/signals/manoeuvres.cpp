@@ -23,6 +23,13 @@ Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
   return {share.turning / total, share.reverse / total, share.still / total};
 }
 
+RunSignals straightened(RunSignals run) {
+  for (Sided<Eigen::VectorXd>* of : {&run.wheel_speed_rad_s, &run.wheel_acceleration_rad_s2,
+                                     &run.wheel_angle_rad, &run.wheel_along_x_rad, &run.wheel_along_y_rad})
+    of->left = of->right = Eigen::VectorXd(0.5 * (of->left + of->right));
+  return run;
+}
+
 bool has_two_payloads(const std::vector<RunSignals>& signals) {
   std::set<double> payloads;
   for (const RunSignals& run : signals)
