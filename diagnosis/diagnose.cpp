@@ -112,7 +112,7 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
           .correlations = causes.correlations,
           .isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                                      {id.equations.noise, id.equations.run_variance, id.dispersion},
-                                     survey.invisible_effects),
+                                     survey.invisible_effects, options.without),
           .estimated_payload_kg = runs.diagnosis.estimated_payload_kg,
           .missing_channels = survey.missing_channels,
           .notes = joined({survey.notes,
