@@ -9,6 +9,7 @@
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
 #include "diagnosis/evidence/isolability.hpp"
+#include "diagnosis/evidence/unstated_payload.hpp"
 #include "diagnosis/next_run/next_run.hpp"
 #include "diagnosis/where/localize.hpp"
 
@@ -111,7 +112,8 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
           .correlations = causes.correlations,
           .isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                                      {id.equations.noise, id.equations.run_variance, id.dispersion},
-                                     survey.invisible_effects),
+                                     survey.invisible_effects, options.without),
+          .estimated_payload_kg = runs.diagnosis.estimated_payload_kg,
           .missing_channels = survey.missing_channels,
           .notes = joined({survey.notes,
                            taken_out(options.without),
@@ -129,8 +131,9 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
 }  // namespace
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
-  const RunsByUse runs = sort_runs(dataset);
+  RunsByUse runs = sort_runs(dataset);
   std::vector<DataCheck> checks = check_data(dataset, runs);
+  if (checks.empty()) runs = with_estimated_payloads(std::move(runs));
   Diagnosis diagnosis = !checks.empty()        ? stopped_by(dataset, runs, std::move(checks))
                         : runs.signals.empty() ? diagnose_without_logs(dataset, options)
                                                : diagnose_logs(dataset, runs, options);

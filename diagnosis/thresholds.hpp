@@ -199,6 +199,10 @@ inline constexpr double kRunGyroBias_rad_s = 1e-3;
 /// The same of the standby power. Physical scale.
 inline constexpr double kRunStandby_W = 0.05;
 
+/// Prior width of a payload that no file states over the robot's mass, where the robot has no limit of it.
+/// Physical scale.
+inline constexpr double kUnstatedPayloadShare = 0.5;
+
 // Weighing sets of effects, in log units of evidence.
 
 /// Log prior odds against a first effect. Chosen.
@@ -321,8 +325,10 @@ inline constexpr double kLeastEnergyOfStep = 0.002;
 
 // Held-out runs and the correction.
 
-/// Held-out energy gap that a correction without influence on energies may add. Declared.
+/// Held-out energy gap that a correction of other signals may add. Declared.
 inline constexpr double kToleratedWorsening_percent = 0.05;
+/// Share of another signal's held-out gap that such a correction must take away. Declared.
+inline constexpr double kNotableShrink = 0.1;
 /// Two parameters of a correction whose correlation is smaller are not listed together. Declared.
 inline constexpr double kNotableCorrelation = 0.5;
 /// A held-out gap above this many noise floors is more than noise. Chosen (0042).

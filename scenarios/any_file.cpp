@@ -5,7 +5,9 @@
 #include <filesystem>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
+#include "diagnosis/evidence/unstated_payload.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/counted.hpp"
@@ -75,12 +77,14 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
       read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
   for (const auto& run : dataset.runs) samples += run.log.size();
-  const RunsByUse runs = sort_runs(dataset);
+  RunsByUse runs = sort_runs(dataset);
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
                       notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
+  if (std::string note = unstated_payload_note(dataset); !note.empty())
+    summary.notes.push_back(std::move(note));
   if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
-  summary.isolability = isolability(dataset, runs);
+  summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));
   return summary;
 }

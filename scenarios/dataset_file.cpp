@@ -1,9 +1,11 @@
 #include "scenarios/dataset_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "diagnosis/checks/plausible.hpp"
+#include "model/number_text.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
@@ -27,8 +29,23 @@ std::vector<PayloadStep> read_payload(const Node& node) {
   return steps;
 }
 
+/// Readings of a log's payload that differ from what the dataset file states, which counts.
+void find_contradiction(const Run& run, const std::vector<double>& stated_kg,
+                        std::vector<LogArtifact>& artifacts) {
+  constexpr double kRounding_kg = 0.01;
+  const std::vector<double>& logged_kg = run.log.payload_kg;
+  LogArtifact found{.kind = "contradiction", .run = run.name, .channel = "payload_kg"};
+  for (std::size_t i = 0; i < logged_kg.size(); ++i) {
+    if (std::abs(logged_kg[i] - stated_kg[i]) <= kRounding_kg || found.count++ > 0) continue;
+    found.first_time_s = run.log.time_s[i];
+    found.description = "the log has " + number_text(logged_kg[i]) + " kg, the dataset file " +
+                        number_text(stated_kg[i]) + " kg, which counts";
+  }
+  if (found.count > 0) artifacts.push_back(std::move(found));
+}
+
 /// The steps of the payload; a column of it only where it changes, because that of a long log takes memory.
-void fill_payload(Run& run) {
+void fill_payload(Run& run, std::vector<LogArtifact>& artifacts) {
   Trajectory& log = run.log;
   std::vector<double>& column = log.payload_kg;
   if (run.payload.empty()) {
@@ -38,12 +55,14 @@ void fill_payload(Run& run) {
       if (i == 0 || column[i] != column[i - 1]) run.payload.push_back({log.time_s[i], column[i]});
   } else {
     run.payload_known = true;
-    column.resize(run.payload.size() > 1 ? log.size() : 0);
+    std::vector<double> stated_kg(run.payload.size() > 1 || !column.empty() ? log.size() : 0);
     std::size_t step = 0;
-    for (std::size_t i = 0; i < column.size(); ++i) {
+    for (std::size_t i = 0; i < stated_kg.size(); ++i) {
       while (step + 1 < run.payload.size() && log.time_s[i] >= run.payload[step + 1].from_s) ++step;
-      column[i] = run.payload[step].payload_kg;
+      stated_kg[i] = run.payload[step].payload_kg;
     }
+    find_contradiction(run, stated_kg, artifacts);
+    column = std::move(stated_kg);
   }
   if (run.payload.size() == 1) column = std::vector<double>();
 }
@@ -67,7 +86,7 @@ class RunReader {
       read_energy_only(node, run);
     else
       read_log(node, run);
-    fill_payload(run);
+    fill_payload(run, dataset_.artifacts);
     add(node, std::move(run));
   }
 
@@ -246,7 +265,7 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
     for (const Implausible& channel : implausible_channels(run, dataset.robot))
       throw ConfigError({run.mark, "", channel.found, channel.accepted,
                          channel.hint + " `columns:` with scale, in a dataset that names the log, converts"});
-  fill_payload(run);
+  fill_payload(run, dataset.artifacts);
   dataset.artifacts = std::move(log.artifacts);
   dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);

@@ -110,7 +110,10 @@ std::vector<RunComparison> run_comparisons(const Diagnosis& diagnosis, const Dat
   std::vector<RunComparison> runs;
   for (std::size_t k = 0; k < dataset.runs.size() && runs.size() < kMostRuns; ++k) {
     if (!has_usable_log(dataset.runs[k])) continue;
-    const RunSignals signals = make_run_signals(dataset.runs[k], k, dataset.robot);
+    RunSignals signals = make_run_signals(dataset.runs[k], k, dataset.robot);
+    if (const auto estimated = diagnosis.estimated_payload_kg.find(k);
+        estimated != diagnosis.estimated_payload_kg.end())
+      signals.payload_kg.setConstant(estimated->second);
     const bool is_validation = std::ranges::count(diagnosis.validation_runs, signals.name) > 0;
     Columns columns = compared(signals, nominal, corrected);
     if (std::ranges::any_of(columns, is_measured))

@@ -1,12 +1,12 @@
 #include "diagnosis/checks/survey.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <set>
 
+#include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
+#include "model/limit_table.hpp"
 // Design: docs/decisions/0372-what-no-run-shows-has-no-name.md
 namespace joulepath {
 namespace {
@@ -77,33 +77,6 @@ constexpr Channel kChannels[] = {
     {"start_time", [](const RunSignals& r) { return r.time_of_day_known; }, &Needs::time_of_day},
 };
 
-/// Shares of all samples.
-struct Manoeuvres {
-  double turning{}, reverse{}, still{};
-};
-
-Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
-  Manoeuvres share;
-  double total = 0;
-  for (const RunSignals& run : signals)
-    for (Eigen::Index j = 0; j < run.size(); ++j) {
-      const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
-      total += 1;
-      share.turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
-                       std::abs(right - left) > kMovingWheel_rad_s;
-      share.reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
-      share.still += std::abs(left) < kMovingWheel_rad_s && std::abs(right) < kMovingWheel_rad_s;
-    }
-  if (total == 0) return {1, 1, 1};
-  return {share.turning / total, share.reverse / total, share.still / total};
-}
-
-bool has_one_payload(const std::vector<RunSignals>& signals) {
-  std::set<double> payloads;
-  for (const RunSignals& run : signals) payloads.insert(run.payload_kg.begin(), run.payload_kg.end());
-  return payloads.size() < 2;
-}
-
 }  // namespace
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
@@ -123,16 +96,27 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
     else
       survey.notes.push_back(what + ": " + channel.consequence);
   }
-  if (has_one_payload(signals))
+  if (!has_two_payloads(signals) && std::ranges::all_of(signals, &RunSignals::payload_known))
     survey.notes.push_back(
         "one payload only: losses that grow with the load cannot be separated from constant ones");
-  const auto [turning, reverse, still] = manoeuvres_of(signals);
-  if (turning < kLeastManoeuvreShare) lacks("no turns", true, &Needs::turns);
-  if (reverse < kLeastManoeuvreShare) lacks("no reversing", true, &Needs::reversing);
-  if (still < kLeastManoeuvreShare) survey.notes.push_back("no standstill: sensor offsets are less visible");
-  if (std::ranges::any_of(dataset.runs, [](const Run& run) { return !run.payload_known; }))
-    survey.notes.push_back("payload unknown in some runs: 0 kg is assumed");
+  const Manoeuvres share = manoeuvres_of(signals);
+  if (!turns(share)) lacks("no turns", true, &Needs::turns);
+  if (!reverses(share)) lacks("no reversing", true, &Needs::reversing);
+  if (share.still < kLeastManoeuvreShare)
+    survey.notes.push_back("no standstill: sensor offsets are less visible");
+  if (const std::string note = unstated_payload_note(dataset); !note.empty()) survey.notes.push_back(note);
   return survey;
+}
+
+std::string unstated_payload_note(const Dataset& dataset) {
+  std::vector<std::string> runs;
+  for (const Run& run : dataset.runs)
+    if (!run.payload_known && has_usable_log(run)) runs.push_back(run.name);
+  if (runs.empty() || payload_limit_kg(dataset.robot) <= 0) return "";
+  return runs_text(runs, dataset.runs.size()) +
+         "the payload is not stated. It is estimated from the log, and no mass is named on that ground. The "
+         "dataset file states it per run: - {file: " +
+         runs.front() + ", payload_kg: 0}";
 }
 
 std::vector<std::string> artifact_texts(const Dataset& dataset) {

@@ -18,6 +18,9 @@ struct Survey {
 
 [[nodiscard]] Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals);
 
+/// Which runs state no payload, what that means, and the line of the dataset file that states it; else empty.
+[[nodiscard]] std::string unstated_payload_note(const Dataset& dataset);
+
 /// Artifacts as sentences.
 [[nodiscard]] std::vector<std::string> artifact_texts(const Dataset& dataset);
 

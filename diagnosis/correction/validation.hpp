@@ -10,12 +10,12 @@ struct Validation {
   Judgment judgment{};
   Refit fitted{};       ///< the names fitted on the diagnosis runs (calibration alone without names)
   JudgedModel model{};  ///< of the names, for the held-out runs
-  /// The names, or the part of them, that may be written: it does not widen the held-out energy gap.
+  /// The names, or the part of them, that may be written: it shrinks the held-out gap.
   std::optional<ModelState> corrected{};
 };
 
 /// Fits the names beside the unknown terms, drops those that the fit cannot tell from 0 or that lie outside
-/// their range, and finds the part whose correction does not widen the held-out energy gap.
+/// their range, and finds the part whose correction shrinks the held-out gap.
 [[nodiscard]] Validation validate(const Examination& examination, const Judgment& by_race);
 
 /// The gap on held-out runs, before and after, with its noise floors.

@@ -8,9 +8,11 @@
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/signals/resolution.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0042-a-laws-form-is-uncertain.md
+// Design: docs/decisions/0042-a-laws-form-is-uncertain.md,
+// docs/decisions/0481-straight-runs-have-no-yaw-rate.md
 namespace joulepath {
 namespace {
 
@@ -52,14 +54,15 @@ std::vector<std::size_t> chosen_entries(const std::vector<DictionaryEntry>& entr
 /// Errors of time stamps or of a winding's inductance correlate voltage with acceleration: no finding.
 constexpr const char* kOfTheLogger = "acceleration (voltage)";
 
-/// Entries of one family and channel are one unknown term.
+/// Entries of one family and channel are one unknown term. A curve over one payload is a constant.
 std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
-                                       const std::vector<DictionaryEntry>& dictionary) {
+                                       const std::vector<DictionaryEntry>& dictionary, bool two_payloads) {
   std::vector<UnknownTerm> terms;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].kind != Column::Kind::dictionary) continue;
-    const std::string label = label_of(dictionary[static_cast<std::size_t>(columns[k].owner)]);
-    if (label == kOfTheLogger) continue;
+    const DictionaryEntry& entry = dictionary[static_cast<std::size_t>(columns[k].owner)];
+    const std::string label = label_of(entry);
+    if (label == kOfTheLogger || (!two_payloads && entry.family == "payload")) continue;
     const auto known = std::ranges::find(terms, label, &UnknownTerm::label);
     if (known == terms.end())
       terms.push_back({label, {static_cast<int>(k)}});
@@ -174,18 +177,26 @@ Eigen::VectorXd shared_sides(Eigen::VectorXd variance) {
   return variance;
 }
 
-/// Residuals and signatures of one run.
-RunRows rows_of(const RunSignals& signals, const Robot& robot, const std::vector<Nuisance>& nuisances,
-                const ModelState& state, const Equations& equations, const DictionaryLayout& layout,
-                const std::vector<std::size_t>& chosen) {
+/// A payload that no file states is a parameter of its run.
+bool has_payload_column(const std::vector<RunSignals>& signals, const EquationOptions& options,
+                        const Robot& robot) {
+  if (options.run_variance) return options.run_variance->size() > run_start_variance(robot).size();
+  return std::ranges::any_of(signals, [](const RunSignals& run) { return !run.payload_known; });
+}
+
+/// Residuals of one run, and signatures for its motion as `moves` has it.
+RunRows rows_of(const RunSignals& signals, const RunSignals& moves, const Robot& robot,
+                const std::vector<Nuisance>& nuisances, const ModelState& state, const Equations& equations,
+                const DictionaryLayout& layout, const std::vector<std::size_t>& chosen, bool payload_column) {
   const ModelPoint point = model_point(robot, nuisances, state);
-  const Prediction base = predict(signals, point);
+  const Prediction base = predict(moves, point);
   RunRows rows{
-      .residual = residual_rows(signals, point, base),
-      .columns = signatures(signals, robot, nuisances, state, equations.candidates, equations.columns, base),
-      .own = run_signatures(signals, robot, base)};
+      .residual = residual_rows(signals, point, &moves == &signals ? base : predict(signals, point)),
+      .columns = signatures(moves, robot, nuisances, state, equations.candidates, equations.columns, base),
+      .own = run_signatures(moves, robot, base)};
+  if (payload_column) rows.own.push_back(payload_signature(moves, point, base));
   if (!chosen.empty()) {
-    std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, signals, robot, base);
+    std::vector<Eigen::MatrixXd> all = dictionary_rows(layout, moves, robot, base);
     for (std::size_t k : chosen) rows.columns.push_back(std::move(all[k]));
   }
   make_absolute(equations.columns, rows);
@@ -196,18 +207,23 @@ RunRows rows_of(const RunSignals& signals, const Robot& robot, const std::vector
 /// noise: the first fit assumes white rows, and only the residual determines the memory.
 std::vector<RawRunEquations> compress_and_estimate(const std::vector<RunRows>& rows,
                                                    const std::vector<RunSignals>& signals, const Robot& robot,
-                                                   const NoiseModel* first_noise, Equations& equations) {
+                                                   const NoiseModel* first_noise, bool payload_column,
+                                                   Equations& equations) {
   std::vector<ResidualRows> left(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
   const std::array<double, kChannelCount> floor = resolution_floor(signals);
   equations.noise = first_noise ? *first_noise : white_noise(left, floor);
-  equations.run_variance = run_start_variance(robot);
+  const Eigen::VectorXd estimated = run_start_variance(robot);
+  const Eigen::Index given = payload_column ? 1 : 0;
+  equations.run_variance.resize(estimated.size() + given);
+  equations.run_variance << estimated,
+      Eigen::VectorXd::Constant(given, std::pow(payload_prior_sd_kg(robot), 2));
   for (int pass = first_noise ? 1 : 0;; ++pass) {
     std::vector<RawRunEquations> raw = compress_all(rows, equations.noise);
     set_dictionary_prior(raw, equations.columns);
     const ColumnEstimate estimate =
         rich_estimate(marginalize_all(raw, equations.run_variance), prior_sd_of(equations.columns));
-    equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance));
+    equations.run_variance = shared_sides(run_variances(raw, estimate, equations.run_variance, given));
     if (pass == 2) return raw;
     left = leftover_rows(rows, estimate.mean, raw, equations.run_variance);
     equations.noise = estimate_noise(left, floor);
@@ -243,11 +259,16 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
   for (std::size_t k : chosen) equations.dictionary.push_back(entries[k]);
   equations.columns =
       list_columns(nuisances, state, equations.candidates, equations.dictionary.size(), options.forms);
-  equations.unknowns = unknown_terms(equations.columns, equations.dictionary);
+  equations.unknowns = unknown_terms(equations.columns, equations.dictionary, has_two_payloads(signals));
 
   std::vector<RunRows> rows(signals.size());
+  const bool payload_column = has_payload_column(signals, options, robot);
+  const bool straight = !turns(manoeuvres_of(signals));
   parallel_for(signals.size(), [&](std::size_t r) {
-    rows[r] = rows_of(signals[r], robot, nuisances, state, equations, layout, chosen);
+    const auto rows_for = [&](const RunSignals& moves) {
+      return rows_of(signals[r], moves, robot, nuisances, state, equations, layout, chosen, payload_column);
+    };
+    rows[r] = straight ? rows_for(straightened(signals[r])) : rows_for(signals[r]);
   });
   std::vector<RawRunEquations> raw;
   if (options.noise) {
@@ -256,7 +277,7 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     raw = compress_all(rows, equations.noise);
     set_dictionary_prior(raw, equations.columns);
   } else {
-    raw = compress_and_estimate(rows, signals, robot, options.first_noise, equations);
+    raw = compress_and_estimate(rows, signals, robot, options.first_noise, payload_column, equations);
   }
   equations.runs = marginalize_all(raw, equations.run_variance);
   equations.prior_sd = prior_sd_of(equations.columns);

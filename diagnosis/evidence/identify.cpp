@@ -11,7 +11,8 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0040-diagnosis-by-joint-evidence.md
+// Design: docs/decisions/0040-diagnosis-by-joint-evidence.md,
+// docs/decisions/0482-one-effect-first-at-the-battery.md
 namespace joulepath {
 namespace {
 
@@ -81,9 +82,17 @@ ModelState first_state(const LogSet& logs, std::size_t nuisances, const std::set
   return state;
 }
 
-/// Linearizes about the state and searches the sets of effects and unknown terms.
+/// Whether some run has the battery's power alone, which is quadratic in the torque. About the nominal model
+/// the curvature of one large effect looks like a winding and a driver error, and about the three it stays
+/// so.
+bool sees_battery_alone(const std::vector<RunSignals>& signals) {
+  return std::ranges::any_of(
+      signals, [](const RunSignals& run) { return !measures_motors(run) && measures_energy(run); });
+}
+
+/// Linearizes about the state and searches the sets of effects and unknown terms, of `most` members.
 void search_about_state(const LogSet& logs, const std::set<std::string>& without, const NoiseModel* noise,
-                        std::map<std::string, double>& known, Identification& id) {
+                        int most, std::map<std::string, double>& known, Identification& id) {
   const Robot& robot = logs.dataset->robot;
   const std::vector<std::size_t> runs = every(logs.runs.size());
   const std::vector<Candidate> regions =
@@ -96,6 +105,7 @@ void search_about_state(const LogSet& logs, const std::set<std::string>& without
   id.options = search_options(
       id.dispersion, runs.size() < kRunsForSmallEffects,
       least_amplitudes(id.signals, robot, id.nuisances, id.state, id.equations.candidates, known));
+  id.options.most_members = most;
   id.explanations = search_explanations(id.problem, id.equations, id.options);
   id.below_materiality = small_effects(id.equations, id.explanations);
   std::erase_if(id.explanations, [](const Explanation& e) { return !e.material; });
@@ -122,10 +132,13 @@ Identification identify(const LogSet& logs, const std::set<std::string>& without
   std::map<std::string, double> known;
   NoiseModel noise;
   for (int round = 0; round <= kRelinearizations; ++round) {  // after the last: its answer, refitted
-    search_about_state(logs, without, round > 0 ? &noise : nullptr, known, id);
+    const int most = round == 0 && sees_battery_alone(id.signals) ? 1 : kMostMembers;
+    search_about_state(logs, without, round > 0 ? &noise : nullptr, most, known, id);
     noise = id.equations.noise;
     const Explanation& best = id.explanations.front();
-    if ((round > 0 || best.candidates.empty()) && labels_of(id.equations, best) == labels_of(id.state)) break;
+    if ((round > 0 || (best.candidates.empty() && most > 1)) &&
+        labels_of(id.equations, best) == labels_of(id.state))
+      break;
     adopt_best(logs, id);
   }
   return id;

@@ -201,11 +201,14 @@ RunNoise noise_of_runs(const std::vector<RunSignals>& signals, const Robot& robo
 }
 
 Isolability isolability(const std::vector<RunSignals>& signals, const Robot& robot, const RunNoise& noise,
-                        const std::set<std::string>& invisible) {
+                        const std::set<std::string>& invisible, const std::set<std::string>& without) {
   const std::vector<Nuisance> nuisances = calibration_nuisances(robot);
-  const Equations equations = build_equations(
-      signals, robot, nuisances, nominal_state(nuisances), {},
-      {.dictionary = false, .forms = Forms::all, .noise = &noise.noise, .run_variance = &noise.run_variance});
+  const Equations equations = build_equations(signals, robot, nuisances, nominal_state(nuisances), {},
+                                              {.dictionary = false,
+                                               .forms = Forms::all,
+                                               .noise = &noise.noise,
+                                               .run_variance = &noise.run_variance,
+                                               .without = without});
   const Design design{equations, without_calibration(equations, every(signals.size()), noise.dispersion),
                       robot, noise.dispersion};
   const std::vector<Hypothesis> all = hypotheses_of(equations, robot);

@@ -26,9 +26,11 @@ struct RunNoise {
 /// size are fitted with effect b, its amplitude free within what the catalog accepts, its strength free to
 /// vary as an inexact form does, and with the calibration within its uncertainty:
 ///   D(a, b) = min_b |a - b|^2,  2 ln LR ~ N(D, 4 D)
-/// A pair has the lesser of D(a, b) and D(b, a). `invisible` effects lack a channel or a manoeuvre.
+/// A pair has the lesser of D(a, b) and D(b, a). `invisible` effects lack a channel or a manoeuvre; effects
+/// `without` are taken out of the catalog.
 [[nodiscard]] Isolability isolability(const std::vector<RunSignals>& signals, const Robot& robot,
-                                      const RunNoise& noise, const std::set<std::string>& invisible);
+                                      const RunNoise& noise, const std::set<std::string>& invisible,
+                                      const std::set<std::string>& without = {});
 
 /// The same of a dataset's diagnosis runs before a diagnosis.
 [[nodiscard]] Isolability isolability(const Dataset& dataset, const RunsByUse& runs);

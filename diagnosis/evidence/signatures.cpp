@@ -7,6 +7,7 @@
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
+#include "model/limit_table.hpp"
 
 namespace joulepath {
 namespace {
@@ -277,6 +278,20 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
   own[4].col(kGyro).setConstant(1.0);
   own[5].col(kDriverPower).setConstant(1.0);
   return own;
+}
+
+Eigen::MatrixXd payload_signature(const RunSignals& signals, const ModelPoint& point,
+                                  const Prediction& base) {
+  constexpr double kStep_kg = 1.0;
+  if (signals.payload_known) return Eigen::MatrixXd::Zero(signals.size(), kChannelCount);
+  RunSignals heavier = signals;
+  heavier.payload_kg.array() += kStep_kg;
+  return signature_rows(signals, point, base, predict(heavier, point)) / kStep_kg;
+}
+
+double payload_prior_sd_kg(const Robot& robot) {
+  const double limit_kg = payload_limit_kg(robot);
+  return std::isfinite(limit_kg) ? limit_kg : kUnstatedPayloadShare * robot.total_mass_kg(0.0);
 }
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {

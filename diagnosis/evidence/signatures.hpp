@@ -50,4 +50,10 @@ inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw ra
                                                           const Prediction& base);
 [[nodiscard]] Eigen::VectorXd run_start_variance(const Robot& robot);
 
+/// Column of a payload (kg) that no file states: a further parameter of the run. Zero for a stated one.
+[[nodiscard]] Eigen::MatrixXd payload_signature(const RunSignals& signals, const ModelPoint& point,
+                                                const Prediction& base);
+/// Prior width of such a payload: the robot's limit, or a share of its mass.
+[[nodiscard]] double payload_prior_sd_kg(const Robot& robot);
+
 }  // namespace joulepath

@@ -40,7 +40,7 @@ Eigen::MatrixXd own_covariance(const Eigen::MatrixXd& zz, const Eigen::VectorXd&
 }  // namespace
 
 Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs, const ColumnEstimate& estimate,
-                              const Eigen::VectorXd& start_variance) {
+                              const Eigen::VectorXd& start_variance, Eigen::Index given) {
   std::vector<Eigen::MatrixXd> absorbed;  // Z'X S X'Z of each run
   for (const RawRunEquations& run : runs) {
     const auto cross = run.gram.block(run.columns, 0, run.own_columns, run.columns);
@@ -58,6 +58,7 @@ Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs, const Co
       sum += mean.cwiseAbs2() + covariance.diagonal() + (covariance * absorbed[r] * covariance).diagonal();
     }
     variance = sum / std::max<double>(1.0, static_cast<double>(runs.size()));
+    variance.tail(given) = start_variance.tail(given);
   }
   return variance;
 }
@@ -71,8 +72,9 @@ RunEquations marginalize(const RawRunEquations& run, const Eigen::VectorXd& vari
   kept(p, p) = run.gram(p + k, p + k);
   cross.leftCols(p) = run.gram.block(p, 0, k, p);
   cross.rightCols(1) = run.gram.block(p, p + k, k, 1);
-  kept -= cross.transpose() * own_covariance(run.gram.block(p, p, k, k), variance) * cross;
-  return {.gram = kept};
+  const Eigen::MatrixXd covariance = own_covariance(run.gram.block(p, p, k, k), variance);
+  kept -= cross.transpose() * covariance * cross;
+  return {.gram = kept, .own = covariance * cross};
 }
 
 LinearProblem sum_runs(const std::vector<RunEquations>& runs, const std::vector<std::size_t>& which,
@@ -129,6 +131,10 @@ LinearProblem project_out(const LinearProblem& problem, const std::vector<int>& 
   out.right -= cross.transpose() * factor.solve(right);
   out.residual_square -= right.dot(factor.solve(right));
   return out;
+}
+
+Eigen::VectorXd own_deviations(const RunEquations& run, const Eigen::VectorXd& parameters) {
+  return run.own.rightCols(1) - run.own.leftCols(parameters.size()) * parameters;
 }
 
 double run_loss(const RunEquations& run, const Eigen::VectorXd& parameters) {

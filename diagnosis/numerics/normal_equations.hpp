@@ -9,6 +9,7 @@ namespace joulepath {
 /// The run is the unit of everything that follows: tests fold, flip or resample whole runs.
 struct RunEquations {
   Eigen::MatrixXd gram{};
+  Eigen::MatrixXd own{};  ///< the run's own deviations: last column - other columns x parameters
 };
 
 /// A run before its own deviations are taken out: columns, then the run's own columns, then residual.
@@ -28,10 +29,11 @@ struct ColumnEstimate {
 /// expectation maximization about the estimate of a rich fit:
 ///   D = mean over runs of E[z^2],  E[z^2] = mean^2 + C + C Z'X S X'Z C,  C = (Z'Z + D^-1)^-1
 /// with S the estimate's covariance: what the fit absorbs of few runs' deviations counts as theirs
-/// (restricted maximum likelihood; Laird and Ware, Biometrics 38, 1982).
+/// (restricted maximum likelihood; Laird and Ware, Biometrics 38, 1982). The last `given` variances stay as
+/// they start.
 [[nodiscard]] Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs,
                                             const ColumnEstimate& estimate,
-                                            const Eigen::VectorXd& start_variance);
+                                            const Eigen::VectorXd& start_variance, Eigen::Index given = 0);
 
 /// Integrates the run's own columns out: deviations are normal with the given variances.
 ///   G - G_z' (Z'Z + D^-1)^-1 G_z
@@ -65,6 +67,9 @@ struct Posterior {
 /// (`kept`), and `log_evidence` differs by a constant only.
 [[nodiscard]] LinearProblem project_out(const LinearProblem& problem, const std::vector<int>& nuisances,
                                         const std::vector<int>& kept, double dispersion = 1.0);
+
+/// Deviations of the run's own parameters under given parameters (of all columns).
+[[nodiscard]] Eigen::VectorXd own_deviations(const RunEquations& run, const Eigen::VectorXd& parameters);
 
 /// r'r of a run under given parameters (of all columns).
 [[nodiscard]] double run_loss(const RunEquations& run, const Eigen::VectorXd& parameters);

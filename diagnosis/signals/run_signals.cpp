@@ -10,6 +10,7 @@
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
+#include "model/limit_table.hpp"
 #include "model/motor.hpp"
 
 namespace joulepath {
@@ -246,6 +247,7 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
   signals.payload_kg = thinner.held(log.payload_kg);
   if (signals.payload_kg.size() == 0)
     signals.payload_kg = Eigen::VectorXd::Constant(signals.size(), constant_payload_kg(run));
+  signals.payload_known = run.payload_known || payload_limit_kg(robot) <= 0;
   for (Side side : kSides) {
     signals.motor_voltage_V[side] =
         thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));

@@ -24,6 +24,7 @@ struct RunSignals {
   Eigen::VectorXd time_s{};
   Eigen::VectorXd time_of_day_s{};
   Eigen::VectorXd payload_kg{};
+  bool payload_known{true};  ///< false: payload_kg is a guess, or an estimate from this log
   Sided<Eigen::VectorXd> wheel_speed_rad_s{};
   Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
   Sided<Eigen::VectorXd> wheel_angle_rad{};  ///< since the run's start

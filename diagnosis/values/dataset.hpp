@@ -20,7 +20,7 @@ struct PayloadStep {
 /// A property of a log that is not physics: held values, clock jumps, wrapped counters, ignored columns.
 struct LogArtifact {
   std::string kind{};     ///< clock_jump | gap | held_value | wrapped | unsigned | ignored_columns |
-                          ///< missing_values | resampled
+                          ///< missing_values | resampled | contradiction
   std::string run{};      ///< name of the run, empty = the whole dataset
   std::string channel{};  ///< column, empty = all
   std::string description{};
@@ -39,7 +39,7 @@ struct Run {
   std::optional<Sided<double>> measured_energy_J{};
   std::optional<double> battery_energy_Wh{};
   std::vector<PayloadStep> payload{};  ///< in order of time; one entry = constant
-  bool payload_known{};  ///< false: neither the dataset nor the log states a payload, and 0 is used
+  bool payload_known{};  ///< false: neither the dataset nor the log states a payload; `payload` is a guess
   std::string surface{};
   std::optional<double> start_time_s{};  ///< time of day
   RunUse use{RunUse::any};

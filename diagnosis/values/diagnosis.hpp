@@ -120,6 +120,7 @@ struct Diagnosis {
   std::vector<ParameterCorrelation> correlations{};  ///< of the causes' strengths, the strongest first
   std::vector<DataCheck> data_checks{};  ///< channels that contradict physics: nothing else is examined
   Isolability isolability{};             ///< of the diagnosis runs; empty where no log can be used
+  std::map<std::size_t, double> estimated_payload_kg{};  ///< of runs that state none, by index
   std::vector<std::string> artifacts{};
   std::vector<std::string> missing_channels{};
   std::vector<std::string> notes{};  ///< what the runs cannot show

@@ -1,6 +1,7 @@
 #include "diagnosis/where/gap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
@@ -217,6 +218,16 @@ GapReport measure_gap(const GapInput& input) {
   add_phases(input.before_signals, nominal, false, report.energy_by_phase_J);
   add_phases(input.after_signals, input.after, true, report.energy_by_phase_J);
   return report;
+}
+
+bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const ModelPoints& before,
+                      const std::vector<RunSignals>& after_signals, const ModelPoints& after) {
+  const Squares a = squares_of(before_signals, before), b = squares_of(after_signals, after);
+  return std::ranges::any_of(std::array{&Squares::current, &Squares::voltage, &Squares::position,
+                                        &Squares::heading, &Squares::battery},
+                             [&](MeanSquare Squares::*signal) {
+                               return (b.*signal).root() < (1 - kNotableShrink) * (a.*signal).root();
+                             });
 }
 
 const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index j) {

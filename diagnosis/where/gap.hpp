@@ -53,6 +53,11 @@ struct GapInput {
 /// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
 [[nodiscard]] GapReport measure_gap(const GapInput& input);
 
+/// Whether a model shrinks the gap of a compared signal other than the energy (current, voltage, position,
+/// heading or battery power, root mean square) by at least kNotableShrink.
+[[nodiscard]] bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const ModelPoints& before,
+                                    const std::vector<RunSignals>& after_signals, const ModelPoints& after);
+
 /// Phase of a sample: standstill, accelerate, cruise, brake, turn, spin.
 [[nodiscard]] const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index sample);
 

@@ -97,7 +97,8 @@ class Localizer {
     ledger_.book("phase", phase_of(run, nominal_.robot.geometry, j), r, amount);
     if (side) ledger_.book("wheel", side_name(*side), r, amount);
     ledger_.book("speed", speed_cell(twist.speed_m_s), r, amount);
-    ledger_.book("payload", number_text(run.payload_kg[j], "kg"), r, amount);
+    ledger_.book("payload", run.payload_known ? number_text(run.payload_kg[j], "kg") : "not stated", r,
+                 amount);
     ledger_.book("run", run.name, r, amount);
     const bool moving = std::abs(twist.speed_m_s) > kStandstillAlong_m_s;
     ledger_.book("direction", !moving ? "in place" : twist.speed_m_s > 0 ? "forward" : "reverse", r, amount);

@@ -53,6 +53,16 @@ TEST(AllClear, BatteryPowerAloneShowsAGapAndWhereItLies) {
   EXPECT_TRUE(std::ranges::none_of(d.where, [](const WhereCell& cell) { return cell.axis == "wheel"; }));
 }
 
+/// Battery power is quadratic in the torque: one large effect must not turn into three.
+TEST(AllClear, BatteryPowerAloneNamesNoSecondCause) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset day = quiet_day("--effect rolling_resistance --size 0.012 --protocol 24");
+  for (auto& run : day.runs) run.log.motor_voltage_V = {}, run.log.motor_current_A = {};
+  const Diagnosis d = diagnose(day, {.bootstrap = 20});
+  ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.causes.front().effect.name, "rolling_resistance");
+}
+
 /// The payload changes at a stop in one step; no sample has an intermediate value.
 TEST(Payload, AStepWithinARunIsNotInterpolated) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";

@@ -71,6 +71,17 @@ TEST(Gap, IsTheSumOverRunsOverTheirMeasuredEnergy) {
   EXPECT_GE(gap.shrink_interval_95.second, gap.shrink_fraction);
 }
 
+/// A change of the model that no signal gains from is no reason for a correction.
+TEST(Gap, OfAnotherSignalShrinksWithTheRightModelOnly) {
+  const std::vector<RunSignals> signals = three_runs();
+  const auto points = [&](const Robot& robot) { return ModelPoints(signals.size(), {.robot = robot}); };
+  Robot wider = nomad();
+  wider.inertia.chassis_yaw_inertia_kg_m2 *= 1.05;
+  EXPECT_TRUE(shrinks_a_signal(signals, points(nomad()), signals, points(worn())));
+  EXPECT_FALSE(shrinks_a_signal(signals, points(nomad()), signals, points(nomad())));
+  EXPECT_FALSE(shrinks_a_signal(signals, points(nomad()), signals, points(wider)));
+}
+
 /// Gaps of opposite signs cancel in the bias and not in the gap.
 TEST(Gap, OfOppositeRunsIsNotTheirBias) {
   std::vector<RunEnergy> runs{{.measured_J = 100, .predicted_J = 110},

@@ -185,6 +185,18 @@ TEST_F(AgainstDiagnoses, WhatIsNotToldApartIsAGroupAndWhatIsHasOneName) {
             told_apart(of_one.isolability, "rolling_resistance", "coulomb_friction") + 0.5);
 }
 
+TEST_F(AgainstDiagnoses, AnEffectTakenOutOfTheCatalogIsInNoGroup) {
+  const Dataset day = testing::blind_day("--effect none --protocol 12 --seed 5");
+  const Isolability whole = diagnose(day, {.bootstrap = 20}).isolability,
+                    rest = diagnose(day, {.bootstrap = 20, .without = {"coulomb_friction"}}).isolability;
+  const auto lists = [](const Isolability& found) {
+    return std::ranges::count(found.effects, "coulomb_friction", &Isolability::Effect::effect) > 0;
+  };
+  EXPECT_TRUE(lists(whole));
+  EXPECT_FALSE(lists(rest));
+  EXPECT_EQ(rest.effects.size() + 1, whole.effects.size());
+}
+
 /// The statement before a diagnosis and the one within it rest on two estimates of one noise.
 TEST_F(AgainstDiagnoses, CheckAndDiagnoseAgree) {
   const Dataset day = testing::blind_day("--effect none --protocol 12 --seed 5");

@@ -168,6 +168,30 @@ std::vector<int> entries_of(const DictionaryLayout& layout, const std::string& f
   return found;
 }
 
+/// Square of the rows that the half track moves, all runs.
+double excitation_of_half_track(const Dataset& dataset) {
+  Robot robot = dataset.robot;
+  robot.uncertainty = {{"half_track_m", 0.01}};
+  const std::vector<Nuisance> nuisances = calibration_nuisances(robot);
+  const ModelState nominal{.nuisance_fraction = std::vector<double>(nuisances.size(), 0.0)};
+  const Equations equations =
+      build_equations(sort_runs(dataset).signals, robot, nuisances, nominal, {}, {.dictionary = false});
+  double square = 0;
+  for (std::size_t k = 0; k < nuisances.size(); ++k)
+    if (nuisances[k].key == "half_track_m")
+      for (const RunEquations& run : equations.runs)
+        square += run.gram(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
+  return square;
+}
+
+TEST(StraightRuns, DoNotShowTheHalfTrackHoweverNoisyTheWheels) {
+  Dataset dataset = straight_runs_and_five_spins();
+  for (auto& run : dataset.runs) run.log.gyro_yaw_rate_rad_s.assign(run.log.size(), 0.0);
+  EXPECT_GT(excitation_of_half_track(dataset), 1.0);
+  dataset.runs.resize(15);
+  EXPECT_EQ(excitation_of_half_track(dataset), 0.0);
+}
+
 TEST(Materiality, OfATermIsThatOfTheLawThatItDraws) {
   const Dataset dataset = straight_runs_and_five_spins();
   const std::vector<RunSignals> signals = sort_runs(dataset).signals;

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "diagnosis/values/diagnosis.hpp"
 #include "diagnosis/verdict/verdict.hpp"
+#include "tests/support/blind_day.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -65,6 +67,23 @@ TEST(Survey, WhatNoRunCanShowIsNeitherNamedNorRanked) {
   for (const RankedEffect& entry : d.ranking) said.push_back(entry.effect);
   for (const char* effect : {"track_width_error", "wheel_radius_error", "wheel_slip"})
     EXPECT_EQ(std::ranges::count(said, effect), 0) << effect;
+}
+
+/// The yaw rate of straight runs is noise of the wheels and veering: no gap depends on it.
+TEST(Survey, StraightRunsHaveNoCauseThatDependsOnTheYawRate) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const char* effect : {"none", "rolling_resistance --size 0.012", "gear_efficiency --size 0.11"}) {
+    Dataset day = testing::blind_day(std::string("--effect ") + effect + " --protocol 24 --seed 31");
+    std::erase_if(day.runs, [](const auto& run) {
+      const std::vector<double>& gyro = run.log.gyro_yaw_rate_rad_s;
+      return std::ranges::count_if(gyro, [](double rad_s) { return std::abs(rad_s) > 0.1; }) > 0;
+    });
+    ASSERT_GT(day.runs.size(), 8U);
+    const Diagnosis d = diagnose(day, {.bootstrap = 20});
+    EXPECT_TRUE(d.unknowns.empty()) << effect << ": " << d.unknowns.front().depends_on;
+    EXPECT_NE(d.verdict, Verdict::partly_explained) << effect;
+    EXPECT_NE(d.verdict, Verdict::unexplained) << effect;
+  }
 }
 
 /// The search may find an unknown term in very few runs: it is no cause.

@@ -79,6 +79,25 @@ runs: [{file: a.csv}]
   EXPECT_TRUE(artifact(dataset, "unsigned", "motor_current_left_A"));
 }
 
+TEST(DatasetFile, APayloadThatContradictsTheLogIsAFinding) {
+  const ScratchDirectory scratch;
+  scratch.write(
+      "a.csv",
+      "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,payload_kg\n0,0,0,4\n1,1,1,4\n2,2,2,10\n");
+  const auto stated = [&](const std::string& payload) {
+    return read_dataset(
+        scratch.write("d.yaml", dataset_yaml("\nruns: [{file: a.csv, payload_kg: " + payload + "}]\n")));
+  };
+  const Dataset contradicts = stated("10"), agrees = stated("[{from_s: 0, kg: 4}, {from_s: 2, kg: 10}]");
+  ASSERT_EQ(contradicts.artifacts.size(), 1u);
+  EXPECT_EQ(contradicts.artifacts[0].kind, "contradiction");
+  EXPECT_EQ(contradicts.artifacts[0].channel, "payload_kg");
+  EXPECT_EQ(contradicts.artifacts[0].count, 2u);
+  EXPECT_EQ(contradicts.artifacts[0].description, "the log has 4 kg, the dataset file 10 kg, which counts");
+  EXPECT_EQ(contradicts.runs[0].payload.front().payload_kg, 10);
+  EXPECT_TRUE(agrees.artifacts.empty());
+}
+
 TEST(DatasetFile, EncoderTicksBecomeSpeeds) {
   const ScratchDirectory scratch;
   scratch.write("a.csv", "time_s,l,r\n0,65534,3\n0.5,0,1\n1.0,2,65535\n");

@@ -1,0 +1,40 @@
+#include "diagnosis/signals/manoeuvres.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "diagnosis/thresholds.hpp"
+
+namespace joulepath {
+
+Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
+  Manoeuvres share;
+  double total = 0;
+  for (const RunSignals& run : signals)
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const double left = run.wheel_speed_rad_s.left[j], right = run.wheel_speed_rad_s.right[j];
+      total += 1;
+      share.turning += std::abs(right - left) > kTurningShare * (std::abs(left) + std::abs(right)) &&
+                       std::abs(right - left) > kMovingWheel_rad_s;
+      share.reverse += left < -kMovingWheel_rad_s && right < -kMovingWheel_rad_s;
+      share.still += std::abs(left) < kMovingWheel_rad_s && std::abs(right) < kMovingWheel_rad_s;
+    }
+  if (total == 0) return {1, 1, 1};
+  return {share.turning / total, share.reverse / total, share.still / total};
+}
+
+RunSignals straightened(RunSignals run) {
+  for (Sided<Eigen::VectorXd>* of : {&run.wheel_speed_rad_s, &run.wheel_acceleration_rad_s2,
+                                     &run.wheel_angle_rad, &run.wheel_along_x_rad, &run.wheel_along_y_rad})
+    of->left = of->right = Eigen::VectorXd(0.5 * (of->left + of->right));
+  return run;
+}
+
+bool has_two_payloads(const std::vector<RunSignals>& signals) {
+  std::set<double> payloads;
+  for (const RunSignals& run : signals)
+    if (run.payload_known) payloads.insert(run.payload_kg.begin(), run.payload_kg.end());
+  return payloads.size() > 1;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/signals/run_signals.hpp"
+
+namespace joulepath {
+
+/// What the runs drive, as shares of all samples.
+struct Manoeuvres {
+  double turning{}, reverse{}, still{};
+};
+
+[[nodiscard]] Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals);
+
+[[nodiscard]] inline bool turns(const Manoeuvres& share) { return share.turning >= kLeastManoeuvreShare; }
+[[nodiscard]] inline bool reverses(const Manoeuvres& share) { return share.reverse >= kLeastManoeuvreShare; }
+
+/// The run with the mean of both wheels at each wheel. Where no run turns, the wheels differ by noise: a
+/// signature that follows it finds it again in the measured heading, which does not follow it (errors in
+/// variables), and moves the half track or an unknown cause.
+[[nodiscard]] RunSignals straightened(RunSignals run);
+
+/// Whether the runs state at least two payloads.
+[[nodiscard]] bool has_two_payloads(const std::vector<RunSignals>& signals);
+
+}  // namespace joulepath
