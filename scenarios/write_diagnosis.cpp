@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/diagnosis_sentence.hpp"
+#include "scenarios/next_step.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
@@ -160,6 +161,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"where", where},
       {"verdict", verdict_name(d.verdict)},
       {"sentence", diagnosis_sentence(d)},
+      {"next_step", next_step(d)},
       {"causes", causes},
       {"ranking", ranking},
       {"unknowns", unknowns},

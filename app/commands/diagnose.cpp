@@ -9,6 +9,7 @@
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/next_step.hpp"
 #include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
 
@@ -24,19 +25,6 @@ std::string cause_text(const Cause& cause) {
     text += "  " + p.name + " = " + figure(p.value, 4) + " [" + figure(p.interval_95.first, 3) + ", " +
             figure(p.interval_95.second, 3) + "]";
   return text;
-}
-
-/// The meaning of the verdict, and the next step for the user.
-std::string advice(const Diagnosis& d) {
-  const VerdictWords& words = words_of(d.verdict);
-  std::string next = words.next_step;
-  if (d.verdict == Verdict::explained && !d.corrected_robot && d.corrected_instruments.empty())
-    next = "No correction shrinks it on held-out runs: none is written.";
-  if (d.verdict == Verdict::ambiguous && d.next.motions.empty())
-    next = "Log more runs and channels: the notes list what is missing.";
-  if (d.verdict == Verdict::data_suspect)
-    next += " joulepath check DATASET --repair FILE writes it repaired.";
-  return words.meaning + (next.empty() ? "" : " " + next);
 }
 
 void print_where(std::ostream& out, const Diagnosis& d) {
@@ -55,7 +43,8 @@ void print_where(std::ostream& out, const Diagnosis& d) {
 void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& note : d.notes) out << "note: " << note << '\n';
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
-  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << advice(d) << '\n';
+  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". "
+      << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect) return;
   const EnergyGap& e = d.gap.energy;
