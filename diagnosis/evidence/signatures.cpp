@@ -281,7 +281,7 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {
   Eigen::VectorXd sd(6);
-  const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + 1e-3),
+  const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + kLeastChangingFriction_Nm),
                ohm = kRunChange * robot.motor.left.resistance_ohm;
   sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W;
   return sd.cwiseAbs2();

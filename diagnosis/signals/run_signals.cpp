@@ -22,9 +22,6 @@ struct UniformLog {
   bool resampled{};
 };
 
-/// Greatest ratio of samples on the uniform grid to samples of the log.
-constexpr double kMostGrowth = 50.0;
-
 UniformLog uniform_grid(const Samples& time_s) {
   Samples steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
