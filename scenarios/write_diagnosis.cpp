@@ -76,6 +76,44 @@ Json cause_json(const Cause& cause) {
           {"shrink_fraction_alone", six_digits(cause.shrink_fraction_alone)}};
 }
 
+/// A list with one entry for each value, as `entry` writes it.
+template <class Value, class Entry>
+Json list_json(const std::vector<Value>& values, const Entry& entry) {
+  Json list = Json::array();
+  for (const Value& value : values) list.push_back(entry(value));
+  return list;
+}
+
+Json ranked_json(const RankedEffect& ranked) {
+  return {{"effect", ranked.effect}, {"probability", six_digits(ranked.probability)}};
+}
+
+Json unknown_json(const UnknownCause& unknown) {
+  return {{"depends_on", unknown.depends_on},
+          {"probability", six_digits(unknown.probability)},
+          {"share", six_digits(unknown.share)}};
+}
+
+Json small_json(const SmallEffect& small) {
+  return {{"effect", small.effect},
+          {"probability", six_digits(small.probability)},
+          {"evidence", six_digits(small.evidence)},
+          {"size", six_digits(small.size)}};
+}
+
+Json correlation_json(const ParameterCorrelation& pair) {
+  return {
+      {"parameter", pair.parameter}, {"other", pair.other}, {"correlation", six_digits(pair.correlation)}};
+}
+
+Json data_check_json(const DataCheck& check) {
+  return {{"run", check.run.empty() ? "all" : check.run},
+          {"channel", check.channel},
+          {"kind", check.kind},
+          {"evidence", check.evidence},
+          {"repair", check.repair}};
+}
+
 Json motion_json(const PrescribedMotion& m) {
   Json json{{"profile", std::string(kMotionProfileNames[static_cast<std::size_t>(m.profile)])}};
   const auto add = [&](const char* key, const std::optional<double>& value) {
@@ -95,9 +133,7 @@ Json next_json(const NextExperiment& next) {
   Json motion = Json::object();
   if (next.motions.size() == 1) motion = motion_json(next.motions.front());
   if (!next.motions.empty()) {
-    Json legs = Json::array();
-    for (const PrescribedMotion& m : next.motions) legs.push_back(motion_json(m));
-    motion["legs"] = legs;
+    motion["legs"] = list_json(next.motions, motion_json);
     motion["payload_kg"] = six_digits(next.payload_kg);
     motion["why"] = next.why;
   }
@@ -109,16 +145,7 @@ Json next_json(const NextExperiment& next) {
 
 }  // namespace
 
-Json data_checks_json(const std::vector<DataCheck>& checks) {
-  Json json = Json::array();
-  for (const DataCheck& check : checks)
-    json.push_back({{"run", check.run.empty() ? "all" : check.run},
-                    {"channel", check.channel},
-                    {"kind", check.kind},
-                    {"evidence", check.evidence},
-                    {"repair", check.repair}});
-  return json;
-}
+Json data_checks_json(const std::vector<DataCheck>& checks) { return list_json(checks, data_check_json); }
 
 Json isolability_json(const Isolability& isolability) {
   Json effects = Json::array(), pairs = Json::array();
@@ -136,36 +163,17 @@ Json isolability_json(const Isolability& isolability) {
 }
 
 std::string diagnosis_json(const Diagnosis& d) {
-  Json where = Json::array(), causes = Json::array(), ranking = Json::array();
-  for (const WhereCell& cell : d.where) where.push_back(where_json(cell));
-  for (const Cause& cause : d.causes) causes.push_back(cause_json(cause));
-  for (const RankedEffect& r : d.ranking)
-    ranking.push_back({{"effect", r.effect}, {"probability", six_digits(r.probability)}});
-  Json unknowns = Json::array(), small = Json::array();
-  for (const UnknownCause& u : d.unknowns)
-    unknowns.push_back({{"depends_on", u.depends_on},
-                        {"probability", six_digits(u.probability)},
-                        {"share", six_digits(u.share)}});
-  for (const SmallEffect& s : d.below_materiality)
-    small.push_back({{"effect", s.effect},
-                     {"probability", six_digits(s.probability)},
-                     {"evidence", six_digits(s.evidence)},
-                     {"size", six_digits(s.size)}});
-  Json correlations = Json::array();
-  for (const ParameterCorrelation& c : d.correlations)
-    correlations.push_back(
-        {{"parameter", c.parameter}, {"other", c.other}, {"correlation", six_digits(c.correlation)}});
   const Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
-      {"where", where},
+      {"where", list_json(d.where, where_json)},
       {"verdict", verdict_name(d.verdict)},
       {"sentence", diagnosis_sentence(d)},
       {"next_step", next_step(d)},
-      {"causes", causes},
-      {"ranking", ranking},
-      {"unknowns", unknowns},
-      {"below_materiality", small},
+      {"causes", list_json(d.causes, cause_json)},
+      {"ranking", list_json(d.ranking, ranked_json)},
+      {"unknowns", list_json(d.unknowns, unknown_json)},
+      {"below_materiality", list_json(d.below_materiality, small_json)},
       {"leftover",
        {{"significant", d.leftover_significant},
         {"description", d.leftover_description},
@@ -174,7 +182,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
-      {"correlations", correlations},
+      {"correlations", list_json(d.correlations, correlation_json)},
       {"isolability", isolability_json(d.isolability)},
       {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},

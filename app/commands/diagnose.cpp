@@ -40,13 +40,7 @@ void print_where(std::ostream& out, const Diagnosis& d) {
   table.print(out);
 }
 
-void print_summary(std::ostream& out, const Diagnosis& d) {
-  for (const std::string& note : d.notes) out << "note: " << note << '\n';
-  for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
-  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". "
-      << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
-  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
-  if (d.verdict == Verdict::data_suspect) return;
+void print_gap(std::ostream& out, const Diagnosis& d) {
   const EnergyGap& e = d.gap.energy;
   out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
@@ -54,6 +48,10 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
     out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
         << percent(e.shrink_interval_95.first) << ", " << percent(e.shrink_interval_95.second) << "]";
   out << ", noise floor " << figure(e.noise_floor_percent, 3) << " %\n";
+}
+
+/// What was found: causes, or candidates where none is named; unknown causes; small effects.
+void print_causes(std::ostream& out, const Diagnosis& d) {
   for (const Cause& cause : d.causes) {
     out << "cause: " << cause_text(cause) << "  probability " << figure(cause.probability, 3) << '\n';
     if (cause.indistinguishable_from.empty()) continue;
@@ -72,6 +70,10 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const SmallEffect& small : d.below_materiality)
     out << "below materiality: " << small.effect << "  probability " << figure(small.probability, 3)
         << ", evidence " << figure(small.evidence, 3) << ", " << figure(small.size, 2) << " of the floor\n";
+}
+
+/// What the causes are worth: in plans, against the most flexible model and against a wrong candidate.
+void print_worth(std::ostream& out, const Diagnosis& d) {
   if (d.decision_missions > 0)
     out << "decisions: plans with the uncorrected model need " << figure(d.joules_lost_percent, 2)
         << " % more energy on " << d.decision_missions << " standard missions\n";
@@ -81,6 +83,18 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (!d.control_effect.empty())
     out << "control: " << d.control_effect << " (a wrong candidate) shrinks the gap by "
         << percent(d.control_shrink_fraction) << '\n';
+}
+
+void print_summary(std::ostream& out, const Diagnosis& d) {
+  for (const std::string& note : d.notes) out << "note: " << note << '\n';
+  for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
+  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". "
+      << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
+  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
+  if (d.verdict == Verdict::data_suspect) return;
+  print_gap(out, d);
+  print_causes(out, d);
+  print_worth(out, d);
   print_where(out, d);
   if (!d.next.motions.empty())
     out << "next run: " << d.next.why << " (expected evidence " << figure(d.next.expected_evidence, 3)

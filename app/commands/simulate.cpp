@@ -84,6 +84,15 @@ std::string numbered(const char* stem, std::size_t number) {
   return std::string(stem) + (number < 10 ? "_0" : "_") + std::to_string(number) + ".csv";
 }
 
+std::vector<std::string> names_of_files(std::size_t runs) {
+  std::vector<std::string> names{"dataset.yaml", "robot.yaml", "simulation.json"};
+  for (std::size_t k = 1; k <= runs; ++k) {
+    names.push_back(numbered("run", k));
+    names.push_back(numbered("executed", k));
+  }
+  return names;
+}
+
 class SimulateCommand : public Command {
  public:
   SimulateCommand()
@@ -132,13 +141,7 @@ class SimulateCommand : public Command {
   }
 
   int run() override {
-    const std::size_t count = inputs_.size() * repeat_;
-    std::vector<std::string> names{"dataset.yaml", "robot.yaml", "simulation.json"};
-    for (std::size_t k = 1; k <= count; ++k) {
-      names.push_back(numbered("run", k));
-      names.push_back(numbered("executed", k));
-    }
-    OutputDirectory out(out_, names, common_.force);
+    OutputDirectory out(out_, names_of_files(inputs_.size() * repeat_), common_.force);
     std::vector<EffectSetting> effects;
     for (const std::string& text : effects_) effects.push_back(parse_effect(text));
     Json report{{"schema", "joulepath/simulation/1"},
