@@ -1,5 +1,7 @@
 #include "scenarios/next_step.hpp"
 
+#include "model/text_of_list.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -9,11 +11,10 @@ bool is_corrected(const Diagnosis& d) { return d.corrected_robot || !d.corrected
 
 /// Where to look for what no effect explains.
 std::string examine(const Diagnosis& d) {
-  std::string quantities;
-  for (const UnknownCause& unknown : d.unknowns)
-    quantities += (quantities.empty() ? "" : ", ") + unknown.depends_on;
+  std::vector<std::string> quantities;
+  for (const UnknownCause& unknown : d.unknowns) quantities.push_back(unknown.depends_on);
   return quantities.empty() ? "Look at the runs and places with the largest shares of the gap."
-                            : "Examine the robot where the gap depends on " + quantities + ".";
+                            : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
 }
 
 }  // namespace

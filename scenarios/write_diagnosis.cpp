@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "model/text_of_list.hpp"
 #include "scenarios/diagnosis_sentence.hpp"
 #include "scenarios/next_step.hpp"
 #include "scenarios/significant.hpp"
@@ -63,7 +64,7 @@ Json where_json(const WhereCell& cell) {
   return json;
 }
 
-Json cause_json(const Cause& cause) {
+Json named_cause_json(const Cause& cause) {
   Json parameters = Json::object();
   if (cause.effect.side) parameters["side"] = {{"value", side_name(*cause.effect.side)}};
   for (const FoundParameter& p : cause.parameters)
@@ -78,7 +79,7 @@ Json cause_json(const Cause& cause) {
 
 /// A list with one entry for each value, as `entry` writes it.
 template <class Value, class Entry>
-Json list_json(const std::vector<Value>& values, const Entry& entry) {
+Json each_json(const std::vector<Value>& values, const Entry& entry) {
   Json list = Json::array();
   for (const Value& value : values) list.push_back(entry(value));
   return list;
@@ -133,7 +134,7 @@ Json next_json(const NextExperiment& next) {
   Json motion = Json::object();
   if (next.motions.size() == 1) motion = motion_json(next.motions.front());
   if (!next.motions.empty()) {
-    motion["legs"] = list_json(next.motions, motion_json);
+    motion["legs"] = each_json(next.motions, motion_json);
     motion["payload_kg"] = six_digits(next.payload_kg);
     motion["why"] = next.why;
   }
@@ -145,7 +146,7 @@ Json next_json(const NextExperiment& next) {
 
 }  // namespace
 
-Json data_checks_json(const std::vector<DataCheck>& checks) { return list_json(checks, data_check_json); }
+Json data_checks_json(const std::vector<DataCheck>& checks) { return each_json(checks, data_check_json); }
 
 Json isolability_json(const Isolability& isolability) {
   Json effects = Json::array(), pairs = Json::array();
@@ -166,14 +167,14 @@ std::string diagnosis_json(const Diagnosis& d) {
   const Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
-      {"where", list_json(d.where, where_json)},
+      {"where", each_json(d.where, where_json)},
       {"verdict", verdict_name(d.verdict)},
       {"sentence", diagnosis_sentence(d)},
       {"next_step", next_step(d)},
-      {"causes", list_json(d.causes, cause_json)},
-      {"ranking", list_json(d.ranking, ranked_json)},
-      {"unknowns", list_json(d.unknowns, unknown_json)},
-      {"below_materiality", list_json(d.below_materiality, small_json)},
+      {"causes", each_json(d.causes, named_cause_json)},
+      {"ranking", each_json(d.ranking, ranked_json)},
+      {"unknowns", each_json(d.unknowns, unknown_json)},
+      {"below_materiality", each_json(d.below_materiality, small_json)},
       {"leftover",
        {{"significant", d.leftover_significant},
         {"description", d.leftover_description},
@@ -182,7 +183,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
-      {"correlations", list_json(d.correlations, correlation_json)},
+      {"correlations", each_json(d.correlations, correlation_json)},
       {"isolability", isolability_json(d.isolability)},
       {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
@@ -206,9 +207,8 @@ std::string motion_text(const PrescribedMotion& motion) {
 
 std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file) {
   std::string text = "schema: joulepath/mission/1\n";
-  text += "# Separates: ";
-  for (std::size_t k = 0; k < next.separates.size(); ++k) text += (k ? ", " : "") + next.separates[k];
-  text += "\n# " + next.why + "\nrobot: " + robot_file + "\nstart: {x_m: 0, y_m: 0, heading_rad: 0}\nlegs:\n";
+  text += "# Separates: " + text_of_list(next.separates) + "\n# " + next.why + "\nrobot: " + robot_file +
+          "\nstart: {x_m: 0, y_m: 0, heading_rad: 0}\nlegs:\n";
   for (const PrescribedMotion& motion : next.motions)
     text +=
         "  - {motion: " + motion_text(motion) + ", payload_kg: " + significant_text(next.payload_kg) + "}\n";

@@ -7,6 +7,7 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "model/effects/effect_label.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/next_step.hpp"
@@ -19,8 +20,7 @@ namespace {
 std::string percent(double fraction) { return figure(100 * fraction, 3) + " %"; }
 
 std::string cause_text(const Cause& cause) {
-  std::string text = cause.effect.name;
-  if (cause.effect.side) text += std::string(" (") + side_name(*cause.effect.side) + ")";
+  std::string text = effect_label(cause.effect);
   for (const FoundParameter& p : cause.parameters)
     text += "  " + p.name + " = " + figure(p.value, 4) + " [" + figure(p.interval_95.first, 3) + ", " +
             figure(p.interval_95.second, 3) + "]";

@@ -10,6 +10,7 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/config_error.hpp"
+#include "model/effects/effect_label.hpp"
 #include "model/limit_table.hpp"
 #include "model/motions.hpp"
 // Design: docs/decisions/0471-the-next-run-is-weighed-like-the-present-ones.md
@@ -92,18 +93,13 @@ Trial best_of(const Identification& id, const Robot& robot, const std::vector<Ri
   return *std::ranges::max_element(trials, {}, &Trial::least_ratio);
 }
 
-std::string label_of(const Cause& cause) {
-  return cause.effect.side ? cause.effect.name + " (" + side_name(*cause.effect.side) + ")"
-                           : cause.effect.name;
-}
-
 /// Effects that the present runs leave open: of the first group, else the likeliest ones of an open verdict.
 std::vector<std::string> open_labels(const std::vector<Cause>& causes,
                                      const std::vector<RankedEffect>& ranking, Verdict verdict) {
   std::vector<std::string> labels;
   for (const Cause& cause : causes) {
     if (cause.indistinguishable_from.empty()) continue;
-    labels.push_back(label_of(cause));
+    labels.push_back(effect_label(cause.effect));
     std::ranges::copy(cause.indistinguishable_from, std::back_inserter(labels));
     break;
   }
