@@ -136,7 +136,7 @@ class SimulateCommand : public Command {
     line.option("--bandwidth-per-s", controller_.bandwidth_per_s, "bandwidth of the wheel-speed loops")
         .between(0.1, 200.0)
         .shows_default();
-    line.flag("!--no-feed-forward", controller_.feed_forward, "feedback only");
+    line.flag("--no-feed-forward", feedback_only_, "feedback only");
     add_common_flags(line, common_, "qjfu");
   }
 
@@ -185,6 +185,7 @@ class SimulateCommand : public Command {
     SimulationRequest request = simulation_request(input, effects, ideal_, seed);
     request.time_of_day_s = hour_s;
     request.controller = controller_;
+    request.controller.feed_forward = !feedback_only_;
     request.sensors.sample_rate_Hz = sensors_.sample_rate_Hz;
     request.sensors.electrical_delay_s = sensors_.electrical_delay_s;
     if (inductance_H_)
@@ -220,7 +221,7 @@ class SimulateCommand : public Command {
   double time_of_day_s_{};
   SensorSettings sensors_{};
   ControllerSettings controller_{};
-  bool ideal_{};
+  bool ideal_{}, feedback_only_{};
   std::optional<double> inductance_H_{};
   CommonOptions common_{};
 };
