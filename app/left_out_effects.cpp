@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "model/effects/catalog.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -27,8 +28,7 @@ std::vector<std::string> names_near(const std::string& name) {
 }
 
 std::string unknown_effect(const std::string& name) {
-  std::string near;
-  for (const std::string& candidate : names_near(name)) near += (near.empty() ? "" : ", ") + candidate;
+  const std::string near = text_of_list(names_near(name));
   return "--without: no effect '" + name + "'" +
          (near.empty() ? "; `joulepath effects` lists the names" : " (did you mean " + near + "?)");
 }

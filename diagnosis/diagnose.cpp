@@ -73,7 +73,35 @@ double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
   return std::min(1.0, sum);
 }
 
-/// The steps in their order; each reads what the steps before it found, and changes none of it.
+/// What the held-out runs say of the named causes: verdict, gap, causes, and what they are worth.
+Diagnosis conclusion(const Examination& x, const Names& names, const Validation& validation,
+                     std::size_t bootstrap) {
+  const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
+  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);
+  GapReport gap = held_out_gap(x, validation, bootstrap);
+  gap.energy.detectable_percent = detectable_percent;
+  const Causes causes = report_causes(x, names, validation, gap.energy);
+  const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
+  return {.gap = gap,
+          .verdict = verdict,
+          .causes = causes.causes,
+          .ranking = rank_effects(names.probabilities, names.surest),
+          .unknowns = unknowns,
+          .below_materiality = below_materiality(x, names),
+          .leftover_significant = !depends_on.empty(),
+          .leftover_share = share_of(unknowns, verdict),
+          .leftover_description = depends_on,
+          .ceiling_shrink_fraction = ceiling_shrink_fraction(x, !named.empty(), gap.energy),
+          .control_effect = control.effect,
+          .control_shrink_fraction = control.shrink_fraction,
+          .pinned_combination = causes.pinned_combination,
+          .correlations = causes.correlations,
+          .notes = joined({judgment_notes, {all_clear_note}}),
+          .validation_runs = names_of(x.dataset, x.runs.validation.runs),
+          .validation_method = method_of(x.runs)};
+}
+
+/// The steps in their order; each reads what the steps before it found.
 Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const DiagnoseOptions& options) {
   const Survey survey = survey_dataset(dataset, runs.signals);
   std::set<std::string> without = survey.invisible_effects;
@@ -81,51 +109,27 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   const Identification id = identify(runs.diagnosis, without);
   const Examination x{.dataset = dataset, .runs = runs, .id = id};
   const std::vector<OtherPrediction> others = other_predictions(dataset, runs.signals, runs.options);
-  const std::vector<WhereCell> where =
-      localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
   const Names names = choose_names(x);
-  const std::vector<RankedEffect> ranking = rank_effects(names.probabilities, names.surest);
   const Validation validation = validate(x, judge(x, names));
-  const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
-  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged);
-  GapReport gap = held_out_gap(x, validation, options.bootstrap);
-  gap.energy.detectable_percent = detectable_percent;
-  const Causes causes = report_causes(x, names, validation, gap.energy);
-  const double ceiling = ceiling_shrink_fraction(x, !named.empty(), gap.energy);
-  const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
   const Correction correction = correction_of(x, validation);
-  return {.gap = gap,
-          .where = where,
-          .verdict = verdict,
-          .causes = causes.causes,
-          .ranking = ranking,
-          .unknowns = unknowns,
-          .below_materiality = below_materiality(x, names),
-          .leftover_significant = !depends_on.empty(),
-          .leftover_share = share_of(unknowns, verdict),
-          .leftover_description = depends_on,
-          .next = propose_run(id, dataset.robot, causes.causes, ranking, verdict),
-          .ceiling_shrink_fraction = ceiling,
-          .control_effect = control.effect,
-          .control_shrink_fraction = control.shrink_fraction,
-          .pinned_combination = causes.pinned_combination,
-          .correlations = causes.correlations,
-          .isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
-                                     {id.equations.noise, id.equations.run_variance, id.dispersion},
-                                     survey.invisible_effects, options.without),
-          .estimated_payload_kg = runs.diagnosis.estimated_payload_kg,
-          .missing_channels = survey.missing_channels,
-          .notes = joined({survey.notes,
-                           taken_out(options.without),
-                           {told_by_others(runs.signals, others)},
-                           judgment_notes,
-                           {all_clear_note},
-                           correction.notes,
-                           {told_by_energies(dataset, correction)}}),
-          .validation_runs = names_of(dataset, runs.validation.runs),
-          .validation_method = method_of(runs),
-          .corrected_robot = correction.robot,
-          .corrected_instruments = correction.instruments};
+  Diagnosis d = conclusion(x, names, validation, options.bootstrap);
+  d.where = localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
+  d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.verdict);
+  d.isolability =
+      isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
+                  {id.equations.noise, id.equations.run_variance, id.dispersion}, survey.invisible_effects,
+                  options.without);
+  d.estimated_payload_kg = runs.diagnosis.estimated_payload_kg;
+  d.missing_channels = survey.missing_channels;
+  d.notes = joined({survey.notes,
+                    taken_out(options.without),
+                    {told_by_others(runs.signals, others)},
+                    d.notes,
+                    correction.notes,
+                    {told_by_energies(dataset, correction)}});
+  d.corrected_robot = correction.robot;
+  d.corrected_instruments = correction.instruments;
+  return d;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace joulepath {
 //   calibrated      by the named command
 //   chosen          by hand on development cases (benchmarks/results/blind.md); no command repeats the choice
 // A number in parentheses is the decision in docs/decisions that tells why. Tolerances of the arithmetic stay
-// where they are used.
+// where they are used, as do grids of values that are tried, the forms of unknown terms, and the numbers of
+// the monitor and of calibrations.
 
 // Runs and samples.
 
@@ -27,6 +28,9 @@ inline constexpr std::size_t kFewHeldOut = 3;
 /// With fewer diagnosis runs noise and scatter are known too little to be sure: no effect below the
 /// materiality floor is named. Chosen.
 inline constexpr std::size_t kRunsForSmallEffects = 8;
+/// Travel of one wheel beyond the other's over their sum, from which on a run turns; folds share such runs.
+/// Chosen.
+inline constexpr double kTurningRun = 0.1;
 /// Of a log that can be smoothed, of a channel whose memory and of a pair of channels whose correlation is
 /// estimated. Chosen: guards short logs and channels that few rows have.
 inline constexpr std::size_t kLeastSamples = 40;
@@ -44,6 +48,8 @@ inline constexpr double kPeriod_s = 0.1;
 inline constexpr double kLeastKernelPeriods = 1.2;
 /// A period off by this share makes the log one that is resampled. Chosen: guards logs with lost samples.
 inline constexpr double kUnevenPeriod = 0.05;
+/// Samples of an even grid over those of an uneven log, at most. Declared: bounds memory.
+inline constexpr double kMostGrowth = 50.0;
 /// Mean square of an acceleration over that of the encoders' noise, below which it counts as none. Derived:
 /// 99.9 % of windows of eleven samples of noise are below (0510).
 inline constexpr double kAccelerationOverNoise = 3.0;
@@ -57,6 +63,8 @@ inline constexpr double kBlurredWheel_rad_s = 0.2;
 inline constexpr double kStillSpeed_m_s = 0.02;
 /// The same of its yaw rate. Physical scale.
 inline constexpr double kStillYawRate_rad_s = 0.12;
+/// Below it the direction of a turn is uncertain for an unknown moment. Physical scale.
+inline constexpr double kBlurredTurn_rad_s = 0.04;
 /// The same of a motor's current. Physical scale.
 inline constexpr double kBlurredCurrent_A = 0.03;
 /// Motor currents below it may lie in a driver's dead band. Physical scale.
@@ -78,6 +86,10 @@ inline constexpr double kSoundTorque = 0.3;
 inline constexpr double kSoundMotion = 0.1;
 /// The same of the battery's power against the motors'. Chosen (0220).
 inline constexpr double kSoundBattery = 0.05;
+/// A relation that leaves a smaller share unexplained is exact: repairs are weighed no finer. Chosen (0220).
+inline constexpr double kExactRelation = 1e-5;
+/// Exponent of the coefficients' boxes while a factor is refined: they are nearly fixed. Chosen (0220).
+inline constexpr double kRefinementFreedom = 0.05;
 /// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
 inline constexpr double kRepairGain = 4.0;
 /// The same of a relation that is doubtful only. Chosen (0220).
@@ -153,6 +165,8 @@ inline constexpr double kMostStandby = 5.0;
 inline constexpr double kMovingYawRate_rad_s = 0.1;
 /// The same of the wheels' travel. Physical scale.
 inline constexpr double kMovingTravel_m_s = 0.1;
+/// A dead voltage or wheel speed shows where the wheel turns faster. Physical scale.
+inline constexpr double kTurningWheel_rad_s = 0.6;
 /// A dead current or battery channel shows where its expected change is this share of friction or power.
 /// Chosen.
 inline constexpr double kLeastChange = 0.3;
@@ -194,6 +208,8 @@ inline constexpr double kCalibrationBox = 3.0;
 /// Friction and the windings' resistance differ from run to run by this share at first; the fit re-estimates
 /// it. Physical scale.
 inline constexpr double kRunChange = 0.02;
+/// Added to the file's dry friction for that share, where the file has none. Physical scale.
+inline constexpr double kLeastChangingFriction_Nm = 1e-3;
 /// The same of a gyro's bias. Physical scale.
 inline constexpr double kRunGyroBias_rad_s = 1e-3;
 /// The same of the standby power. Physical scale.
@@ -237,6 +253,8 @@ inline constexpr double kLeastSize = 0.03;
 inline constexpr double kShareOfFormError = 0.05;
 /// Overlap from which on all of an effect may be the others' inexact form. Chosen (0045), with the above.
 inline constexpr double kFullOverlap = 0.25;
+/// Ridge on columns of length 1, for that overlap: forms that hardly differ. Chosen (0043).
+inline constexpr double kOverlapRidge = 1e-3;
 /// Prior width of an amplitude in sizes worth noticing. Chosen.
 inline constexpr double kAmplitudePriorSteps = 4.0;
 /// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
@@ -255,6 +273,8 @@ inline constexpr double kUsualTime_s = 200.0;
 inline constexpr double kShapeSpread = 0.5;
 /// Step of the scan for a region on the floor; its edges are known as well before a fit. Chosen.
 inline constexpr double kRegionStep_m = 0.1;
+/// Steps of that scan along an axis; those of longer floors are wider. Declared: bounds time.
+inline constexpr double kMostRegionSteps = 400.0;
 /// Samples inside of a region and outside. Chosen.
 inline constexpr double kLeastSamplesOfRegion = 15.0;
 /// Prior width of an unknown term over the amplitude that explains all residuals. Chosen.
@@ -263,6 +283,8 @@ inline constexpr double kUnknownPrior = 0.5;
 inline constexpr double kEarliestReading_s = -0.2;
 /// See kEarliestReading_s, to. Physical scale.
 inline constexpr double kLatestReading_s = 0.4;
+/// Step of that search; the fit refines the delay. Declared: bounds time.
+inline constexpr double kDelayStep_s = 0.02;
 /// Share of the windings' sum of squares that a delay must explain. Chosen.
 inline constexpr double kNotableDelayGain = 0.15;
 
@@ -298,6 +320,8 @@ inline constexpr double kLeastLossOfBox = 50.0;
 inline constexpr double kScoreFlattening = 0.7;
 /// -2 log likelihood ratio that tells two effects apart. Derived: 2 ln 20.
 inline constexpr double kStandInLoss = 6.0;
+/// An amplitude that is fewer sigmas outside of its accepted range may be inside. Derived: 95 %.
+inline constexpr double kSigmasOutOfRange = 2.0;
 /// Explanations compared with a named one. Declared: bounds time.
 inline constexpr std::size_t kMostRivals = 100;
 /// Prior widths that leave an amplitude to the data. Chosen.
@@ -313,6 +337,17 @@ inline constexpr std::size_t kLongestRanking = 12;
 inline constexpr double kSurest = 0.97;
 /// The same from fewer than kRunsForSmallEffects, same command.
 inline constexpr double kSurestOfFewRuns = 0.85;
+
+// The next run.
+
+/// Effects that one run is to tell apart. Declared: bounds time.
+inline constexpr std::size_t kMostSeparated = 4;
+/// Of the ranking, where an open verdict has no group. Declared.
+inline constexpr std::size_t kMostOpenEffects = 3;
+/// Rounds of changing one free parameter of the best manoeuvre. Declared: bounds time.
+inline constexpr int kRunRefinements = 2;
+/// Of standing still. Declared.
+inline constexpr double kLongestStand_s = 60.0;
 
 // An all-clear.
 
@@ -358,6 +393,13 @@ inline constexpr double kNegligibleShare = 0.01;
 inline constexpr double kSpeedCell_m_s = 0.2;
 /// Width. Declared.
 inline constexpr double kTimeCell_s = 60.0;
+/// Width of a square. Declared.
+inline constexpr double kFloorCell_m = 1.0;
+/// Of a full turn. Declared.
+inline constexpr int kHeadingCells = 8;
+/// Least part of the winding noise's variance that is the voltage's, where the current's takes most of it.
+/// Chosen.
+inline constexpr double kLeastVoltageNoise = 0.1;
 /// A slower body stands. Physical scale.
 inline constexpr double kStandstillAlong_m_s = 0.02;
 /// The same of a wheel about the body's middle. Physical scale.
@@ -379,6 +421,10 @@ inline constexpr double kUsualScatter = 0.03;
 inline constexpr double kLeastScatter = 0.005;
 /// Prior width of the coefficients of a smooth relative error. Chosen.
 inline constexpr double kSmoothPriorSd = 0.2;
+/// Scale of the payload in that error; that of the acceleration is kUsualAcceleration_m_s2. Physical scale.
+inline constexpr double kPayloadOfSmoothError_kg = 10.0;
+/// Runs that turn less are straight. Declared.
+inline constexpr double kStraight_rad = 0.05;
 /// Degrees of freedom from which a scatter is estimated. Chosen: guards fewer runs than variables.
 inline constexpr double kLeastFreedom = 4.0;
 /// Error of a braking rate or an entry speed that nobody recorded, 1-sigma, relative. Declared (0044).

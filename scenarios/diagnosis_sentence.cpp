@@ -6,6 +6,8 @@
 
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
+#include "model/effects/effect_label.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 namespace {
@@ -25,20 +27,13 @@ std::string plain_words(std::string name) {
 
 /// "dragging wheel (left), 0.24 N m": the effect with its strength.
 std::string cause_words(const Cause& cause) {
-  std::string text = plain_words(cause.effect.name);
-  if (cause.effect.side) text += std::string(" (") + side_name(*cause.effect.side) + ")";
+  const std::string text = plain_words(effect_label(cause.effect));
   if (cause.parameters.empty()) return text;
   const FoundParameter& strength = cause.parameters.front();
   const EffectDescription* effect = find_effect(cause.effect.name);
   const ParameterDescription* described = effect ? effect->find(strength.name) : nullptr;
   const std::string unit = described && described->unit != "1" ? described->unit : "";
   return text + ", " + three_digits(strength.value) + (unit.empty() ? "" : " " + unit);
-}
-
-std::string text_of_list(const std::vector<std::string>& parts, const std::string& between) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
 }
 
 std::string causes_words(const std::vector<Cause>& causes) {
@@ -75,7 +70,7 @@ std::string group_words(const Diagnosis& d) {
     if (cause.indistinguishable_from.empty()) continue;
     std::vector<std::string> others;
     for (const std::string& other : cause.indistinguishable_from) others.push_back(plain_words(other));
-    return "these runs cannot tell " + cause_words(cause) + " from " + text_of_list(others, ", ") + ".";
+    return "these runs cannot tell " + cause_words(cause) + " from " + text_of_list(others) + ".";
   }
   return "the likeliest cause is uncertain: " + causes_words(d.causes) + ".";
 }

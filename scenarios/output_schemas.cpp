@@ -154,6 +154,7 @@ Schema diagnosis_schema() {
        required("where", where_schema()),
        required("verdict", choice(verdict_names())),
        optional("sentence", text(), "the answer in one line"),
+       optional("next_step", text(), "what to do next"),
        required("causes", list(cause_schema())),
        required("ranking",
                 list(open(map({required("effect", text()), required("probability", number(kFraction))})))),

@@ -21,9 +21,8 @@ bool is_orientation(const std::string& name) {
                      [&](const char* q) { return name == q; });
 }
 
-/// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
-/// one by one: a long log is in memory once.
-void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+/// Rows of the first file, from and to, within the time that all files cover.
+std::pair<long, long> rows_in_common(const std::vector<LogFile>& files) {
   double begin_s = files.front().times.front(), end_s = files.front().times.back();
   for (const auto& file : files) {
     begin_s = std::max(begin_s, file.times.front());
@@ -38,10 +37,16 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                        "times that do not overlap with those of " + files.front().table.file,
                        "files of one run on one clock",
                        "map time_s so that all files use the same clock"});
-  const long skip = first - base.begin(), end = last - base.begin();
+  return {first - base.begin(), last - base.begin()};
+}
+
+/// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
+/// one by one: a long log is in memory once.
+void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+  const auto rows = rows_in_common(files);
   const auto taken = [&](std::vector<double>& values) {
-    values.erase(values.begin() + end, values.end());
-    values.erase(values.begin(), values.begin() + skip);
+    values.erase(values.begin() + rows.second, values.end());
+    values.erase(values.begin(), values.begin() + rows.first);
     return std::move(values);
   };
   log.trajectory.time_s = taken(files.front().times);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 #include <utility>
+
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0010-one-schema-per-file.md
 namespace joulepath {
 namespace {
@@ -24,12 +26,6 @@ std::string range_text(const Range& range) {
   if (low) return (range.above_min ? " > " : " >= ") + bound_text(range.min);
   if (high) return " <= " + bound_text(range.max);
   return "";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 Value::Kind shape_of(const Schema& schema) {
@@ -89,7 +85,7 @@ void check_unknown_keys(const Node& node, const Schema& schema) {
     throw ConfigError({{node.mark().file, entry.line, entry.column},
                        node.path_of(entry.key),
                        "an unknown key",
-                       joined(names),
+                       text_of_list(names),
                        near.empty() ? "" : "did you mean " + near + "?"});
   }
 }
@@ -100,8 +96,9 @@ void check_groups(const Node& node, const Schema& schema) {
     for (const auto& name : group)
       if (node.has(name)) present.push_back(name);
     if (present.size() != 1)
-      node.fail_found(present.empty() ? "none of " + joined(group) : joined(present) + " together",
-                      "exactly one of: " + joined(group));
+      node.fail_found(
+          present.empty() ? "none of " + text_of_list(group) : text_of_list(present) + " together",
+          "exactly one of: " + text_of_list(group));
   }
 }
 
@@ -224,7 +221,7 @@ std::string accepted_by(const Schema& schema) {
     case Schema::Kind::text:
       return "a text";
     case Schema::Kind::choice:
-      return "one of: " + joined(schema.choices);
+      return "one of: " + text_of_list(schema.choices);
     case Schema::Kind::dictionary:
       return "a map whose values are each " + accepted_by(schema.parts.front());
     case Schema::Kind::list: {
@@ -239,7 +236,7 @@ std::string accepted_by(const Schema& schema) {
       if (schema.keys.size() > 12) return "a map (key: value)";
       std::vector<std::string> names;
       for (const auto& key : schema.keys) names.push_back(key.name);
-      return "a map with keys " + joined(names);
+      return "a map with keys " + text_of_list(names);
     }
     case Schema::Kind::any_of:
       break;

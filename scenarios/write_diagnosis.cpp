@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "model/text_of_list.hpp"
 #include "scenarios/diagnosis_sentence.hpp"
+#include "scenarios/next_step.hpp"
 #include "scenarios/significant.hpp"
 
 namespace joulepath {
@@ -62,7 +64,7 @@ Json where_json(const WhereCell& cell) {
   return json;
 }
 
-Json cause_json(const Cause& cause) {
+Json named_cause_json(const Cause& cause) {
   Json parameters = Json::object();
   if (cause.effect.side) parameters["side"] = {{"value", side_name(*cause.effect.side)}};
   for (const FoundParameter& p : cause.parameters)
@@ -73,6 +75,44 @@ Json cause_json(const Cause& cause) {
           {"parameters", parameters},
           {"energy_share", six_digits(cause.energy_share)},
           {"shrink_fraction_alone", six_digits(cause.shrink_fraction_alone)}};
+}
+
+/// A list with one entry for each value, as `entry` writes it.
+template <class Value, class Entry>
+Json each_json(const std::vector<Value>& values, const Entry& entry) {
+  Json list = Json::array();
+  for (const Value& value : values) list.push_back(entry(value));
+  return list;
+}
+
+Json ranked_json(const RankedEffect& ranked) {
+  return {{"effect", ranked.effect}, {"probability", six_digits(ranked.probability)}};
+}
+
+Json unknown_json(const UnknownCause& unknown) {
+  return {{"depends_on", unknown.depends_on},
+          {"probability", six_digits(unknown.probability)},
+          {"share", six_digits(unknown.share)}};
+}
+
+Json small_json(const SmallEffect& small) {
+  return {{"effect", small.effect},
+          {"probability", six_digits(small.probability)},
+          {"evidence", six_digits(small.evidence)},
+          {"size", six_digits(small.size)}};
+}
+
+Json correlation_json(const ParameterCorrelation& pair) {
+  return {
+      {"parameter", pair.parameter}, {"other", pair.other}, {"correlation", six_digits(pair.correlation)}};
+}
+
+Json data_check_json(const DataCheck& check) {
+  return {{"run", check.run.empty() ? "all" : check.run},
+          {"channel", check.channel},
+          {"kind", check.kind},
+          {"evidence", check.evidence},
+          {"repair", check.repair}};
 }
 
 Json motion_json(const PrescribedMotion& m) {
@@ -94,9 +134,7 @@ Json next_json(const NextExperiment& next) {
   Json motion = Json::object();
   if (next.motions.size() == 1) motion = motion_json(next.motions.front());
   if (!next.motions.empty()) {
-    Json legs = Json::array();
-    for (const PrescribedMotion& m : next.motions) legs.push_back(motion_json(m));
-    motion["legs"] = legs;
+    motion["legs"] = each_json(next.motions, motion_json);
     motion["payload_kg"] = six_digits(next.payload_kg);
     motion["why"] = next.why;
   }
@@ -108,16 +146,7 @@ Json next_json(const NextExperiment& next) {
 
 }  // namespace
 
-Json data_checks_json(const std::vector<DataCheck>& checks) {
-  Json json = Json::array();
-  for (const DataCheck& check : checks)
-    json.push_back({{"run", check.run.empty() ? "all" : check.run},
-                    {"channel", check.channel},
-                    {"kind", check.kind},
-                    {"evidence", check.evidence},
-                    {"repair", check.repair}});
-  return json;
-}
+Json data_checks_json(const std::vector<DataCheck>& checks) { return each_json(checks, data_check_json); }
 
 Json isolability_json(const Isolability& isolability) {
   Json effects = Json::array(), pairs = Json::array();
@@ -135,35 +164,17 @@ Json isolability_json(const Isolability& isolability) {
 }
 
 std::string diagnosis_json(const Diagnosis& d) {
-  Json where = Json::array(), causes = Json::array(), ranking = Json::array();
-  for (const WhereCell& cell : d.where) where.push_back(where_json(cell));
-  for (const Cause& cause : d.causes) causes.push_back(cause_json(cause));
-  for (const RankedEffect& r : d.ranking)
-    ranking.push_back({{"effect", r.effect}, {"probability", six_digits(r.probability)}});
-  Json unknowns = Json::array(), small = Json::array();
-  for (const UnknownCause& u : d.unknowns)
-    unknowns.push_back({{"depends_on", u.depends_on},
-                        {"probability", six_digits(u.probability)},
-                        {"share", six_digits(u.share)}});
-  for (const SmallEffect& s : d.below_materiality)
-    small.push_back({{"effect", s.effect},
-                     {"probability", six_digits(s.probability)},
-                     {"evidence", six_digits(s.evidence)},
-                     {"size", six_digits(s.size)}});
-  Json correlations = Json::array();
-  for (const ParameterCorrelation& c : d.correlations)
-    correlations.push_back(
-        {{"parameter", c.parameter}, {"other", c.other}, {"correlation", six_digits(c.correlation)}});
   const Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
-      {"where", where},
+      {"where", each_json(d.where, where_json)},
       {"verdict", verdict_name(d.verdict)},
       {"sentence", diagnosis_sentence(d)},
-      {"causes", causes},
-      {"ranking", ranking},
-      {"unknowns", unknowns},
-      {"below_materiality", small},
+      {"next_step", next_step(d)},
+      {"causes", each_json(d.causes, named_cause_json)},
+      {"ranking", each_json(d.ranking, ranked_json)},
+      {"unknowns", each_json(d.unknowns, unknown_json)},
+      {"below_materiality", each_json(d.below_materiality, small_json)},
       {"leftover",
        {{"significant", d.leftover_significant},
         {"description", d.leftover_description},
@@ -172,7 +183,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"ceiling", {{"shrink_fraction", six_digits(d.ceiling_shrink_fraction)}}},
       {"control", {{"effect", d.control_effect}, {"shrink_fraction", six_digits(d.control_shrink_fraction)}}},
       {"pinned_combination", d.pinned_combination},
-      {"correlations", correlations},
+      {"correlations", each_json(d.correlations, correlation_json)},
       {"isolability", isolability_json(d.isolability)},
       {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
@@ -196,9 +207,8 @@ std::string motion_text(const PrescribedMotion& motion) {
 
 std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file) {
   std::string text = "schema: joulepath/mission/1\n";
-  text += "# Separates: ";
-  for (std::size_t k = 0; k < next.separates.size(); ++k) text += (k ? ", " : "") + next.separates[k];
-  text += "\n# " + next.why + "\nrobot: " + robot_file + "\nstart: {x_m: 0, y_m: 0, heading_rad: 0}\nlegs:\n";
+  text += "# Separates: " + text_of_list(next.separates) + "\n# " + next.why + "\nrobot: " + robot_file +
+          "\nstart: {x_m: 0, y_m: 0, heading_rad: 0}\nlegs:\n";
   for (const PrescribedMotion& motion : next.motions)
     text +=
         "  - {motion: " + motion_text(motion) + ", payload_kg: " + significant_text(next.payload_kg) + "}\n";

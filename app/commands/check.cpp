@@ -24,6 +24,13 @@ std::string printable_text(const std::string& text) {
   return lines;
 }
 
+nlohmann::ordered_json error_json(const ConfigError& error) {
+  const auto& d = error.detail();
+  return {{"file", d.mark.file}, {"line", d.mark.line},    {"column", d.mark.column},
+          {"key", d.key},        {"found", d.found},       {"accepted", d.accepted},
+          {"hint", d.hint},      {"message", error.what()}};
+}
+
 class Check : public Command {
  public:
   Check()
@@ -51,34 +58,13 @@ class Check : public Command {
     for (const auto& file : files_) {
       try {
         const FileSummary summary = read_any_file(file, kind_, {options_.untrusted}, brief_);
-        nlohmann::ordered_json result{{"file", file},
-                                      {"ok", summary.data_checks.empty()},
-                                      {"kind", summary.kind},
-                                      {"summary", summary.text},
-                                      {"notes", summary.notes}};
-        if (summary.kind == "dataset") {
-          result["data_checks"] = data_checks_json(summary.data_checks);
-          if (!brief_) result["isolability"] = isolability_json(summary.isolability);
-        }
-        if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
-        results.push_back(std::move(result));
+        results.push_back(summary_json(file, summary));
         if (!options_.json) tell(file, summary);
         if (!summary.data_checks.empty() && code == kDone) code = kInfeasibleOrFailed;
         if (!repair_.empty()) write_repaired(file, summary);
       } catch (const ConfigError& error) {
         code = kBadInput;
-        const auto& d = error.detail();
-        results.push_back({{"file", file},
-                           {"ok", false},
-                           {"error",
-                            {{"file", d.mark.file},
-                             {"line", d.mark.line},
-                             {"column", d.mark.column},
-                             {"key", d.key},
-                             {"found", d.found},
-                             {"accepted", d.accepted},
-                             {"hint", d.hint},
-                             {"message", error.what()}}}});
+        results.push_back({{"file", file}, {"ok", false}, {"error", error_json(error)}});
         if (!options_.json)
           std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
       }
@@ -89,6 +75,20 @@ class Check : public Command {
   }
 
  private:
+  nlohmann::ordered_json summary_json(const std::string& file, const FileSummary& summary) const {
+    nlohmann::ordered_json result{{"file", file},
+                                  {"ok", summary.data_checks.empty()},
+                                  {"kind", summary.kind},
+                                  {"summary", summary.text},
+                                  {"notes", summary.notes}};
+    if (summary.kind == "dataset") {
+      result["data_checks"] = data_checks_json(summary.data_checks);
+      if (!brief_) result["isolability"] = isolability_json(summary.isolability);
+    }
+    if (!summary.proposal.empty()) result["proposal"] = summary.proposal;
+    return result;
+  }
+
   void write_repaired(const std::string& file, const FileSummary& summary) const {
     if (summary.kind != "dataset" || files_.size() != 1)
       throw ConfigError({{file, 0, 0}, "--repair", "no single dataset", "one dataset file", ""});

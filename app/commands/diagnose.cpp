@@ -7,8 +7,10 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "model/effects/effect_label.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/next_step.hpp"
 #include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
 
@@ -18,25 +20,11 @@ namespace {
 std::string percent(double fraction) { return figure(100 * fraction, 3) + " %"; }
 
 std::string cause_text(const Cause& cause) {
-  std::string text = cause.effect.name;
-  if (cause.effect.side) text += std::string(" (") + side_name(*cause.effect.side) + ")";
+  std::string text = effect_label(cause.effect);
   for (const FoundParameter& p : cause.parameters)
     text += "  " + p.name + " = " + figure(p.value, 4) + " [" + figure(p.interval_95.first, 3) + ", " +
             figure(p.interval_95.second, 3) + "]";
   return text;
-}
-
-/// The meaning of the verdict, and the next step for the user.
-std::string advice(const Diagnosis& d) {
-  const VerdictWords& words = words_of(d.verdict);
-  std::string next = words.next_step;
-  if (d.verdict == Verdict::explained && !d.corrected_robot && d.corrected_instruments.empty())
-    next = "No correction shrinks it on held-out runs: none is written.";
-  if (d.verdict == Verdict::ambiguous && d.next.motions.empty())
-    next = "Log more runs and channels: the notes list what is missing.";
-  if (d.verdict == Verdict::data_suspect)
-    next += " joulepath check DATASET --repair FILE writes it repaired.";
-  return words.meaning + (next.empty() ? "" : " " + next);
 }
 
 void print_where(std::ostream& out, const Diagnosis& d) {
@@ -52,12 +40,7 @@ void print_where(std::ostream& out, const Diagnosis& d) {
   table.print(out);
 }
 
-void print_summary(std::ostream& out, const Diagnosis& d) {
-  for (const std::string& note : d.notes) out << "note: " << note << '\n';
-  for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
-  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". " << advice(d) << '\n';
-  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
-  if (d.verdict == Verdict::data_suspect) return;
+void print_gap(std::ostream& out, const Diagnosis& d) {
   const EnergyGap& e = d.gap.energy;
   out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
@@ -65,6 +48,10 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
     out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
         << percent(e.shrink_interval_95.first) << ", " << percent(e.shrink_interval_95.second) << "]";
   out << ", noise floor " << figure(e.noise_floor_percent, 3) << " %\n";
+}
+
+/// What was found: causes, or candidates where none is named; unknown causes; small effects.
+void print_causes(std::ostream& out, const Diagnosis& d) {
   for (const Cause& cause : d.causes) {
     out << "cause: " << cause_text(cause) << "  probability " << figure(cause.probability, 3) << '\n';
     if (cause.indistinguishable_from.empty()) continue;
@@ -83,6 +70,10 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const SmallEffect& small : d.below_materiality)
     out << "below materiality: " << small.effect << "  probability " << figure(small.probability, 3)
         << ", evidence " << figure(small.evidence, 3) << ", " << figure(small.size, 2) << " of the floor\n";
+}
+
+/// What the causes are worth: in plans, against the most flexible model and against a wrong candidate.
+void print_worth(std::ostream& out, const Diagnosis& d) {
   if (d.decision_missions > 0)
     out << "decisions: plans with the uncorrected model need " << figure(d.joules_lost_percent, 2)
         << " % more energy on " << d.decision_missions << " standard missions\n";
@@ -92,6 +83,18 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (!d.control_effect.empty())
     out << "control: " << d.control_effect << " (a wrong candidate) shrinks the gap by "
         << percent(d.control_shrink_fraction) << '\n';
+}
+
+void print_summary(std::ostream& out, const Diagnosis& d) {
+  for (const std::string& note : d.notes) out << "note: " << note << '\n';
+  for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
+  out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". "
+      << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
+  for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
+  if (d.verdict == Verdict::data_suspect) return;
+  print_gap(out, d);
+  print_causes(out, d);
+  print_worth(out, d);
   print_where(out, d);
   if (!d.next.motions.empty())
     out << "next run: " << d.next.why << " (expected evidence " << figure(d.next.expected_evidence, 3)

@@ -30,7 +30,7 @@ class DriftCommand : public Command {
     line.option("DAY", days_, "datasets or logs, oldest first; the first is the calibrated day").required();
     line.option("--robot", robot_, "robot file; replaces the datasets'");
     line.option("--false-alarm-rate", settings_.false_alarm_rate,
-                "probability that a night without drift ends with 1")
+                "probability of exit code 1 after a day without drift")
         .between(1e-3, 0.5)
         .shows_default();
     add_common_flags(line, common_, "qju");

@@ -110,7 +110,7 @@ class FollowPlanCommand : public Command {
  public:
   FollowPlanCommand()
       : Command({.name = "follow",
-                 .says = "drive a plan on the simulated robot by the profile follower, with disturbances",
+                 .says = "drive a plan on the simulated robot with the profile follower, with disturbances",
                  .examples = follow_examples()}) {}
 
   void declare(CommandLine& line) override {

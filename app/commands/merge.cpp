@@ -35,7 +35,7 @@ class MergeCommand : public Command {
                  .examples =
                      "  joulepath merge out/shard_1 out/shard_2 --out out/batch\n\n"
                      "The results have the same bytes as those of one run. Shards of other inputs or of "
-                     "another version of the\nprogram are rejected, and so are an incomplete set and results "
+                     "another build of the\nprogram are rejected, and so are an incomplete set and results "
                      "that were changed after the run.\n"}) {}
 
   void declare(CommandLine& line) override {

@@ -20,7 +20,7 @@ class MonitorCommand : public Command {
  public:
   MonitorCommand()
       : Command({.name = "monitor",
-                 .says = "compare a drive with its plan while it goes on: energy, payload, battery",
+                 .says = "compare a drive with its plan while the robot drives: energy, payload, battery",
                  .examples = "  joulepath monitor out/warehouse_pick day.csv --robot robot.yaml\n"
                              "  tail -f run.jsonl | joulepath monitor out/warehouse_pick - --robot "
                              "robot.yaml --json\n"}) {}

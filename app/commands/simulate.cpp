@@ -84,6 +84,15 @@ std::string numbered(const char* stem, std::size_t number) {
   return std::string(stem) + (number < 10 ? "_0" : "_") + std::to_string(number) + ".csv";
 }
 
+std::vector<std::string> names_of_files(std::size_t runs) {
+  std::vector<std::string> names{"dataset.yaml", "robot.yaml", "simulation.json"};
+  for (std::size_t k = 1; k <= runs; ++k) {
+    names.push_back(numbered("run", k));
+    names.push_back(numbered("executed", k));
+  }
+  return names;
+}
+
 class SimulateCommand : public Command {
  public:
   SimulateCommand()
@@ -127,18 +136,12 @@ class SimulateCommand : public Command {
     line.option("--bandwidth-per-s", controller_.bandwidth_per_s, "bandwidth of the wheel-speed loops")
         .between(0.1, 200.0)
         .shows_default();
-    line.flag("!--no-feed-forward", controller_.feed_forward, "feedback only");
+    line.flag("--no-feed-forward", feedback_only_, "feedback only");
     add_common_flags(line, common_, "qjfu");
   }
 
   int run() override {
-    const std::size_t count = inputs_.size() * repeat_;
-    std::vector<std::string> names{"dataset.yaml", "robot.yaml", "simulation.json"};
-    for (std::size_t k = 1; k <= count; ++k) {
-      names.push_back(numbered("run", k));
-      names.push_back(numbered("executed", k));
-    }
-    OutputDirectory out(out_, names, common_.force);
+    OutputDirectory out(out_, names_of_files(inputs_.size() * repeat_), common_.force);
     std::vector<EffectSetting> effects;
     for (const std::string& text : effects_) effects.push_back(parse_effect(text));
     Json report{{"schema", "joulepath/simulation/1"},
@@ -182,6 +185,7 @@ class SimulateCommand : public Command {
     SimulationRequest request = simulation_request(input, effects, ideal_, seed);
     request.time_of_day_s = hour_s;
     request.controller = controller_;
+    request.controller.feed_forward = !feedback_only_;
     request.sensors.sample_rate_Hz = sensors_.sample_rate_Hz;
     request.sensors.electrical_delay_s = sensors_.electrical_delay_s;
     if (inductance_H_)
@@ -217,7 +221,7 @@ class SimulateCommand : public Command {
   double time_of_day_s_{};
   SensorSettings sensors_{};
   ControllerSettings controller_{};
-  bool ideal_{};
+  bool ideal_{}, feedback_only_{};
   std::optional<double> inductance_H_{};
   CommonOptions common_{};
 };

@@ -16,7 +16,7 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   line.option("--shard", options.shard,
               "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
   line.option("--quarantine", options.quarantine,
-              "file of JSON lines {index, reason}: jobs to skip, because they killed their process");
+              "file of JSON lines {index, reason}: jobs to skip, because they ended their process");
   line.flag("--resume", options.resume,
             "continue an interrupted run; finished plans with unchanged inputs are not repeated");
   add_cache_options(line, options.cache);

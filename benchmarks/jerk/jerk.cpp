@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "benchmarks/support/cpu_time.hpp"
 #include "model/limit_table.hpp"
 #include "planner/baselines/baseline.hpp"
 #include "planner/motion/path_motion.hpp"
@@ -34,12 +34,6 @@ struct Source {
 };
 constexpr Source kRobots[] = {
     {"nomad_super_scout", 1.0}, {"kobuki", 1.0}, {"amr_150kg", 0}, {"tug_600kg", 0}};
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
 
 template <class Work>
 double timed_ms(Work&& work) {

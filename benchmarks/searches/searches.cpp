@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "benchmarks/support/cpu_time.hpp"
 #include "planner/path/search/lattice.hpp"
 #include "planner/path/search/polyline.hpp"
 #include "planner/path/search/route.hpp"
@@ -20,12 +20,6 @@ using namespace joulepath;
 constexpr int kPairs = 24;
 constexpr SearchPlanner kPlanners[] = {SearchPlanner::bit_star, SearchPlanner::abit_star,
                                        SearchPlanner::informed_rrt_star, SearchPlanner::rrt_star};
-
-double cpu_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 struct Row {
   std::vector<double> length_m{}, time_ms{};
@@ -56,7 +50,7 @@ Row run(const RouteSpace& space, const std::vector<Pair>& pairs, int planner) {
   const FreeSpace& floor = space.any_heading();
   for (const auto& [a, b] : pairs) {
     const DiscLineCheck free(floor, a, b, FreeSpace::Cells::clear);
-    const double begin_s = cpu_s();
+    const double begin_ms = cpu_ms();
     std::vector<Point2> line;
     if (planner < 0) {
       line = Lattice(floor).route(a, b, free);
@@ -66,7 +60,7 @@ Row run(const RouteSpace& space, const std::vector<Pair>& pairs, int planner) {
       line = search_polyline(floor, request).polyline_m;
     }
     if (!line.empty()) line = pull_taut(line, free, {});
-    row.time_ms.push_back(1e3 * (cpu_s() - begin_s));
+    row.time_ms.push_back(cpu_ms() - begin_ms);
     row.length_m.push_back(line.empty() ? std::numeric_limits<double>::infinity() : polyline_length_m(line));
   }
   return row;
@@ -104,9 +98,9 @@ void pool_section(const RouteSpace& space, const std::vector<Pair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       RouteRequest request{.start = {pairs[i].first[0], pairs[i].first[1], 0}};
       request.goal_x_m = pairs[i].second[0], request.goal_y_m = pairs[i].second[1];
-      const double begin_s = cpu_s();
+      const double begin_ms = cpu_ms();
       const std::vector<PooledRoute> pool = pool_routes(space, request, choices[c]);
-      rows[c].time_ms.push_back(1e3 * (cpu_s() - begin_s));
+      rows[c].time_ms.push_back(cpu_ms() - begin_ms);
       rows[c].length_m.push_back(pool.empty() ? std::numeric_limits<double>::infinity()
                                               : polyline_length_m(pool.front().polyline_m));
       best[i] = std::min(best[i], rows[c].length_m.back());
@@ -121,9 +115,9 @@ void pool_section(const RouteSpace& space, const std::vector<Pair>& pairs) {
 }
 
 void floor_section(const char* title, const OccupancyGrid& map, const OccupancyGrid* keepout) {
-  const double begin_s = cpu_s();
+  const double begin_ms = cpu_ms();
   const RouteSpace space(map, keepout, {0.25, {}}, 0.05);
-  const double space_ms = 1e3 * (cpu_s() - begin_s);
+  const double space_ms = cpu_ms() - begin_ms;
   const std::vector<Pair> pairs = far_pairs(space);
   std::vector<Row> rows;
   for (int planner = -1; planner < 4; ++planner) rows.push_back(run(space, pairs, planner));
@@ -142,9 +136,9 @@ void floor_section(const char* title, const OccupancyGrid& map, const OccupancyG
     RouteRequest request;
     request.start = {a[0], a[1], 0};
     request.goal_x_m = b[0], request.goal_y_m = b[1];
-    const double start_s = cpu_s();
+    const double start_ms = cpu_ms();
     const RouteResult result = plan_route(space, request);
-    route.time_ms.push_back(1e3 * (cpu_s() - start_s));
+    route.time_ms.push_back(cpu_ms() - start_ms);
     route.length_m.push_back(result.found() ? result.path.distance_m()
                                             : std::numeric_limits<double>::infinity());
   }

@@ -157,48 +157,66 @@ struct Fit {
 
 std::string blocks_text() { return "blocks of " + std::to_string(kBlock_s) + " s"; }
 
-void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
-                    const FitValues& lower, CalibrationResult& result) {
-  const Robot& robot = dataset.robot;
-  const FitValues nominal = nominal_values(robot);
-  const FitValues unbounded = without_bounds(lower);
+/// Standard deviations of the reported values: a jackknife over the units, NaN from too few, with the
+/// uncertainty of the robot's geometry.
+std::vector<double> deviations_of(const Robot& robot, const std::vector<FitSums>& units, const Fit& fit,
+                                  const FitValues& unbounded,
+                                  const std::array<double, kFitParameters>& effective) {
   std::vector<double> deviation(kFitParameters + kDerived, std::nan(""));
   if (units.size() >= kFewestUnits)
     deviation =
         jackknife(units.size(), [&](std::size_t left_out) {
           FitSums rest = fit.all;
           rest -= units[left_out];
-          return reported(robot, fit_full(rest, fit.weights, nominal, unbounded, fit.can.free).values);
+          return reported(robot,
+                          fit_full(rest, fit.weights, nominal_values(robot), unbounded, fit.can.free).values);
         }).standard_deviation;
-  else
-    result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " runs or " + blocks_text() +
-                           ": no intervals");
-  const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
   for (std::size_t p = 0; p < deviation.size(); ++p)
     deviation[p] *= leverage_correction(effective[source_of(p)], units.size());
   const DerivedInertia from_geometry = geometric_deviation(robot, fit.result.values);
   deviation[kFitParameters] = std::hypot(deviation[kFitParameters], from_geometry.wheel_axle_kg_m2);
   deviation[kFitParameters + 1] = std::hypot(deviation[kFitParameters + 1], from_geometry.chassis_yaw_kg_m2);
+  return deviation;
+}
+
+/// A value at its lower bound: the interval is that of the fit without bounds, cut off at the bound.
+void state_bound(CalibratedParameter& parameter, double unbounded_value, double least, const char* note) {
+  parameter.visibility = Visibility::weak;
+  const double moved = unbounded_value - parameter.value;
+  for (double& end : parameter.interval_95) end = std::max(least, end + moved);
+  parameter.note = note;
+}
+
+void state_derivation(CalibratedParameter& parameter, bool of_wheels) {
+  parameter.note = of_wheels ? "with the robot file's masses and wheel radius"
+                             : "with the robot file's masses, wheel radius and half track";
+  if (parameter.value < 0) hold(parameter, "negative with the robot file's masses and lengths");
+}
+
+void add_parameters(const Dataset& dataset, const std::vector<FitSums>& units, const Fit& fit,
+                    const FitValues& lower, CalibrationResult& result) {
+  const Robot& robot = dataset.robot;
+  const FitValues nominal = nominal_values(robot);
+  const FitValues unbounded = without_bounds(lower);
+  if (units.size() < kFewestUnits)
+    result.notes.push_back("fewer than " + std::to_string(kFewestUnits) + " runs or " + blocks_text() +
+                           ": no intervals");
+  const auto effective = effective_units(units, fit.all, fit.weights, fit.result.values, fit.can.free);
+  const std::vector<double> deviation = deviations_of(robot, units, fit, unbounded, effective);
   const std::vector<double> center =
       reported(robot, fit_full(fit.all, fit.weights, nominal, unbounded, fit.can.free).values);
   const std::vector<double> before = reported(robot, nominal), after = reported(robot, fit.result.values);
   for (std::size_t p = 0; p < after.size(); ++p) {
     const std::size_t source = source_of(p);
     CalibratedParameter parameter = parameter_of(p, before[p], after[p], deviation[p], effective[source]);
-    if (!fit.can.free[source]) hold(parameter, fit.can.why[source]);
-    if (fit.can.free[source] && fit.result.at_bound[source]) {
-      parameter.visibility = Visibility::weak;
-      const double moved = center[p] - parameter.value, least = p < kFitParameters ? lower[p] : 0.0;
-      for (double& end : parameter.interval_95) end = std::max(least, end + moved);
-      parameter.note = source == kStraightInertia
-                           ? "the robot file's masses alone exceed the value in the data"
-                           : "at its lower bound";
-    }
-    if (p >= kFitParameters && fit.can.free[source] && !fit.result.at_bound[source]) {
-      parameter.note = p == kFitParameters ? "with the robot file's masses and wheel radius"
-                                           : "with the robot file's masses, wheel radius and half track";
-      if (parameter.value < 0) hold(parameter, "negative with the robot file's masses and lengths");
-    }
+    if (!fit.can.free[source])
+      hold(parameter, fit.can.why[source]);
+    else if (fit.result.at_bound[source])
+      state_bound(parameter, center[p], p < kFitParameters ? lower[p] : 0.0,
+                  source == kStraightInertia ? "the robot file's masses alone exceed the value in the data"
+                                             : "at its lower bound");
+    else if (p >= kFitParameters)
+      state_derivation(parameter, p == kFitParameters);
     result.parameters.push_back(parameter);
   }
 }

@@ -52,20 +52,32 @@ const char* fit_parameter_name(int parameter) {
   return kNames[parameter];
 }
 
-Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
+namespace {
+
+void hold(Identifiability& result, int parameter, std::string why) {
+  result.free[static_cast<std::size_t>(parameter)] = false;
+  result.why[static_cast<std::size_t>(parameter)] = std::move(why);
+}
+
+/// Parameters that no run excites.
+Identifiability excited(const FitSums& sums) {
   Identifiability result;
   result.free.fill(true);
-  if (sums.voltage_count == 0) {
-    result.free[kResistance] = result.free[kTorquePerAmpere] = false;
-    result.why[kResistance] = result.why[kTorquePerAmpere] = "no run has motor voltages";
-  }
+  if (sums.voltage_count == 0)
+    for (int electrical : {kResistance, kTorquePerAmpere})
+      hold(result, electrical, "no run has motor voltages");
   for (int inertia : {kStraightInertia, kTurningInertia})
-    if (!(sums.torque(inertia, inertia) > kLeastExcitation * sums.acceleration_noise)) {
-      result.free[static_cast<std::size_t>(inertia)] = false;
-      result.why[static_cast<std::size_t>(inertia)] = inertia == kStraightInertia
-                                                          ? "the runs hardly accelerate"
-                                                          : "the runs hardly change their yaw rate";
-    }
+    if (!(sums.torque(inertia, inertia) > kLeastExcitation * sums.acceleration_noise))
+      hold(result, inertia,
+           inertia == kStraightInertia ? "the runs hardly accelerate"
+                                       : "the runs hardly change their yaw rate");
+  return result;
+}
+
+}  // namespace
+
+Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
+  Identifiability result = excited(sums);
   while (true) {
     const std::vector<int> free = indices(result.free);
     if (free.empty()) return result;
@@ -78,18 +90,16 @@ Identifiability identifiable(const FitSums& sums, const FitValues& nominal) {
       const Eigen::VectorXd direction = modes.eigenvectors().col(0);
       Eigen::Index held = 0;
       direction.cwiseAbs().maxCoeff(&held);
-      const auto parameter = static_cast<std::size_t>(free[static_cast<std::size_t>(held)]);
       const std::string with = others(direction, free, held);
-      result.free[parameter] = false;
-      result.why[parameter] = with.empty() ? "the runs hardly excite it" : "cannot be separated from " + with;
+      hold(result, free[static_cast<std::size_t>(held)],
+           with.empty() ? "the runs hardly excite it" : "cannot be separated from " + with);
       continue;
     }
     if (result.free[kPayloadFactor]) {
       Eigen::Index at = 0;
       while (free[static_cast<std::size_t>(at)] != kPayloadFactor) ++at;
       if (std::sqrt(H.inverse()(at, at)) > kWidestPayloadFactor) {
-        result.free[kPayloadFactor] = false;
-        result.why[kPayloadFactor] = "payloads differ too little between the runs";
+        hold(result, kPayloadFactor, "payloads differ too little between the runs");
         continue;
       }
     }

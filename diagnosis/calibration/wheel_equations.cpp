@@ -39,6 +39,38 @@ Sided<double> known_torque_Nm(const Robot& robot, const SmoothedSample& sample) 
   return {forward - turning, forward + turning};
 }
 
+/// Variances of noise in a sample: of q', and of the mean and half the difference of q'' (independent
+/// wheels).
+struct SpeedNoise {
+  double slow{}, fast{};
+};
+
+SpeedNoise speed_noise(const SmoothedRun& run) {
+  const double speed_variance = run.speed_noise_rad_s * run.speed_noise_rad_s;
+  return {.slow = run.kernel.value_gain * speed_variance,
+          .fast = 0.5 * run.kernel.derivative_gain * speed_variance};
+}
+
+using TorqueColumns = Eigen::Matrix<double, FitSums::kTorqueColumns, 1>;
+
+/// The winding's equation; `x` is the torque's.
+void add_voltage(const SmoothedSample& sample, Side side, const SideRatios& ratio, const TorqueColumns& x,
+                 const SpeedNoise& noise, FitSums& sums) {
+  const double back = ratio.torque_per_ampere * ratio.voltage_over_torque_constant;
+  Eigen::Matrix<double, FitSums::kVoltageColumns, 1> y;
+  y << x.head<5>(), sample.current_slope_A_s[side], ratio.resistance * sample.current_A[side],
+      back * sample.speed_rad_s[side], sample.voltage_V[side];
+  sums.voltage += y * y.transpose();
+  constexpr int kSpeed = 7;
+  sums.voltage(kViscous, kViscous) -= ratio.viscous * ratio.viscous * noise.slow;
+  sums.voltage(kViscous, kSpeed) -= ratio.viscous * back * noise.slow;
+  sums.voltage(kSpeed, kViscous) -= ratio.viscous * back * noise.slow;
+  sums.voltage(kSpeed, kSpeed) -= back * back * noise.slow;
+  sums.voltage(kStraightInertia, kStraightInertia) -= noise.fast;
+  sums.voltage(kTurningInertia, kTurningInertia) -= noise.fast;
+  sums.voltage_count += 1;
+}
+
 void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample& sample, Side side,
                 FitSums& sums) {
   const SideRatios ratio = side_ratios(robot, side);
@@ -49,15 +81,12 @@ void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample
   const double sign = q > 0 ? 1.0 : -1.0;
   const double heavy = sample.payload_kg * payload.straight_m2, wide = sample.payload_kg * payload.turning_m2;
 
-  Eigen::Matrix<double, FitSums::kTorqueColumns, 1> x;
+  TorqueColumns x;
   x << (side == Side::left ? sign : 0.0), (side == Side::right ? sign : 0.0), ratio.viscous * q, mean, apart,
       heavy * mean + wide * apart, known_torque_Nm(robot, sample)[side], ratio.torque_per_ampere * i;
   sums.torque += x * x.transpose();
 
-  // Noise of the wheel speeds in q', and in the mean and half the difference of q'' (independent wheels).
-  const double speed_variance = run.speed_noise_rad_s * run.speed_noise_rad_s;
-  const double slow = run.kernel.value_gain * speed_variance;
-  const double fast = 0.5 * run.kernel.derivative_gain * speed_variance;
+  const auto [slow, fast] = speed_noise(run);
   sums.torque(kViscous, kViscous) -= ratio.viscous * ratio.viscous * slow;
   sums.torque(kStraightInertia, kStraightInertia) -= fast;
   sums.torque(kTurningInertia, kTurningInertia) -= fast;
@@ -69,19 +98,8 @@ void add_sample(const Robot& robot, const SmoothedRun& run, const SmoothedSample
   sums.acceleration_noise += fast;
   sums.torque_count += 1;
 
-  if (!run.has_voltage || !std::isfinite(sample.voltage_V[side])) return;
-  const double back = ratio.torque_per_ampere * ratio.voltage_over_torque_constant;
-  Eigen::Matrix<double, FitSums::kVoltageColumns, 1> y;
-  y << x.head<5>(), sample.current_slope_A_s[side], ratio.resistance * i, back * q, sample.voltage_V[side];
-  sums.voltage += y * y.transpose();
-  constexpr int kSpeed = 7;
-  sums.voltage(kViscous, kViscous) -= ratio.viscous * ratio.viscous * slow;
-  sums.voltage(kViscous, kSpeed) -= ratio.viscous * back * slow;
-  sums.voltage(kSpeed, kViscous) -= ratio.viscous * back * slow;
-  sums.voltage(kSpeed, kSpeed) -= back * back * slow;
-  sums.voltage(kStraightInertia, kStraightInertia) -= fast;
-  sums.voltage(kTurningInertia, kTurningInertia) -= fast;
-  sums.voltage_count += 1;
+  if (run.has_voltage && std::isfinite(sample.voltage_V[side]))
+    add_voltage(sample, side, ratio, x, {slow, fast}, sums);
 }
 
 }  // namespace

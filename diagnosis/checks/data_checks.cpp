@@ -19,9 +19,6 @@ namespace {
 
 using Relations = std::vector<std::optional<Relation>>;
 
-/// A relation with a smaller unexplained share is exact.
-constexpr double kExact = 1e-5;
-
 /// A run with the repairs found so far.
 struct Examined {
   const RunSignals* logged{};
@@ -56,7 +53,8 @@ Effectiveness compare(const Relations& before, const Relations& after, bool by_f
   bool harmed = false;
   for (std::size_t k = 0; k < before.size(); ++k) {
     if (!before[k] || !after[k] || (by_factor && before[k]->sound >= kSoundTorque)) continue;
-    const double old_share = before[k]->unexplained + kExact, new_share = after[k]->unexplained + kExact;
+    const double old_share = before[k]->unexplained + kExactRelation,
+                 new_share = after[k]->unexplained + kExactRelation;
     const double nats = std::log(old_share / new_share);
     result.nats += nats;
     const bool broken = before[k]->unexplained > before[k]->sound;
@@ -215,8 +213,9 @@ class DataCheckSearch {
     for (int step = -40; step <= 40; ++step) {
       const double factor = first * std::exp(0.02 * step);
       double misfit = 0;
-      for (const auto& relation : relations_with(examined, with_factor(found.fault, factor).columns, 0.05))
-        if (relation) misfit += std::log(relation->unexplained + kExact);
+      for (const auto& relation :
+           relations_with(examined, with_factor(found.fault, factor).columns, kRefinementFreedom))
+        if (relation) misfit += std::log(relation->unexplained + kExactRelation);
       if (misfit < least) least = misfit, best = factor;
     }
     found.fault = with_factor(found.fault, best);

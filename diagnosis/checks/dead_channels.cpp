@@ -75,10 +75,10 @@ class Search {
       compare(centered(run_.motor_current_A[side]), centered(current), kLeastChange * friction_A,
               {"motor_current" + suffix + "_A"});
     const VectorXd& voltage = run_.motor_voltage_V[side];
-    compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), 2 * emf * kMovingWheel_rad_s,
+    compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), emf * kTurningWheel_rad_s,
             {"motor_voltage" + suffix + "_V"});
     if (voltage.size() > 0)
-      compare(speed, VectorXd((voltage - motor.resistance_ohm * current) / emf), 2 * kMovingWheel_rad_s,
+      compare(speed, VectorXd((voltage - motor.resistance_ohm * current) / emf), kTurningWheel_rad_s,
               {"wheel_speed" + suffix + "_rad_s"}, true);
   }
 

@@ -12,6 +12,7 @@
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/verdict/names.hpp"
+#include "model/text_of_list.hpp"
 
 // Design: docs/decisions/0044-energies-alone.md
 namespace joulepath {
@@ -19,18 +20,12 @@ namespace {
 
 constexpr const char* kLogSome = "candidates only; log speed, voltage and current of some";
 
-std::string listed(const std::set<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::vector<std::string> limits_of(const EnergyProblem& problem) {
   std::vector<std::string> notes{
       "no run has a log: the motions are taken as prescribed, braking rates and entry speeds as known to " +
           std::to_string(std::lround(100 * kMotionDoubtSigma)) + " %",
       "negative power counts as lost at each wheel but for the robot file's regeneration"};
-  if (!problem.hidden.empty()) notes.push_back("not visible in these runs: " + listed(problem.hidden));
+  if (!problem.hidden.empty()) notes.push_back("not visible in these runs: " + text_of_list(problem.hidden));
   return notes;
 }
 

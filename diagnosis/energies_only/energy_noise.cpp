@@ -13,7 +13,8 @@ namespace {
 
 /// Variables of a smooth error; payload and acceleration are scaled to about one.
 Eigen::VectorXd features_of(const EnergyRun& run) {
-  const double load = run.payload_kg / 10.0, haste = run.acceleration_m_s2 / 0.2 - 1;
+  const double load = run.payload_kg / kPayloadOfSmoothError_kg,
+               haste = run.acceleration_m_s2 / kUsualAcceleration_m_s2 - 1;
   const double left = run.path == "curve to the left", right = run.path == "curve to the right",
                other = run.path == "spin" || run.path == "standstill";
   Eigen::VectorXd features(9);

@@ -95,7 +95,7 @@ std::string path_kind(const PrescribedMotion& motion, const DrivenMotion& driven
   if (motion.profile == MotionProfile::spin) return "spin";
   const Eigen::VectorXd& heading = driven.signals.heading_rad;
   const double turned = heading.size() > 0 ? heading[heading.size() - 1] - heading[0] : 0.0;
-  if (std::abs(turned) < 0.05) return motion.bezier_m.empty() ? "straight" : "curve";
+  if (std::abs(turned) < kStraight_rad) return motion.bezier_m.empty() ? "straight" : "curve";
   return turned > 0 ? "curve to the left" : "curve to the right";
 }
 

@@ -11,8 +11,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kDrawnRidge = 1e-3;  ///< of columns of length 1: forms that hardly differ
-
 /// Whether no amplitude that is nonnegative in physics is negative.
 bool signs_hold(const Equations& equations, const std::vector<int>& columns, const Eigen::VectorXd& mean) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -198,7 +196,7 @@ double ghost_share(const LinearProblem& problem, const Equations& equations, con
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       gram(i, j) = scale[i] * scale[j] * problem.gram(others[std::size_t(i)], others[std::size_t(j)]);
-  gram.diagonal().array() += kDrawnRidge;
+  gram.diagonal().array() += kOverlapRidge;
   const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
   double most = 0;
   for (int column : equations.columns_of_candidate(candidate, false)) {

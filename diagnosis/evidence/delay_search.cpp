@@ -15,7 +15,7 @@ double rough_channel_delay_s(const LogSet& logs) {
   const double period_s = signals.front().period_s;
   const int first = static_cast<int>(std::floor(kEarliestReading_s / period_s));
   const int last = static_cast<int>(std::ceil(kLatestReading_s / period_s));
-  const int stride = std::max(1, static_cast<int>(std::lround(0.02 / period_s)));
+  const int stride = std::max(1, static_cast<int>(std::lround(kDelayStep_s / period_s)));
   const int zero_first = -(std::abs(first) / stride) * stride;
   double best = 0, at_zero = 0;
   int best_shift = 0;

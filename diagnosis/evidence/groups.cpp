@@ -55,7 +55,7 @@ bool is_accepted(const FreeFit& fit, const Equations& equations, const Explanati
       amplitude.push_back(fit.posterior.mean[at]);
       variance += fit.posterior.covariance(at, at);
     }
-    return outside_range(candidate, amplitude, robot) <= 2 * std::sqrt(variance);
+    return outside_range(candidate, amplitude, robot) <= kSigmasOutOfRange * std::sqrt(variance);
   }
   return false;
 }

@@ -55,7 +55,8 @@ void best_interval(const std::vector<PlacedSample>& samples, int axis, Rectangle
     least = std::min(least, s.at_m[a]), greatest = std::max(greatest, s.at_m[a]);
   }
   if (samples.empty()) return;
-  const auto bins = static_cast<std::size_t>(std::clamp((greatest - least) / kRegionStep_m + 1, 1.0, 400.0));
+  const auto bins =
+      static_cast<std::size_t>(std::clamp((greatest - least) / kRegionStep_m + 1, 1.0, kMostRegionSteps));
   const double width = std::max(1e-9, (greatest - least) / static_cast<double>(bins));
   std::vector<double> sum(bins + 1, 0.0), count(bins + 1, 0.0);
   double all_sum = 0, all_count = 0;

@@ -296,7 +296,7 @@ double payload_prior_sd_kg(const Robot& robot) {
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {
   Eigen::VectorXd sd(6);
-  const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + 1e-3),
+  const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + kLeastChangingFriction_Nm),
                ohm = kRunChange * robot.motor.left.resistance_ohm;
   sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W;
   return sd.cwiseAbs2();

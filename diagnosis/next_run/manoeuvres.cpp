@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/thresholds.hpp"
+
 namespace joulepath {
 namespace {
-
-constexpr double kLongest_s = 60;  ///< of a stand
 
 double usual_speed_m_s(const Robot& robot) {
   const double limit = robot.limits ? robot.limits->speed_m_s : kNoLimit;
@@ -106,7 +106,7 @@ std::vector<Manoeuvre> variants_of(const Manoeuvre& manoeuvre) {
   add([](PrescribedMotion& motion) {
     scale(motion.distance_m, 2), scale(motion.angle_rad, 2);
     if (motion.profile == MotionProfile::stand && motion.duration_s > 1)
-      motion.duration_s = std::min(2 * *motion.duration_s, kLongest_s);
+      motion.duration_s = std::min(2 * *motion.duration_s, kLongestStand_s);
   });
   if (goes_one_way(manoeuvre.motions))
     add([](PrescribedMotion& motion) {

@@ -8,15 +8,14 @@
 #include "diagnosis/next_run/manoeuvres.hpp"
 #include "diagnosis/next_run/rivals.hpp"
 #include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "model/config_error.hpp"
+#include "model/effects/effect_label.hpp"
 #include "model/limit_table.hpp"
 #include "model/motions.hpp"
 // Design: docs/decisions/0471-the-next-run-is-weighed-like-the-present-ones.md
 namespace joulepath {
 namespace {
-
-constexpr std::size_t kMostCompared = 4;  ///< effects that one run is to tell apart: bounds time
-constexpr int kRefinements = 2;           ///< rounds of changing one free parameter of the best manoeuvre
 
 /// What limits a further run.
 struct Circumstances {
@@ -94,25 +93,20 @@ Trial best_of(const Identification& id, const Robot& robot, const std::vector<Ri
   return *std::ranges::max_element(trials, {}, &Trial::least_ratio);
 }
 
-std::string label_of(const Cause& cause) {
-  return cause.effect.side ? cause.effect.name + " (" + side_name(*cause.effect.side) + ")"
-                           : cause.effect.name;
-}
-
 /// Effects that the present runs leave open: of the first group, else the likeliest ones of an open verdict.
 std::vector<std::string> open_labels(const std::vector<Cause>& causes,
                                      const std::vector<RankedEffect>& ranking, Verdict verdict) {
   std::vector<std::string> labels;
   for (const Cause& cause : causes) {
     if (cause.indistinguishable_from.empty()) continue;
-    labels.push_back(label_of(cause));
+    labels.push_back(effect_label(cause.effect));
     std::ranges::copy(cause.indistinguishable_from, std::back_inserter(labels));
     break;
   }
   if (labels.empty() && (verdict == Verdict::ambiguous || verdict == Verdict::too_little_data))
     for (const RankedEffect& ranked : ranking)
-      if (labels.size() < 3) labels.push_back(ranked.effect);
-  if (labels.size() > kMostCompared) labels.resize(kMostCompared);
+      if (labels.size() < kMostOpenEffects) labels.push_back(ranked.effect);
+  if (labels.size() > kMostSeparated) labels.resize(kMostSeparated);
   return labels;
 }
 
@@ -124,7 +118,7 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
   if (rivals.size() < 2) return {};
   const Circumstances circumstances = circumstances_of(id, robot);
   Trial best = best_of(id, robot, rivals, circumstances, manoeuvre_library(robot));
-  for (int round = 0; round < kRefinements && best.least_ratio > 0; ++round) {
+  for (int round = 0; round < kRunRefinements && best.least_ratio > 0; ++round) {
     const Trial changed = best_of(id, robot, rivals, circumstances, variants_of(best.manoeuvre));
     if (changed.least_ratio <= best.least_ratio) break;
     best = changed;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/effects/effect_label.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -34,9 +36,7 @@ void add_with_grid(const EffectDescription& effect, Candidate candidate, const R
 
 }  // namespace
 
-std::string Candidate::label() const {
-  return shape.side ? shape.name + " (" + side_name(*shape.side) + ")" : shape.name;
-}
+std::string Candidate::label() const { return effect_label(shape); }
 
 const EffectDescription& Candidate::effect() const { return *find_effect(shape.name); }
 

@@ -25,9 +25,6 @@ struct UniformLog {
   bool resampled{};
 };
 
-/// Greatest ratio of samples on the uniform grid to samples of the log.
-constexpr double kMostGrowth = 50.0;
-
 UniformLog uniform_grid(const Samples& time_s) {
   Samples steps(time_s.size() - 1);
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) steps[i] = time_s[i + 1] - time_s[i];
@@ -200,6 +197,45 @@ std::vector<bool> beyond(const Eigen::VectorXd& values, double least) {
   return result;
 }
 
+void fill_circumstances(RunSignals& signals, const Thinner& thinner, const Run& run) {
+  signals.time_s = thinner.smooth(thinner.grid_time_s());
+  signals.time_of_day_known = run.start_time_s.has_value();
+  signals.time_of_day_s = signals.time_s.array() + run.start_time_s.value_or(0.0);
+  signals.payload_kg = thinner.held(run.log.payload_kg);
+  if (signals.payload_kg.size() == 0)
+    signals.payload_kg = Eigen::VectorXd::Constant(signals.size(), constant_payload_kg(run));
+}
+
+/// Voltage, current and power of both motors; the power by the winding where no voltage is logged.
+void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Robot& robot,
+                 const Sided<Samples>& logged_wheels, double delay_s) {
+  for (Side side : kSides) {
+    signals.motor_voltage_V[side] = thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], delay_s));
+    signals.motor_current_A[side] = thinner.smooth(thinner.on_grid(log.motor_current_A[side], delay_s));
+    Samples power = log.motor_power_W[side];
+    if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
+    if (power.empty())
+      power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
+    signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, delay_s));
+  }
+  mark_conducting(signals, robot);
+}
+
+void fill_battery(RunSignals& signals, const Thinner& thinner, const Trajectory& log) {
+  signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));
+  signals.battery_current_A = thinner.smooth(thinner.on_grid(log.battery_current_A));
+  signals.battery_power_W =
+      thinner.smooth(thinner.on_grid(product(log.battery_voltage_V, log.battery_current_A)));
+}
+
+void fill_pose(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Samples& heading) {
+  signals.gyro_yaw_rate_rad_s = thinner.smooth(thinner.on_grid(log.gyro_yaw_rate_rad_s));
+  signals.heading_rad = thinner.smooth(heading);
+  if (log.position_x_m.empty() || log.position_y_m.empty()) return;
+  signals.x_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_x_m)));
+  signals.y_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_y_m)));
+}
+
 }  // namespace
 
 void mark_conducting(RunSignals& run, const Robot& robot) {
@@ -241,35 +277,11 @@ RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& 
                               : heading_from_wheels(wheels, robot, thinner.grid_period_s());
   fill_wheels(signals, thinner, wheels, heading, options.least_turning_speed_rad_s);
 
-  signals.time_s = thinner.smooth(thinner.grid_time_s());
-  signals.time_of_day_known = run.start_time_s.has_value();
-  signals.time_of_day_s = signals.time_s.array() + run.start_time_s.value_or(0.0);
-  signals.payload_kg = thinner.held(log.payload_kg);
-  if (signals.payload_kg.size() == 0)
-    signals.payload_kg = Eigen::VectorXd::Constant(signals.size(), constant_payload_kg(run));
+  fill_circumstances(signals, thinner, run);
   signals.payload_known = run.payload_known || payload_limit_kg(robot) <= 0;
-  for (Side side : kSides) {
-    signals.motor_voltage_V[side] =
-        thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], options.channel_delay_s));
-    signals.motor_current_A[side] =
-        thinner.smooth(thinner.on_grid(log.motor_current_A[side], options.channel_delay_s));
-    Samples power = log.motor_power_W[side];
-    if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
-    if (power.empty())
-      power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
-    signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, options.channel_delay_s));
-  }
-  mark_conducting(signals, robot);
-  signals.battery_voltage_V = thinner.smooth(thinner.on_grid(log.battery_voltage_V));
-  signals.battery_current_A = thinner.smooth(thinner.on_grid(log.battery_current_A));
-  signals.battery_power_W =
-      thinner.smooth(thinner.on_grid(product(log.battery_voltage_V, log.battery_current_A)));
-  signals.gyro_yaw_rate_rad_s = thinner.smooth(thinner.on_grid(log.gyro_yaw_rate_rad_s));
-  signals.heading_rad = thinner.smooth(heading);
-  if (!log.position_x_m.empty() && !log.position_y_m.empty()) {
-    signals.x_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_x_m)));
-    signals.y_m = thinner.smooth(at_sample_middle(thinner.on_grid(log.position_y_m)));
-  }
+  fill_motors(signals, thinner, log, robot, logged_wheels, options.channel_delay_s);
+  fill_battery(signals, thinner, log);
+  fill_pose(signals, thinner, log, heading);
   return signals;
 }
 

@@ -28,7 +28,8 @@ Stratum stratum_of(const Run& run) {
     sum += std::abs(a) + std::abs(b);
   }
   const double travelled = forward + backward;
-  const int kind = (turn > travelled ? 2 : turn > 0.1 * travelled ? 1 : 0) + (backward > forward ? 3 : 0);
+  const int turning = turn > travelled ? 2 : turn > kTurningRun * travelled ? 1 : 0;
+  const int kind = turning + (backward > forward ? 3 : 0);
   return {kind, log.payload_kg.empty() ? constant_payload_kg(run) : *std::ranges::max_element(log.payload_kg),
           sum};
 }

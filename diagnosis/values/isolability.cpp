@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/thresholds.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 namespace {
@@ -37,12 +38,6 @@ void maximal_cliques(const std::vector<std::set<std::size_t>>& neighbors, std::v
     open.erase(node);
     done.insert(node);
   }
-}
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
 }
 
 }  // namespace
@@ -89,12 +84,13 @@ std::vector<std::vector<std::string>> inseparable_groups(const Isolability& isol
 std::vector<std::string> isolability_notes(const Isolability& isolability) {
   std::vector<std::string> notes, groups;
   if (const std::vector<std::string> unseen = unseen_effects(isolability); !unseen.empty())
-    notes.push_back("effects of their usual size that these runs would not show: " + joined(unseen, ", "));
+    notes.push_back("effects of their usual size that these runs would not show: " +
+                    text_of_list(unseen, ", "));
   for (const std::vector<std::string>& group : inseparable_groups(isolability))
-    groups.push_back(joined(group, " or "));
+    groups.push_back(text_of_list(group, " or "));
   if (!groups.empty())
     notes.push_back("effects of their usual size that these runs could not tell apart: " +
-                    joined(groups, "; "));
+                    text_of_list(groups, "; "));
   return notes;
 }
 

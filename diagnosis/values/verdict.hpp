@@ -20,7 +20,7 @@ struct VerdictWords {
   const char* name;  ///< in diagnosis.json
   const char* title;
   const char* meaning;    ///< one or two sentences
-  const char* next_step;  ///< a sentence, or empty
+  const char* next_step;  ///< one sentence
   bool good;              ///< nothing is left to find out
 };
 
@@ -31,12 +31,13 @@ inline constexpr std::array<VerdictWords, 7> kVerdicts{
       true},
      {"explained", "Explained", "The effects below explain the gap.", "Plan with the corrected files.", true},
      {"partly_explained", "Partly explained",
-      "The effects below explain a part of the gap. The rest is unknown.", "", false},
+      "The effects below explain a part of the gap. The rest is unknown.", "Plan with the corrected files.",
+      false},
      {"unexplained", "Unexplained", "No effect of the catalog fits.", "Nothing is corrected.", false},
      {"ambiguous", "Ambiguous", "These runs cannot separate the effects below.", "Drive the proposed run.",
       false},
      {"too_little_data", "Too little data", "The runs name no cause and give no all-clear.",
-      "The list shows candidates only.", false},
+      "Log more runs and channels: the notes list what is missing.", false},
      {"data_suspect", "Suspect data", "Channels of the log contradict physics.", "Repair the dataset first.",
       false}}};
 

@@ -11,6 +11,7 @@
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
+#include "model/normal_quantiles.hpp"
 
 namespace joulepath {
 namespace {
@@ -27,7 +28,7 @@ double shrink(const std::vector<RunEnergy>& before, const std::vector<RunEnergy>
 double small_sample_factor(std::size_t runs) {
   const auto n = static_cast<double>(runs);
   if (runs < 2) return 1.0;
-  return boost::math::quantile(boost::math::students_t(n - 1), 0.975) / 1.96 * std::sqrt(n / (n - 1));
+  return boost::math::quantile(boost::math::students_t(n - 1), 0.975) / kNormal95 * std::sqrt(n / (n - 1));
 }
 
 /// 95 % interval of the shrink on another day's runs: runs resampled about the shrink that is said.

@@ -20,14 +20,16 @@ std::string speed_cell(double speed_m_s) {
 
 std::string heading_cell(double heading_rad) {
   const double turn = heading_rad / (2 * std::numbers::pi);
-  const int octant = static_cast<int>(std::floor((turn - std::floor(turn)) * 8 + 0.5)) % 8;
-  return number_text(octant * 45.0, "deg");
+  const int octant =
+      static_cast<int>(std::floor((turn - std::floor(turn)) * kHeadingCells + 0.5)) % kHeadingCells;
+  return number_text(octant * 360.0 / kHeadingCells, "deg");
 }
 
 std::string floor_cell(double x_m, double y_m) {
   char text[160];
-  std::snprintf(text, sizeof text, "x %g to %g m, y %g to %g m", std::floor(x_m), std::floor(x_m) + 1,
-                std::floor(y_m), std::floor(y_m) + 1);
+  const double x = kFloorCell_m * std::floor(x_m / kFloorCell_m),
+               y = kFloorCell_m * std::floor(y_m / kFloorCell_m);
+  std::snprintf(text, sizeof text, "x %g to %g m, y %g to %g m", x, x + kFloorCell_m, y, y + kFloorCell_m);
   return text;
 }
 
@@ -50,7 +52,7 @@ class Localizer {
       return std::sqrt(2 / std::numbers::pi) * std::abs(voltage_V + ohm * current_A) * sd_A;
     const double winding_V = noise_.channel_sd[kWindingLeft + s];
     const double sd_V2 =
-        std::max(winding_V * winding_V - ohm * ohm * sd_A * sd_A, 0.1 * winding_V * winding_V);
+        std::max(winding_V * winding_V - ohm * ohm * sd_A * sd_A, kLeastVoltageNoise * winding_V * winding_V);
     return std::sqrt(2 / std::numbers::pi *
                      (voltage_V * voltage_V * sd_A * sd_A + current_A * current_A * sd_V2));
   }

@@ -108,6 +108,21 @@ std::size_t widest_gap(const std::vector<FrontPoint>& points) {
   return widest;
 }
 
+/// All stretches at one price of a second; nothing where one of them could not be solved.
+std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<FrontStretch>>& parts, double price_W,
+                                   double standby_W) {
+  FrontPoint point{.price_of_time_W = price_W, .status = SolveStatus::optimal};
+  for (const auto& part : parts) {
+    const std::optional<Sum> sum = part->at_price(price_W);
+    if (!sum) return std::nullopt;
+    point.duration_s += sum->duration_s;
+    point.stretch_s.push_back(sum->duration_s);
+    point.motion_energy_J += sum->motion_energy_J;
+  }
+  point.energy_J = point.motion_energy_J + standby_W * point.duration_s;
+  return point;
+}
+
 }  // namespace
 
 Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_t points) {
@@ -123,19 +138,7 @@ Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_
     front.infeasibility = result.infeasibility;
     return front;
   }
-  const auto point_at = [&](double price_W) -> std::optional<FrontPoint> {
-    FrontPoint point{.price_of_time_W = price_W, .status = SolveStatus::optimal};
-    for (const auto& part : parts) {
-      const std::optional<Sum> sum = part->at_price(price_W);
-      if (!sum) return std::nullopt;
-      point.duration_s += sum->duration_s;
-      point.stretch_s.push_back(sum->duration_s);
-      point.motion_energy_J += sum->motion_energy_J;
-    }
-    point.energy_J = point.motion_energy_J + standby_W * point.duration_s;
-    return point;
-  };
-  const auto fastest = point_at(kNoLimit), cheapest = point_at(0.0);
+  const auto fastest = point_at(parts, kNoLimit, standby_W), cheapest = point_at(parts, 0.0, standby_W);
   if (parts.empty() || !fastest || !cheapest) {
     front.summary.message = "no front: a stretch could not be solved";
     return front;
@@ -146,7 +149,7 @@ Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_
     const std::size_t k = widest_gap(front.points);
     const double price_W =
         price_between_W(front.points[k].price_of_time_W, front.points[k + 1].price_of_time_W, typical_W);
-    const auto point = point_at(price_W);
+    const auto point = point_at(parts, price_W, standby_W);
     if (!point) break;
     front.points.insert(front.points.begin() + static_cast<std::ptrdiff_t>(k) + 1, *point);
   }

@@ -96,25 +96,48 @@ Infeasibility at_place(const ProfileRequest& request, std::string constraint, do
   return {.constraint = std::move(constraint), .s = s, .x_m = pose.x_m, .y_m = pose.y_m};
 }
 
+/// Names of the values to relax, the first one first: a start or end speed that the path does not allow, then
+/// the limit itself.
+std::vector<std::string_view> relaxations_to_try(const ProfileRequest& request, const nlp::Problem& problem,
+                                                 const nlp::Blocked& blocked, std::string_view limit) {
+  std::vector<std::string_view> names;
+  if (blocked.node == 0 && request.start_rate > 0) names.push_back("start_speed");
+  const auto above_cap = [&](double rate, std::size_t node) {
+    return rate * rate > problem.cap[node].squared * (1 + 1e-12);
+  };
+  if (above_cap(request.start_rate, 0)) names.push_back("start_speed");
+  if (above_cap(request.end_rate, problem.node_count() - 1)) names.push_back("end_speed");
+  names.push_back(limit);
+  if (request.end_rate > 0) names.push_back("end_speed");
+  if (request.start_rate > 0) names.push_back("start_speed");
+  for (const Knob& knob : knobs())
+    if (knob.limit != nullptr && std::isfinite(value_of(request, knob))) names.push_back(knob.name);
+  return names;
+}
+
+/// The verdict where no single limit can be relaxed enough: the speed that is needed and the one allowed.
+Infeasibility too_slow_there(const ProfileRequest& request, std::string_view limit, double s,
+                             const nlp::Blocked& blocked) {
+  Infeasibility verdict = at_place(request, std::string(limit), s);
+  const double needed = std::sqrt(std::max(0.0, blocked.needed));
+  const double allowed = std::sqrt(std::max(0.0, blocked.allowed));
+  verdict.amount = needed - allowed;
+  verdict.unit = is_turn(request.piece) ? "rad/s" : "m/s";
+  std::ostringstream text;
+  text.precision(4);
+  text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
+       << " m) allows a speed of " << allowed << " " << verdict.unit << ", but " << needed << " "
+       << verdict.unit << " is needed there; no relaxation of a single limit is sufficient";
+  verdict.message = text.str();
+  return verdict;
+}
+
 }  // namespace
 
 Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                               const nlp::Blocked& blocked) {
   std::string_view name = blocked.limit.empty() ? std::string_view("path") : blocked.limit;
-  // The value to relax first: a start or end speed that the path does not allow, else the limit itself.
-  std::vector<std::string_view> candidates;
-  if (blocked.node == 0 && request.start_rate > 0) candidates.push_back("start_speed");
-  const auto above_cap = [&](double rate, std::size_t node) {
-    return rate * rate > problem.cap[node].squared * (1 + 1e-12);
-  };
-  if (above_cap(request.start_rate, 0)) candidates.push_back("start_speed");
-  if (above_cap(request.end_rate, problem.node_count() - 1)) candidates.push_back("end_speed");
-  candidates.push_back(name);
-  if (request.end_rate > 0) candidates.push_back("end_speed");
-  if (request.start_rate > 0) candidates.push_back("start_speed");
-  for (const Knob& knob : knobs())
-    if (knob.limit != nullptr && std::isfinite(value_of(request, knob))) candidates.push_back(knob.name);
-  for (std::string_view candidate : candidates) {
+  for (std::string_view candidate : relaxations_to_try(request, problem, blocked, name)) {
     const Knob* knob = knob_named(candidate);
     if (knob == nullptr) continue;
     const std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
@@ -128,18 +151,7 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
     verdict.message = sentence(verdict);
     return verdict;
   }
-  Infeasibility verdict = at_place(request, std::string(name), problem.s[blocked.node]);
-  const double needed = std::sqrt(std::max(0.0, blocked.needed));
-  const double allowed = std::sqrt(std::max(0.0, blocked.allowed));
-  verdict.amount = needed - allowed;
-  verdict.unit = is_turn(request.piece) ? "rad/s" : "m/s";
-  std::ostringstream text;
-  text.precision(4);
-  text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
-       << " m) allows a speed of " << allowed << " " << verdict.unit << ", but " << needed << " "
-       << verdict.unit << " is needed there; no relaxation of a single limit is sufficient";
-  verdict.message = text.str();
-  return verdict;
+  return too_slow_there(request, name, problem.s[blocked.node], blocked);
 }
 
 Infeasibility explain_long(const ProfileRequest& request, double possible_s) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "model/printable.hpp"
+#include "planner/path/geometry/segment_ends.hpp"
 #include "planner/path/shape/corner_blend.hpp"
 // Design: docs/decisions/0090-orders-are-paths.md
 namespace joulepath {
@@ -27,11 +28,7 @@ constexpr double kLongestEdge_m = 1e4;
                      .hint = {}});
 }
 
-std::string metres(double value_m) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.4g m", value_m);
-  return text;
-}
+std::string metres(double value_m) { return four_digits(value_m) + " m"; }
 
 void move_to(RationalBezier::Point& point, const OrderNode& node) {
   point = {point[2] * node.x_m, point[2] * node.y_m, point[2]};
@@ -131,10 +128,6 @@ class Builder {
     Pose pose = end_of(open_.back()).pose;
     if (direction_ == Direction::reverse) pose.heading_rad += pi;
     return pose;
-  }
-
-  static PathPoint end_of(const CurveSegment& segment) {
-    return std::visit([](const auto& s) { return s.at(s.length_m()); }, segment);
   }
 
   /// Gives the robot the heading that a node requires, by a turn in place where the path has another heading.

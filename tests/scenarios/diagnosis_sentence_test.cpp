@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/next_step.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -74,6 +76,39 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
       .data_checks = {{.run = "run_03.csv", .channel = "gyro_yaw_rate_rad_s", .kind = "inverted"}}};
   EXPECT_EQ(diagnosis_sentence(suspect),
             "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
+}
+
+TEST(NextStep, OfEachVerdictIsASentence) {
+  for (std::size_t k = 0; k < kVerdicts.size(); ++k) {
+    const std::string step = next_step({.verdict = static_cast<Verdict>(k)});
+    ASSERT_FALSE(step.empty()) << kVerdicts[k].name;
+    EXPECT_EQ(step.back(), '.') << step;
+    EXPECT_EQ(step.find("  "), std::string::npos) << step;
+  }
+}
+
+TEST(NextStep, NamesCorrectedFilesOnlyWhereTheyAreWritten) {
+  for (const Verdict verdict : {Verdict::explained, Verdict::partly_explained}) {
+    Diagnosis d{.verdict = verdict};
+    EXPECT_EQ(next_step(d).find("corrected files"), std::string::npos) << next_step(d);
+    d.corrected_robot = Robot{};
+    EXPECT_EQ(next_step(d).rfind("Plan with the corrected files.", 0), 0u) << next_step(d);
+  }
+}
+
+TEST(NextStep, NamesTheQuantitiesThatUnknownCausesDependOn) {
+  const Diagnosis d{.verdict = Verdict::unexplained,
+                    .unknowns = {{.depends_on = "heading (current)"}, {.depends_on = "payload (torque)"}}};
+  EXPECT_EQ(next_step(d),
+            "Nothing is corrected. Examine the robot where the gap depends on heading (current), payload "
+            "(torque).");
+}
+
+TEST(NextStep, OfAGroupIsTheProposedRunWhereThereIsOne) {
+  Diagnosis d{.verdict = Verdict::ambiguous};
+  EXPECT_EQ(next_step(d), next_step({.verdict = Verdict::too_little_data}));
+  d.next.motions = {PrescribedMotion{}};
+  EXPECT_EQ(next_step(d), "Drive the proposed run.");
 }
 
 }  // namespace

@@ -154,27 +154,16 @@ jp.runs_section = function (data) {
   return section;
 };
 
-/** What to do where no run is proposed. */
-function advice(d) {
-  const unknown = (d.unknowns || []).map((one) => one.depends_on).join(", ");
-  switch (d.verdict) {
-    case "no_gap": return "Nothing: the model needs no correction.";
-    case "explained": return (d.decisions || {}).missions ? "Plan with robot_corrected.yaml, which is beside this page." : "Use the corrected files beside this page; where none is written, a note below says why.";
-    case "partly_explained": return "Plan with the corrected file, if there is one beside this page. Then look for what is left" + (unknown ? `: examine the robot where it depends on ${unknown}.` : ".");
-    case "unexplained": return "Nothing is corrected. " + (unknown ? `Examine the robot where the gap depends on ${unknown}.` : "Look at the runs and places with the largest shares of the gap.");
-    default: return "Log more runs and channels: the notes below list what is missing.";
-  }
-}
-
 jp.next_section = function (d) {
   const next = d.next_experiment || {};
   const separates = next.separates || [];
   const {legs, why, ...circumstances} = next.motion || {};
   const text = (one) => Object.entries(one).map(([key, value]) => jp.key_value(key, value)).join(", ");
   const motion = legs ? h("ol", {}, legs.map((leg) => h("li", {}, text(leg)))) : text(circumstances);
-  if (!legs && !motion) return jp.section("What next", h("p", {}, advice(d)));
+  const step = d.next_step ? h("p", {}, d.next_step) : null;
+  if (!legs && !motion) return step && jp.section("What next", step);
   const chance = is_number(next.probability_settled) ? ` It settles the question with a probability of ${fraction(next.probability_settled)} by the model; this number is not calibrated.` : "";
-  return jp.section("What next: one more run", separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ") + "." + chance) : null,
+  return jp.section("What next: one more run", step, separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ") + "." + chance) : null,
     why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), legs && is_number(circumstances.payload_kg) ? `with ${short(circumstances.payload_kg)} kg on board` : "", motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair). joulepath experiment writes the run as a mission.`) : null);
 };
 
@@ -195,7 +184,7 @@ jp.suspect_section = function (d) {
   const checks = d.data_checks || [];
   if (!checks.length) return null;
   const rows = checks.map((check) => [check.run === "all" ? "all runs" : check.run, check.channel, words(check.kind), check.evidence, h("code", {}, check.repair || "–")]);
-  return jp.section("Suspect channels", h("p", {class: "soft"}, "joulepath check DATASET --repair FILE writes the dataset with these repairs."),
+  return jp.section("Suspect channels", d.next_step ? h("p", {class: "soft"}, d.next_step) : null,
     jp.table(["runs", "channel", "what is wrong", "evidence", "repair in the dataset file"], rows));
 };
 

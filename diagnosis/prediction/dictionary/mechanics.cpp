@@ -1,4 +1,5 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
@@ -21,7 +22,9 @@ struct Variables {
                  : std::cos(harmonic * signals->heading_rad[j]);
   }
   /// Soft sign of the yaw rate.
-  double turn(Eigen::Index j) const { return std::clamp(twist(j).yaw_rate_rad_s / 0.04, -1.0, 1.0); }
+  double turn(Eigen::Index j) const {
+    return std::clamp(twist(j).yaw_rate_rad_s / kBlurredTurn_rad_s, -1.0, 1.0);
+  }
 };
 
 void add_speed_and_load(DictionaryCollector& out, const Variables& v) {

@@ -1,4 +1,5 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 
@@ -10,8 +11,9 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
   out.voltage("current", false,
               [&](Eigen::Index j, Side side) { return current(j, side) * std::abs(current(j, side)); });
   out.voltage("current", false, [&](Eigen::Index j, Side side) { return std::pow(current(j, side), 3); });
-  out.voltage("current", false,
-              [&](Eigen::Index j, Side side) { return std::clamp(current(j, side) / 0.03, -1.0, 1.0); });
+  out.voltage("current", false, [&](Eigen::Index j, Side side) {
+    return std::clamp(current(j, side) / kBlurredCurrent_A, -1.0, 1.0);
+  });
   for (double corner : {0.4, 0.6, 0.8})
     out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
       const double i = current(j, side), beyond = std::abs(i) - corner * layout.greatest_current_A;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "planner/path/geometry/bezier_geometry.hpp"
+#include "planner/path/geometry/segment_ends.hpp"
 
 namespace joulepath {
 namespace {
@@ -33,14 +34,6 @@ CurveSegment segment_of(const BezierPoints& p) {
   if (!on_a_line(p)) return BezierSegment(p);
   const double x = p[3][0] - p[0][0], y = p[3][1] - p[0][1];
   return LinearCurvature({p[0][0], p[0][1], std::atan2(y, x)}, std::hypot(x, y));
-}
-
-PathPoint begin_of(const CurveSegment& segment) {
-  return std::visit([](const auto& s) { return s.at(0); }, segment);
-}
-
-PathPoint end_of(const CurveSegment& segment) {
-  return std::visit([](const auto& s) { return s.at(s.length_m()); }, segment);
 }
 
 /// Rotates the curve's beginning by a small angle about p0.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "model/printable.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/corner_blend.hpp"
 #include "planner/path/shape/smoothing_spline.hpp"
@@ -20,11 +20,7 @@ constexpr double kLook = 5;   ///< length, in tolerances, over which the directi
 constexpr double kDense = 8;  ///< tolerances between neighbors
 constexpr std::size_t kMany = 1000;
 
-std::string metres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g m", value_m);
-  return text;
-}
+std::string metres(double value_m) { return four_digits(value_m) + " m"; }
 
 /// Rounded down to the four digits of metres(), so that a proposed value fits.
 double proposed_m(double most_m) {

@@ -253,6 +253,8 @@ def check_diagnosis(browser, file):
         sections = browser.run("return [...document.querySelectorAll('main section')].map((e) => e.ariaLabel)")
         order = ["What next", "Measured against predicted", "What is left depends on", "How much", "Which effect", "Where", "What these runs can show", "Notes"]
         assert [next(one for one in order if name.startswith(one)) for name in sections] == order, sections
+        said = browser.run("return document.querySelector('section[aria-label^=\"What next\"]').innerText.includes(JSON.parse(document.getElementById('data').text).diagnosis.next_step)")
+        assert said, "the page does not show the next step of diagnosis.json"
         assert browser.run("return [...document.querySelectorAll('main details')].every((e) => !e.open || !e.querySelector('table, .rows'))"), "a table is not folded"
         browser.run("document.querySelectorAll('main details').forEach((e) => { e.open = true; })")
         wide = browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")

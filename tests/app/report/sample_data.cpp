@@ -162,6 +162,7 @@ json diagnosis() {
   return {
       {"schema", "joulepath/diagnosis/1"},
       {"verdict", "explained"},
+      {"next_step", "Plan with the corrected files."},
       {"gap",
        {{"energy",
          {{"before_percent", 14.2},

@@ -1,0 +1,42 @@
+#include "scenarios/next_step.hpp"
+
+#include "model/text_of_list.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr const char* kLogMore = words_of(Verdict::too_little_data).next_step;
+
+bool is_corrected(const Diagnosis& d) { return d.corrected_robot || !d.corrected_instruments.empty(); }
+
+/// Where to look for what no effect explains.
+std::string examine(const Diagnosis& d) {
+  std::vector<std::string> quantities;
+  for (const UnknownCause& unknown : d.unknowns) quantities.push_back(unknown.depends_on);
+  return quantities.empty() ? "Look at the runs and places with the largest shares of the gap."
+                            : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
+}
+
+}  // namespace
+
+std::string next_step(const Diagnosis& d) {
+  const std::string step = words_of(d.verdict).next_step;
+  switch (d.verdict) {
+    case Verdict::explained:
+      return is_corrected(d) ? step : "No correction shrinks the gap on held-out runs: none is written.";
+    case Verdict::partly_explained:
+      return (is_corrected(d) ? step + " " : "") + examine(d);
+    case Verdict::unexplained:
+      return step + " " + examine(d);
+    case Verdict::ambiguous:
+      return d.next.motions.empty() ? kLogMore : step;
+    case Verdict::data_suspect:
+      return step + " joulepath check DATASET --repair FILE writes it repaired.";
+    case Verdict::no_gap:
+    case Verdict::too_little_data:
+      return step;
+  }
+  return step;
+}
+
+}  // namespace joulepath
