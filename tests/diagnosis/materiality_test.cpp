@@ -48,12 +48,13 @@ TEST(Materiality, OfPowerIsTheShareOfTheSumOverRuns) {
   EXPECT_EQ(impact.heading_rad, 0.0);
 }
 
-/// One wheel 1 % larger turns the robot by 0.01 v t/(2 l); both 2 % larger move its end by 2 % of the way.
-/// The longest run counts.
+/// One wheel another 1 % larger turns the robot by 0.01 v t/(2 l); both 2 % larger move its end by 2 % of the
+/// way. The longest run counts.
 TEST(Materiality, OfMotionIsTheGreatestChangeAtTheEndOfARun) {
   const std::vector<RunSignals> signals = lanes({5, 20});
   const double time_s = signals[1].time_s[signals[1].size() - 1] - signals[1].time_s[0];
-  const Impact turned = impact_between(signals, {.robot = with_radius(1, 1.01)}, {.robot = testing::nomad()});
+  const Impact turned =
+      impact_between(signals, {.robot = with_radius(1, 1.03)}, {.robot = with_radius(1, 1.02)});
   const double expected_rad = 0.01 * 0.5 * time_s / (2 * testing::nomad().geometry.half_track_m);
   EXPECT_NEAR(turned.heading_rad, expected_rad, 0.02 * expected_rad);
   const Impact smaller =
