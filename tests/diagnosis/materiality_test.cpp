@@ -12,7 +12,7 @@ namespace joulepath {
 namespace {
 
 /// Straight drives at 0.5 m/s.
-std::vector<RunSignals> lanes(const std::vector<double>& durations_s) {
+std::vector<RunSignals> straight_runs(const std::vector<double>& durations_s) {
   std::vector<RunSignals> signals;
   for (const double duration_s : durations_s)
     signals.push_back(make_run_signals(
@@ -29,7 +29,7 @@ Robot with_radius(double left_factor, double right_factor) {
 }
 
 TEST(Materiality, OfPowerIsTheShareOfTheSumOverRuns) {
-  const std::vector<RunSignals> signals = lanes({5, 20});
+  const std::vector<RunSignals> signals = straight_runs({5, 20});
   Robot worn = testing::nomad();
   worn.motor.left.friction_torque_Nm *= 1.2;
   double change_W = 0, sum_W = 0;
@@ -51,7 +51,7 @@ TEST(Materiality, OfPowerIsTheShareOfTheSumOverRuns) {
 /// One wheel another 1 % larger turns the robot by 0.01 v t/(2 l); both 2 % larger move its end by 2 % of the
 /// way. The longest run counts.
 TEST(Materiality, OfMotionIsTheGreatestChangeAtTheEndOfARun) {
-  const std::vector<RunSignals> signals = lanes({5, 20});
+  const std::vector<RunSignals> signals = straight_runs({5, 20});
   const double time_s = signals[1].time_s[signals[1].size() - 1] - signals[1].time_s[0];
   const Impact turned =
       impact_between(signals, {.robot = with_radius(1, 1.03)}, {.robot = with_radius(1, 1.02)});
@@ -76,7 +76,7 @@ TEST(Materiality, IsTheGreatestRatioToTheFloor) {
 
 TEST(LeastAmplitude, IsJustMaterial) {
   const Robot robot = testing::nomad();
-  const std::vector<RunSignals> signals = lanes({10});
+  const std::vector<RunSignals> signals = straight_runs({10});
   const Candidate friction = bare_candidate(*find_effect("coulomb_friction"), robot);
   std::map<std::string, double> known;
   const std::vector<double> least = least_amplitudes(signals, robot, {}, {}, {friction}, known);
