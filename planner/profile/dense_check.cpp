@@ -61,9 +61,14 @@ class SegmentLook {
     if (most < kWorthALook || !std::isfinite(most)) return most;
     for (std::size_t i = 1; i < kLooks; ++i) {
       const double before = ratios[i] - ratios[i - 1], after = ratios[i + 1] - ratios[i];
-      if (ratios[i] < kWorthALook || before < 0 || after > 0 || before - after <= 0) continue;
-      const double top = (static_cast<double>(i) + 0.5 * (before + after) / (before - after)) / kLooks;
-      look(top, [&](std::string_view limit, double ratio) {
+      if (before - after <= 0) continue;
+      const auto own = static_cast<double>(i);
+      const double top = own + 0.5 * (before + after) / (before - after);
+      // The parabola beside an end of the segment holds up to that end.
+      const double first = i == 1 ? 0.0 : own - 0.5, last = i + 1 == kLooks ? own + 1.0 : own + 0.5;
+      if (top < first || top > last || ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
+        continue;
+      look(top / kLooks, [&](std::string_view limit, double ratio) {
         if (limit == name) most = std::max(most, ratio);
       });
     }

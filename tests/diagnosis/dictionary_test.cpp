@@ -33,9 +33,9 @@ std::vector<Eigen::VectorXd> entries_of(const RunSignals& run, const std::string
   return found;
 }
 
-class Supply : public ::testing::TestWithParam<double> {};
+class DictionaryEntries : public ::testing::TestWithParam<double> {};
 
-TEST_P(Supply, PowerDependsOnTheSizeOfCurrentsAndSpeeds) {
+TEST_P(DictionaryEntries, SupplyPowerDependsOnTheSizeOfCurrentsAndSpeeds) {
   const RunSignals run = there_or_back(GetParam());
   const Prediction p = predict(run, {.robot = testing::nomad()});
   const auto current = entries_of(run, "current", "battery power", kDriverPower);
@@ -55,8 +55,62 @@ TEST_P(Supply, PowerDependsOnTheSizeOfCurrentsAndSpeeds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forward, Supply, ::testing::Values(0.5));
-INSTANTIATE_TEST_SUITE_P(Reverse, Supply, ::testing::Values(-0.5));
+TEST_P(DictionaryEntries, VoltageOfAWindingIsOddInSpeed) {
+  const RunSignals run = there_or_back(GetParam());
+  const auto speed = entries_of(run, "wheel speed", "voltage", kWindingLeft);
+  ASSERT_EQ(speed.size(), 3u);
+  for (Eigen::Index j = 0; j < run.size(); ++j) {
+    const double q = run.wheel_speed_rad_s.left[j];
+    EXPECT_NEAR(speed[0][j], q, 1e-12);
+    EXPECT_NEAR(speed[2][j], std::copysign(q * q, q), 1e-12);
+  }
+}
+
+/// A force F along the heading asks r F/2 of each wheel; a moment M asks -/+ r M/(2 l). Both are over Kt n.
+TEST_P(DictionaryEntries, ForceAndMomentAreSharedByTheWheels) {
+  const RunSignals run = there_or_back(GetParam());
+  const Robot robot = testing::nomad();
+  const double r = robot.geometry.wheel_radius_m.left, l = robot.geometry.half_track_m,
+               k = robot.motor.left.torque_per_ampere_Nm_A();
+  const auto left = entries_of(run, "speed", "current", kCurrentLeft),
+             right = entries_of(run, "speed", "current", kCurrentRight),
+             turn_left = entries_of(run, "yaw acceleration", "current", kCurrentLeft),
+             turn_right = entries_of(run, "yaw acceleration", "current", kCurrentRight);
+  ASSERT_TRUE(left.size() == 2 && right.size() == 2 && turn_left.size() == 1 && turn_right.size() == 1);
+  for (Eigen::Index j = 0; j < run.size(); ++j) {
+    const double v = r * (run.wheel_speed_rad_s.left[j] + run.wheel_speed_rad_s.right[j]) / 2;
+    EXPECT_NEAR(left[0][j], 0.5 * r * v / k, 1e-12);
+    EXPECT_NEAR(right[1][j], 0.5 * r * std::copysign(v * v, v) / k, 1e-12);
+    const double yaw_rad_s2 =
+        r * (run.wheel_acceleration_rad_s2.right[j] - run.wheel_acceleration_rad_s2.left[j]) / (2 * l);
+    EXPECT_NEAR(turn_right[0][j], r * yaw_rad_s2 / (2 * l * k), 1e-12);
+    EXPECT_NEAR(turn_left[0][j], -turn_right[0][j], 1e-12);
+  }
+}
+
+/// A speed that the wheels do not show moves the robot along its heading; poses count from their mean.
+TEST_P(DictionaryEntries, MissedSpeedAddsUpAlongTheHeading) {
+  const RunSignals run = there_or_back(GetParam());
+  const double r = testing::nomad().geometry.wheel_radius_m.left;
+  const auto x = entries_of(run, "speed", "motion", kPositionX),
+             y = entries_of(run, "speed", "motion", kPositionY),
+             heading = entries_of(run, "speed", "motion", kHeading),
+             gyro = entries_of(run, "speed", "motion", kGyro);
+  ASSERT_EQ(x.size(), 3u);
+  for (Eigen::Index j = 1; j < run.size(); ++j) {
+    const double v = r * (run.wheel_speed_rad_s.left[j] + run.wheel_speed_rad_s.right[j]) / 2;
+    EXPECT_NEAR(x[0][j] - x[0][j - 1], v * std::cos(run.heading_rad[j]) * run.period_s, 1e-12);
+    EXPECT_NEAR(y[0][j] - y[0][j - 1], v * std::sin(run.heading_rad[j]) * run.period_s, 1e-12);
+    EXPECT_NEAR(y[1][j] - y[1][j - 1], std::abs(v) * (y[0][j] - y[0][j - 1]), 1e-12);
+    EXPECT_EQ(gyro[0][j], 0.0);
+    EXPECT_NEAR(gyro[2][j], v, 1e-12) << "a yaw rate in proportion to the speed";
+    EXPECT_NEAR(heading[2][j] - heading[2][j - 1], v * run.period_s, 1e-12);
+  }
+  EXPECT_NEAR(x[0].mean(), 0.0, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forward, DictionaryEntries, ::testing::Values(0.5));
+INSTANTIATE_TEST_SUITE_P(Reverse, DictionaryEntries, ::testing::Values(-0.5));
 
 }  // namespace
 }  // namespace joulepath

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 """Mutants: changes one operator or constant at a time and looks whether a test notices.
 
-usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--longest S] [--survivors] [--report] [--list]
+usage: ./dev mutate [--area model|nlp|profile|diagnosis] [--sites N] [--minutes M] [--longest S] [-j N] [--survivors] [--report] [--list]
 
-Draws sites by a fixed seed, 75 in each of four areas. The tests are compiled once, in build/mutants/tree, with every
-mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A first run notes which suite of
-tests reaches which mutant and how long it takes; a mutant is then judged by the suites that reach it, quick ones
-first. What cannot be compiled in this way, or stands in a constant expression, is compiled alone. Verdicts are kept
-in build/mutants/verdicts.jsonl, so that a later call goes on; --survivors judges survivors again. --longest
-leaves out suites that take more than S seconds of CPU; a later call asks them about the survivors. The table is
-benchmarks/results/mutants.md.
+Draws sites by a fixed seed, 75 in each of four areas. The tests of the areas that are asked for are compiled once, in
+build/mutants/tree, with every mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A
+first run notes which suite of tests reaches which mutant and how long it takes; a mutant is then judged by the suites
+that reach it, quick ones first, -j mutants at a time. What cannot be compiled in this way, or stands in a constant
+expression, is compiled alone. Verdicts are kept in build/mutants/verdicts.jsonl, so that a later call goes on;
+--survivors judges survivors again. --longest leaves out suites that take more than S seconds of CPU; a later call asks
+them about the survivors. The table is benchmarks/results/mutants.md.
 """
 import argparse
+import concurrent.futures
 import hashlib
 import itertools
 import json
@@ -24,7 +25,7 @@ import sys
 import time
 
 from sites import AREAS, PER_AREA, ROOT, drawn, identity, key, mutated, with_mutants
-from verdicts import VERDICTS, equivalent, equivalents, first, known, read, report
+from verdicts import VERDICTS, commit, equivalent, equivalents, first, known, read, report
 
 OUT = os.path.join(ROOT, "build/mutants")
 TREE = os.path.join(OUT, "tree")
@@ -55,7 +56,8 @@ def copy_tree():
         subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
 
 
-PROGRAMS = sorted({program for _, programs in AREAS.values() for program in programs})
+def programs_of(areas):
+    return sorted({program for area in areas for program in AREAS[area][1]})
 
 
 def build_error(programs):
@@ -93,16 +95,11 @@ def build_all(sites, programs):
         write(FORMS, json.dumps({identity(site): [site["live"], site["alone"]] for site in sites}))
 
 
-def limit(cpu_s):
-    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-
 def run_tests(program, choice, mutant=0, cpu_s=600, notes=os.devnull):
     environment = {**os.environ, "MUTANT": str(mutant), "MUTANT_REACHED": notes}
-    return subprocess.run([os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice],
-                          capture_output=True, text=True, errors="replace", cwd=TREE, env=environment, preexec_fn=lambda: limit(cpu_s))
+    limits = ["prlimit", "--cpu=%d:%d" % (cpu_s, cpu_s + 5), "--as=%d" % MEMORY_BYTES, "--core=0"]
+    return subprocess.run([*limits, os.path.join(BUILD, "bin", program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + choice],
+                          capture_output=True, text=True, errors="replace", cwd=TREE, env=environment)
 
 
 def children_s():
@@ -200,27 +197,42 @@ def verdict_on(site, surveyed, longest_s):
     return asked_about(site, [suite for suite in own if site["id"] in suite["reaches"]], longest_s)
 
 
-def judge_all(queues, asked):
-    done, table, end_s = known(), equivalents(), time.monotonic() + 60 * asked.minutes
+def keep(site, verdict, done):
+    """One line in the file of verdicts for each: a call that is ended goes on."""
+    done[identity(site)] = {"identity": identity(site), "area": site["area"], "commit": commit(), **verdict}
+    with open(VERDICTS, "a") as stream:
+        stream.write(json.dumps(done[identity(site)]) + "\n")
+    print("%-9s %s  %s" % (verdict["verdict"], key(site), verdict.get("by", "")), flush=True)
+
+
+def open_sites(queues, areas, asked, done):
+    """The sites that have no verdict yet, or are asked about again; the areas take turns."""
+    table = equivalents()
     again = {name for name, entry in done.items() if entry["verdict"] == "survived" and (
         asked.survivors or (entry.get("left_out") and asked.longest > entry.get("longest", 0)))}
+    turns = itertools.chain(*itertools.zip_longest(*[first(queues[area], asked.sites, done) for area in areas]))
+    return [site for site in filter(None, turns) if not equivalent(site, table) and (identity(site) not in done or identity(site) in again)]
+
+
+def judge_all(queues, asked):
+    done, areas, end_s = known(), asked.area or list(AREAS), time.monotonic() + 60 * asked.minutes
+    programs = programs_of(areas)
     copy_tree()
     sites = [site for queue in queues.values() for site in queue]
     number(sites)
-    build_all(sites, PROGRAMS)
-    surveyed = survey(PROGRAMS)
-    for own_build in (False, True):  # those last: afterwards the programs have one mutant only
-        chosen = [first(queues[area], asked.sites, done) for area in asked.area or AREAS]
-        for site in filter(None, itertools.chain(*itertools.zip_longest(*chosen))):
-            name = identity(site)
-            settled = equivalent(site, table) or (name in done and name not in again)
-            if settled or needs_own_build(site, surveyed) != own_build or time.monotonic() > end_s:
-                continue
-            done[name] = {"identity": name, "area": site["area"], **verdict_on(site, surveyed, asked.longest)}
-            again.discard(name)
-            with open(VERDICTS, "a") as stream:
-                stream.write(json.dumps(done[name]) + "\n")
-            print("%-9s %s  %s" % (done[name]["verdict"], key(site), done[name].get("by", "")), flush=True)
+    build_all(sites, programs)
+    surveyed = survey(programs)
+    chosen = open_sites(queues, areas, asked, done)
+
+    def judged(site):
+        return None if time.monotonic() > end_s else verdict_on(site, surveyed, asked.longest)
+
+    for own_build in (False, True):  # those last and one by one: afterwards the programs have one mutant only
+        now = [site for site in chosen if needs_own_build(site, surveyed) == own_build]
+        with concurrent.futures.ThreadPoolExecutor(1 if own_build else asked.jobs) as pool:
+            for site, verdict in zip(now, pool.map(judged, now)):
+                if verdict:
+                    keep(site, verdict, done)
 
 
 def main():
@@ -229,6 +241,7 @@ def main():
     arguments.add_argument("--sites", type=int, default=PER_AREA)
     arguments.add_argument("--minutes", type=float, default=NO_LIMIT)
     arguments.add_argument("--longest", type=float, default=NO_LIMIT)
+    arguments.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
     for flag in ("--survivors", "--report", "--list"):
         arguments.add_argument(flag, action="store_true")
     asked = arguments.parse_args()

@@ -1,4 +1,6 @@
 """The verdicts on mutants, and their table."""
+import collections
+import functools
 import json
 import os
 import subprocess
@@ -11,6 +13,11 @@ VERDICTS = os.path.join(ROOT, "build/mutants/verdicts.jsonl")
 def read(path):
     with open(path) as stream:
         return stream.read()
+
+
+@functools.cache
+def commit():
+    return subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
 
 
 def known():
@@ -38,13 +45,13 @@ def remark(entry):
 
 
 def report(queues):
-    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     done, table, rows = known(), equivalents(), []
     for area, sites in queues.items():
         judged = [(area, site, equivalent(site, table) or done.get(identity(site))) for site in first(sites, PER_AREA, done)]
         rows += [row for row in judged if row[2]]
-    text = ["# Mutants", "", "`./dev mutate` at %s. Seed %d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (commit, SEED, PER_AREA),
-            "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
+    at = collections.Counter(entry.get("commit", "an earlier one") for _, _, entry in rows if entry["verdict"] != "equivalent")
+    text = ["# Mutants", "", "`./dev mutate`. Commits at which the mutants were judged: %s. Seed" % ", ".join("%s (%d)" % row for row in at.most_common()),
+            "%d, up to %d sites per area; a shorter run judges the first sites of the draw. A mutant" % (SEED, PER_AREA), "is killed when a test of its area fails; equivalent mutants are excluded by the argument in", "`tests/mutants/equivalent.tsv`.", "",
             "Open: passed by the suites that were asked, slow ones were left out (`--longest`).", "",
             "| area | tests | judged | equivalent | killed | survived | open | killed of those decided |", "|---|---|---:|---:|---:|---:|---:|---:|"]
     for area, (_, programs) in AREAS.items():
