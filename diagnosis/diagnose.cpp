@@ -115,10 +115,9 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   Diagnosis d = conclusion(x, names, validation, options.bootstrap);
   d.where = localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
   d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.verdict);
-  d.isolability =
-      isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
-                  {id.equations.noise, id.equations.run_variance, id.dispersion}, survey.invisible_effects,
-                  options.without);
+  d.isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
+                              {id.equations.noise, id.equations.run_variance, id.dispersion},
+                              survey.invisible_effects, options.without);
   d.estimated_payload_kg = runs.diagnosis.estimated_payload_kg;
   d.missing_channels = survey.missing_channels;
   d.notes = joined({survey.notes,
