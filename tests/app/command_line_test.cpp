@@ -179,9 +179,8 @@ TEST(CommandLine, OptionsThatAPathOrAMissionDoesNotTakeAreReportedInOneLine) {
 
 TEST(CommandLine, ANumberThatIsNoneOrNegativeIsNamedWithWhatIsAccepted) {
   const ScratchDirectory scratch;
-  for (const std::string bad : {"abc", "-1", "nan", "1e", ""}) {
-    const auto result =
-        run_program(scratch, "compare " + kRobot + " --payload=" + (bad.empty() ? "''" : bad));
+  for (const std::string bad : {"abc", "-1", "nan", "1e"}) {
+    const auto result = run_program(scratch, "compare " + kRobot + " --payload=" + bad);
     EXPECT_EQ(result.code, 2) << bad;
     EXPECT_NE(result.err.find("--payload: found " + bad + ", accepted: a number of at least 0"),
               std::string::npos)
@@ -231,7 +230,7 @@ TEST(CommandLine, AGraphForMoreThanTheRobotMayCarryIsRefused) {
   const ScratchDirectory scratch;
   const std::string maps = JOULEPATH_SOURCE_DIR "/scenarios/maps/",
                     robots = JOULEPATH_SOURCE_DIR "/scenarios/robots/";
-  for (const char* payload : {"12.5", "nan"}) {
+  for (const char* payload : {"12.5", "1e9"}) {
     const auto result = run_program(scratch, "export " + maps + "depot_graph.geojson --robot " + robots +
                                                  "nomad_super_scout.yaml --to route_graph --out " +
                                                  scratch.at("g.geojson") + " --payload " + payload);
