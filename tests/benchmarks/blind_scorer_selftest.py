@@ -2,6 +2,7 @@
 
 usage: python3 blind_scorer_selftest.py"""
 import json
+import os
 import pathlib
 import sys
 import tempfile
@@ -9,6 +10,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "blind" / "harness"))
 
+import again
 import campaign
 import examine
 import judge
@@ -158,6 +160,18 @@ class Campaign(unittest.TestCase):
             log.write_text('{"id": "case_0001"}\n{"id": "case_00')
             self.assertEqual(list(campaign.done_cases(log)), ["case_0001"])
             self.assertEqual(log.read_text(), '{"id": "case_0001"}\n')
+
+    def test_a_campaign_that_was_not_scored_is_not_asked_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "full-0123456789ab").mkdir()
+            kept, os.environ["JOULEPATH_SEALED_DIR"] = os.environ.get("JOULEPATH_SEALED_DIR"), folder
+            try:
+                with self.assertRaises(SystemExit):
+                    again.newest_scored("full")
+            finally:
+                del os.environ["JOULEPATH_SEALED_DIR"]
+                if kept is not None:
+                    os.environ["JOULEPATH_SEALED_DIR"] = kept
 
     def test_a_motion_that_is_none_is_not_driven(self):
         self.assertIsNone(examine.described({}))

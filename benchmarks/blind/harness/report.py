@@ -34,10 +34,14 @@ def card_table(cases, seconds, labels, results, last):
     return lines + [f"{row.row()} {last.get(row.name, '')} |" for row in rows]
 
 
+def values_of(lines):
+    """{measure: value} of the lines of a scorecard."""
+    return {cells[1].strip(): cells[2].strip() for cells in (line.split("|") for line in lines) if len(cells) > 6}
+
+
 def last_campaign(page):
     """Measure and value of the page that this campaign replaces."""
-    lines = page.read_text().split("## Controls")[0].splitlines() if page.exists() else []
-    return {cells[1].strip(): cells[2].strip() for cells in (line.split("|") for line in lines) if len(cells) > 6}
+    return values_of(page.read_text().split("## Controls")[0].splitlines() if page.exists() else [])
 
 
 def control_table(labels, results):
