@@ -52,9 +52,12 @@ std::vector<std::string> joined(const std::vector<std::vector<std::string>>& lis
 }
 
 std::string method_of(const RunsByUse& runs) {
-  if (runs.few) return "the same runs: too few to hold any out";
-  if (runs.fold_of.empty()) return "held-out runs, never used to choose or fit";
-  return "cross-fitted, " + std::to_string(fold_count(runs)) + " folds";
+  const std::string payloads = runs.diagnosis.estimated_payload_kg.empty()
+                                   ? ""
+                                   : "; payloads that no file states are estimated from each run itself";
+  if (runs.few) return "the same runs: too few to hold any out" + payloads;
+  if (runs.fold_of.empty()) return "held-out runs, never used to choose or fit" + payloads;
+  return "cross-fitted, " + std::to_string(fold_count(runs)) + " folds" + payloads;
 }
 
 /// Laws and unknown terms with evidence below the materiality floor.

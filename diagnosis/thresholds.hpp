@@ -51,10 +51,12 @@ inline constexpr double kUnevenPeriod = 0.05;
 /// Samples of an even grid over those of an uneven log, at most. Declared: bounds memory.
 inline constexpr double kMostGrowth = 50.0;
 /// Mean square of an acceleration over that of the encoders' noise, below which it counts as none. Derived:
-/// 99.9 % of windows of eleven samples of noise are below (0510).
+/// 99.9 % of windows of eleven samples of noise are below, at kPeriod_s and logs of 50 Hz and more (0510).
 inline constexpr double kAccelerationOverNoise = 3.0;
 /// Half the width of such a window. Chosen (0510).
 inline constexpr double kAccelerationWindow_s = 0.5;
+/// Samples further apart tell noise from motion no more. Chosen (0510).
+inline constexpr double kLongestNoisePeriod_s = 0.2;
 /// Below it dry friction has no known direction under the kernel. Chosen.
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Below it the direction of a wheel's rotation is uncertain. Chosen.

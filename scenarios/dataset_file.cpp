@@ -29,7 +29,7 @@ std::vector<PayloadStep> read_payload(const Node& node) {
   return steps;
 }
 
-/// Readings of a log's payload that differ from what the dataset file states, which counts.
+/// Readings of a log's payload that differ from what the dataset file states; the file's value is used.
 void find_contradiction(const Run& run, const std::vector<double>& stated_kg,
                         std::vector<LogArtifact>& artifacts) {
   constexpr double kRounding_kg = 0.01;
@@ -39,7 +39,7 @@ void find_contradiction(const Run& run, const std::vector<double>& stated_kg,
     if (std::abs(logged_kg[i] - stated_kg[i]) <= kRounding_kg || found.count++ > 0) continue;
     found.first_time_s = run.log.time_s[i];
     found.description = "the log has " + number_text(logged_kg[i]) + " kg, the dataset file " +
-                        number_text(stated_kg[i]) + " kg, which counts";
+                        number_text(stated_kg[i]) + " kg; the dataset file's value is used";
   }
   if (found.count > 0) artifacts.push_back(std::move(found));
 }
@@ -265,8 +265,8 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
     for (const Implausible& channel : implausible_channels(run, dataset.robot))
       throw ConfigError({run.mark, "", channel.found, channel.accepted,
                          channel.hint + " `columns:` with scale, in a dataset that names the log, converts"});
-  fill_payload(run, dataset.artifacts);
   dataset.artifacts = std::move(log.artifacts);
+  fill_payload(run, dataset.artifacts);
   dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;

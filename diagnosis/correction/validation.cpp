@@ -113,7 +113,7 @@ void choose_correction(const Examination& x, double before, Validation& v) {
     v.corrected = state, v.model = model;
     if (!all)
       v.judgment.notes.push_back("only " + in_words(part) +
-                                 " shrinks the held-out energy gap: the correction holds nothing else");
+                                 " shrinks the held-out gap: the correction holds nothing else");
     return;
   }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out gap: none is written");

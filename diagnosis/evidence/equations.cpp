@@ -263,7 +263,7 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
 
   std::vector<RunRows> rows(signals.size());
   const bool payload_column = has_payload_column(signals, options, robot);
-  const bool straight = !turns(manoeuvres_of(signals));
+  const bool straight = !has_yaw(signals, robot.geometry);
   parallel_for(signals.size(), [&](std::size_t r) {
     const auto rows_for = [&](const RunSignals& moves) {
       return rows_of(signals[r], moves, robot, nuisances, state, equations, layout, chosen, payload_column);

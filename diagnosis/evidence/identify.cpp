@@ -82,12 +82,11 @@ ModelState first_state(const LogSet& logs, std::size_t nuisances, const std::set
   return state;
 }
 
-/// Whether some run has the battery's power alone, which is quadratic in the torque. About the nominal model
-/// the curvature of one large effect looks like a winding and a driver error, and about the three it stays
-/// so.
+/// Whether the battery's power is all that the runs have of the energy; it is quadratic in the torque. About
+/// the nominal model the curvature of one large effect looks like a winding and a driver error beside it.
+/// Linearized about all three, the search finds them again.
 bool sees_battery_alone(const std::vector<RunSignals>& signals) {
-  return std::ranges::any_of(
-      signals, [](const RunSignals& run) { return !measures_motors(run) && measures_energy(run); });
+  return std::ranges::none_of(signals, measures_motors) && std::ranges::any_of(signals, measures_energy);
 }
 
 /// Linearizes about the state and searches the sets of effects and unknown terms, of `most` members.

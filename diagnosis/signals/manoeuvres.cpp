@@ -1,5 +1,6 @@
 #include "diagnosis/signals/manoeuvres.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -21,6 +22,23 @@ Manoeuvres manoeuvres_of(const std::vector<RunSignals>& signals) {
     }
   if (total == 0) return {1, 1, 1};
   return {share.turning / total, share.reverse / total, share.still / total};
+}
+
+bool has_yaw(const std::vector<RunSignals>& signals, const Geometry& geometry) {
+  return std::ranges::any_of(signals, [&](const RunSignals& run) {
+    const auto half = std::max<Eigen::Index>(1, std::lround(kAccelerationWindow_s / run.period_s));
+    const double span_s = 2 * static_cast<double>(half) * run.period_s;
+    Eigen::Index turning = 0;
+    for (Eigen::Index j = half; j + half < run.size(); ++j) {
+      const auto rolled_m = [&](Side side) {
+        const Eigen::VectorXd& angle_rad = run.wheel_angle_rad[side];
+        return geometry.wheel_radius_m[side] * (angle_rad[j + half] - angle_rad[j - half]);
+      };
+      const double turned_rad = (rolled_m(Side::right) - rolled_m(Side::left)) / (2 * geometry.half_track_m);
+      turning += std::abs(turned_rad) > kMovingYawRate_rad_s * span_s;
+    }
+    return static_cast<double>(turning) > kLeastManoeuvreShare * static_cast<double>(run.size());
+  });
 }
 
 RunSignals straightened(RunSignals run) {

@@ -16,7 +16,10 @@ struct Manoeuvres {
 [[nodiscard]] inline bool turns(const Manoeuvres& share) { return share.turning >= kLeastManoeuvreShare; }
 [[nodiscard]] inline bool reverses(const Manoeuvres& share) { return share.reverse >= kLeastManoeuvreShare; }
 
-/// The run with the mean of both wheels at each wheel. Where no run turns, the wheels differ by noise: a
+/// Whether some run turns, wide arcs included: a yaw rate of the wheels, over a second, that is no noise.
+[[nodiscard]] bool has_yaw(const std::vector<RunSignals>& signals, const Geometry& geometry);
+
+/// The run with the mean of both wheels at each wheel. Where no run has yaw, the wheels differ by noise: a
 /// signature that follows it finds it again in the measured heading, which does not follow it (errors in
 /// variables), and moves the half track or an unknown cause.
 [[nodiscard]] RunSignals straightened(RunSignals run);

@@ -82,10 +82,14 @@ class Thinner {
 
   Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
   Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
-  /// Variance of a slope over that of the white noise of the channel, 1/s^2.
-  double slope_noise_gain() const {
-    return std::inner_product(kernel_.slope_weight.begin(), kernel_.slope_weight.end(),
-                              kernel_.slope_weight.begin(), 0.0);
+  /// Variance of the third differences of slopes over that of the slopes, both of white noise of the channel.
+  double third_difference_gain() const {
+    const auto correlation = [&](std::size_t lag) {
+      const std::size_t shift = std::min(lag * stride_, kernel_.slope_weight.size());
+      return std::inner_product(kernel_.slope_weight.begin() + static_cast<std::ptrdiff_t>(shift),
+                                kernel_.slope_weight.end(), kernel_.slope_weight.begin(), 0.0);
+    };
+    return 20 - (30 * correlation(1) - 12 * correlation(2) + 2 * correlation(3)) / correlation(0);
   }
 
  private:
@@ -161,8 +165,7 @@ Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
                  const Samples& heading, double least_speed_rad_s) {
   signals.wheel_acceleration_rad_s2 = {thinner.slope(wheels.left), thinner.slope(wheels.right)};
-  const double noise = 0.5 * (white_noise_variance(wheels.left) + white_noise_variance(wheels.right));
-  remove_acceleration_noise(signals.wheel_acceleration_rad_s2, thinner.slope_noise_gain() * noise,
+  remove_acceleration_noise(signals.wheel_acceleration_rad_s2, thinner.third_difference_gain(),
                             thinner.period_s());
   for (Side side : kSides) {
     const Samples& speed = wheels[side];

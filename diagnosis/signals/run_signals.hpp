@@ -14,6 +14,7 @@ namespace joulepath {
 /// Every measured channel is convolved with the same Gaussian kernel before downsampling; a wheel's
 /// acceleration is its speed convolved with the kernel's derivative. A convolution commutes with every linear
 /// term of the equations of motion, so currents and accelerations match although neither is differentiated.
+/// Accelerations that do not stand out of their noise are zero.
 /// Absent channels are empty.
 struct RunSignals {
   std::string name{};

@@ -224,11 +224,14 @@ GapReport measure_gap(const GapInput& input) {
 bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const ModelPoints& before,
                       const std::vector<RunSignals>& after_signals, const ModelPoints& after) {
   const Squares a = squares_of(before_signals, before), b = squares_of(after_signals, after);
-  return std::ranges::any_of(std::array{&Squares::current, &Squares::voltage, &Squares::position,
-                                        &Squares::heading, &Squares::battery},
-                             [&](MeanSquare Squares::*signal) {
-                               return (b.*signal).root() < (1 - kNotableShrink) * (a.*signal).root();
-                             });
+  constexpr std::array kSignals{&Squares::current, &Squares::voltage, &Squares::position, &Squares::heading,
+                                &Squares::battery};
+  const auto some_is_smaller = [&](const Squares& one, const Squares& other) {
+    return std::ranges::any_of(kSignals, [&](MeanSquare Squares::*signal) {
+      return (one.*signal).root() < (1 - kNotableShrink) * (other.*signal).root();
+    });
+  };
+  return some_is_smaller(b, a) && !some_is_smaller(a, b);
 }
 
 const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index j) {

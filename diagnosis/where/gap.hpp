@@ -54,7 +54,7 @@ struct GapInput {
 [[nodiscard]] GapReport measure_gap(const GapInput& input);
 
 /// Whether a model shrinks the gap of a compared signal other than the energy (current, voltage, position,
-/// heading or battery power, root mean square) by at least kNotableShrink.
+/// heading or battery power, root mean square) by at least kNotableShrink, and widens none by as much.
 [[nodiscard]] bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const ModelPoints& before,
                                     const std::vector<RunSignals>& after_signals, const ModelPoints& after);
 

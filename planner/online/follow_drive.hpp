@@ -59,7 +59,7 @@ struct FollowResult {
   std::size_t finished{};          ///< pieces
   std::vector<LimitUse> limits{};  ///< the largest uses by the commands
   bool off_path{};                 ///< handed over; nothing is driven afterwards
-  std::string stopped_by{};        ///< limit that ended the last piece early; empty if none did
+  std::string stopped_by{};        ///< limit that stopped the last command; empty after a hand-over
 };
 
 /// Drives planned pieces by the Follower on the simulated robot: commands take effect after the follower's

@@ -10,6 +10,7 @@
 
 #include "diagnosis/evidence/identify.hpp"
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/signals/manoeuvres.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -28,14 +29,52 @@ double share_without(const Eigen::VectorXd& acceleration) {
          static_cast<double>(acceleration.size());
 }
 
-TEST(AccelerationNoise, ItsVarianceIsThatOfWhiteNoiseOnASmoothSignal) {
+TEST(AccelerationNoise, WhatStandsOutOfWhiteNoiseStays) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
-  std::vector<double> samples, steps(500, 1.0);
-  for (int k = 0; k < 5000; ++k) samples.push_back(3 * std::sin(0.02 * k) + 0.2 * normal(random));
-  EXPECT_NEAR(white_noise_variance(samples), 0.04, 0.004);
-  EXPECT_EQ(white_noise_variance(steps), 0.0);
-  EXPECT_EQ(white_noise_variance({1, 2, 3}), 0.0);
+  Sided<Eigen::VectorXd> found{Eigen::VectorXd(400), Eigen::VectorXd(400)};
+  for (Eigen::Index j = 0; j < 400; ++j)
+    for (Side side : kSides) found[side][j] = 0.2 * normal(random) + (j < 200 ? 0.0 : 1.0);
+  const Sided<Eigen::VectorXd> given = found;
+  remove_acceleration_noise(found, 20, 0.1);
+  EXPECT_GT(share_without(found.left.head(190)), 0.97);
+  EXPECT_LT((0.5 * (found.left + found.right - given.left - given.right)).tail(190).cwiseAbs().maxCoeff(),
+            1e-12);
+  Sided<Eigen::VectorXd> sparse = given;
+  remove_acceleration_noise(sparse, 20, 0.3);
+  EXPECT_EQ(sparse.left, given.left);
+}
+
+/// Speeds from an encoder's counts: their noise has little of its power where accelerations are. A gentle
+/// ramp of 0.05 m/s^2 at 2000 counts a turn stays, steady driving at 360 counts has no acceleration.
+TEST(AccelerationNoise, CountsOfAnEncoderHideNoGentleRamp) {
+  const Robot robot = testing::nomad();
+  const auto counted = [&](double counts, double acceleration_m_s2) {
+    auto run = testing::synthetic_run(robot, "run", 20, 0, [=](double t) {
+      return BodyMotion<double>{.speed_m_s = 0.2 + acceleration_m_s2 * t,
+                                .acceleration_m_s2 = acceleration_m_s2};
+    });
+    for (Side side : kSides) {
+      double angle_rad = 0, last_rad = 0;
+      for (double& speed : run.log.wheel_speed_rad_s[side]) {
+        angle_rad += 0.02 * speed;
+        const double whole_rad = std::floor(angle_rad * counts / 6.283185307) * 6.283185307 / counts;
+        speed = (whole_rad - last_rad) / 0.02, last_rad = whole_rad;
+      }
+    }
+    return make_run_signals(run, 0, robot).wheel_acceleration_rad_s2;
+  };
+  const double due = 0.05 / robot.geometry.wheel_radius_m.left;
+  EXPECT_NEAR(counted(2000, 0.05).left.segment(5, 180).mean(), due, 0.2 * due);
+  EXPECT_GT(share_without(counted(360, 0.0).left), 0.9);
+}
+
+/// A wide arc is a turn: 2 m at 0.25 m/s. The noise of a straight run's wheels is none.
+TEST(AccelerationNoise, AWideArcHasYaw) {
+  const Geometry geometry = testing::nomad().geometry;
+  EXPECT_FALSE(has_yaw({signals_of(testing::constant_speed(0.6))}, geometry));
+  const auto arc = [](double) { return BodyMotion<double>{.speed_m_s = 0.25, .yaw_rate_rad_s = 0.125}; };
+  EXPECT_TRUE(has_yaw({signals_of(testing::constant_speed(0.6)), signals_of(arc)}, geometry));
 }
 
 TEST(AccelerationNoise, SteadyMotionHasNoAcceleration) {

@@ -93,7 +93,8 @@ TEST(DatasetFile, APayloadThatContradictsTheLogIsAFinding) {
   EXPECT_EQ(contradicts.artifacts[0].kind, "contradiction");
   EXPECT_EQ(contradicts.artifacts[0].channel, "payload_kg");
   EXPECT_EQ(contradicts.artifacts[0].count, 2u);
-  EXPECT_EQ(contradicts.artifacts[0].description, "the log has 4 kg, the dataset file 10 kg, which counts");
+  EXPECT_EQ(contradicts.artifacts[0].description,
+            "the log has 4 kg, the dataset file 10 kg; the dataset file's value is used");
   EXPECT_EQ(contradicts.runs[0].payload.front().payload_kg, 10);
   EXPECT_TRUE(agrees.artifacts.empty());
 }
