@@ -97,6 +97,8 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
       return std::find(headers.begin(), headers.end(), name) != headers.end();
     });
     if (found) continue;
+    for (const auto& [other, taken] : sources)  // a source of another column is no hint
+      for (const std::string& name : taken.from) std::erase(headers, name);
     const std::string near = nearest_word(source.from.front(), headers);
     throw ConfigError({source.mark, "columns." + column + ".from", source.from.front(),
                        "a column of " + files.front().table.file,

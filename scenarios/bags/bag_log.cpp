@@ -8,6 +8,7 @@
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/bags/byte_reader.hpp"
+#include "scenarios/bags/field_path.hpp"
 #include "scenarios/bags/message_numbers.hpp"
 #include "scenarios/bags/topic_samples.hpp"
 
@@ -18,9 +19,24 @@ namespace {
 /// One topic during reading.
 struct Topic {
   TopicSamples samples{};
+  std::vector<std::string> paths{};  ///< of the columns
   std::unique_ptr<MessageNumbers> reader{};
   std::size_t broken{};
 };
+
+/// Takes out the sources that name a field which the messages do not have, or an element that none of them
+/// names: a mistyped name is not a channel without values.
+void drop_unknown_sources(Topic& topic) {
+  const auto is_named = [](const FieldStep& step) { return step.element && !element_index(*step.element); };
+  const auto is_number = [](double value) { return std::isfinite(value); };
+  for (std::size_t i = topic.paths.size(); i-- > 0;) {
+    const bool known = !std::ranges::any_of(field_path(topic.paths[i]), is_named) ||
+                       std::ranges::any_of(topic.samples.values[i], is_number);
+    if (known && topic.reader->has(topic.paths[i])) continue;
+    topic.samples.columns.erase(topic.samples.columns.begin() + static_cast<std::ptrdiff_t>(i));
+    topic.samples.values.erase(topic.samples.values.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
 
 class BagLogReader {
  public:
@@ -40,7 +56,10 @@ class BagLogReader {
     tell_damage();
     std::vector<Topic*> order;
     for (Topic& topic : topics_)
-      if (topic.reader && !topic.samples.stamp_s.empty()) order.push_back(&topic);
+      if (topic.reader && !topic.samples.stamp_s.empty()) {
+        drop_unknown_sources(topic);
+        order.push_back(&topic);
+      }
     if (order.empty())
       throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
                            "a bag with Odometry or JointState, or columns: that name its topics",
@@ -76,7 +95,7 @@ class BagLogReader {
     topics_.push_back({.samples = {.name = channel.topic}});
     Topic& topic = topics_.back();
     TopicSamples& samples = topic.samples;
-    std::vector<std::string> paths;
+    std::vector<std::string>& paths = topic.paths;
     for (const auto& [column, source] : log_.sources)
       for (const std::string& from : source.from) {
         std::string path;

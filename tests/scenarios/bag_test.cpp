@@ -44,6 +44,29 @@ TEST_F(Bags, JointsAreFoundByNameWhateverTheirOrder) {
   EXPECT_EQ(*right, (std::vector<double>{2.0, 4.0}));
 }
 
+/// Not a channel without values, which other channels would then stand in for.
+TEST_F(Bags, AMistypedElementOrFieldIsAnError) {
+  McapWriter bag;
+  const auto channel = bag.channel(ros("/joints", "sensor_msgs/msg/JointState"));
+  for (int k = 0; k < 100; ++k) {
+    const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+    bag.message(channel, ns, joints(ns, {{"wheel_left", 1.0}, {"wheel_right", 2.0}}));
+  }
+  const std::string file = written(bag.finish());
+  for (const std::string wrong : {"/joints.velocity[left_wheel]", "/joints.velocities[wheel_left]"}) {
+    ColumnSources sources = one("wheel_speed_left_rad_s", wrong);
+    sources["wheel_speed_right_rad_s"].from = {"/joints.velocity[wheel_right]"};
+    try {
+      (void)read_run_log({{file, {}}}, sources, nomad().geometry, "run");
+      FAIL() << wrong;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().key, "columns.wheel_speed_left_rad_s.from");
+      EXPECT_EQ(error.detail().found, wrong);
+      EXPECT_EQ(error.detail().hint, "") << "the other wheel is no hint";
+    }
+  }
+}
+
 TEST_F(Bags, TransformsAndDiagnosticsAreFoundByTheirNames) {
   CdrWriter tf;
   tf.number(std::uint32_t{2});
