@@ -18,8 +18,8 @@ void add(ByteWriter& writer, const OccupancyGrid& grid) {
 
 void add(ByteWriter& writer, const RouteGraph& graph) {
   for (const auto& [id, x_m, y_m] : graph.nodes) writer(id, x_m, y_m);
-  for (const auto& [id, start, end, speed_limit_m_s, via_m] : graph.edges)
-    writer(id, start, end, speed_limit_m_s, via_m);
+  for (const auto& [id, start, end, speed_limit_m_s, via_m, speed_limit_percent] : graph.edges)
+    writer(id, start, end, speed_limit_m_s, via_m, speed_limit_percent);
 }
 
 }  // namespace

@@ -15,18 +15,17 @@ std::array<double, 2> read_point(const Node& node) {
   return {xy[0].number(), xy[1].number()};
 }
 
-constexpr double kSlowest_m_s = 1e-3, kFastest_m_s = 100;
-
-/// The limit of speed in an edge's metadata.
-std::optional<double> read_speed_limit(const Node& properties) {
+/// A limit of speed in an edge's metadata: `abs_speed_limit` in m/s or `speed_limit` in percent, each up to
+/// 100.
+std::optional<double> read_limit(const Node& properties, const char* key, double least,
+                                 const char* accepted) {
   const auto metadata = properties.find("metadata");
   if (!metadata || metadata->kind() != Value::Kind::map) return std::nullopt;
-  const auto limit = metadata->find("abs_speed_limit");
+  const auto limit = metadata->find(key);
   if (!limit) return std::nullopt;
-  const double speed_m_s = limit->number();
-  if (!(speed_m_s >= kSlowest_m_s && speed_m_s <= kFastest_m_s))
-    limit->fail("from 0.001 to 100 m/s", "leave the key out where there is no limit");
-  return speed_m_s;
+  const double value = limit->number();
+  if (!(value >= least && value <= 100)) limit->fail(accepted, "leave the key out where there is no limit");
+  return value;
 }
 
 class GraphReader {
@@ -43,10 +42,12 @@ class GraphReader {
 
   /// Edges may share an id, as two of Nav2's own depot graph do.
   void add_edge(const Node& properties, const Node& geometry) {
-    RouteGraph::Edge edge{.id = properties["id"].integer(),
-                          .start = index(properties["startid"]),
-                          .end = index(properties["endid"]),
-                          .speed_limit_m_s = read_speed_limit(properties)};
+    RouteGraph::Edge edge{
+        .id = properties["id"].integer(),
+        .start = index(properties["startid"]),
+        .end = index(properties["endid"]),
+        .speed_limit_m_s = read_limit(properties, "abs_speed_limit", 1e-3, "from 0.001 to 100 m/s"),
+        .speed_limit_percent = read_limit(properties, "speed_limit", 0.1, "from 0.1 to 100 percent")};
     std::vector<std::vector<Node>> lines;
     const Node coordinates = geometry["coordinates"];
     if (geometry["type"].text() == "MultiLineString")

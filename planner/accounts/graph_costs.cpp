@@ -56,7 +56,8 @@ class GraphPricer {
   /// Cost of an edge driven at constant speed along straight lines, with its corners.
   EdgeCost edge_cost(const RouteGraph::Edge& edge) const {
     const std::vector<Point2> line = edge_line(graph_, edge);
-    const double most = std::min({limits_.speed_m_s, edge.speed_limit_m_s.value_or(kNoLimit), 10.0});
+    const double share = edge.speed_limit_percent.value_or(100) / 100;
+    const double most = std::min({share * limits_.speed_m_s, edge.speed_limit_m_s.value_or(kNoLimit), 10.0});
     const auto energy_J = [&](double speed_m_s) { return steady_J(line, speed_m_s); };
     EdgeCost cost{.speed_m_s = most};
     if (most > kSlowest_m_s)

@@ -77,6 +77,23 @@ TEST(RouteGraph, KeepsWhatTheGraphSaysAndASpeedLimit) {
   EXPECT_NEAR(edge["speed_limit"].get<double>(), 30.0, 1e-3);
 }
 
+/// The percentage that a route server's AdjustSpeedLimit reads holds as the limit in m/s does, as an integer,
+/// too.
+TEST(RouteGraph, KeepsASpeedLimitInPercent) {
+  const ScratchDirectory directory;
+  const double most_m_s = testing::nomad().limits->speed_m_s;
+  for (const char* percent : {"30.0", "30"}) {
+    const std::string file = directory.write(
+        "graph.geojson", collection({point(1, 0, 0), point(2, 8, 0),
+                                     line(10, 1, 2, std::string(R"({"speed_limit": )") + percent + "}")}));
+    const RouteGraphExport result =
+        export_route_graph({file, directory.at("out.geojson"), 0, 0, false}, testing::nomad());
+    const Json edge = metadata_of(result.files[0].content).at(10);
+    EXPECT_LE(edge["speed_limit"].get<double>(), 30.0 + 1e-6);
+    EXPECT_LE(edge["abs_speed_limit"].get<double>(), 0.3 * most_m_s + 1e-6);
+  }
+}
+
 /// Friction and standby per meter, by the closed form of constant speed: (R i^2 + Kt n i w) for both motors.
 TEST(RouteGraph, AStraightEdgeCostsItsSteadyPower) {
   const ScratchDirectory directory;
@@ -236,6 +253,10 @@ TEST(RouteGraph, AbsurdLimitsAndDoubleIdsAreRefused) {
   for (const char* limit : {"-1", "0", "1e-9", "1e9"}) {
     const std::string text = refusal(line(10, 1, 2, std::string(R"({"abs_speed_limit": )") + limit + "}"));
     EXPECT_NE(text.find("abs_speed_limit"), std::string::npos) << limit;
+  }
+  for (const char* limit : {"0", "101", "\"slow\""}) {
+    const std::string text = refusal(line(10, 1, 2, std::string(R"({"speed_limit": )") + limit + "}"));
+    EXPECT_NE(text.find("speed_limit"), std::string::npos) << limit;
   }
   EXPECT_NE(refusal(point(2, 9, 0)).find("id"), std::string::npos);
   EXPECT_EQ(refusal(line(10, 1, 2) + "," + line(10, 2, 1)), "");  // as in Nav2's own graph of its depot

@@ -20,7 +20,8 @@ struct RouteGraph {
     std::size_t start{};  ///< index into nodes
     std::size_t end{};
     std::optional<double> speed_limit_m_s{};
-    std::vector<double> via_m{};  ///< inner points of the edge's polyline: x, y, x, y ...
+    std::vector<double> via_m{};                  ///< inner points of the edge's polyline: x, y, x, y ...
+    std::optional<double> speed_limit_percent{};  ///< of the robot's greatest speed
   };
   std::vector<Node> nodes{};
   std::vector<Edge> edges{};
