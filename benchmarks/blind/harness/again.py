@@ -5,13 +5,10 @@ Design: docs/decisions/0512-a-scored-campaign-is-asked-again.md
 import concurrent.futures
 import sys
 
-import campaign
 import plan
 import report
-import seal
 import workspace
 from examine import examine
-from judge import Answer
 
 
 def newest_scored(name):
@@ -23,12 +20,6 @@ def newest_scored(name):
     return workspace.git("rev-parse", max(found)[1])
 
 
-def scorecard_of(labels, results, last):
-    cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
-    seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
-    return report.card_table(cases, seconds, labels, results, last)
-
-
 def again(name, count, jobs):
     frozen = newest_scored(name)
     labels, then, _ = report.load(frozen, name)
@@ -38,12 +29,12 @@ def again(name, count, jobs):
     changed = [i for i in now if now[i].get("data_sha256") != then[i].get("data_sha256")]
     if changed:
         sys.exit(f"the generator has changed since: {len(changed)} of {len(now)} cases have other logs, the first is {changed[0]}")
-    last = report.values_of(scorecard_of(labels, {i: then[i] for i in now}, {}))
+    last = report.values_of(report.card_table(labels, {i: then[i] for i in now}, {}))
     lines = ["# Cases of the blind benchmark, asked again", "",
              f"Command `./dev bench blind again --cases {len(now)}`; program of commit `{workspace.head()[:12]}`; campaign `{name}` of `{frozen[:12]}`; {report.machine()}.",
              f"The first {len(now)} cases of a campaign that was scored before: development data, which the program's thresholds have seen. The column",
              "\"last campaign\" holds the sealed answers to the same cases. What the rows mean: [blind.md](blind.md).", ""]
-    lines += scorecard_of(labels, now, last)
+    lines += report.card_table(labels, now, last)
     page = workspace.RESULTS / "blind_again.md"
     page.write_text("\n".join(lines) + "\n")
     print(page.read_text())

@@ -26,7 +26,13 @@ def load(frozen, name):
     return usable, {i: result for i, result in results.items() if i in usable}, sorted(set(labels) - set(usable))
 
 
-def card_table(cases, seconds, labels, results, last):
+def cases_of(labels, results):
+    return [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
+
+
+def card_table(labels, results, last):
+    cases = cases_of(labels, results)
+    seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
     rows = scorecard.rates(cases) + scorecard.correction_rates(labels, results) + scorecard.interval_values(cases)
     rows += scorecard.place_rates(cases) + scorecard.next_run_rates(labels, results)
     rows += scorecard.values(cases, seconds) + scorecard.shrink_values(labels, results)
@@ -161,8 +167,7 @@ CONTROL_METHODS = """`always_friction` names Coulomb friction whatever happens; 
 
 def report_files(frozen, name, sealed, prefix, labels, results, unusable=(), last=None):
     """{path below the results folder: text} of the whole report."""
-    cases = [(labels[i], Answer(results[i].get("diagnosis"))) for i in sorted(results)]
-    seconds = [r["seconds"] for r in results.values() if "diagnosis" in r]
+    cases = cases_of(labels, results)
     power, confusion = scorecard.power(cases), scorecard.confusion(cases)
     told = [(a.probability, a.first in truth_of(l)) for l, a in cases if a.gives_a_name]
     _, _, reliability = calibration(told)
@@ -171,7 +176,7 @@ def report_files(frozen, name, sealed, prefix, labels, results, unusable=(), las
     lines = head_lines(frozen, name, sealed, labels, results, prefix)
     if unusable:
         lines += [f"Left out, their labels hold no finite numbers: {', '.join(unusable)}.", ""]
-    lines += ["## Scorecard", ""] + card_table(cases, seconds, labels, results, last or {}) + ["", DETECTABLE, ""]
+    lines += ["## Scorecard", ""] + card_table(labels, results, last or {}) + ["", DETECTABLE, ""]
     lines += ["## Controls on the same cases", ""] + control_table(labels, results) + ["", CONTROL_METHODS, ""]
     lines += ["## By robot, protocol and level", ""] + split_table(cases) + [""]
     lines += ["## Confusion", "", picture("confusion", "confusion.svg"), ""] + confusion_lines(confusion) + [""]
