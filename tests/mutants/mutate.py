@@ -7,7 +7,7 @@ Draws sites by a fixed seed, 75 in each of four areas. The tests of the areas th
 build/mutants/tree, with every mutant in them (tests/mutants/mutation.hpp); an environment variable chooses one. A
 first run notes which suite of tests reaches which mutant and how long it takes; a mutant is then judged by the suites
 that reach it, quick ones first, -j mutants at a time. What cannot be compiled in this way, or stands in a constant
-expression, is compiled alone. Verdicts are kept in build/mutants/verdicts.jsonl, so that a later call goes on;
+expression, is compiled alone. Verdicts are kept in benchmarks/results/mutants.jsonl, so that a later call, on any machine, goes on;
 --survivors judges survivors again. --longest leaves out suites that take more than S seconds of CPU; a later call asks
 them about the survivors. The table is benchmarks/results/mutants.md.
 """

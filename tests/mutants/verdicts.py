@@ -7,7 +7,7 @@ import subprocess
 
 from sites import AREAS, PER_AREA, ROOT, SEED, identity, key
 
-VERDICTS = os.path.join(ROOT, "build/mutants/verdicts.jsonl")
+VERDICTS = os.path.join(ROOT, "benchmarks/results/mutants.jsonl")
 
 
 def read(path):
