@@ -1,40 +1,45 @@
-"""Cases of a scored campaign once more, by the program as it is now: development data, blind no longer.
+"""Cases of the published campaign once more, by the program as it is now: development data, blind no longer.
 
 Design: docs/decisions/0512-a-scored-campaign-is-asked-again.md
 """
 import concurrent.futures
+import re
 import sys
 
 import plan
 import report
+import seal
 import workspace
 from examine import examine
 
-
-def newest_scored(name):
-    """The frozen commit of the newest campaign of that name that was scored on this machine."""
-    found = [(marker.read_text(), marker.parent.name.rsplit("-", 1)[1])
-             for marker in workspace.sealed_folder("", name).parent.glob(f"{name}-*/opened")]
-    if not found:
-        sys.exit("no campaign is scored on this machine: its labels stay sealed until then")
-    return workspace.git("rev-parse", max(found)[1])
+PAGE = workspace.RESULTS / "blind.md"
 
 
-def again(name, count, jobs):
-    frozen = newest_scored(name)
-    labels, then, _ = report.load(frozen, name)
-    cases = [case for case in plan.plan(frozen, *workspace.effect_names(), plan.FULL)[: count or None] if case["id"] in then]
+def published():
+    """(name, frozen commit) of the campaign whose scores are published; {case: the first digits of its data's hash}."""
+    name, frozen = re.search(r"campaign `(\w+)`, frozen commit `(\w+)`", PAGE.read_text()).groups()
+    rows = [line.split("\t") for line in (workspace.RESULTS / "blind/cases.tsv").read_text().splitlines()]
+    return name, frozen, {row[0]: row[-1] for row in rows}
+
+
+def asked(case):
+    return seal.label_of(case), examine(case, with_controls=False)
+
+
+def again(count, jobs):
+    name, frozen, hashes = published()
+    cases = [case for case in plan.plan(frozen, *workspace.effect_names(), plan.FULL)[: count or None] if case["id"] in hashes]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        now = {result["id"]: result for result in pool.map(lambda case: examine(case, with_controls=False), cases)}
-    changed = [i for i in now if now[i].get("data_sha256") != then[i].get("data_sha256")]
+        answers = list(pool.map(asked, cases))
+    labels, results = {label["id"]: label for label, _ in answers}, {result["id"]: result for _, result in answers}
+    changed = [i for i in results if not results[i].get("data_sha256", "").startswith(hashes[i])]
     if changed:
-        sys.exit(f"the generator has changed since: {len(changed)} of {len(now)} cases have other logs, the first is {changed[0]}")
-    last = report.values_of(report.card_table(labels, {i: then[i] for i in now}, {}))
+        sys.exit(f"the generator has changed since: {len(changed)} of {len(results)} cases have other logs, the first is {changed[0]}")
     lines = ["# Cases of the blind benchmark, asked again", "",
-             f"Command `./dev bench blind again --cases {len(now)}`; program of commit `{workspace.head()[:12]}`; campaign `{name}` of `{frozen[:12]}`; {report.machine()}.",
-             f"The first {len(now)} cases of a campaign that was scored before: development data, which the program's thresholds have seen. The column",
-             "\"last campaign\" holds the sealed answers to the same cases. What the rows mean: [blind.md](blind.md).", ""]
-    lines += report.card_table(labels, now, last)
+             f"Command `./dev bench blind again --cases {len(results)}`; program of commit `{workspace.head()[:12]}`; campaign `{name}` of `{frozen[:12]}`; {report.machine()}.",
+             f"The first {len(results)} cases of a campaign whose labels are published: development data, which the program's thresholds have seen. The column",
+             "\"last campaign\" holds the sealed answers to all cases of that campaign. What the rows mean: [blind.md](blind.md).", ""]
+    lines += report.card_table(labels, results, report.last_campaign(PAGE))
     page = workspace.RESULTS / "blind_again.md"
     page.write_text("\n".join(lines) + "\n")
     print(page.read_text())

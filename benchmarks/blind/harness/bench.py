@@ -63,7 +63,7 @@ def main():
     if arguments.short:
         return short(arguments.jobs)
     if arguments.stage == "again":
-        return again.again(arguments.name, arguments.cases, arguments.jobs)
+        return again.again(arguments.cases, arguments.jobs)
     name, frozen = arguments.name, sealed_commit(arguments.name)
     if arguments.stage in ("all", "seal") and not frozen:
         frozen = seal.seal(name, plan.FULL, arguments.cases, arguments.jobs)
