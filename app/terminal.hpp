@@ -14,9 +14,6 @@ enum class Paint { error, warning, good, dim, bold };
 /// The text in a color if the stream supports it.
 [[nodiscard]] std::string paint(const std::ostream& stream, Paint paint, const std::string& text);
 
-/// Columns of the terminal: COLUMNS, the tty's width, or 100.
-[[nodiscard]] int terminal_width();
-
 /// A number with this many significant digits, without an exponent for ordinary sizes.
 [[nodiscard]] std::string figure(double value, int digits = 4);
 

@@ -119,7 +119,7 @@ function take(answer, state, edits) {
   emit("answer");
 }
 
-export const moves_stops = () => is_ordered() || (has_legs() && store.mission.legs.some((leg) => leg.to !== undefined));
+const moves_stops = () => is_ordered() || (has_legs() && store.mission.legs.some((leg) => leg.to !== undefined));
 const ways_are_known = () => {
   if (store.mission.order) return store.served;
   if (is_ordered()) return !!store.answer && store.answer.plan.legs.every((_, k) => Array.isArray(store.ways[k]));
