@@ -39,7 +39,7 @@ std::optional<Profile> fastest_found(ProfileRequest request, double jerk_m_s3) {
   return find_profile_with_jerk_limit(request).profile;
 }
 
-/// "; jerk holds the fastest drive for 40 % of its time, ..."
+/// "; jerk limits the fastest drive for 40 % of its time, ..."
 std::string why_slow(const ProfileRequest& request, const Profile& fastest) {
   HoldingLimits limits;
   limits.add(request, fastest);
