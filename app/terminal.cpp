@@ -33,8 +33,7 @@ const char* code_of(Paint paint) {
   return "";
 }
 
-}  // namespace
-
+/// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
 bool is_colored(const std::ostream& stream) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* term = std::getenv("TERM");
@@ -43,6 +42,8 @@ bool is_colored(const std::ostream& stream) {
   if (stream.rdbuf() == std::cerr.rdbuf()) return isatty(STDERR_FILENO) == 1;
   return false;
 }
+
+}  // namespace
 
 std::string paint(const std::ostream& stream, Paint paint, const std::string& text) {
   return is_colored(stream) ? code_of(paint) + text + "\033[0m" : text;

@@ -8,9 +8,6 @@ namespace joulepath {
 
 enum class Paint { error, warning, good, dim, bold };
 
-/// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
-[[nodiscard]] bool is_colored(const std::ostream& stream);
-
 /// The text in a color if the stream supports it.
 [[nodiscard]] std::string paint(const std::ostream& stream, Paint paint, const std::string& text);
 

@@ -179,19 +179,19 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
     root["visit"].fail("a mission with a map", "name it with map:");
 }
 
+SpeedMaskRequest read_speed_mask(const Node& node, const ReadOptions& options) {
+  const bool absolute = node.text_or("kind", "percent") == "absolute";
+  return {resolve_file(node["file"], options),
+          absolute ? SpeedMask::Kind::absolute : SpeedMask::Kind::percent, node.number_or("base", 100.0),
+          node.number_or("multiplier", -1.0)};
+}
+
 }  // namespace
 
 ItemMarks marks_of(const Node& node) {
   ItemMarks marks{.path = node.path(), .item = node.mark()};
   for (const auto& [key, value] : node.entries()) marks.keys[key] = value.mark();
   return marks;
-}
-
-SpeedMaskRequest read_speed_mask(const Node& node, const ReadOptions& options) {
-  const bool absolute = node.text_or("kind", "percent") == "absolute";
-  return {resolve_file(node["file"], options),
-          absolute ? SpeedMask::Kind::absolute : SpeedMask::Kind::percent, node.number_or("base", 100.0),
-          node.number_or("multiplier", -1.0)};
 }
 
 MissionRequest mission_from(const Document& document, const ReadOptions& options) {

@@ -108,31 +108,6 @@ Schema cause_schema() {
            required("energy_share", result()), required("shrink_fraction_alone", result())}));
 }
 
-}  // namespace
-
-Schema plan_schema() {
-  return open(map(
-      {required("schema", text()), required("status", plan_status()),
-       optional(
-           "robot",
-           open(map({required("name", text()),
-                     required("fingerprint", text(),
-                              "digest of the robot file's values, without its name and its uncertainty")})),
-           "robot of the plan"),
-       optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
-       optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
-       optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
-       optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
-       optional("duration_s", result()), optional("distance_m", result()),
-       optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
-       optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
-       optional("solver", open(map({required("name", text()), required("iterations", number())}))),
-       optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
-                                    required("limit", text())}))),
-       optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
-       optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
-}
-
 Schema isolability_schema() {
   return open(map(
       {required("effects",
@@ -171,6 +146,31 @@ Schema signals_schema() {
                         required("columns", dictionary(list(number())),
                                  "time_s; motion_X: a signal X of the motion; measured_X, predicted_X, "
                                  "corrected_X for each signal X")})));
+}
+
+}  // namespace
+
+Schema plan_schema() {
+  return open(map(
+      {required("schema", text()), required("status", plan_status()),
+       optional(
+           "robot",
+           open(map({required("name", text()),
+                     required("fingerprint", text(),
+                              "digest of the robot file's values, without its name and its uncertainty")})),
+           "robot of the plan"),
+       optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
+       optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
+       optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
+       optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
+       optional("duration_s", result()), optional("distance_m", result()),
+       optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
+       optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
+       optional("solver", open(map({required("name", text()), required("iterations", number())}))),
+       optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
+                                    required("limit", text())}))),
+       optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
+       optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
 }
 
 Schema diagnosis_schema() {
