@@ -8,11 +8,11 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
+#include "planner/profile/fastest_s_curve.hpp"
 #include "planner/profile/holding_limit.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "planner/profile/s_curve.hpp"
 
 namespace joulepath {
 namespace {
