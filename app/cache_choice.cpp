@@ -22,6 +22,15 @@ void add(ByteWriter& writer, const RouteGraph& graph) {
     writer(id, start, end, speed_limit_m_s, via_m, speed_limit_percent);
 }
 
+/// ${XDG_CACHE_HOME:-$HOME/.cache}/joulepath; empty where neither variable names a folder.
+std::string default_cache_folder() {
+  for (const auto& [variable, below] :
+       {std::pair{"XDG_CACHE_HOME", "/joulepath"}, {"HOME", "/.cache/joulepath"}})
+    if (const char* folder = std::getenv(variable); folder != nullptr && *folder == '/')
+      return std::string(folder) + below;
+  return "";
+}
+
 }  // namespace
 
 void add_cache_options(CommandLine& line, CacheChoice& choice) {
@@ -29,14 +38,6 @@ void add_cache_options(CommandLine& line, CacheChoice& choice) {
               "directory in which results about legs are cached for later runs; default: "
               "$XDG_CACHE_HOME/joulepath, at most 512 MiB");
   line.flag("--no-cache", choice.none, "no cache on disk");
-}
-
-std::string default_cache_folder() {
-  for (const auto& [variable, below] :
-       {std::pair{"XDG_CACHE_HOME", "/joulepath"}, {"HOME", "/.cache/joulepath"}})
-    if (const char* folder = std::getenv(variable); folder != nullptr && *folder == '/')
-      return std::string(folder) + below;
-  return "";
 }
 
 std::unique_ptr<AnswerCache> answer_cache(const CacheChoice& choice) {

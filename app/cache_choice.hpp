@@ -17,9 +17,6 @@ struct CacheChoice {
 };
 void add_cache_options(CommandLine& line, CacheChoice& choice);
 
-/// ${XDG_CACHE_HOME:-$HOME/.cache}/joulepath; empty where neither variable names a folder.
-[[nodiscard]] std::string default_cache_folder();
-
 /// A cache in memory, and on disk as chosen.
 [[nodiscard]] std::unique_ptr<AnswerCache> answer_cache(const CacheChoice& choice);
 

@@ -1,6 +1,5 @@
 #include "app/terminal.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,8 +33,7 @@ const char* code_of(Paint paint) {
   return "";
 }
 
-}  // namespace
-
+/// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
 bool is_colored(const std::ostream& stream) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* term = std::getenv("TERM");
@@ -45,16 +43,10 @@ bool is_colored(const std::ostream& stream) {
   return false;
 }
 
+}  // namespace
+
 std::string paint(const std::ostream& stream, Paint paint, const std::string& text) {
   return is_colored(stream) ? code_of(paint) + text + "\033[0m" : text;
-}
-
-int terminal_width() {
-  if (const char* columns = std::getenv("COLUMNS"))
-    if (const int width = std::atoi(columns); width > 20) return width;
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20) return size.ws_col;
-  return 100;
 }
 
 std::string figure(double value, int digits) {

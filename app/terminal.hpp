@@ -8,14 +8,8 @@ namespace joulepath {
 
 enum class Paint { error, warning, good, dim, bold };
 
-/// Whether the stream is a terminal that may be colored: a tty, NO_COLOR unset, TERM not dumb.
-[[nodiscard]] bool is_colored(const std::ostream& stream);
-
 /// The text in a color if the stream supports it.
 [[nodiscard]] std::string paint(const std::ostream& stream, Paint paint, const std::string& text);
-
-/// Columns of the terminal: COLUMNS, the tty's width, or 100.
-[[nodiscard]] int terminal_width();
 
 /// A number with this many significant digits, without an exponent for ordinary sizes.
 [[nodiscard]] std::string figure(double value, int digits = 4);

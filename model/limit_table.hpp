@@ -6,7 +6,7 @@
 
 namespace joulepath {
 
-/// The state of a moving robot, as input of the table of limits.
+/// The state of a moving robot, as input of the table of limits (its rows are in model/limits.hpp).
 struct LimitState {
   using Motor = joulepath::Motor;
 

@@ -75,10 +75,4 @@ void apply_nuisance(const Nuisance& nuisance, double fraction, Robot& robot) {
 
 bool is_payload_nuisance(const Nuisance& nuisance) { return nuisance.key == "payload_kg"; }
 
-std::vector<std::string> nuisance_keys() {
-  std::vector<std::string> keys;
-  for (const auto& entry : changes()) keys.push_back(entry.first);
-  return keys;
-}
-
 }  // namespace joulepath

@@ -25,7 +25,4 @@ void apply_nuisance(const Nuisance& nuisance, double fraction, Robot& robot);
 /// True for the payload's weighing error, which acts on the runs and not on the robot.
 bool is_payload_nuisance(const Nuisance& nuisance);
 
-/// Keys that `uncertainty:` may hold.
-std::vector<std::string> nuisance_keys();
-
 }  // namespace joulepath

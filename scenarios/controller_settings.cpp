@@ -36,26 +36,22 @@ constexpr Parameter kParameters[] = {
     {"decel_lim_theta", &ControllerFile::yaw_deceleration_rad_s2, Sign::negative},
 };
 
-/// A parameter [x, y, theta] of the velocity smoother.
-struct Triple {
+/// A parameter with a value along x and one about z.
+struct PlanarParameter {
   const char* key;
   Field along, about;
   Sign sign{Sign::positive};
 };
-constexpr Triple kTriples[] = {
+/// Of the velocity smoother, as [x, y, theta].
+constexpr PlanarParameter kTriples[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
     {"max_accel", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
     {"max_decel", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
      Sign::negative},
 };
 
-/// A parameter of linear: x: or angular: z: of diff_drive_controller.
-struct Axis {
-  const char* key;
-  Field along, about;
-  Sign sign{Sign::positive};
-};
-constexpr Axis kAxes[] = {
+/// Of diff_drive_controller, in linear: x: and angular: z:.
+constexpr PlanarParameter kAxes[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
     {"max_acceleration", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
     {"max_deceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
@@ -98,7 +94,7 @@ class ControllerReader {
   }
 
   void read_triple(const std::string& key, const Node& value) {
-    for (const Triple& triple : kTriples) {
+    for (const PlanarParameter& triple : kTriples) {
       if (key != triple.key) continue;
       const std::vector<Node> items = value.items();
       if (items.size() != 3) value.fail("[x, y, theta]");
@@ -111,7 +107,7 @@ class ControllerReader {
     if (axes.kind() != Value::Kind::map) return;
     const std::optional<Node> axis = axes.find(along ? "x" : "z");
     if (!axis || axis->kind() != Value::Kind::map) return;
-    for (const Axis& parameter : kAxes)
+    for (const PlanarParameter& parameter : kAxes)
       if (const auto value = axis->find(parameter.key))
         take_least(along ? parameter.along : parameter.about, parameter.sign, *value);
   }

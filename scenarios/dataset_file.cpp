@@ -199,7 +199,7 @@ Schema run_schema() {
               list(map({required("from_s", number()), required("kg", number(kNotNegative))}), 1)});
   return map({optional("file", text(), "run log (CSV)"),
               optional("files", list(text(), 1), "several logs of one run, aligned by time"),
-              optional("motion", motion_schema(), "an energy-only run: what was driven"),
+              optional("motion", motion_schema(), "the motion of an energy-only run"),
               optional("columns", column_sources_schema(), "of this run, instead of the dataset's"),
               optional("payload_kg", payload, "a number, or steps {from_s: , kg: }"),
               optional("start_time_s", number(), "time of day of the run's start (warm-up effects)"),

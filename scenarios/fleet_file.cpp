@@ -8,7 +8,7 @@ namespace joulepath {
 
 Schema fleet_schema() {
   const Schema robot = map({required("name", text()), required("robot", text(), "robot file"),
-                            optional("start", text(), "station where it stands"),
+                            optional("start", text(), "station at which the robot starts"),
                             optional("battery_fraction", number(kFraction))});
   const Schema charger = map({required("station", text()), optional("count", integer({1, 10000})),
                               required("power_W", number(kPositive))});

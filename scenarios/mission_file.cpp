@@ -179,6 +179,13 @@ void check_consistency(const Node& root, const MissionRequest& mission) {
     root["visit"].fail("a mission with a map", "name it with map:");
 }
 
+SpeedMaskRequest read_speed_mask(const Node& node, const ReadOptions& options) {
+  const bool absolute = node.text_or("kind", "percent") == "absolute";
+  return {resolve_file(node["file"], options),
+          absolute ? SpeedMask::Kind::absolute : SpeedMask::Kind::percent, node.number_or("base", 100.0),
+          node.number_or("multiplier", -1.0)};
+}
+
 }  // namespace
 
 ItemMarks marks_of(const Node& node) {
@@ -207,11 +214,7 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
       .payload_by_action = figures_by_name(root, "payload_by_action"),
       .dwell_by_action_s = figures_by_name(root, "dwell_by_action_s"),
       .marks = marks_of(root)};
-  if (const auto mask = root.find("speed_mask"))
-    mission.speed_mask = SpeedMaskRequest{
-        resolve_file((*mask)["file"], options),
-        mask->text_or("kind", "percent") == "absolute" ? SpeedMask::Kind::absolute : SpeedMask::Kind::percent,
-        mask->number_or("base", 100.0), mask->number_or("multiplier", -1.0)};
+  if (const auto mask = root.find("speed_mask")) mission.speed_mask = read_speed_mask(*mask, options);
   if (const auto stations = root.find("stations")) mission.stations = read_stations(*stations);
   if (const auto start = root.find("start")) mission.start = read_start(*start, mission.stations);
   if (const auto legs = root.find("legs"))

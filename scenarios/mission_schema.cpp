@@ -94,9 +94,9 @@ Schema mission_schema() {
            optional("visit", list(visit_schema()), "instead of legs: the planner chooses the order"),
            optional("order", text(), "instead of legs: a VDA 5050 order (JSON)"),
            optional("payload_by_action", dictionary(number(kNotNegative)),
-                    "with an order: kg that an action loads; `drop` unloads its figure, or all"),
+                    "with an order: kg that an action loads; `drop` unloads its value, or everything"),
            optional("dwell_by_action_s", dictionary(number(kNotNegative)),
-                    "with an order: how long an action takes; its own parameter `duration` comes first"),
+                    "with an order: how long an action takes; its own parameter `duration` has precedence"),
            optional("charging", charging_schema(),
                     "allows charging stops, inserted where the mission would reach the battery's reserve"),
            optional("objective", objective_schema())}));

@@ -108,30 +108,6 @@ Schema cause_schema() {
            required("energy_share", result()), required("shrink_fraction_alone", result())}));
 }
 
-}  // namespace
-
-Schema plan_schema() {
-  return open(
-      map({required("schema", text()), required("status", plan_status()),
-           optional("robot",
-                    open(map({required("name", text()),
-                              required("fingerprint", text(),
-                                       "of the robot file's values but its name and its uncertainty")})),
-                    "that the plan is for"),
-           optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
-           optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
-           optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
-           optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
-           optional("duration_s", result()), optional("distance_m", result()),
-           optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
-           optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
-           optional("solver", open(map({required("name", text()), required("iterations", number())}))),
-           optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
-                                        required("limit", text())}))),
-           optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
-           optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
-}
-
 Schema isolability_schema() {
   return open(map(
       {required("effects",
@@ -144,7 +120,57 @@ Schema isolability_schema() {
                      required("two_ln_likelihood_ratio", result(), "expected, against the other's best fit"),
                      required("probability_told_apart", number(kFraction))}))),
                 "pairs with a probability below 0.9; every other pair of seen effects has a higher one"),
-       required("groups", list(list(text())), "sets without a pair that is told apart")}));
+       required("groups", list(list(text())), "sets whose members the runs cannot separate")}));
+}
+
+Schema unknowns_schema() {
+  return list(
+      open(map({required("depends_on", text()), required("probability", number(kFraction)),
+                required("share", result(), "fraction of the explained gap that is lost without it")})));
+}
+
+Schema below_materiality_schema() {
+  return list(open(map({required("effect", text()), required("probability", number(kFraction)),
+                        required("evidence", result(), "natural log of the odds"),
+                        required("size", result(), "ratio to the materiality floor")})));
+}
+
+Schema data_checks_schema() {
+  return list(open(map({required("run", text(), "names, or `all`"), required("channel", text()),
+                        required("kind", text(), "dead | inverted | swapped | unit | scaled | clock"),
+                        required("evidence", text()), required("repair", text())})));
+}
+
+Schema signals_schema() {
+  return list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
+                        required("columns", dictionary(list(number())),
+                                 "time_s; motion_X: a signal X of the motion; measured_X, predicted_X, "
+                                 "corrected_X for each signal X")})));
+}
+
+}  // namespace
+
+Schema plan_schema() {
+  return open(map(
+      {required("schema", text()), required("status", plan_status()),
+       optional(
+           "robot",
+           open(map({required("name", text()),
+                     required("fingerprint", text(),
+                              "digest of the robot file's values, without its name and its uncertainty")})),
+           "robot of the plan"),
+       optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
+       optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
+       optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
+       optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
+       optional("duration_s", result()), optional("distance_m", result()),
+       optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
+       optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
+       optional("solver", open(map({required("name", text()), required("iterations", number())}))),
+       optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
+                                    required("limit", text())}))),
+       optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
+       optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
 }
 
 Schema diagnosis_schema() {
@@ -158,15 +184,9 @@ Schema diagnosis_schema() {
        required("causes", list(cause_schema())),
        required("ranking",
                 list(open(map({required("effect", text()), required("probability", number(kFraction))})))),
-       optional("unknowns",
-                list(open(map({required("depends_on", text()), required("probability", number(kFraction)),
-                               required("share", result(), "of what is explained")}))),
-                "causes that no effect of the catalog stands for"),
-       optional("below_materiality",
-                list(open(map({required("effect", text()), required("probability", number(kFraction)),
-                               required("evidence", result(), "natural log of the odds"),
-                               required("size", result(), "over the materiality floor's")}))),
-                "effects with evidence that change less than a user would notice"),
+       optional("unknowns", unknowns_schema(), "causes that no effect of the catalog represents"),
+       optional("below_materiality", below_materiality_schema(),
+                "effects with evidence, but smaller than the materiality floor"),
        required("leftover", open(map({required("significant", boolean()), required("description", text())}))),
        optional("next_experiment", open(map({}))),
        optional("ceiling", open(map({}))),
@@ -176,19 +196,13 @@ Schema diagnosis_schema() {
                 list(open(map({required("parameter", text()),
                                required("other", text(), "may be a calibration constant"),
                                required("correlation", result())}))),
-                "estimates of the fit that depend on each other"),
-       optional("isolability", isolability_schema(), "what the runs' design shows and tells apart"),
-       optional("data_checks",
-                list(open(map({required("run", text(), "names, or `all`"), required("channel", text()),
-                               required("kind", text(), "dead | inverted | swapped | unit | scaled | clock"),
-                               required("evidence", text()), required("repair", text())}))),
+                "correlated estimates of the fit"),
+       optional("isolability", isolability_schema(),
+                "effects that the design of the runs can show, and pairs that it can separate"),
+       optional("data_checks", data_checks_schema(),
                 "channels that contradict physics; with any of them the verdict is data_suspect"),
        optional("artifacts", list(any_of({text(), open(map({}))}))),
-       optional("signals",
-                list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
-                               required("columns", dictionary(list(number())),
-                                        "time_s; motion_X: what was driven; measured_X, predicted_X, "
-                                        "corrected_X for each signal X")}))),
+       optional("signals", signals_schema(),
                 "with --signals: measured against predicted, before and after the correction"),
        optional("missing_channels", list(text())),
        optional("decisions", open(map({}))),
@@ -224,24 +238,26 @@ Schema shard_schema() {
 }
 
 Schema drift_schema() {
-  return open(
-      map({required("schema", text()), required("days", list(text()), "oldest first"),
-           required("false_alarm_rate", number(kFraction), "of a night without drift"),
-           required("drifted", list(text()), "names of constants"),
-           required("parameters",
-                    list(open(map({required("name", text()), required("unit", text()),
-                                   required("reference", result(), "on the first day"),
-                                   required("value", result(), "mean from the day `since` to the last one"),
-                                   required("change_percent", result()),
-                                   required("standard_error_percent", result(), "of the change"),
-                                   required("since", text(), "the day from which on the change shows most"),
-                                   required("days", number(), "that determine it, without the first"),
-                                   required("statistic", result(), "change over its standard error"),
-                                   required("threshold", result(), "of the statistic"),
-                                   required("detectable_percent", result(),
-                                            "a step on the second day that is found with 80 %"),
-                                   required("drifted", boolean())})))),
-           required("not_compared", list(text()), "not determined by the first or by the last day")}));
+  return open(map(
+      {required("schema", text()), required("days", list(text()), "oldest first"),
+       required("false_alarm_rate", number(kFraction),
+                "probability of a false alarm in a night without drift"),
+       required("drifted", list(text()), "names of constants"),
+       required(
+           "parameters",
+           list(open(map({required("name", text()), required("unit", text()),
+                          required("reference", result(), "on the first day"),
+                          required("value", result(), "mean from the day `since` to the last one"),
+                          required("change_percent", result()),
+                          required("standard_error_percent", result(), "of the change"),
+                          required("since", text(), "first day of the most significant change"),
+                          required("days", number(), "days that determine the value, without the first day"),
+                          required("statistic", result(), "change over its standard error"),
+                          required("threshold", result(), "of the statistic"),
+                          required("detectable_percent", result(),
+                                   "step on the second day that is found with a probability of 80 %"),
+                          required("drifted", boolean())})))),
+       required("not_compared", list(text()), "not determined by the first or by the last day")}));
 }
 
 }  // namespace joulepath

@@ -144,6 +144,16 @@ Json next_json(const NextExperiment& next) {
           {"probability_settled", six_digits(next.probability_settled)}};
 }
 
+/// One prescribed motion as a YAML flow map.
+std::string motion_text(const PrescribedMotion& motion) {
+  std::string text = "{";
+  const auto json = motion_json(motion);  // items() of a temporary would dangle
+  for (const auto& [key, value] : json.items())
+    text += (text.size() > 1 ? ", " : "") + key + ": " +
+            (value.is_string() ? value.get<std::string>() : value.dump());
+  return text + "}";
+}
+
 }  // namespace
 
 Json data_checks_json(const std::vector<DataCheck>& checks) { return each_json(checks, data_check_json); }
@@ -194,15 +204,6 @@ std::string diagnosis_json(const Diagnosis& d) {
         {"joules_lost_with_nominal_percent", six_digits(d.joules_lost_percent)}}},
       {"validation", {{"runs", d.validation_runs}, {"method", d.validation_method}}}};
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-std::string motion_text(const PrescribedMotion& motion) {
-  std::string text = "{";
-  const auto json = motion_json(motion);  // items() of a temporary would dangle
-  for (const auto& [key, value] : json.items())
-    text += (text.size() > 1 ? ", " : "") + key + ": " +
-            (value.is_string() ? value.get<std::string>() : value.dump());
-  return text + "}";
 }
 
 std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file) {

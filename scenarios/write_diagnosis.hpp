@@ -19,7 +19,4 @@ namespace joulepath {
 /// A mission of prescribed motions: the run that the diagnosis proposes.
 [[nodiscard]] std::string experiment_mission_text(const NextExperiment& next, const std::string& robot_file);
 
-/// One prescribed motion as a YAML flow map.
-[[nodiscard]] std::string motion_text(const PrescribedMotion& motion);
-
 }  // namespace joulepath

@@ -5,11 +5,11 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/loss_table.hpp"
+#include "app/plan_analysis.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_summary.hpp"
 #include "app/profile_columns.hpp"
 #include "app/report/report.hpp"
-#include "app/study.hpp"
 #include "app/terminal.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/baselines/comparison.hpp"
@@ -63,18 +63,18 @@ class CompareCommand : public Command {
                      "  joulepath compare mission.yaml --controller nav2_params.yaml\n"}) {}
 
   void declare(CommandLine& line) override {
-    add_study_options(line, study_, kResult);
+    add_analysis_options(line, options_, kResult);
     line.option(
         "--controller", controller_,
         "parameter file of Nav2 or ros2_control (YAML): compares the energy of its speeds and accelerations");
-    add_plan_options(line, study_.plan);
+    add_plan_options(line, options_.plan);
   }
 
   int run() override {
-    OutputDirectory out = study_output(study_, kResult);
-    const ReadOptions reading{.untrusted = study_.common.untrusted};
-    const MissionRequest mission = read_mission_source(study_.source, reading);
-    const Plan plan = plan_mission(mission, read_world(mission, reading), study_.plan);
+    OutputDirectory out = analysis_output(options_, kResult);
+    const ReadOptions reading{.untrusted = options_.common.untrusted};
+    const MissionRequest mission = read_mission_source(options_.source, reading);
+    const Plan plan = plan_mission(mission, read_world(mission, reading), options_.plan);
     if (plan.status != SolveStatus::optimal && plan.status != SolveStatus::feasible) {
       std::cerr << "no plan to compare with: " << solve_status_name(plan.status) << ": " << plan.message
                 << "\n";
@@ -86,10 +86,10 @@ class CompareCommand : public Command {
         {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
     result["profiles"].push_back(profile_json(total_of(plan)));
     for (const ComparedProfile& profile : compared) result["profiles"].push_back(profile_json(profile.total));
-    if (study_writes(study_))
-      write_study(out, kResult, result,
-                  report::compare_report_html(result, motions(plan, compared), plan.mission));
-    if (study_prints(study_, result)) print_table(plan, compared);
+    if (writes_analysis(options_))
+      write_analysis(out, kResult, result,
+                     report::compare_report_html(result, motions(plan, compared), plan.mission));
+    if (prints_analysis_table(options_, result)) print_table(plan, compared);
     return kDone;
   }
 
@@ -100,11 +100,11 @@ class CompareCommand : public Command {
     const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
     nlohmann::json result{{"schema", "joulepath/loss/1"}, {"of", controller_}, {"parameters", settings.read}};
     result.update(loss_json(loss));
-    if (study_writes(study_)) {
+    if (writes_analysis(options_)) {
       out.write(kResult, result.dump(1) + "\n");
       out.commit();
     }
-    if (!study_prints(study_, result)) return kDone;
+    if (!prints_analysis_table(options_, result)) return kDone;
     print_loss(std::cout, plan, loss);
     return kDone;
   }
@@ -126,7 +126,7 @@ class CompareCommand : public Command {
   }
 
   static constexpr const char* kResult = "compare.json";
-  StudyOptions study_{};
+  AnalysisOptions options_{};
   std::string controller_{};
 };
 

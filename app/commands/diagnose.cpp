@@ -65,7 +65,7 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
   for (const UnknownCause& unknown : d.unknowns)
     out << "unknown cause: depends on " << unknown.depends_on << "  probability "
-        << figure(unknown.probability, 3) << ", " << percent(unknown.share) << " of what is explained\n";
+        << figure(unknown.probability, 3) << ", " << percent(unknown.share) << " of the explained gap\n";
   if (d.leftover_significant && d.unknowns.empty()) out << "leftover: " << d.leftover_description << '\n';
   for (const SmallEffect& small : d.below_materiality)
     out << "below materiality: " << small.effect << "  probability " << figure(small.probability, 3)

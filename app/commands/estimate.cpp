@@ -8,7 +8,6 @@
 #include "app/terminal.hpp"
 #include "diagnosis/estimation/estimate_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
-#include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
 
 namespace joulepath {

@@ -190,7 +190,7 @@ class FollowPlanCommand : public Command {
     table.row({"executed", figure(executed["energy_J"]) + " J", figure(executed["duration_s"]) + " s"});
     table.print(std::cout);
     if (executed["off_path"])
-      std::cout << "left the path: handed over\n";
+      std::cout << "left the path: the follower stopped\n";
     else if (executed["late_s"].is_null())
       std::cout << "did not arrive: " << executed["pieces"] << " of " << executed["of_pieces"] << " pieces"
                 << stop_reason(executed["stopped_by"]) << "\n";

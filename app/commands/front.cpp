@@ -6,9 +6,9 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/plan_analysis.hpp"
 #include "app/plan_options.hpp"
 #include "app/report/report.hpp"
-#include "app/study.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
@@ -39,27 +39,27 @@ class FrontCommand : public Command {
                          "  joulepath front path.csv --robot robot.yaml --payload 5\n"}) {}
 
   void declare(CommandLine& line) override {
-    add_study_options(line, study_, kResult, false);
+    add_analysis_options(line, options_, kResult, false);
     line.option("--points", points_, "points of the front; deadlines and durations are ignored")
         .between(2, 2000)
         .shows_default();
     line.option("--baselines", baseline_points_, "points with classic profiles for comparison; 0: none")
         .between(0, 2000)
         .shows_default();
-    add_plan_options(line, study_.plan, "nodes on each stretch");
+    add_plan_options(line, options_.plan, "nodes on each stretch");
   }
 
   int run() override {
-    OutputDirectory out = study_output(study_, kResult);
-    const ReadOptions reading{.untrusted = study_.common.untrusted};
-    MissionRequest mission = read_mission_source(study_.source, reading);
+    OutputDirectory out = analysis_output(options_, kResult);
+    const ReadOptions reading{.untrusted = options_.common.untrusted};
+    MissionRequest mission = read_mission_source(options_.source, reading);
     const MissionWorld world = read_world(mission, reading);
     mission.objective = {};
     for (LegRequest& leg : mission.legs) {
       leg.deadline_s.reset();
       leg.duration_s.reset();
     }
-    const Plan plan = plan_mission(mission, world, study_.plan);
+    const Plan plan = plan_mission(mission, world, options_.plan);
     const std::vector<ProfileRequest> stretches = planned_stretches(plan);
     Front front = energy_time_front(stretches, points_);
     if (front.points.empty()) {
@@ -118,8 +118,9 @@ class FrontCommand : public Command {
         result["baselines"].push_back(baseline_json(total));
         result["baselines"].back()["optimum_J"] = front.points[k].energy_J;
       }
-    if (study_writes(study_)) write_study(out, kResult, result, report::front_report_html(result, {}, title));
-    if (study_prints(study_, result)) {
+    if (writes_analysis(options_))
+      write_analysis(out, kResult, result, report::front_report_html(result, {}, title));
+    if (prints_analysis_table(options_, result)) {
       print_points(front);
       print_baselines(front, beside);
     }
@@ -158,7 +159,7 @@ class FrontCommand : public Command {
   }
 
   static constexpr const char* kResult = "front.json";
-  StudyOptions study_{};
+  AnalysisOptions options_{};
   std::size_t points_{30};
   std::size_t baseline_points_{3};
 };

@@ -24,12 +24,22 @@ Json pose_json(const Pose& pose) {
 
 double percent(double value, double of) { return of != 0 ? 100 * (value / of - 1) : 0.0; }
 
+Json balance_json(const EnergyBalance& balance) {
+  return {{"motors", balance.motors_J},
+          {"copper", balance.copper_J},
+          {"driver", balance.driver_J},
+          {"gear", balance.gear_J},
+          {"wheel_friction", balance.wheel_friction_J},
+          {"body_work", balance.body_work_J},
+          {"creep", balance.creep_J},
+          {"stored", balance.stored_J}};
+}
+
 /// The summary of one run: planned against executed, and the energy by cause.
 Json run_json(const std::string& file, const SimulationInput& input, const SimulationResult& result,
               double standby_W) {
   const Pose& to = result.planned_pose;
   const Pose& end = result.final_pose;
-  const EnergyBalance& b = result.balance;
   const double planned_motion_J =
       input.planned_energy_J - input.robot.power.standby_W * input.planned_duration_s;
   const double motion_J = result.energy_J - standby_W * result.duration_s;
@@ -55,15 +65,7 @@ Json run_json(const std::string& file, const SimulationInput& input, const Simul
         {"duration_s", result.duration_s - input.planned_duration_s},
         {"position_m", std::hypot(end.x_m - to.x_m, end.y_m - to.y_m)},
         {"heading_rad", end.heading_rad - to.heading_rad}}},
-      {"balance_J",
-       {{"motors", b.motors_J},
-        {"copper", b.copper_J},
-        {"driver", b.driver_J},
-        {"gear", b.gear_J},
-        {"wheel_friction", b.wheel_friction_J},
-        {"body_work", b.body_work_J},
-        {"creep", b.creep_J},
-        {"stored", b.stored_J}}},
+      {"balance_J", balance_json(result.balance)},
       {"worst_wheel_speed_error_rad_s", result.worst_speed_error_rad_s},
       {"saturated_fraction", result.saturated_fraction},
       {"battery_gave_way", result.battery_gave_way}};

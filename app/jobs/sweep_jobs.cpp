@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/jobs/content_hash.hpp"
-#include "scenarios/mission_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,11 +1,7 @@
 #include "app/report/columns.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 
 namespace joulepath::report {
 namespace {
@@ -18,23 +14,6 @@ void put(Columns& columns, const std::string& stem, const std::string& unit,
          const Sided<std::vector<double>>& values) {
   put(columns, stem + "_left" + unit, values.left);
   put(columns, stem + "_right" + unit, values.right);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line.substr(0, line.find_last_not_of("\r\n") + 1));
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-double number_of(const std::string& cell, const std::string& where) {
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(cell, &used);
-    if (used == cell.size()) return value;
-  } catch (const std::logic_error&) {
-  }
-  throw std::runtime_error(where + ": '" + cell + "' is not a number");
 }
 
 }  // namespace
@@ -61,26 +40,6 @@ Columns columns_of(const Trajectory& t) {
   put(columns, "battery_power_W", t.battery_power_W);
   put(columns, "energy_J", t.energy_J);
   put(columns, "leg", t.leg);
-  return columns;
-}
-
-Columns columns_of_csv(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + ": cannot be read");
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> names = cells_of(line);
-  Columns columns;
-  for (const auto& name : names) columns[name];
-  for (int number = 2; std::getline(stream, line); ++number) {
-    if (line.empty()) continue;
-    const auto cells = cells_of(line);
-    const std::string where = file + ":" + std::to_string(number);
-    if (cells.size() != names.size())
-      throw std::runtime_error(where + ": " + std::to_string(cells.size()) + " cells, the header has " +
-                               std::to_string(names.size()));
-    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(number_of(cells[k], where));
-  }
   return columns;
 }
 

@@ -16,10 +16,6 @@ using Columns = std::map<std::string, std::vector<double>>;
 /// The channels that a trajectory has, under the names of trajectory.csv.
 [[nodiscard]] Columns columns_of(const Trajectory& trajectory);
 
-/// Reads a CSV file with a header row of names and numbers below, such as trajectory.csv. Throws
-/// std::runtime_error with the line if a cell is not a number or a row has another length.
-[[nodiscard]] Columns columns_of_csv(const std::string& file);
-
 /// At most about `most_rows` rows, which limits the report's size. Each bucket of rows keeps its first row
 /// and those with the extremes of speed, acceleration and power, so peaks keep their place and value.
 [[nodiscard]] Columns thinned(const Columns& columns, std::size_t most_rows);

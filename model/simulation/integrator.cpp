@@ -109,7 +109,7 @@ void DriveIntegrator::advance_to(double end_s) {
     const double asked_s = std::min({step_s_, options_.max_step_s, end_s - time_s_});
     double next_s = asked_s;
     if (stepper.try_step(system, state_, time_s_, next_s) == odeint::fail) {
-      JOULEPATH_ASSERT(next_s > 1e-15, "the simulation's step shrank to nothing");
+      JOULEPATH_ASSERT(next_s > 1e-15, "the step size of the simulation became too small");
       step_s_ = next_s;
       continue;
     }

@@ -9,7 +9,6 @@
 #include "model/limit_table.hpp"
 #include "planner/accounts/corner_table.hpp"
 #include "planner/motion/motion_energy.hpp"
-#include "planner/path/shape/waypoint_path.hpp"
 
 namespace joulepath {
 namespace {

@@ -32,6 +32,24 @@ class AccelerationInOrder {
   std::size_t k_{};
 };
 
+/// A motion from rest to rest whose rate is averaged over a window of time: a jump of its acceleration
+/// becomes a ramp over the window, and its duration grows by the window. A trapezoid becomes an S-curve.
+Profile averaged(const Profile& profile, double window_s) {
+  std::vector<double> times = profile.time_s;
+  for (double time_s : profile.time_s) times.push_back(time_s + window_s);
+  std::sort(times.begin(), times.end());
+  AccelerationInOrder front(profile), tail(profile);
+  std::vector<JerkPiece> pieces;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    const double middle_s = 0.5 * (times[k] + times[k + 1]);
+    pieces.push_back({times[k + 1] - times[k], (front(middle_s) - tail(middle_s - window_s)) / window_s});
+  }
+  Profile round = jerk_profile(pieces);
+  round.s.back() = profile.s.back();
+  round.rate.back() = 0;
+  return round;
+}
+
 double worst_jerk(const Profile& profile) {
   double worst = 0;
   for (double jerk : profile.jerk) worst = std::max(worst, std::abs(jerk));
@@ -139,22 +157,6 @@ BaselineResult best_rounded(const ProfileRequest& request, const char* name, dou
 
 bool is_rounded(const ProfileRequest& request) {
   return std::isfinite(request.limits.jerk_m_s3) && request.limits.jerk_m_s3 > 0 && !is_turn(request.piece);
-}
-
-Profile averaged(const Profile& profile, double window_s) {
-  std::vector<double> times = profile.time_s;
-  for (double time_s : profile.time_s) times.push_back(time_s + window_s);
-  std::sort(times.begin(), times.end());
-  AccelerationInOrder front(profile), tail(profile);
-  std::vector<JerkPiece> pieces;
-  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-    const double middle_s = 0.5 * (times[k] + times[k + 1]);
-    pieces.push_back({times[k + 1] - times[k], (front(middle_s) - tail(middle_s - window_s)) / window_s});
-  }
-  Profile round = jerk_profile(pieces);
-  round.s.back() = profile.s.back();
-  round.rate.back() = 0;
-  return round;
 }
 
 BaselineResult rounded_max_acceleration(const ProfileRequest& request, const char* name, double duration_s) {

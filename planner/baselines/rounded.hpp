@@ -7,10 +7,6 @@ namespace joulepath {
 /// Whether a jerk limit rounds the corners of a request's trapezoids.
 [[nodiscard]] bool is_rounded(const ProfileRequest& request);
 
-/// A motion from rest to rest whose rate is averaged over a window of time: a jump of its acceleration
-/// becomes a ramp over the window, and its duration grows by the window. A trapezoid becomes an S-curve.
-[[nodiscard]] Profile averaged(const Profile& profile, double window_s);
-
 /// The two trapezoids (baseline.hpp) under a jerk limit: held below the local limits of the path, then
 /// averaged over the shortest window that keeps the jerk limit. The limits are first lowered to their least
 /// value within the window, so that averages of the rate keep them. From rest to rest only.

@@ -19,8 +19,7 @@ double highest_rate(const Profile& profile, double from, double to) {
   return highest;
 }
 
-}  // namespace
-
+/// Highest planned speed (m/s) between two places of a leg; 0 where there are only turns between them.
 double highest_speed_m_s(const LegPlan& leg, double from_m, double to_m) {
   double highest = 0, begin_m = 0;
   for (const StretchPlan& stretch : leg.stretches) {
@@ -31,6 +30,8 @@ double highest_speed_m_s(const LegPlan& leg, double from_m, double to_m) {
   }
   return highest;
 }
+
+}  // namespace
 
 std::vector<PathPart> leg_parts(const LegPlan& leg) {
   if (!leg.parts.empty()) return leg.parts;

@@ -4,9 +4,6 @@
 
 namespace joulepath {
 
-/// Highest planned speed (m/s) between two places of a leg; 0 where there are only turns between them.
-[[nodiscard]] double highest_speed_m_s(const LegPlan& leg, double from_m, double to_m);
-
 /// Parts of a leg that can each have a speed: those that the mission names, else the segments of its curves.
 [[nodiscard]] std::vector<PathPart> leg_parts(const LegPlan& leg);
 

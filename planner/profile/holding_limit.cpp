@@ -41,7 +41,7 @@ std::string HoldingLimits::sentence() const {
   const auto& [name, hold] = *longest;
   char text[200];
   std::snprintf(text, sizeof text,
-                "; %s holds the fastest drive for %.0f %% of its time, first %sat s = %.3g m", name.c_str(),
+                "; %s limits the fastest drive for %.0f %% of its time, first %sat s = %.3g m", name.c_str(),
                 100 * hold.time_s / time_s_, hold.turn ? "in the turn in place " : "", hold.first_s);
   return text;
 }

@@ -14,7 +14,7 @@ class HoldingLimits {
   /// Adds a stretch; `offset_m` is the arc length before it.
   void add(const ProfileRequest& request, const Profile& fastest, double offset_m = 0.0);
 
-  /// "; acceleration holds the fastest drive for 62 % of its time, first at s = 0.1 m": the limit that holds
+  /// "; acceleration limits the fastest drive for 62 % of its time, first at s = 0.1 m": the limit that holds
   /// longest. Empty if there is none.
   [[nodiscard]] std::string sentence() const;
 

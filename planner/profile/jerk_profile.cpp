@@ -8,11 +8,11 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
+#include "planner/profile/fastest_s_curve.hpp"
 #include "planner/profile/holding_limit.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "planner/profile/s_curve.hpp"
 
 namespace joulepath {
 namespace {
@@ -39,7 +39,7 @@ std::optional<Profile> fastest_found(ProfileRequest request, double jerk_m_s3) {
   return find_profile_with_jerk_limit(request).profile;
 }
 
-/// "; jerk holds the fastest drive for 40 % of its time, ..."
+/// "; jerk limits the fastest drive for 40 % of its time, ..."
 std::string why_slow(const ProfileRequest& request, const Profile& fastest) {
   HoldingLimits limits;
   limits.add(request, fastest);

@@ -33,7 +33,7 @@ std::string frame_hint(const PathRequest& path, const Pose& start, const RouteSp
   if (path.frame == PathRequest::Frame::map) {
     const bool counts_from_robot = x_m == 0 && y_m == 0;
     return counts_from_robot
-               ? "points that count from the robot, ahead and to its left, are in `frame: start`"
+               ? "points relative to the robot (x ahead, y to its left) need `frame: start`"
                : "";
   }
   const BezierChainResult on_map = bezier_chain(path.bezier_m, start, BezierFrame::map);

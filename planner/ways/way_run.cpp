@@ -85,6 +85,7 @@ class RunChoice {
     for (std::size_t k = 0; k < size(); ++k) request_.legs[k].ways = &ways_[k];
   }
 
+  std::vector<ChainChoice> choose_chain();
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -147,7 +148,8 @@ std::vector<PathAlternative> RunChoice::alternatives(std::size_t k,
   return all;
 }
 
-std::vector<LegPath> RunChoice::choose() {
+/// The way of each leg before refinement; empty where no way exists.
+std::vector<ChainChoice> RunChoice::choose_chain() {
   std::vector<std::size_t> shortest;
   for (std::size_t k = 0; k < size(); ++k) shortest.push_back(shortest_route(run_.routes[k]));
   const auto plain = [&](std::size_t k, const Way& w) {
@@ -176,7 +178,12 @@ std::vector<LegPath> RunChoice::choose() {
     chain = cheapest_chain(request_, bent_too);
   }
   note("stops", chain);
+  return chain;
+}
 
+std::vector<LegPath> RunChoice::choose() {
+  const std::vector<ChainChoice> chain = choose_chain();
+  if (chain.empty()) return {};
   RefinedRun refined(request_, chain, run_);
   if (!run_.quick && steps_.refinement) {
     refined.refine();

@@ -18,7 +18,7 @@ MOST_SHARDS = 1_000_000  #: of the program
 
 
 def check_flags(resume: Any, progress: Any, memory_MiB: Any) -> None:
-    """Refuses values that the run would misunderstand later."""
+    """Rejects invalid values before the run."""
     whole("memory_MiB", memory_MiB, 0, sys.maxsize >> 20)
     if not isinstance(resume, bool):
         raise refused("resume", repr(resume), "True or False")

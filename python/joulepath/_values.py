@@ -17,5 +17,5 @@ class Value:
         return self
 
     def __reduce__(self) -> NoReturn:
-        raise TypeError(f"a {type(self).__name__} belongs to its process and cannot be pickled; hand on what you need of it: "
+        raise TypeError(f"a {type(self).__name__} cannot be pickled, because it is bound to its process; pass the data that you need: "
                         "figures, arrays (numpy.array), .json.to_dict(), or files (save)")

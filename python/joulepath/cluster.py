@@ -126,7 +126,7 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
         raise refused("out", f"{folder if held else target}, which exists", "a new name, or resume=True with as many shards")
     builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
     if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
-        raise ClusterError(f"workers with another joulepath than {build_id()}: {strangers}")
+        raise ClusterError(f"workers with another build of joulepath than {build_id()}: {strangers}")
     common = (command(study, options), os.getcwd(), folder, memory_MiB, build_id())
     shutil.rmtree(folder / "cancelled", ignore_errors=True)
     parts = [_Shard(k, count, *common) for k in range(1, count + 1)]

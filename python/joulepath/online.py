@@ -134,7 +134,7 @@ class Replanner:
         if caps.shape[1] != 3:
             raise refused("speed_caps", f"shape {caps.shape}", "shape (N, 3): from (m), to (m), speed (m/s)")
         if (caps[:, 2] <= 0).any() or (caps[:, 1] < caps[:, 0]).any():
-            raise refused("speed_caps", "a row that no robot can keep", "from <= to, and a speed > 0")
+            raise refused("speed_caps", "a row with from > to, or with a speed <= 0", "from <= to, and a speed > 0")
         return Replan(self._value.replan(
             number("s", s, least=0.0, most=self._drive.length), number("rate", rate, least=0.0),
             on_board_kg(self._drive, payload_kg), math.inf if time_left_s is None else number("time_left_s", time_left_s), caps,

@@ -27,7 +27,7 @@ SOLVERS = ("ipopt", "fast")
 
 
 class Plan(Value):
-    """An energy-optimal plan. ``json`` holds all of plan.json; the commonest parts are attributes here."""
+    """An energy-optimal plan. ``json`` holds all of plan.json; its main parts are attributes here."""
 
     def __init__(self, value: _core.PlanValue) -> None:
         self._value = value
@@ -220,7 +220,7 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
     """Plans a mission for the least energy, as ``joulepath plan`` does.
 
     ``mission``: a file (mission, VDA 5050 order, path), or a dict with the keys of a mission file, whose file names
-    are seen from the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
+    are relative to the working directory and whose ``robot`` may be a Robot. ``robot`` and ``map`` replace the
     mission's; ``payload_kg`` and ``time_s`` are for a path. ``solver``, ``nodes`` and ``accuracy`` as of ``profile``;
     ``seed``: of the search for a path; ``baselines``: whether classic profiles are planned for comparison. The GIL is
     released meanwhile. Raises Infeasible, PlanningError, ConfigError.

@@ -44,8 +44,8 @@ def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Seque
              ideal_sensors: bool = False, time_of_day_s: float = 0.0, sample_rate_Hz: float = 50.0) -> Simulation:
     """Drives a plan on a simulated robot, as ``joulepath simulate`` does.
 
-    ``robot`` is what the controller believes (None: the plan's). ``effects`` are those of the catalog that it does not
-    know: ``{"rolling_resistance": {"coefficient": 0.01}}``, or a list of such dicts where one stands twice; a ``side``
+    ``robot`` is the model of the controller (None: the plan's). ``effects`` are those of the catalog that this model
+    lacks: ``{"rolling_resistance": {"coefficient": 0.01}}``, or a list of such dicts where one stands twice; a ``side``
     is ``left`` or ``right``. ``seed`` is that of the sensors' noise; ``ideal_sensors`` have none. ``sample_rate_Hz``: 1 to
     1000. ``time_of_day_s``: at the start, for effects that change with it. The GIL is released meanwhile. Raises ConfigError.
 

@@ -110,7 +110,7 @@ def test_results_are_values(robot):
     plan, path = PLAN(robot), jp.Path(XY)
     for value in (plan, path, plan.trajectory, jp.energy(robot, plan.t, plan.v), jp.drives(plan)[0], jp.simulate(plan)):
         assert copy.copy(value) is value and copy.deepcopy({"of": [value]})["of"][0] is value
-        with pytest.raises(TypeError, match=f"a {type(value).__name__} belongs to its process and cannot be pickled"):
+        with pytest.raises(TypeError, match=f"a {type(value).__name__} cannot be pickled"):
             pickle.dumps(value)
     assert plan == plan and hash(plan) == hash(plan) and plan != PLAN(robot) and plan != 3
     assert plan.trajectory == PLAN(robot).trajectory and not plan.trajectory != PLAN(robot).trajectory

@@ -173,7 +173,7 @@ def test_a_worker_of_another_version_is_refused(workers, missions):
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None) as made:
         with distributed.Client(made) as client:
             client.run(other_build)
-            with pytest.raises(cluster.ClusterError, match="workers with another joulepath than"):
+            with pytest.raises(cluster.ClusterError, match="workers with another build of joulepath than"):
                 cluster.run(missions, client, "many")
             assert not pathlib.Path("many").exists() and not pathlib.Path("many.shards").exists()
             shard = cluster._Shard(1, 1, ("batch", missions), os.getcwd(), pathlib.Path("x"), 0, cluster.build_id())

@@ -107,7 +107,7 @@ class Studio {
     const bool own_origin = origin == "http://" + host || (origin.empty() && request.method == "GET");
     if (own_host && own_origin) return false;
     response.status = 403;
-    response.set_content("refused: asked by another site\n", "text/plain");
+    response.set_content("refused: the request comes from another site\n", "text/plain");
     return true;
   }
 

@@ -4,7 +4,11 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <vector>
 
+#include "model/effects/catalog.hpp"
+#include "model/limit_table.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/any_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -14,10 +18,27 @@ namespace {
 
 const std::string kBroken = JOULEPATH_SOURCE_DIR "/tests/data/broken/";
 
+/// Lists of names that are tables of the model: `<limits>` in the file stands for all keys of limits.
+std::map<std::string, std::string> names_of_tables() {
+  std::vector<std::string> limits, by_payload, effects;
+  for (const Limit& row : kLimits) {
+    if (row.field == nullptr) continue;
+    limits.emplace_back(row.key);
+    if (row.by_payload) by_payload.emplace_back(row.key);
+  }
+  for (const EffectDescription& effect : effect_catalog()) effects.emplace_back(effect.info.name);
+  return {{"<limits>", text_of_list(limits)},
+          {"<limits by payload>", text_of_list(by_payload)},
+          {"<effects>", text_of_list(effects)}};
+}
+
 std::map<std::string, std::string> expected_messages() {
   std::map<std::string, std::string> messages;
+  const auto tables = names_of_tables();
   std::ifstream stream(kBroken + "expected.tsv");
   for (std::string line; std::getline(stream, line);) {
+    for (const auto& [table, names] : tables)
+      if (const auto at = line.find(table); at != std::string::npos) line.replace(at, table.size(), names);
     const auto tab = line.find('\t');
     messages[line.substr(0, tab)] = line.substr(tab + 1);
   }

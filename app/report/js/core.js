@@ -6,9 +6,6 @@ import {on_theme, toggle_theme} from "page/theme.js";
 /** What the parts of a report share; tests look at it, too. */
 export const jp = Object.assign(window.joulepath, {redraws: [], plots: [], data: JSON.parse(document.getElementById("data").textContent)});
 
-const kIdsGiven = {};
-jp.unique_id = (stem) => { kIdsGiven[stem] = (kIdsGiven[stem] || 0) + 1; return kIdsGiven[stem] > 1 ? `${stem}-${kIdsGiven[stem]}` : stem; };
-
 jp.key_value = function (key, value, digits = 4) {
   const {words: name, unit} = split_key(key);
   const text = is_number(value) ? short(value, digits) : Array.isArray(value) || (value && typeof value === "object") ? JSON.stringify(value) : String(value);

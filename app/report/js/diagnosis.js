@@ -26,7 +26,7 @@ jp.cause_cards = function (d) {
       several && is_number(cause.energy_share) ? line(`${fraction(cause.energy_share, 3)} of the energy that the causes change`) : null,
       (cause.indistinguishable_from || []).length ? line("these runs cannot tell it from " + cause.indistinguishable_from.map(words).join(", ")) : null].filter(Boolean));
   };
-  const unknown = (one) => jp.tile("Unknown cause", fraction(one.share, 3) + " of what is explained", [line("depends on " + one.depends_on), line(`probability ${fraction(one.probability, 3)}`)]);
+  const unknown = (one) => jp.tile("Unknown cause", fraction(one.share, 3) + " of the explained gap", [line("depends on " + one.depends_on), line(`probability ${fraction(one.probability, 3)}`)]);
   const cards = [...(d.causes || []).map(card), ...(d.unknowns || []).map(unknown)];
   return cards.length ? h("div", {class: "tiles causes"}, cards) : null;
 };

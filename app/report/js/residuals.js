@@ -42,6 +42,6 @@ jp.residuals_section = function (data) {
   });
   if (!plots.length) return null;
   jp.redraws.push(() => plots.forEach((one) => one.draw()));
-  return jp.section("What is left depends on", h("p", {class: "soft"}, `Mean of model less measured ${what} over all runs. A flat line at 0 leaves nothing to explain.`),
+  return jp.section("What is left depends on", h("p", {class: "soft"}, `Mean of model less measured ${what} over all runs. A flat line at 0 means that nothing is left to explain.`),
     h("div", {class: "plots"}, plots.map((one) => one.element)));
 };

@@ -75,11 +75,10 @@ void ObstacleField::LayerField::nearest(double x_m, double y_m, double upper_m, 
   };
   if (outside_blocked) {
     const bool inside = u > 0 && v > 0 && u < grid.width && v < grid.height;
-    if (!inside) {
-      consider(u, v);
-    } else {
+    if (inside)
       consider(0, v), consider(grid.width, v), consider(u, 0), consider(u, grid.height);
-    }
+    else
+      consider(u, v);
   }
   const int first_row = std::max(0, static_cast<int>(std::floor(v - reach)));
   const int last_row = static_cast<int>(std::min<double>(grid.height - 1, std::floor(v + reach)));

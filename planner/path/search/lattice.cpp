@@ -60,19 +60,21 @@ void Lattice::make_dear(const std::vector<Point2>& line, double corridor_m, doub
     if (raised[i] != 0) price_[i] += extra_price;
 }
 
+template <class Visit>
+void Lattice::for_nodes_around(const Point2& p, const Visit& visit) const {
+  const Node center = nearest(p);
+  for (int row = center.row - 1; row <= center.row + 1; ++row)
+    for (int column = center.column - 1; column <= center.column + 1; ++column)
+      if (row >= 0 && column >= 0 && row < rows_ && column < columns_) visit(Node{column, row});
+}
+
 std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, const DiscLineCheck& free) const {
   constexpr auto kNone = static_cast<std::size_t>(-1);
   std::vector<double> cost(price_.size(), kNoLimit);
   std::vector<std::size_t> parent(price_.size(), kNone);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto around = [&](const Point2& p, const auto& visit) {
-    const Node center = nearest(p);
-    for (int row = center.row - 1; row <= center.row + 1; ++row)
-      for (int column = center.column - 1; column <= center.column + 1; ++column)
-        if (row >= 0 && column >= 0 && row < rows_ && column < columns_) visit(Node{column, row});
-  };
-  around(start, [&](Node node) {
+  for_nodes_around(start, [&](Node node) {
     if (!free(start, place(node))) return;
     cost[index(node)] = plain_distance_m(start, place(node));
     open.push({cost[index(node)] + plain_distance_m(place(node), goal), index(node)});
@@ -91,7 +93,7 @@ std::vector<Point2> Lattice::route(const Point2& start, const Point2& goal, cons
       best = cost[here] + to_goal_m;
       last = here;
     }
-    around(from, [&](Node next) {
+    for_nodes_around(from, [&](Node next) {
       const std::size_t to = index(next);
       const double sum = cost[here] + plain_distance_m(from, place(next)) * 0.5 * (price_[here] + price_[to]);
       if (settled[to] != 0 || sum >= cost[to] || !free(from, place(next))) return;

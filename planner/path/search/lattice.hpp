@@ -32,6 +32,9 @@ class Lattice {
             static_cast<int>(i / static_cast<std::size_t>(columns_))};
   }
   Point2 place(Node node) const;
+  /// Calls visit(node) for the node nearest to a place and its neighbors.
+  template <class Visit>
+  void for_nodes_around(const Point2& place_m, const Visit& visit) const;
   Node nearest(const Point2& point_m) const;
 
   double spacing_m_{};

@@ -27,8 +27,7 @@ std::optional<SmoothPath> best_lead(const std::vector<Point2>& polyline_m, bool 
 
 bool differ(double a_rad, double b_rad) { return std::abs(wrapped_angle_rad(a_rad - b_rad)) > 1e-6; }
 
-}  // namespace
-
+/// The polyline with the leads' outer ends as new vertices. Requires two vertices.
 std::vector<Point2> with_leads(const std::vector<Point2>& polyline_m, const std::optional<Lead>& start,
                                const std::optional<Lead>& goal) {
   std::vector<Point2> led = polyline_m;
@@ -40,6 +39,8 @@ std::vector<Point2> with_leads(const std::vector<Point2>& polyline_m, const std:
                                polyline_m.back()[1] - goal->length_m * std::sin(goal->heading_rad)});
   return led;
 }
+
+}  // namespace
 
 std::optional<SmoothPath> blend_with_leads(const std::vector<Point2>& polyline_m,
                                            const std::optional<Lead>& start, const std::optional<Lead>& goal,

@@ -14,11 +14,6 @@ struct Lead {
   double length_m{};
 };
 
-/// The polyline with the leads' outer ends as new vertices. Requires two vertices.
-[[nodiscard]] std::vector<Point2> with_leads(const std::vector<Point2>& polyline_m,
-                                             const std::optional<Lead>& start,
-                                             const std::optional<Lead>& goal);
-
 /// The polyline with leads, its corners rounded; absent if a lead's corner has no room for a blend or the
 /// curve is not free.
 [[nodiscard]] std::optional<SmoothPath> blend_with_leads(const std::vector<Point2>& polyline_m,

@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 
-#include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/refine.hpp"
 
 namespace joulepath {

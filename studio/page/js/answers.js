@@ -97,7 +97,7 @@ export async function ask(mode, extra = {}) {
   const draft = mode === "draft";
   // An order is a file, which the program alone reads.
   const by_program = store.served && (!draft || !has_core() || store.mission.order || studio_draft().by_program);
-  if (!by_program && !has_core()) return {error: {message: "this page holds no planner: open the mission with joulepath studio"}};
+  if (!by_program && !has_core()) return {error: {message: "this page contains no planner: open the mission with joulepath studio"}};
   const text = by_program ? await in_program(question) : await in_core(mode, question, !draft);
   return JSON.parse(text);
 }
@@ -119,7 +119,7 @@ function take(answer, state, edits) {
   emit("answer");
 }
 
-export const moves_stops = () => is_ordered() || (has_legs() && store.mission.legs.some((leg) => leg.to !== undefined));
+const moves_stops = () => is_ordered() || (has_legs() && store.mission.legs.some((leg) => leg.to !== undefined));
 const ways_are_known = () => {
   if (store.mission.order) return store.served;
   if (is_ordered()) return !!store.answer && store.answer.plan.legs.every((_, k) => Array.isArray(store.ways[k]));

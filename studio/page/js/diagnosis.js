@@ -43,6 +43,6 @@ export function diagnosis_panel() {
   const redraw = () => { if (signals) signals.draw(); };
   on_theme(redraw);
   window.addEventListener("resize", redraw);
-  body.append(h("p", {class: "soft small"}, "A diagnosis.json with signals shows what each run measured and what the model says, before and after the correction."));
+  body.append(h("p", {class: "soft small"}, "A diagnosis.json with signals shows the measured signals of each run and the predictions of the model, before and after the correction."));
   return {panel: [h("div", {class: "tools"}, button("Open a diagnosis", () => file.click(), {id: "open-diagnosis"}), file), body], view, start() { if (store.diagnosis) show(store.diagnosis); }};
 }

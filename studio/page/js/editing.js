@@ -10,7 +10,7 @@ const angle = (value) => Number(Math.atan2(Math.sin(value), Math.cos(value)).toF
 export const legs = () => store.mission.legs || [];
 
 /** The pose in which leg k begins, as last planned. */
-export function start_of(k) {
+function start_of(k) {
   const at = store.answer && store.answer.legs[k] && store.answer.legs[k].start;
   return at ? {x_m: at[0], y_m: at[1], heading_rad: at[2]} : start_pose();
 }

@@ -5,7 +5,7 @@ import {set_value} from "studio/editing.js";
 import {store} from "studio/store.js";
 
 /** The schema of a value at a path of keys. */
-export function schema_at(kind, path) {
+function schema_at(kind, path) {
   let schema = store.schemas[kind];
   for (const key of path) {
     if (!schema) return null;
@@ -73,4 +73,4 @@ function label_of(path, parent) {
   return split_key(String(key)).words;
 }
 /** Unit of sided values: that of the key above. */
-export const unit_of = (path) => split_key(String(["left", "right"].includes(path.at(-1)) ? path.at(-2) : path.at(-1))).unit;
+const unit_of = (path) => split_key(String(["left", "right"].includes(path.at(-1)) ? path.at(-2) : path.at(-1))).unit;

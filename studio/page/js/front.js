@@ -64,7 +64,7 @@ export function front_panel() {
     slider.value = Math.round(1000 * (plan.duration_s - x0) / Math.max(1e-9, x1 - x0));
     slider.setAttribute("aria-valuetext", `${number(plan.duration_s, 4)} s, ${number(plan.energy_J, 5)} J`);
     const price = value_at(xs, points.map((p) => (is_number(p.price_of_time_W) ? p.price_of_time_W : points[1] ? points[1].price_of_time_W : 0)), plan.duration_s);
-    text.textContent = `${number(plan.energy_J, 5)} J in ${number(plan.duration_s, 4)} s; here a second is worth ${number(Math.max(0, price), 3)} W. Drag the dot.` + (store.front ? "" : " The curve is that of the mission before the last change.");
+    text.textContent = `${number(plan.energy_J, 5)} J in ${number(plan.duration_s, 4)} s; price of a second ${number(Math.max(0, price), 3)} W. Drag the dot.` + (store.front ? "" : " The curve is that of the mission before the last change.");
   }
   function mark(context, x, y, fill, r) { context.beginPath(); context.arc(x, y, r, 0, 7); context.fillStyle = fill; context.fill(); context.strokeStyle = color("ground"); context.lineWidth = 1.5; context.stroke(); }
 

@@ -8,7 +8,7 @@ import {on, set_cursor, store} from "studio/store.js";
 const axis = {by: "time", span: null};
 
 /** Distance driven at each row, over all legs. */
-export function distances(motion) {
+function distances(motion) {
   let before = 0, leg = 0, last = 0;
   return motion.arc_length_m.map((s, k) => {
     if (motion.leg[k] !== leg) { before += last; leg = motion.leg[k]; }

@@ -27,7 +27,7 @@ function leg_fields(k) {
     : [optional_field(["legs", k, "payload_kg"], "payload", 0)];
   const plan = store.answer && store.answer.plan.legs[k];
   return [h("h3", {}, `Leg ${k + 1}: ${leg.to ? "to " + leg.to : leg.path ? "path" : "prescribed motion"}`),
-    plan ? h("p", {class: "soft small"}, `${with_unit(plan.energy_J, "J", 5)}, ${with_unit(plan.duration_s, "s")}, ${with_unit(plan.distance_m, "m")}; a second is worth ${with_unit(plan.price_of_time_W, "W", 3)}`) : null,
+    plan ? h("p", {class: "soft small"}, `${with_unit(plan.energy_J, "J", 5)}, ${with_unit(plan.duration_s, "s")}, ${with_unit(plan.distance_m, "m")}; price of a second ${with_unit(plan.price_of_time_W, "W", 3)}`) : null,
     payload, optional_field(["legs", k, "dwell_s"], "dwell", 10),
     leg.motion ? null : [optional_field(["legs", k, "deadline_s"], "deadline", Math.ceil(plan ? plan.start_s + plan.duration_s : 60)), optional_field(["legs", k, "duration_s"], "duration", Math.ceil(plan ? plan.duration_s : 30))],
     h("div", {class: "tools"}, leg.to ? [button("Edit its stop", () => select({kind: "station", name: leg.to})), store.answer ? button("Draw by hand", () => draw_by_hand(k)) : null] : null,

@@ -21,7 +21,7 @@ export async function save() {
   if (edits === store.edits) store.mission.robot = answer.mission.robot;
   tell("Saved " + answer.mission_file + (answer.robot_file.includes(store.files.name + "_robot") ? " and " + answer.robot_file : ""));
 }
-export async function reload() {
+async function reload() {
   const response = await fetch("files");
   set_files(await response.json(), true);
   tell("Read again from the disk.");
@@ -32,7 +32,7 @@ async function look_at_disk() {
 }
 
 const quoted = (text) => (/^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-export const command = () => `joulepath plan ${quoted(store.files.mission_file)} --solver fast --without baselines --out out/${quoted(store.files.name)}`;
+const command = () => `joulepath plan ${quoted(store.files.mission_file)} --solver fast --without baselines --out out/${quoted(store.files.name)}`;
 async function copy() {
   const text = command();
   try { await navigator.clipboard.writeText(text); tell(is_saved() ? "Copied: " + text : "Copied; save first, or the command plans the mission as it is on the disk: " + text, !is_saved()); } catch { tell(text); }

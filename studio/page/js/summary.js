@@ -28,7 +28,7 @@ export function tiles() {
     time.more.textContent = kept ? `${signed(plan.duration_s - kept.duration_s)} s against A` : `${with_unit(plan.distance_m, "m")}`;
     const prices = plan.legs.map((leg) => leg.price_of_time_W).filter((value) => value > 1e-6);
     price.value.textContent = prices.length ? with_unit(Math.max(...prices), "W", 3) : "0 W";
-    price.more.textContent = prices.length ? "energy that one more second saves" : "time is free: no deadline binds";
+    price.more.textContent = prices.length ? "energy that one more second saves" : "no deadline is active";
     const end = plan.battery && plan.battery.end_fraction;
     battery.value.textContent = fraction(end, 4);
     battery.more.textContent = plan.battery ? `${short(Math.floor(plan.battery.missions_per_charge), 7)} missions per charge` : "no capacity in the robot file";

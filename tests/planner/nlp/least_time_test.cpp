@@ -84,7 +84,7 @@ TEST(LeastTime, WhatAVerdictOffersIsPlannedAndNotUndercut) {
     const ProfileRequest request = random.next(testing::kPathClasses[i % 4]);
     const ProfileResult refused = solve_profile(in_time(request, TimeMode::time_budget, 1.0));
     ASSERT_TRUE(refused.infeasibility) << refused.summary.message;
-    EXPECT_NE(refused.summary.message.find(" holds the fastest drive for "), std::string::npos)
+    EXPECT_NE(refused.summary.message.find(" limits the fastest drive for "), std::string::npos)
         << refused.summary.message;
     const double offered_s = refused.infeasibility->relaxation.at("deadline_s");
     const ProfileResult plan = solve_profile(in_time(request, TimeMode::time_budget, offered_s));

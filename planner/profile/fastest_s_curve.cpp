@@ -1,4 +1,4 @@
-#include "planner/profile/s_curve.hpp"
+#include "planner/profile/fastest_s_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/study.hpp"
+#include "app/plan_analysis.hpp"
 
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -7,22 +7,22 @@
 
 namespace joulepath {
 
-void add_study_options(CommandLine& line, StudyOptions& options, const std::string& result_file,
-                       bool with_time) {
+void add_analysis_options(CommandLine& line, AnalysisOptions& options, const std::string& result_file,
+                          bool with_time) {
   add_mission_source(line, options.source, with_time);
   line.option("--out", options.out, "directory for " + result_file + " and report.html");
   add_common_flags(line, options.common, "qjfu");
 }
 
-bool study_writes(const StudyOptions& options) { return !options.out.empty(); }
+bool writes_analysis(const AnalysisOptions& options) { return !options.out.empty(); }
 
-OutputDirectory study_output(const StudyOptions& options, const std::string& result_file) {
-  if (!study_writes(options)) return {".", {}, options.common.force};
+OutputDirectory analysis_output(const AnalysisOptions& options, const std::string& result_file) {
+  if (!writes_analysis(options)) return {".", {}, options.common.force};
   return {options.out, {result_file, "report.html"}, options.common.force};
 }
 
-void write_study(OutputDirectory& out, const std::string& result_file, const nlohmann::json& result,
-                 std::string report_html) {
+void write_analysis(OutputDirectory& out, const std::string& result_file, const nlohmann::json& result,
+                    std::string report_html) {
   out.write(result_file, result.dump(2) + "\n");
   out.write("report.html", std::move(report_html));
   out.commit();
@@ -39,7 +39,7 @@ nlohmann::json baseline_json(const BaselineTotal& total) {
   return json;
 }
 
-bool study_prints(const StudyOptions& options, const nlohmann::json& result) {
+bool prints_analysis_table(const AnalysisOptions& options, const nlohmann::json& result) {
   if (options.common.json) std::cout << result.dump(2) << "\n";
   return !options.common.json && !options.common.quiet;
 }
