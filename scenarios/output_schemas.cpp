@@ -224,24 +224,29 @@ Schema shard_schema() {
 }
 
 Schema drift_schema() {
-  return open(
-      map({required("schema", text()), required("days", list(text()), "oldest first"),
-           required("false_alarm_rate", number(kFraction), "of a night without drift"),
-           required("drifted", list(text()), "names of constants"),
-           required("parameters",
-                    list(open(map({required("name", text()), required("unit", text()),
-                                   required("reference", result(), "on the first day"),
-                                   required("value", result(), "mean from the day `since` to the last one"),
-                                   required("change_percent", result()),
-                                   required("standard_error_percent", result(), "of the change"),
-                                   required("since", text(), "the day from which on the change shows most"),
-                                   required("days", number(), "that determine it, without the first"),
-                                   required("statistic", result(), "change over its standard error"),
-                                   required("threshold", result(), "of the statistic"),
-                                   required("detectable_percent", result(),
-                                            "a step on the second day that is found with 80 %"),
-                                   required("drifted", boolean())})))),
-           required("not_compared", list(text()), "not determined by the first or by the last day")}));
+  return open(map(
+      {required("schema", text()), required("days", list(text()), "oldest first"),
+       required("false_alarm_rate", number(kFraction), "of a night without drift"),
+       required("answer", choice({"drift", "no_drift", "cannot_tell"}),
+                "cannot_tell: no constant is determined by the first and by the last day"),
+       required("drifted", list(text()), "names of constants"),
+       required("parameters",
+                list(open(map({required("name", text()), required("unit", text()),
+                               required("reference", result(), "on the first day"),
+                               required("value", result(), "mean from the day `since` to the last one"),
+                               required("change_percent", result()),
+                               required("standard_error_percent", result(), "of the change"),
+                               required("since", text(), "the day from which on the change shows most"),
+                               required("days", number(), "that determine it, without the first"),
+                               required("statistic", result(), "change over its standard error"),
+                               required("threshold", result(), "of the statistic"),
+                               required("detectable_percent", result(),
+                                        "a step on the second day that is found with 80 %"),
+                               required("drifted", boolean())})))),
+       required("not_compared",
+                list(open(map({required("name", text()),
+                               required("day", text(), "that does not determine it"), required("why", text()),
+                               required("needs", text(), "manoeuvres or channels that show it")}))))}));
 }
 
 }  // namespace joulepath

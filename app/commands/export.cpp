@@ -137,6 +137,7 @@ class ExportCommand : public Command {
     const RouteGraphExport result =
         export_route_graph({source_.file, out_, payload_kg, corner_radius_m_, expand_turns_}, robot);
     write_files(result.files);
+    for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << "\n";
     if (common_.quiet) return kDone;
     std::cout << result.nodes << " nodes, " << result.edges << " edges\n";
     if (!result.arcs.empty()) std::cout << result.arcs << "\n";
@@ -145,6 +146,9 @@ class ExportCommand : public Command {
       std::cout << "corners: " << turns.corners << ", mean " << figure(turns.mean_J, 3)
                 << " J; edges alone miss a corner by " << figure(turns.rms_J, 3) << " J (rms), "
                 << figure(turns.worst_J, 3) << " J (worst): --expand-turns is exact\n";
+    if (result.goal_offset > 0)
+      std::cout << "ask for routes by ids: from a node's own id to the goal's id + " << result.goal_offset
+                << " (node 1 to node 2: start_id: 1, goal_id: " << result.goal_offset + 2 << ")\n";
     tell_names(result.files);
     return kDone;
   }
