@@ -243,10 +243,11 @@ Schema drift_schema() {
                                required("detectable_percent", result(),
                                         "a step on the second day that is found with 80 %"),
                                required("drifted", boolean())})))),
-       required("not_compared",
-                list(open(map({required("name", text()),
-                               required("day", text(), "that does not determine it"), required("why", text()),
-                               required("needs", text(), "manoeuvres or channels that show it")}))))}));
+       required(
+           "not_compared",
+           list(open(map({required("name", text()),
+                          required("days", list(text()), "that do not determine it"), required("why", text()),
+                          required("needs", text(), "manoeuvres or channels that show it")}))))}));
 }
 
 }  // namespace joulepath

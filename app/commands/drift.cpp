@@ -1,6 +1,7 @@
 #include "diagnosis/calibration/drift.hpp"
 
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
@@ -65,7 +66,7 @@ class DriftCommand : public Command {
               {"not_compared", Json::array()}};
     for (const NotCompared& c : result.not_compared)
       json["not_compared"].push_back(
-          {{"name", c.name}, {"day", days_[c.day]}, {"why", c.why}, {"needs", c.needs}});
+          {{"name", c.name}, {"days", names_of(c.days)}, {"why", c.why}, {"needs", c.needs}});
     for (const ParameterDrift& p : result.parameters) {
       if (p.drifted) json["drifted"].push_back(p.name);
       json["parameters"].push_back({{"name", p.name},
@@ -94,10 +95,26 @@ class DriftCommand : public Command {
       print_compared(result);
     else
       std::cout << "cannot tell: no constant is determined by the first and by the last day\n";
-    for (const NotCompared& c : result.not_compared)
-      (result.can_tell() ? std::cerr : std::cout)
-          << "not compared: " << c.name << " on " << days_[c.day] << ": " << c.why
-          << (c.needs.empty() ? "" : "; needs ") << c.needs << "\n";
+    print_not_compared(result);
+  }
+
+  /// Constants with the same reason in one line.
+  void print_not_compared(const DriftResult& result) const {
+    std::map<std::string, std::string> names;  // by the reason
+    for (const NotCompared& c : result.not_compared) {
+      std::string days;
+      for (const std::string& day : names_of(c.days)) days += (days.empty() ? "" : " and ") + day;
+      std::string& of = names[c.why + " (" + days + "); needs " + c.needs];
+      of += (of.empty() ? "" : ", ") + c.name;
+    }
+    for (const auto& [reason, of] : names)
+      (result.can_tell() ? std::cerr : std::cout) << "not compared: " << of << ": " << reason << "\n";
+  }
+
+  std::vector<std::string> names_of(const std::vector<std::size_t>& days) const {
+    std::vector<std::string> names;
+    for (const std::size_t day : days) names.push_back(days_[day]);
+    return names;
   }
 
   void print_compared(const DriftResult& result) const {

@@ -147,8 +147,9 @@ class ExportCommand : public Command {
                 << " J; edges alone miss a corner by " << figure(turns.rms_J, 3) << " J (rms), "
                 << figure(turns.worst_J, 3) << " J (worst): --expand-turns is exact\n";
     if (result.goal_offset > 0)
-      std::cout << "ask for routes by ids: from a node's own id to the goal's id + " << result.goal_offset
-                << " (node 1 to node 2: start_id: 1, goal_id: " << result.goal_offset + 2 << ")\n";
+      std::cout
+          << "ask for routes by ids: start_id is a node's own id, goal_id the id of the node to reach + "
+          << result.goal_offset << "\n";
     tell_names(result.files);
     return kDone;
   }

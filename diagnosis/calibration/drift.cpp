@@ -95,18 +95,17 @@ std::vector<DayEstimate> estimates_of(const std::vector<std::vector<CalibratedPa
 }
 
 NotCompared not_compared(const std::vector<std::vector<CalibratedParameter>>& days, const std::string& name) {
-  NotCompared result{.name = name, .why = "not calibrated"};
-  for (const std::size_t day : {std::size_t{0}, days.size() - 1})
-    for (const CalibratedParameter& p : days[day])
-      if (p.name == name && !determined(p)) {
-        result.day = day;
-        result.why = p.visibility == Visibility::unseen
-                         ? p.note
-                         : "too few runs for an interval: four or more are needed";
-        break;
-      }
+  NotCompared result{.name = name};
   for (const Shows& shows : kShows)
     if (name.starts_with(shows.name)) result.needs = shows.needs;
+  for (const std::size_t day : {std::size_t{0}, days.size() - 1})
+    for (const CalibratedParameter& p : days[day]) {
+      if (p.name != name || determined(p)) continue;
+      const bool unseen = p.visibility == Visibility::unseen;
+      if (result.days.empty()) result.why = unseen ? p.note : "too few runs for an interval";
+      if (!unseen) result.needs = "four runs or 40 s of driving";
+      result.days.push_back(day);
+    }
   return result;
 }
 

@@ -32,9 +32,9 @@ struct ParameterDrift {
 /// A constant that the first or the last day does not determine.
 struct NotCompared {
   std::string name{};
-  std::size_t day{};    ///< that does not determine it
-  std::string why{};    ///< as the calibration says it
-  std::string needs{};  ///< manoeuvres or channels that show it
+  std::vector<std::size_t> days{};  ///< of the first and the last one, those that do not determine it
+  std::string why{};                ///< of the first of them, as the calibration says it
+  std::string needs{};              ///< runs, manoeuvres or channels that show it
 };
 
 struct DriftResult {

@@ -14,7 +14,7 @@ namespace joulepath {
 namespace {
 
 constexpr std::array<double, 3> kSettingShares{1.0, 0.75, 0.5};
-constexpr double kOnTime = 1e-6;       ///< relative
+constexpr double kOnTime = 1e-6;         ///< relative
 constexpr std::size_t kDraftNodes = 60;  ///< for comparisons of accelerations
 
 /// Rounded up to millionths, so that the controller is not late, but not above the robot's limits.
@@ -111,6 +111,7 @@ class Group {
   }
 
   TrapezoidSettings sharp_settings(double up, double down, double share) const {
+    if (one_acceleration_) down = up;
     return {fastest_.rate, fastest_.acceleration * std::exp(up), fastest_.deceleration * std::exp(down),
             share};
   }

@@ -73,11 +73,10 @@ class Expansion {
         most_m_s_(most_m_s),
         points_(features_of(file, false)),
         lines_(features_of(file, true)) {
-    long largest_node = 0, largest = 0;
-    for (const RouteGraph::Node& node : graph.nodes) largest_node = std::max(largest_node, node.id);
-    for (const RouteGraph::Edge& edge : graph.edges) largest = std::max(largest, edge.id);
-    offset_ = goal_offset(std::max(largest, largest_node));
-    next_id_ = offset_ + largest_node + 1;
+    long largest = 0;
+    for (const RouteGraph::Node& node : graph.nodes) largest = std::max(largest, node.id);
+    offset_ = goal_offset(largest);
+    next_id_ = offset_ + largest + 1;
   }
 
   long offset() const { return offset_; }

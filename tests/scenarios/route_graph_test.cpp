@@ -180,7 +180,7 @@ TEST(RouteGraph, ExpandedCostsOfRoutesAreExact) {
   EXPECT_NEAR(cheapest(1, goal.at(5)), e[0].energy_J + e[4].energy_J, 1e-5);
   EXPECT_NEAR(cheapest(1, goal.at(3)), e[0].energy_J + corner_J(0, 1) + e[1].energy_J, 1e-5);
   for (const auto& [node, id] : goal) EXPECT_EQ(id, node + result.goal_offset);
-  EXPECT_EQ(result.goal_offset, 100);
+  EXPECT_EQ(result.goal_offset, 10);
 }
 
 /// The server's dense path ends with the direction of its last edge, and its tracker goes by the directions

@@ -19,12 +19,15 @@ struct PlannedRound {
   Plan plan{};
   Plant plant{};
 
-  explicit PlannedRound(const std::string& robot) {
+  explicit PlannedRound(const std::string& robot, bool turns = false) {
     LegRequest there{.path = PathRequest{.bezier_m = {{{{0, 0}, {2, 0}, {4, 0}, {6, 0}}}}},
                      .payload = {5, 5}};
     LegRequest curve{.path = PathRequest{.bezier_m = {{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}},
                      .payload = {5, 5}};
     mission = {.name = "round", .legs = {there, curve}};
+    if (turns)
+      mission.legs.push_back(
+          {.path = PathRequest{.bezier_m = {{{{0, 0}, {-1, 0}, {-3, 0}, {-4, 0}}}}}, .payload = {1, 1}});
     mission.robot_file = JOULEPATH_SOURCE_DIR "/scenarios/robots/" + robot;
     world = read_world(mission);
     plan = plan_mission(mission, world, {.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3});
@@ -70,13 +73,14 @@ const PlannedRound& with_turns(const std::string& robot) {
   static std::map<std::string, PlannedRound> planned;
   const auto found = planned.find(robot);
   if (found != planned.end()) return found->second;
-  return planned.emplace(robot, PlannedRound(robot)).first->second;
+  return planned.emplace(robot, PlannedRound(robot, true)).first->second;
 }
 
 TEST(Nav2Settings, CostWhatTheySayWhenReadBack) {
   const ScratchDirectory directory;
   for (const char* robot : {"amr_150kg.yaml", "nomad_super_scout.yaml"}) {
     const PlannedRound& round = with_turns(robot);
+    ASSERT_TRUE(mission_settings(round.plan).turn);
     const Export written = export_nav2_settings(round.input("settings.yaml"));
     const std::string& text = written.files.at(0).content;
     EXPECT_EQ(text.find(" -0 J"), std::string::npos);

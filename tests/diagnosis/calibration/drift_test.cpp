@@ -80,7 +80,7 @@ TEST(Drift, AConstantThatADayDoesNotSeeIsNotCompared) {
   const DriftResult result = find_drift(days);
   ASSERT_EQ(result.not_compared.size(), 1u);
   EXPECT_EQ(result.not_compared[0].name, kNames[2]);
-  EXPECT_EQ(result.not_compared[0].day, 2u);
+  EXPECT_EQ(result.not_compared[0].days, std::vector<std::size_t>{2});
   ASSERT_EQ(result.parameters.size(), 2u);
   EXPECT_EQ(result.parameters[1].days, 1u);
 }
