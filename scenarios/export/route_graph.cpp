@@ -165,6 +165,16 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
+/// A route server does not read the lines of edges. Returns the ids of those that were not straight.
+std::set<std::string> straighten(RouteGraph& graph) {
+  std::set<std::string> bent;
+  for (RouteGraph::Edge& edge : graph.edges) {
+    if (!edge.via_m.empty()) bent.insert(std::to_string(edge.id));
+    edge.via_m.clear();
+  }
+  return bent;
+}
+
 /// What a route server does otherwise than this export expects.
 std::vector<std::string> warnings_of(const Json& file, const RouteGraph& graph,
                                      const std::set<std::string>& foreign) {
@@ -257,7 +267,8 @@ std::string arcs_told(const GraphCosts& costs, double radius_m) {
 
 RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& robot) {
   check_radius(order.corner_radius_m);
-  const RouteGraph graph = read_route_graph(order.graph_file);
+  RouteGraph graph = read_route_graph(order.graph_file);
+  const std::set<std::string> straightened = straighten(graph);
   if (graph.edges.empty())
     throw ConfigError(
         {{order.graph_file, 1, 1}, "features", "no lines", "at least one edge (LineString)", ""});
@@ -272,6 +283,9 @@ RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& r
   RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution,
                           .arcs = arcs_told(costs, order.corner_radius_m),
                           .warnings = warnings_of(json, graph, foreign)};
+  if (!straightened.empty())
+    result.warnings.push_back("edges whose lines have points beside their nodes: " + listed(straightened) +
+                              "; the route server drives straight from node to node, and so do these costs");
   if (order.expand_turns) {
     Expansion expansion(json, graph, costs, most_m_s);
     json = expansion.write();

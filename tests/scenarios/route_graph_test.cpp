@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <queue>
+#include <set>
 
 #include "scenarios/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
@@ -214,6 +215,60 @@ TEST(RouteGraph, ExpandedNodesAndEdgesKeepWhatARouteServerNeeds) {
   EXPECT_EQ(copies, 3);  // itself, its goal, its one arrival
   EXPECT_NE(result.files[1].content.find("nav2_route::TriggerEvent"), std::string::npos);
   EXPECT_TRUE(result.warnings.empty());
+}
+
+/// Nodes that routes from a node reach.
+std::set<long> reached(const std::map<long, std::vector<long>>& leaving, long from) {
+  std::set<long> seen{from};
+  std::vector<long> open{from};
+  while (!open.empty()) {
+    const long node = open.back();
+    open.pop_back();
+    if (const auto next = leaving.find(node); next != leaving.end())
+      for (const long id : next->second)
+        if (seen.insert(id).second) open.push_back(id);
+  }
+  return seen;
+}
+
+TEST(RouteGraph, AnExpandedGraphReachesWhatTheGraphReaches) {
+  const ScratchDirectory directory;
+  for (const char* name : {"warehouse_graph", "depot_graph"}) {
+    const std::string file = std::string(JOULEPATH_SOURCE_DIR "/scenarios/maps/") + name + ".geojson";
+    const RouteGraph graph = read_route_graph(file);
+    const RouteGraphExport result =
+        export_route_graph({file, directory.at("o.geojson"), 0, 0, true}, testing::nomad());
+    std::map<long, std::vector<long>> plain, expanded;
+    for (const RouteGraph::Edge& edge : graph.edges)
+      plain[graph.nodes[edge.start].id].push_back(graph.nodes[edge.end].id);
+    const Json json = Json::parse(result.files[0].content);
+    for (const Json& feature : json["features"])
+      if (const Json& p = feature["properties"]; p.contains("startid"))
+        expanded[p["startid"]].push_back(p["endid"]);
+    for (const RouteGraph::Node& from : graph.nodes) {
+      const std::set<long> goals = reached(expanded, from.id);
+      for (const long id : reached(plain, from.id))
+        EXPECT_TRUE(id == from.id || goals.contains(id + result.goal_offset)) << from.id << " to " << id;
+    }
+  }
+}
+
+/// A route server does not read the lines of edges: robots drive straight from node to node.
+TEST(RouteGraph, EdgesAreStraightAsTheServerDrivesThem) {
+  const ScratchDirectory directory;
+  const auto exported = [&](const std::string& coordinates) {
+    std::string edge = line(10, 1, 2);
+    edge.replace(edge.find(R"("coordinates": [])"), 17, R"("coordinates": )" + coordinates);
+    return export_route_graph(
+        {directory.write("graph.geojson", collection({point(1, 0, 0), point(2, 8, 0), edge})),
+         directory.at("o"), 0, 0, false},
+        testing::nomad());
+  };
+  const RouteGraphExport straight = exported("[]"), bent = exported("[[0, 0], [4, 3], [8, 0]]");
+  EXPECT_EQ(metadata_of(straight.files[0].content).at(10), metadata_of(bent.files[0].content).at(10));
+  EXPECT_TRUE(straight.warnings.empty());
+  ASSERT_EQ(bent.warnings.size(), 1u);
+  EXPECT_NE(bent.warnings[0].find("10"), std::string::npos);
 }
 
 TEST(RouteGraph, WarnsOfWhatTheServerWouldNotDo) {
