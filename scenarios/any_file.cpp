@@ -185,22 +185,7 @@ std::string kind_of(const Document& document) {
       names += (names.empty() ? "" : ", ") + ("joulepath/" + kind.name + "/1");
     line->fail("one of: " + names);
   }
-  for (const auto& [key, kind] : {std::pair{"image", "map"},
-                                  {"resolution", "map"},
-                                  {"runs", "dataset"},
-                                  {"parameters", "study"},
-                                  {"missions", "fleet"},
-                                  {"legs", "mission"},
-                                  {"visit", "mission"},
-                                  {"order", "mission"},
-                                  {"bezier_m", "path"},
-                                  {"waypoints", "path"},
-                                  {"features", "route graph"},
-                                  {"geometry", "robot"},
-                                  {"motor", "robot"},
-                                  {"inertia", "robot"}})
-    if (root.has(key)) return kind;
-  return "";
+  return told_kind(root);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "scenarios/document.hpp"
+#include "scenarios/output_schemas.hpp"
 
 namespace joulepath {
 namespace {
@@ -22,7 +24,7 @@ struct Parameter {
 constexpr Parameter kParameters[] = {
     {"desired_linear_vel", &ControllerFile::speed_m_s},  // RPP
     {"rotate_to_heading_angular_vel", &ControllerFile::turn_rate_rad_s},
-    {"max_angular_accel", &ControllerFile::yaw_acceleration_rad_s2},
+    {"max_angular_accel", &ControllerFile::turn_acceleration_rad_s2},
     {"vx_max", &ControllerFile::speed_m_s},  // MPPI
     {"wz_max", &ControllerFile::yaw_rate_rad_s},
     {"ax_max", &ControllerFile::acceleration_m_s2},
@@ -115,42 +117,72 @@ class ControllerReader {
   ControllerFile settings_{};
 };
 
-void lower(double& value, const std::optional<double>& to) {
-  if (to) value = std::min(value, *to);
+/// The settings for each leg in the result of export --to controller.
+std::vector<LegSettings> legs_of(const Document& document) {
+  check_document(document, "controller", controller_schema());
+  std::vector<LegSettings> legs;
+  const auto settings = [](const Node& leg, const char* rate, const char* up, const char* down) {
+    return leg.has(rate)
+               ? std::optional(TrapezoidSettings{leg[rate].number(), leg[up].number(), leg[down].number()})
+               : std::nullopt;
+  };
+  for (const Node& leg : document.root()["legs"].items())
+    legs.push_back(
+        {.drive = settings(leg, "speed_m_s", "acceleration_m_s2", "deceleration_m_s2"),
+         .turn = settings(leg, "yaw_rate_rad_s", "yaw_acceleration_rad_s2", "yaw_deceleration_rad_s2")});
+  return legs;
+}
+
+/// The least of those that are there; above every setting if none is.
+double least(std::initializer_list<std::optional<double>> settings) {
+  double least = kMostSize;
+  for (const std::optional<double>& setting : settings)
+    if (setting) least = std::min(least, *setting);
+  return least;
 }
 
 }  // namespace
 
 ControllerFile read_controller_settings(const std::string& file) {
   const Document document = Document::load(file);
+  const std::string kind = told_kind(document.root());
+  if (kind == "controller") return {.file = file, .legs = legs_of(document)};
   ControllerReader reader;
   reader.look(document.root());
   ControllerFile settings = reader.take();
   if (settings.read.empty())
-    document.root().fail_found(
-        "no speed and no acceleration of a controller",
-        "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB) or diff_drive_controller");
+    document.root().fail_found((kind.empty() ? "" : "a file of kind " + kind + " with ") +
+                                   std::string("no speed and no acceleration of a controller"),
+                               "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB) or "
+                               "diff_drive_controller, or the "
+                               "result of export --to controller");
   return settings;
 }
 
-ControlledDrive drive_with(const Plan& plan, const ControllerFile& file) {
-  const auto settings = [&](const StretchPlace& place, const StretchPlan& stretch,
-                            const TrapezoidFamily& family) {
-    TrapezoidSettings own = fastest_settings(place, stretch, family);
-    if (is_turn(stretch.request.piece)) {
-      lower(own.rate, file.yaw_rate_rad_s);
-      lower(own.rate, file.turn_rate_rad_s);
-      lower(own.acceleration, file.yaw_acceleration_rad_s2);
-      lower(own.deceleration,
-            file.yaw_deceleration_rad_s2 ? file.yaw_deceleration_rad_s2 : file.yaw_acceleration_rad_s2);
-    } else {
-      lower(own.rate, file.speed_m_s);
-      lower(own.acceleration, file.acceleration_m_s2);
-      lower(own.deceleration, file.deceleration_m_s2 ? file.deceleration_m_s2 : file.acceleration_m_s2);
-    }
-    return own;
+LegSettings settings_of(const ControllerFile& file) {
+  const auto or_up = [](const std::optional<double>& down, const std::optional<double>& up) {
+    return down ? down : up;
   };
-  return drive_by_controller(plan, settings);
+  return {.drive = TrapezoidSettings{least({file.speed_m_s}), least({file.acceleration_m_s2}),
+                                     least({or_up(file.deceleration_m_s2, file.acceleration_m_s2)})},
+          .turn = TrapezoidSettings{least({file.yaw_rate_rad_s, file.turn_rate_rad_s}),
+                                    least({file.yaw_acceleration_rad_s2, file.turn_acceleration_rad_s2}),
+                                    least({or_up(file.yaw_deceleration_rad_s2, file.yaw_acceleration_rad_s2),
+                                           file.turn_acceleration_rad_s2})},
+          .yaw_rate_rad_s = least({file.yaw_rate_rad_s}),
+          .yaw_acceleration_rad_s2 = least({file.yaw_acceleration_rad_s2, file.yaw_deceleration_rad_s2})};
+}
+
+ControlledDrive drive_with(const Plan& plan, const ControllerFile& file) {
+  if (file.legs.empty())
+    return drive_with(plan, std::vector<LegSettings>(plan.legs.size(), settings_of(file)));
+  if (file.legs.size() != plan.legs.size())
+    throw ConfigError({{file.file, 1, 1},
+                       "legs",
+                       "settings for " + std::to_string(file.legs.size()) + " legs",
+                       "one for each of the mission's " + std::to_string(plan.legs.size()) + " legs",
+                       ""});
+  return drive_with(plan, file.legs);
 }
 
 }  // namespace joulepath

@@ -8,19 +8,26 @@
 
 namespace joulepath {
 
-/// Speeds and accelerations of a Nav2 or ros2_control parameter file: the least value of all nodes.
+/// Speeds and accelerations of a Nav2 or ros2_control parameter file: the least value of all nodes. Or those
+/// of each leg in a result of export --to controller.
 struct ControllerFile {
   std::optional<double> speed_m_s{}, acceleration_m_s2{}, deceleration_m_s2{};
   std::optional<double> yaw_rate_rad_s{}, turn_rate_rad_s{};  ///< in all motion; in turns in place
-  std::optional<double> yaw_acceleration_rad_s2{}, yaw_deceleration_rad_s2{};
+  std::optional<double> yaw_acceleration_rad_s2{}, yaw_deceleration_rad_s2{}, turn_acceleration_rad_s2{};
   std::vector<std::string> read{};  ///< the keys that were used, in the file's order
+  std::string file{};
+  std::vector<LegSettings> legs{};  ///< of a result of export --to controller; replaces all others
 };
 
 /// Reads velocity_smoother, controller_server (RPP, MPPI, DWB) and diff_drive_controller, under any node name
-/// or namespace. Throws ConfigError for a file that is not YAML or has no such parameter.
+/// or namespace, or the result of export --to controller. Throws ConfigError for a file that is not YAML or
+/// has no such parameter.
 [[nodiscard]] ControllerFile read_controller_settings(const std::string& file);
 
-/// Drives a plan with these settings; a setting that the file lacks is the robot's limit.
+/// Where the file lacks a setting, the robot's limit holds; a missing deceleration is the acceleration.
+[[nodiscard]] LegSettings settings_of(const ControllerFile& file);
+
+/// Drives a plan with these settings.
 [[nodiscard]] ControlledDrive drive_with(const Plan& plan, const ControllerFile& file);
 
 }  // namespace joulepath

@@ -242,6 +242,8 @@ Schema drift_schema() {
       {required("schema", text()), required("days", list(text()), "oldest first"),
        required("false_alarm_rate", number(kFraction),
                 "probability of a false alarm in a night without drift"),
+       required("answer", choice({"drift", "no_drift", "cannot_tell"}),
+                "cannot_tell: no constant is determined by the first and by the last day"),
        required("drifted", list(text()), "names of constants"),
        required(
            "parameters",
@@ -257,7 +259,11 @@ Schema drift_schema() {
                           required("detectable_percent", result(),
                                    "step on the second day that is found with a probability of 80 %"),
                           required("drifted", boolean())})))),
-       required("not_compared", list(text()), "not determined by the first or by the last day")}));
+       required("not_compared",
+                list(open(map({required("name", text()),
+                               required("days", list(text()), "days that do not determine it"),
+                               required("why", text()),
+                               required("needs", text(), "manoeuvres or channels that show it")}))))}));
 }
 
 }  // namespace joulepath

@@ -84,8 +84,10 @@ class GraphReader {
 RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
   const Document document = Document::load(file, named_by);
   const Node root = document.root();
+  if (const std::string kind = told_kind(root); !kind.empty() && kind != "route graph")
+    root.fail_found("a file of kind " + kind, "a route graph (GeoJSON FeatureCollection)");
   if (root.kind() != Value::Kind::map || root.text_or("type", "") != "FeatureCollection")
-    root.fail("a GeoJSON FeatureCollection");
+    root.fail("a route graph (GeoJSON FeatureCollection)");
   GraphReader reader(file);
   const auto features = root["features"].items();
   for (const bool lines : {false, true})

@@ -272,6 +272,31 @@ void check_value(const Node& node, const Schema& schema) {
   }
 }
 
+std::string told_kind(const Node& root) {
+  if (root.kind() != Value::Kind::map) return "";
+  if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar)
+    return kind_and_version(line->text()).first;
+  for (const auto& [key, kind] : {std::pair{"image", "map"},
+                                  {"resolution", "map"},
+                                  {"runs", "dataset"},
+                                  {"parameters", "study"},
+                                  {"missions", "fleet"},
+                                  {"legs", "mission"},
+                                  {"visit", "mission"},
+                                  {"order", "mission"},
+                                  {"bezier_m", "path"},
+                                  {"waypoints", "path"},
+                                  {"features", "route graph"},
+                                  {"orderId", "order"},
+                                  {"geometry", "robot"},
+                                  {"motor", "robot"},
+                                  {"inertia", "robot"}})
+    if (root.has(key)) return kind;
+  for (const auto& [name, node] : root.entries())
+    if (node.kind() == Value::Kind::map && node.has("ros__parameters")) return "ROS parameters";
+  return "";
+}
+
 void check_document(const Document& document, const std::string& kind, const Schema& schema) {
   const Node root = document.root();
   if (root.kind() != Value::Kind::map)
@@ -286,6 +311,9 @@ void check_document(const Document& document, const std::string& kind, const Sch
       line->fail(expected, found_kind.empty() ? ""
                                               : "this is a file of kind " + found_kind +
                                                     ", where one of kind " + kind + " is needed");
+  } else if (const std::string told = told_kind(root);
+             told == "route graph" || told == "order" || told == "map" || told == "ROS parameters") {
+    if (told != kind) root.fail_found("a file of kind " + told, "one of kind " + kind);
   }
   check_value(root, schema);
 }

@@ -79,6 +79,9 @@ struct FileKind {
 /// Checks a value and all values below it. Throws ConfigError at the first mistake.
 void check_value(const Node& node, const Schema& schema);
 
+/// The kind of a document: from its schema line, else from a key that only one kind has; empty if unknown.
+[[nodiscard]] std::string told_kind(const Node& root);
+
 /// Checks the `schema:` line (absent: version 1 of the kind expected) and the whole document.
 void check_document(const Document& document, const std::string& kind, const Schema& schema);
 

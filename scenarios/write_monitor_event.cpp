@@ -67,44 +67,50 @@ Json event_json(const LegExecuted& c) {
           {"leg", c.leg},
           {"executed_J", finite(c.executed_J)},
           {"planned_J", finite(c.planned_J)},
+          {"finished", c.finished},
           {"deviates", c.deviates}};
 }
 
 template <class... Values>
 std::string line(const char* pattern, Values... values) {
-  char text[400];
+  char text[600];
   std::snprintf(text, sizeof text, pattern, values...);
   return text;
 }
 
 std::string event_text(const MonitorStatus& s) {
-  std::string text = line("%8.1f s  leg %zu  ", s.time_s, s.leg);
-  text += s.measured ? line("%.0f J of %.0f J planned", s.executed_J, s.planned_J)
-                     : line("no power measured, %.0f J planned", s.planned_J);
+  std::string text = line("%8.1f s  leg %zu: ", s.time_s, s.leg);
+  text += s.measured ? line("%.0f J used, %.0f J planned to here", s.executed_J, s.planned_J)
+                     : line("no power measured, %.0f J planned to here", s.planned_J);
   if (s.payload_kg)
-    text += line(", payload %.2f kg (%.2f to %.2f)", *s.payload_kg, (*s.payload_interval_95)[0],
+    text += line("; payload %.2f kg (95 %%: %.2f to %.2f)", *s.payload_kg, (*s.payload_interval_95)[0],
                  (*s.payload_interval_95)[1]);
-  text += line(", rest %.0f J, at most %.0f J", s.rest_J, s.rest_upper_J);
+  text += line("; %.0f J to go, at most %.0f J (95 %%)", s.rest_J, s.rest_upper_J);
   if (s.battery_suffices)
-    text += line(", battery %.1f %%: %s", 100 * *s.battery_fraction,
-                 *s.battery_suffices ? "enough" : "NOT ENOUGH");
+    text += line("; battery %.1f %%, %s", 100 * *s.battery_fraction,
+                 *s.battery_suffices ? "enough" : "NOT ENOUGH to arrive above the reserve");
   return text;
 }
 
 std::string event_text(const PayloadChanged& c) {
-  return line("%8.1f s  PAYLOAD %.2f kg (%.2f to %.2f) since %.1f s, stated %.2f kg", c.time_s, c.payload_kg,
-              c.interval_95[0], c.interval_95[1], c.since_s, c.stated_kg);
+  return line("%8.1f s  PAYLOAD is %.2f kg (95 %%: %.2f to %.2f) since %.1f s, not the stated %.2f kg",
+              c.time_s, c.payload_kg, c.interval_95[0], c.interval_95[1], c.since_s, c.stated_kg);
 }
 
 std::string event_text(const NotPayload& c) {
-  return line("%8.1f s  NOT PAYLOAD since %.1f s: %s (%+.0f %% of the dry friction%s%s); diagnose the log",
-              c.time_s, c.since_s, c.reason.c_str(), c.resistance_percent,
-              c.looks_like.empty() ? "" : ", looks like ", c.looks_like.c_str());
+  return line(
+      "%8.1f s  NOT PAYLOAD, another cause since %.1f s: %s; resistance %+.0f %% of the nominal dry "
+      "friction (95 %%: %+.0f to %+.0f)%s%s. Next: joulepath diagnose with this log",
+      c.time_s, c.since_s, c.reason.c_str(), c.resistance_percent, c.interval_95[0], c.interval_95[1],
+      c.looks_like.empty() ? "" : "; most like the effect ", c.looks_like.c_str());
 }
 
 std::string event_text(const LegExecuted& c) {
-  return line("%8.1f s  leg %zu done: %.0f J, planned %.0f J%s", c.time_s, c.leg, c.executed_J, c.planned_J,
-              c.deviates ? ": DEVIATES" : "");
+  return line("%8.1f s  leg %zu %s: %.0f J used, %.0f J planned%s%s", c.time_s, c.leg,
+              c.finished ? "finished" : "unfinished", c.executed_J, c.planned_J, c.finished ? "" : " to here",
+              !c.deviates                  ? ""
+              : c.executed_J > c.planned_J ? ": DEVIATES, more than planned"
+                                           : ": DEVIATES, less than planned");
 }
 
 }  // namespace
@@ -113,6 +119,15 @@ std::string monitor_json(const MonitorEvent& event) {
   Json json{{"schema", "joulepath/monitor/1"}};
   json.update(std::visit([](const auto& e) { return event_json(e); }, event));
   return json.dump();
+}
+
+std::string row_counts_text(const RowCounts& rows) {
+  const auto count = [](std::uint64_t n) { return std::to_string(n); };
+  std::string text = "rows: " + count(rows.used) + " used";
+  if (rows.late > 0) text += ", " + count(rows.late) + " late or doubled";
+  if (rows.broken > 0) text += ", " + count(rows.broken) + " without a time or a wheel speed";
+  if (rows.missing > 0) text += ", " + count(rows.missing) + " missing";
+  return text;
 }
 
 std::string monitor_text(const MonitorEvent& event) {

@@ -1,6 +1,7 @@
 #include "diagnosis/calibration/drift.hpp"
 
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
@@ -18,13 +19,15 @@ double percent_of(double part, double whole) { return 100 * part / std::abs(whol
 class DriftCommand : public Command {
  public:
   DriftCommand()
-      : Command({.name = "drift",
-                 .says = "name the constants that changed since the calibrated day",
-                 .examples =
-                     "  joulepath drift days/monday.yaml days/tuesday.yaml days/wednesday.yaml\n"
-                     "  joulepath drift calibrated.yaml tonight.yaml --false-alarm-rate 0.001 --json\n\n"
-                     "The exit code is 1 where a constant of the last day differs from the first day's.\n"}) {
-  }
+      : Command(
+            {.name = "drift",
+             .says = "name the constants that changed since the calibrated day",
+             .examples =
+                 "  joulepath drift days/monday.yaml days/tuesday.yaml days/wednesday.yaml\n"
+                 "  joulepath drift calibrated.yaml tonight.yaml --false-alarm-rate 0.001 --json\n\n"
+                 "Exit code 0: no drift in the constants that could be compared; 1: a constant of the last "
+                 "day differs\nfrom the first day's; 2: cannot tell, as no constant is determined by both "
+                 "days (or bad input).\n"}) {}
 
   void declare(CommandLine& line) override {
     line.option("DAY", days_, "datasets or logs, oldest first; the first is the calibrated day").required();
@@ -48,6 +51,7 @@ class DriftCommand : public Command {
       std::cout << json_of(result).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     else if (!common_.quiet)
       print(result);
+    if (!result.can_tell()) return kBadInput;
     return result.drifted() ? kInfeasibleOrFailed : kDone;
   }
 
@@ -56,9 +60,13 @@ class DriftCommand : public Command {
     Json json{{"schema", "joulepath/drift/1"},
               {"days", days_},
               {"false_alarm_rate", settings_.false_alarm_rate},
+              {"answer", answer(result)},
               {"drifted", Json::array()},
               {"parameters", Json::array()},
-              {"not_compared", result.not_compared}};
+              {"not_compared", Json::array()}};
+    for (const NotCompared& c : result.not_compared)
+      json["not_compared"].push_back(
+          {{"name", c.name}, {"days", names_of(c.days)}, {"why", c.why}, {"needs", c.needs}});
     for (const ParameterDrift& p : result.parameters) {
       if (p.drifted) json["drifted"].push_back(p.name);
       json["parameters"].push_back({{"name", p.name},
@@ -77,7 +85,39 @@ class DriftCommand : public Command {
     return json;
   }
 
+  static const char* answer(const DriftResult& result) {
+    if (!result.can_tell()) return "cannot_tell";
+    return result.drifted() ? "drift" : "no_drift";
+  }
+
   void print(const DriftResult& result) const {
+    if (result.can_tell())
+      print_compared(result);
+    else
+      std::cout << "cannot tell: no constant is determined by the first and by the last day\n";
+    print_not_compared(result);
+  }
+
+  /// Constants with the same reason in one line.
+  void print_not_compared(const DriftResult& result) const {
+    std::map<std::string, std::string> names;  // by the reason
+    for (const NotCompared& c : result.not_compared) {
+      std::string days;
+      for (const std::string& day : names_of(c.days)) days += (days.empty() ? "" : " and ") + day;
+      std::string& of = names[c.why + " (" + days + "); needs " + c.needs];
+      of += (of.empty() ? "" : ", ") + c.name;
+    }
+    for (const auto& [reason, of] : names)
+      (result.can_tell() ? std::cerr : std::cout) << "not compared: " << of << ": " << reason << "\n";
+  }
+
+  std::vector<std::string> names_of(const std::vector<std::size_t>& days) const {
+    std::vector<std::string> names;
+    for (const std::size_t day : days) names.push_back(days_[day]);
+    return names;
+  }
+
+  void print_compared(const DriftResult& result) const {
     Table table({"constant", "calibrated", "now", "change", "", "would be found", "unit"});
     for (const ParameterDrift& p : result.parameters)
       table.row({p.name, figure(p.reference), figure(p.value),
@@ -85,11 +125,9 @@ class DriftCommand : public Command {
                  p.drifted ? "DRIFTED, most since " + days_[p.since] : "",
                  figure(percent_of(p.detectable, p.reference), 2) + " %", p.unit});
     table.print(std::cout);
-    std::cout << (result.drifted() ? "drifted" : "no drift found")
+    std::cout << (result.drifted() ? "drifted" : "no drift found in these constants")
               << "; a night without drift is reported with " << figure(100 * settings_.false_alarm_rate, 3)
               << " %\nwould be found: a step on the second day, with 80 %\n";
-    for (const std::string& name : result.not_compared)
-      std::cerr << "note: " << name << " is not determined by the first or by the last day\n";
   }
 
   std::vector<std::string> days_{};

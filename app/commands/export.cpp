@@ -137,6 +137,7 @@ class ExportCommand : public Command {
     const RouteGraphExport result =
         export_route_graph({source_.file, out_, payload_kg, corner_radius_m_, expand_turns_}, robot);
     write_files(result.files);
+    for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << "\n";
     if (common_.quiet) return kDone;
     std::cout << result.nodes << " nodes, " << result.edges << " edges\n";
     if (!result.arcs.empty()) std::cout << result.arcs << "\n";
@@ -145,6 +146,10 @@ class ExportCommand : public Command {
       std::cout << "corners: " << turns.corners << ", mean " << figure(turns.mean_J, 3)
                 << " J; edges alone miss a corner by " << figure(turns.rms_J, 3) << " J (rms), "
                 << figure(turns.worst_J, 3) << " J (worst): --expand-turns is exact\n";
+    if (result.goal_offset > 0)
+      std::cout
+          << "ask for routes by ids: start_id is a node's own id, goal_id the id of the node to reach + "
+          << result.goal_offset << "\n";
     tell_names(result.files);
     return kDone;
   }

@@ -171,6 +171,7 @@ class FollowPlanCommand : public Command {
               {"pieces", result.finished},
               {"of_pieces", plan.drives.size()},
               {"off_path", result.off_path},
+              {"stopped", stop_of(plan, result)},
               {"stopped_by", result.stopped_by.empty() ? Json(nullptr) : Json(result.stopped_by)},
               {"replans", result.replans},
               {"worst_lateral_m", result.worst_lateral_m},
@@ -179,8 +180,28 @@ class FollowPlanCommand : public Command {
             {"command_limits", limits}};
   }
 
-  static std::string stop_reason(const Json& limit) {
-    return limit.is_null() ? "" : "; stopped by " + limit.get<std::string>();
+  static Json stop_of(const PlannedDrives& plan, const FollowResult& result) {
+    if (!result.stopped) return nullptr;
+    const FollowStop& stop = *result.stopped;
+    return {{"time_s", stop.time_s},
+            {"leg", plan.drives.at(stop.piece).leg},
+            {"piece", stop.piece},
+            {is_turn(plan.drives[stop.piece].request.piece) ? "turned_rad" : "along_m", stop.s},
+            {"x_m", stop.pose.x_m},
+            {"y_m", stop.pose.y_m}};
+  }
+
+  /// When, where and why a drive stopped without having arrived.
+  static std::string stop_text(const Json& executed) {
+    const Json &stop = executed["stopped"], &limit = executed["stopped_by"];
+    std::string text;
+    if (!stop.is_null())
+      text = ": stopped at " + figure(stop["time_s"]) + " s on leg " + stop["leg"].dump() + ", piece " +
+             stop["piece"].dump() + " at " +
+             (stop.contains("along_m") ? figure(stop["along_m"], 3) + " m"
+                                       : figure(stop["turned_rad"], 3) + " rad") +
+             ", (" + figure(stop["x_m"], 3) + ", " + figure(stop["y_m"], 3) + ") m";
+    return limit.is_null() ? text : text + ", by " + limit.get<std::string>();
   }
 
   static void print(const Json& report) {
@@ -190,10 +211,10 @@ class FollowPlanCommand : public Command {
     table.row({"executed", figure(executed["energy_J"]) + " J", figure(executed["duration_s"]) + " s"});
     table.print(std::cout);
     if (executed["off_path"])
-      std::cout << "left the path: the follower stopped\n";
+      std::cout << "left the path: the follower stopped" << stop_text(executed) << "\n";
     else if (executed["late_s"].is_null())
-      std::cout << "did not arrive: " << executed["pieces"] << " of " << executed["of_pieces"] << " pieces"
-                << stop_reason(executed["stopped_by"]) << "\n";
+      std::cout << "did not arrive (" << executed["pieces"] << " of " << executed["of_pieces"] << " pieces)"
+                << stop_text(executed) << "\n";
     else
       std::cout << "late by at most " << figure(executed["late_s"], 3) << " s; off by "
                 << figure(executed["end_error_m"], 3) << " m, " << figure(executed["worst_lateral_m"], 3)

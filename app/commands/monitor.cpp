@@ -58,6 +58,7 @@ class MonitorCommand : public Command {
       throw ConfigError(
           {{log_name(), 0, 0}, "", "no row with a time and speeds", "a log of the plan's drive", ""});
     tell({monitor.leg_executed(), monitor.status()});
+    if (!common_.json && !common_.quiet) std::cout << row_counts_text(monitor.status().rows) << std::endl;
     return other_cause_ ? kInfeasibleOrFailed : kDone;
   }
 

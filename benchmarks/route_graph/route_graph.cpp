@@ -130,6 +130,7 @@ class FullPlans {
       : plant_(make_plant(robot)), limits_(limits_for_payload(robot, payload_kg)), payload_kg_(payload_kg) {}
 
   double energy_J(const std::vector<GraphNode>& places) {
+    if (places.size() < 2) throw std::runtime_error("no route where the graph has one");
     double sum_J = 0, run_m = 0;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       run_m += std::hypot(places[i + 1].x_m - places[i].x_m, places[i + 1].y_m - places[i].y_m);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string_view>
 
 namespace joulepath {
 namespace {
@@ -11,6 +12,21 @@ namespace {
 constexpr double kPower = 0.8416;  ///< normal quantile of 80 %
 /// These follow from the two inertias that are fitted.
 constexpr std::array kFollowFromOthers{"wheel_axle_inertia_kg_m2", "chassis_yaw_inertia_kg_m2"};
+
+/// What shows a constant, by the beginning of its name.
+struct Shows {
+  std::string_view name;
+  const char* needs;
+};
+constexpr Shows kShows[] = {
+    {"friction_torque", "drives at steady speed"},
+    {"viscous_", "drives at a low and at a high steady speed"},
+    {"straight_inertia", "straight drives with firm starts and stops"},
+    {"turning_inertia", "turns in place with firm starts and stops"},
+    {"payload_factor", "the same drives with and without payload"},
+    {"torque_per_ampere", "motor voltages, and drives at a low and at a high speed"},
+    {"resistance", "motor voltages, and starts with a high current"},
+};
 
 /// A day's estimate.
 struct DayEstimate {
@@ -62,15 +78,35 @@ double threshold_of(const std::vector<DayEstimate>& estimates, double rate, cons
   return *at;
 }
 
+/// Whether a day's calibration determines a constant.
+bool determined(const CalibratedParameter& p) {
+  return p.visibility != Visibility::unseen && std::isfinite(p.standard_deviation) &&
+         p.standard_deviation > 0;
+}
+
 std::vector<DayEstimate> estimates_of(const std::vector<std::vector<CalibratedParameter>>& days,
                                       const std::string& name) {
   std::vector<DayEstimate> estimates;
   for (std::size_t day = 0; day < days.size(); ++day)
     for (const CalibratedParameter& p : days[day])
-      if (p.name == name && p.visibility != Visibility::unseen && std::isfinite(p.standard_deviation) &&
-          p.standard_deviation > 0)
+      if (p.name == name && determined(p))
         estimates.push_back({p.value, p.standard_deviation, std::max(1.0, p.effective_runs - 1), day});
   return estimates;
+}
+
+NotCompared not_compared(const std::vector<std::vector<CalibratedParameter>>& days, const std::string& name) {
+  NotCompared result{.name = name};
+  for (const Shows& shows : kShows)
+    if (name.starts_with(shows.name)) result.needs = shows.needs;
+  for (const std::size_t day : {std::size_t{0}, days.size() - 1})
+    for (const CalibratedParameter& p : days[day]) {
+      if (p.name != name || determined(p)) continue;
+      const bool unseen = p.visibility == Visibility::unseen;
+      if (result.days.empty()) result.why = unseen ? p.note : "too few runs for an interval";
+      if (!unseen) result.needs = "four runs or 40 s of driving";
+      result.days.push_back(day);
+    }
+  return result;
 }
 
 ParameterDrift drift_of(const CalibratedParameter& parameter, const std::vector<DayEstimate>& estimates,
@@ -110,7 +146,7 @@ DriftResult find_drift(const std::vector<std::vector<CalibratedParameter>>& days
     const bool counts =
         estimates.size() >= 2 && estimates.front().day == 0 && estimates.back().day + 1 == days.size();
     if (!counts) {
-      result.not_compared.push_back(parameter.name);
+      result.not_compared.push_back(not_compared(days, parameter.name));
       continue;
     }
     compared.push_back(&parameter);

@@ -29,11 +29,20 @@ struct ParameterDrift {
   bool drifted{};
 };
 
+/// A constant that the first or the last day does not determine.
+struct NotCompared {
+  std::string name{};
+  std::vector<std::size_t> days{};  ///< of the first and the last one, those that do not determine it
+  std::string why{};                ///< of the first of them, as the calibration says it
+  std::string needs{};              ///< runs, manoeuvres or channels that show it
+};
+
 struct DriftResult {
   std::vector<ParameterDrift> parameters{};
-  std::vector<std::string> not_compared{};  ///< not determined by the first or by the last day
+  std::vector<NotCompared> not_compared{};
 
   [[nodiscard]] bool drifted() const;
+  [[nodiscard]] bool can_tell() const { return !parameters.empty(); }
 };
 
 /// Looks for constants that the last day has otherwise than the first one. `days`: each day's calibration,

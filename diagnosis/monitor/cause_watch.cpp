@@ -144,7 +144,8 @@ std::optional<CauseChange> CauseWatch::close_block() {
   pool(block, weighs);
   if (payload && is_weighed()) return payload_or_not(block);
   if (resists && resistance_blocks_ >= kLeastBlocks)
-    return other_cause(block, resistance_, "the resistance changed at constant speed");
+    return other_cause(block, resistance_,
+                       "the resistance at constant speed changed, which no payload explains");
   if (!payload_.suspicious() && !resistance_.suspicious()) suspected_.reset(signatures_.names().size());
   return std::nullopt;
 }
@@ -190,12 +191,14 @@ CauseChange CauseWatch::payload_or_not(const BlockEstimate& block) {
       std::abs(disagreement.value) > tolerance_kg_) {
     unexplained_kg_ =
         std::max({unexplained_kg_, std::abs(disagreement.value), std::abs(kg.value - known_kg_)});
-    return other_cause(block, payload_, "driving and braking show different masses");
+    return other_cause(block, payload_,
+                       "accelerating and braking show different masses, where a payload shows the same");
   }
   if (unexplained_kg_ > 0 && std::abs(kg.value - known_kg_) < unexplained_kg_ + tolerance_kg_)
-    return other_cause(block, payload_, "another cause hides a change of this size");
+    return other_cause(block, payload_, "the cause found before hides a payload change of this size");
   if (std::abs(kg.value - payload_.reference()) < tolerance_kg_)
-    return other_cause(block, payload_, "one drive differed, the next ones did not");
+    return other_cause(block, payload_,
+                       "a part of the drive differed and what followed did not, as on a patch of floor");
   known_kg_ = kg.value;
   CauseChange change{.payload = true,
                      .time_s = block.end_s,

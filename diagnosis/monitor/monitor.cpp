@@ -120,7 +120,8 @@ LegExecuted Monitor::leg_executed() const {
   LegExecuted leg{.time_s = last_s_,
                   .leg = leg_,
                   .executed_J = meter_.energy_J() - leg_begin_J_,
-                  .planned_J = progress_.energy_J() - leg_planned_begin_J_};
+                  .planned_J = progress_.energy_J() - leg_planned_begin_J_,
+                  .finished = progress_.leg() != leg_ || progress_.has_arrived()};
   const double sigma_J = leg_ < course_.legs.size() ? course_.legs[leg_].sigma_J : 0.0;
   const double allowed_J = std::hypot(kNormal95 * sigma_J, kLegTolerance * leg.planned_J);
   leg.deviates = meter_.measures() && std::abs(leg.executed_J - leg.planned_J) > allowed_J;

@@ -59,13 +59,14 @@ struct NotPayload {
   std::string reason{};
 };
 
-/// A finished leg.
+/// A leg, at its end or where the log ends.
 struct LegExecuted {
   double time_s{};
   std::size_t leg{};
   double executed_J{};
   double planned_J{};
   bool deviates{};  ///< by more than the plan's uncertainty explains
+  bool finished{};
 };
 
 using MonitorEvent = std::variant<MonitorStatus, PayloadChanged, NotPayload, LegExecuted>;

@@ -78,6 +78,8 @@ bool CourseProgress::waits() const {
   return index_ + 1 < travel.size() && travel[index_ + 1] - travel[index_] <= kNoTravel_m;
 }
 
+bool CourseProgress::has_arrived() const { return course_->travel_m.back() - travel_m_ <= stop_within_m(); }
+
 double CourseProgress::stop_within_m() const { return std::max(kStopWithin_m, kStopWithin * since_stop_m_); }
 
 void CourseProgress::snap_to_stop() {

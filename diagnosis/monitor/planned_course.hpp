@@ -46,7 +46,8 @@ class CourseProgress {
   [[nodiscard]] double payload_kg() const { return course_->payload_kg[index_]; }
   [[nodiscard]] std::size_t leg() const { return course_->leg[index_]; }
   [[nodiscard]] double time_s() const { return at(course_->time_s); }
-  [[nodiscard]] bool at_end() const { return index_ + 1 >= course_->travel_m.size(); }
+  /// At the plan's end, as far as the odometry can tell.
+  [[nodiscard]] bool has_arrived() const;
 
  private:
   [[nodiscard]] double at(const std::vector<double>& values) const;

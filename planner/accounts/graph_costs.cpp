@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kStep_m = 0.25;  ///< sampling distance of the floor's properties
 constexpr double kSlowest_m_s = 0.02;
-constexpr int kBits = 14;  ///< of the cheapest speed
-constexpr double kStraightBack_rad = 3.13;
+constexpr int kBits = 14;          ///< of the cheapest speed
 constexpr double kLeast_J = 1e-3;  ///< a router needs positive costs
 constexpr int kFitSweeps = 60;
 
@@ -100,10 +99,10 @@ class GraphPricer {
       const double arriving = bearing_rad(before[before.size() - 2], before.back());
       for (const std::size_t out : leaving[graph_.edges[in].end]) {
         const std::vector<Point2> behind = edge_line(graph_, graph_.edges[out]);
+        if (graph_.edges[out].end == graph_.edges[in].start) continue;
         const double angle = wrapped_angle_rad(bearing_rad(behind[0], behind[1]) - arriving);
         const CornerTable::Cost corner = corners_.at(angle);
-        if (std::abs(angle) < kStraightBack_rad)
-          costs.corners.push_back({in, out, corner.energy_J, corner.time_s});
+        costs.corners.push_back({in, out, corner.energy_J, corner.time_s});
       }
     }
   }

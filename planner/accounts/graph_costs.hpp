@@ -37,7 +37,7 @@ struct GraphCosts {
   /// Each corner's cost split over its two edges. None costs less than in `edges`, but for half of what the
   /// corners at its ends save (arcs are shorter than their corners).
   std::vector<EdgeCost> with_turns{};
-  std::vector<CornerCost> corners{};  ///< all pairs but those that lead straight back
+  std::vector<CornerCost> corners{};  ///< all pairs but those that lead back to the node before
   TurnAttribution attribution{};
   double typical_leg_m{};   ///< between two corners, on which these are planned
   double fits_up_to_rad{};  ///< greatest corner at which the arc as asked for fits such legs

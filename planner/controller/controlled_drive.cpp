@@ -18,12 +18,10 @@ namespace {
 constexpr std::array<double, 5> kCurveShares{1.0, 0.9, 0.75, 0.5, 0.25};
 constexpr double kSameTime = 1e-6;
 
-BaselineResult drive_stretch(const ProfileRequest& request, const TrapezoidFamily& family,
-                             TrapezoidSettings settings) {
+BaselineResult drive_trapezoids(const ProfileRequest& request, const TrapezoidFamily& family,
+                                TrapezoidSettings settings) {
   std::optional<BaselineResult> best;
-  const double first_share = settings.curve_share;
   for (const double share : kCurveShares) {
-    if (share > first_share) continue;
     settings.curve_share = share;
     if (!family.squares(settings)) continue;
     Profile profile = family.profile(settings);
@@ -37,9 +35,20 @@ BaselineResult drive_stretch(const ProfileRequest& request, const TrapezoidFamil
   return best ? std::move(*best) : no_baseline("controller", "cannot keep the speeds at the ends");
 }
 
+TrapezoidSettings least_of(const TrapezoidSettings& one, const TrapezoidSettings& other) {
+  return {std::min(one.rate, other.rate), std::min(one.acceleration, other.acceleration),
+          std::min(one.deceleration, other.deceleration)};
+}
+
 /// Under a jerk limit the corners of a controller's trapezoids are rounded: as fast as its settings allow.
 BaselineResult drive_under_jerk(const ProfileRequest& request, const TrapezoidSettings& settings) {
-  std::optional<Profile> profile = fastest_profile(request, settings);
+  ProfileRequest fastest = request;
+  fastest.limits.speed_m_s = std::min(fastest.limits.speed_m_s, settings.rate);
+  fastest.limits.acceleration_m_s2 = std::min(fastest.limits.acceleration_m_s2, settings.acceleration);
+  fastest.limits.deceleration_m_s2 = std::min(fastest.limits.deceleration_m_s2, settings.deceleration);
+  fastest.time = {.mode = TimeMode::minimum_time};
+  fastest.solver = SolverChoice::fast;
+  std::optional<Profile> profile = solve_profile(fastest).profile;
   if (!profile) return no_baseline("controller", "cannot keep the speeds at the ends");
   const double duration_s = profile->time_s.back();
   return finish_baseline(request, "controller", std::move(*profile), duration_s,
@@ -70,22 +79,20 @@ void for_each_stretch(const Plan& plan,
   }
 }
 
-TrapezoidSettings fastest_settings(const StretchPlace& /*place*/, const StretchPlan& stretch,
-                                   const TrapezoidFamily& family) {
+TrapezoidSettings fastest_settings(const StretchPlace& /*place*/, const StretchPlan& stretch) {
   const Limits& limits = stretch.request.limits;
   const double limit = is_turn(stretch.request.piece) ? limits.yaw_rate_rad_s : limits.speed_m_s;
-  return {std::min(limit, TrapezoidFamily::kUnlimited), family.most_acceleration(),
-          family.most_deceleration()};
+  return {std::min(limit, TrapezoidFamily::kUnlimited), most_acceleration(stretch.request),
+          most_deceleration(stretch.request)};
 }
 
-std::optional<Profile> fastest_profile(const ProfileRequest& request, const TrapezoidSettings& settings) {
-  ProfileRequest fastest = request;
-  fastest.limits.speed_m_s = std::min(fastest.limits.speed_m_s, settings.rate);
-  fastest.limits.acceleration_m_s2 = std::min(fastest.limits.acceleration_m_s2, settings.acceleration);
-  fastest.limits.deceleration_m_s2 = std::min(fastest.limits.deceleration_m_s2, settings.deceleration);
-  fastest.time = {.mode = TimeMode::minimum_time};
-  fastest.solver = SolverChoice::fast;
-  return solve_profile(fastest).profile;
+BaselineResult controlled_stretch(const ProfileRequest& request, const TrapezoidSettings& settings) {
+  if (is_rounded(request)) return drive_under_jerk(request, settings);
+  return with_room(request, [&](const ProfileRequest& inner) {
+    const TrapezoidFamily family(inner);
+    const TrapezoidSettings most{settings.rate, family.most_acceleration(), family.most_deceleration()};
+    return drive_trapezoids(request, family, least_of(settings, most));
+  });
 }
 
 ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
@@ -99,11 +106,7 @@ ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& set
     if (caps)
       for (const SpeedCap& cap : caps(place, stretch)) request.speed_caps.push_back(cap);
     const BaselineResult result =
-        is_rounded(request) ? drive_under_jerk(request, settings(place, stretch, TrapezoidFamily(request)))
-                            : with_room(request, [&](const ProfileRequest& inner) {
-                                const TrapezoidFamily family(inner);
-                                return drive_stretch(request, family, settings(place, stretch, family));
-                              });
+        controlled_stretch(request, least_of(settings(place, stretch), fastest_settings(place, stretch)));
     drive.energy_J += result.energy_J - stretch.energy.total_J();
     drive.motion_energy_J += result.motion_energy_J - stretch.energy.motion_J();
     drive.duration_s += result.duration_s - stretch.profile.duration_s();

@@ -32,23 +32,21 @@ struct ControlledDrive {
   std::string broken_limit{};       ///< the first exceeded limit, with its place; empty: none
 };
 
-/// The settings for one stretch; its curve_share is tried first, then lower ones.
-using StretchSettings =
-    std::function<TrapezoidSettings(const StretchPlace&, const StretchPlan&, const TrapezoidFamily&)>;
+/// The settings for one stretch. The robot's limits hold too.
+using StretchSettings = std::function<TrapezoidSettings(const StretchPlace&, const StretchPlan&)>;
 /// Speed caps on one stretch, besides the mission's own.
 using StretchCaps = std::function<std::vector<SpeedCap>(const StretchPlace&, const StretchPlan&)>;
 
-/// The fastest profile along a curve within a controller's settings and all limits; none if there is none.
-[[nodiscard]] std::optional<Profile> fastest_profile(const ProfileRequest& request,
-                                                     const TrapezoidSettings& settings);
+/// One stretch, as fast as the settings and all limits allow.
+[[nodiscard]] BaselineResult controlled_stretch(const ProfileRequest& request,
+                                                const TrapezoidSettings& settings);
 
 /// Drives a valid plan's stretches. Energy by the same model on the exact path.
 [[nodiscard]] ControlledDrive drive_by_controller(const Plan& plan, const StretchSettings& settings,
                                                   const StretchCaps& caps = {});
 
 /// As fast as the robot's own limits allow.
-[[nodiscard]] TrapezoidSettings fastest_settings(const StretchPlace& place, const StretchPlan& stretch,
-                                                 const TrapezoidFamily& family);
+[[nodiscard]] TrapezoidSettings fastest_settings(const StretchPlace& place, const StretchPlan& stretch);
 
 /// Energy of a controller's drive, and the least energy along its path in the same time.
 struct LossAtTime {

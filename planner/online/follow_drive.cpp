@@ -22,6 +22,18 @@ DriveState standing_at(const Pose& pose) {
   return state;
 }
 
+/// The first rows of a log as FollowRun::record() writes it.
+void keep_rows(Trajectory& log, std::size_t rows) {
+  for (std::vector<double>* column :
+       {&log.time_s, &log.linear_speed_m_s, &log.angular_speed_rad_s, &log.position_x_m, &log.position_y_m,
+        &log.heading_rad, &log.payload_kg, &log.battery_power_W, &log.energy_J})
+    column->resize(rows);
+  for (const Side side : kSides)
+    for (Sided<std::vector<double>>* column :
+         {&log.wheel_speed_rad_s, &log.motor_voltage_V, &log.motor_current_A, &log.motor_power_W})
+      (*column)[side].resize(rows);
+}
+
 class FollowRun {
  public:
   explicit FollowRun(const FollowRequest& request)
@@ -42,6 +54,7 @@ class FollowRun {
       slip(t);
       integrator_.advance_to(
           std::min({tick * period_s, sample * kSample_s, look * request_.follower.period_s}));
+      watch_rest();
     }
     record(integrator_.time_s());
     return finish();
@@ -195,10 +208,30 @@ class FollowRun {
     log.energy_J.push_back(state[kBatteryEnergy]);
   }
 
+  /// Remembers since when the robot stands.
+  void watch_rest() {
+    if (!integrator_.at_rest())
+      rest_.reset();
+    else if (!rest_)
+      rest_ = Rest{integrator_.state()[kBatteryEnergy],
+                   result_.executed.size() + 1,
+                   {integrator_.time_s(), piece_, last_.s, pose()}};
+  }
+
+  /// A drive that did not arrive ends where it stopped.
+  void end_at_stop() {
+    if (result_.finished == request_.pieces.size() || !rest_) return;
+    result_.stopped = rest_->stop;
+    result_.energy_J = rest_->energy_J;
+    result_.duration_s = rest_->stop.time_s;
+    keep_rows(result_.executed, std::min(rest_->rows, result_.executed.size()));
+  }
+
   FollowResult finish() {
     result_.energy_J = integrator_.state()[kBatteryEnergy];
     result_.duration_s = integrator_.time_s();
     result_.limits = audit_.uses();
+    end_at_stop();
     if (request_.pieces.empty()) return std::move(result_);
     const PathPiece& last = request_.pieces.back().request->piece;
     const Pose end = piece_point(last, piece_length(last)).pose;
@@ -214,7 +247,14 @@ class FollowRun {
     double payload_kg{};  ///< as measured
   };
 
+  struct Rest {
+    double energy_J{};
+    std::size_t rows{};  ///< of the log until then
+    FollowStop stop{};
+  };
+
   const FollowRequest& request_;
+  std::optional<Rest> rest_{};
   WheelController controller_;
   CommandAudit audit_;
   DriveIntegrator integrator_;

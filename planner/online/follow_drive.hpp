@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,18 @@ struct FollowRequest {
   ControllerSettings controller{};
 };
 
+/// Where a drive stopped for good without having arrived.
+struct FollowStop {
+  double time_s{};      ///< on the clock of the executed log
+  std::size_t piece{};  ///< counted from 0
+  double s{};           ///< path coordinate of the piece
+  Pose pose{};
+};
+
 struct FollowResult {
-  Trajectory executed{};  ///< truth at 50 Hz
-  double energy_J{};      ///< at the battery's terminals, standby included
-  double duration_s{};    ///< until the last piece's end is reached, or the plan's end
+  Trajectory executed{};  ///< truth at 50 Hz; ends where the drive stopped without having arrived
+  double energy_J{};      ///< at the battery's terminals, standby included, until `duration_s`
+  double duration_s{};    ///< until the last piece's end is reached, the plan's end, or the stop
   double arrived_s{};     ///< at the end of the last piece
   double late_s{};        ///< of the latest arrival against its deadline
   double worst_lateral_m{};
@@ -58,8 +67,9 @@ struct FollowResult {
   std::size_t replans{};
   std::size_t finished{};          ///< pieces
   std::vector<LimitUse> limits{};  ///< the largest uses by the commands
-  bool off_path{};                 ///< handed over; nothing is driven afterwards
-  std::string stopped_by{};        ///< limit that stopped the last command; empty after a hand-over
+  std::optional<FollowStop> stopped{};
+  bool off_path{};           ///< handed over; nothing is driven afterwards
+  std::string stopped_by{};  ///< limit that stopped the last command; empty after a hand-over
 };
 
 /// Drives planned pieces by the Follower on the simulated robot: commands take effect after the follower's

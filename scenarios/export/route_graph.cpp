@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "model/limit_table.hpp"
 #include "planner/accounts/corner_table.hpp"
@@ -19,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 /// Route servers store ids in 32 bits; new ids of an expanded graph follow the largest id.
 constexpr long kMostId = 2'000'000'000;
-constexpr double kTransfer = 1e-3;  ///< J and s from an arrival node to its place: positive, but negligible
+constexpr long kMostRequestId = 65535;  ///< start_id and goal_id of its actions have 16 bits
 
 bool is_line(const Json& feature) {
   const std::string type = feature["geometry"]["type"].get<std::string>();
@@ -45,45 +46,67 @@ void add_metadata(Json& properties, const Json& more) {
   for (const auto& [key, value] : more.items()) metadata[key] = value;
 }
 
-/// Line features of the file, in the order of the graph's edges.
-std::vector<std::size_t> line_features(const Json& file) {
-  std::vector<std::size_t> lines;
+/// Features of the file that are lines or points, in the order of the graph's edges or nodes.
+std::vector<std::size_t> features_of(const Json& file, bool lines) {
+  std::vector<std::size_t> features;
   for (std::size_t i = 0; i < file["features"].size(); ++i)
-    if (is_line(file["features"][i])) lines.push_back(i);
-  return lines;
+    if (is_line(file["features"][i]) == lines) features.push_back(i);
+  return features;
 }
 
-/// A node per arriving edge, in addition to the original nodes (routes start there) and a copy of each
-/// (routes end there). Edges that leave an arrival node include the cost of the corner.
+/// What is added to a node's id for the goal there: a power of ten where the ids stay short enough.
+long goal_offset(long largest) {
+  long power = 10;
+  while (power <= largest) power *= 10;
+  return power + largest <= kMostRequestId ? power : largest + 1;
+}
+
+/// A node per arriving edge, in addition to the original nodes (routes start there) and a goal per original
+/// node (routes end there). Edges that leave an arrival node include the cost of the corner; each leads to an
+/// arrival node and to a goal.
 class Expansion {
  public:
   Expansion(const Json& file, const RouteGraph& graph, const GraphCosts& costs, double most_m_s)
-      : file_(file), graph_(graph), costs_(costs), most_m_s_(most_m_s), lines_(line_features(file)) {
+      : file_(file),
+        graph_(graph),
+        costs_(costs),
+        most_m_s_(most_m_s),
+        points_(features_of(file, false)),
+        lines_(features_of(file, true)) {
     long largest = 0;
     for (const RouteGraph::Node& node : graph.nodes) largest = std::max(largest, node.id);
-    for (const RouteGraph::Edge& edge : graph.edges) largest = std::max(largest, edge.id);
-    next_id_ = largest + 1;
+    offset_ = goal_offset(largest);
+    next_id_ = offset_ + largest + 1;
   }
+
+  long offset() const { return offset_; }
+  long largest_goal() const { return largest_goal_; }
 
   Json write() {
     Json out = file_;
     out["features"] = Json::array();
-    for (const Json& feature : file_["features"])
-      if (!is_line(feature)) out["features"].push_back(feature);
+    for (const std::size_t i : points_) out["features"].push_back(file_["features"][i]);
     std::vector<long> goal, arrival;
-    for (const RouteGraph::Node& node : graph_.nodes) goal.push_back(add_node(out, node, "goal_of", node.id));
-    for (const RouteGraph::Edge& edge : graph_.edges)
-      arrival.push_back(add_node(out, graph_.nodes[edge.end], "arrival_by", edge.id));
-    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      const RouteGraph::Edge& edge = graph_.edges[e];
-      add_edge(out, e, graph_.nodes[edge.start].id, arrival[e], costs_.edges[e]);
-      add_transfer(out, graph_.nodes[edge.end], arrival[e], goal[edge.end]);
+    for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
+      goal.push_back(graph_.nodes[n].id + offset_);
+      largest_goal_ = std::max(largest_goal_, goal.back());
+      add_node(out, n, goal.back(), "goal_of", graph_.nodes[n].id);
     }
+    for (const RouteGraph::Edge& edge : graph_.edges) {
+      arrival.push_back(next_id_++);
+      add_node(out, edge.end, arrival.back(), "arrival_by", edge.id);
+    }
+    const auto add = [&](std::size_t e, long from, const EdgeCost& cost) {
+      add_edge(out, e, from, arrival[e], cost);
+      add_edge(out, e, from, goal[graph_.edges[e].end], cost);
+    };
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      add(e, graph_.nodes[graph_.edges[e].start].id, costs_.edges[e]);
     for (const CornerCost& corner : costs_.corners) {
       EdgeCost cost = costs_.edges[corner.out];
       cost.energy_J += corner.energy_J;
       cost.time_s += corner.time_s;
-      add_edge(out, corner.out, arrival[corner.in], arrival[corner.out], cost);
+      add(corner.out, arrival[corner.in], cost);
     }
     if (next_id_ > kMostId)
       throw ConfigError({{graph_.file, 1, 1},
@@ -95,12 +118,12 @@ class Expansion {
   }
 
  private:
-  long add_node(Json& out, const RouteGraph::Node& at, const char* key, long of) {
-    const long id = next_id_++;
-    out["features"].push_back({{"type", "Feature"},
-                               {"properties", {{"id", id}, {"metadata", {{key, of}}}}},
-                               {"geometry", {{"type", "Point"}, {"coordinates", {at.x_m, at.y_m}}}}});
-    return id;
+  /// A copy of a node, with its frame and its operations.
+  void add_node(Json& out, std::size_t n, long id, const char* key, long of) {
+    Json feature = file_["features"][points_[n]];
+    feature["properties"]["id"] = id;
+    add_metadata(feature["properties"], {{key, of}});
+    out["features"].push_back(std::move(feature));
   }
 
   void add_edge(Json& out, std::size_t e, long from, long to, const EdgeCost& cost) {
@@ -115,45 +138,96 @@ class Expansion {
     out["features"].push_back(std::move(feature));
   }
 
-  void add_transfer(Json& out, const RouteGraph::Node& at, long from, long to) {
-    const Json point = {at.x_m, at.y_m};
-    const EdgeCost nothing{kTransfer, kTransfer, most_m_s_};
-    out["features"].push_back({{"type", "Feature"},
-                               {"properties",
-                                {{"id", next_id_++},
-                                 {"startid", from},
-                                 {"endid", to},
-                                 {"metadata", metadata_of(nothing, most_m_s_)}}},
-                               {"geometry", {{"type", "LineString"}, {"coordinates", {point, point}}}}});
-  }
-
   const Json& file_;
   const RouteGraph& graph_;
   const GraphCosts& costs_;
   double most_m_s_{};
-  std::vector<std::size_t> lines_{};
-  long next_id_{};
+  std::vector<std::size_t> points_{}, lines_{};
+  long next_id_{}, offset_{}, largest_goal_{};
 };
 
-std::string server_yaml(const std::string& graph_file) {
-  return "# Nav2 route server that takes the route of least energy. Settings that are not named keep their\n"
-         "# defaults. DynamicEdgesScorer keeps closed edges closed.\n"
-         "route_server:\n"
-         "  ros__parameters:\n"
-         "    graph_filepath: " +
-         graph_file +
-         "\n"
-         "    edge_cost_functions: [\"PenaltyScorer\", \"DynamicEdgesScorer\"]\n"
-         "    PenaltyScorer:\n"
-         "      plugin: \"nav2_route::PenaltyScorer\"\n"
-         "      penalty_tag: energy_J\n"
-         "      weight: 1.0\n"
-         "    DynamicEdgesScorer:\n"
-         "      plugin: \"nav2_route::DynamicEdgesScorer\"\n"
-         "    operations: [\"AdjustSpeedLimit\"]\n"
-         "    AdjustSpeedLimit:\n"
-         "      plugin: \"nav2_route::AdjustSpeedLimit\"\n"
-         "      speed_tag: speed_limit\n";
+/// Names of the operations at nodes and edges.
+std::set<std::string> operations_of(const Json& file) {
+  std::set<std::string> names;
+  for (const Json& feature : file["features"]) {
+    const auto operations = feature["properties"].find("operations");
+    if (operations == feature["properties"].end() || !operations->is_structured()) continue;
+    for (const Json& operation : *operations)
+      if (operation.is_object() && operation.contains("type") && operation["type"].is_string())
+        names.insert(operation["type"].get<std::string>());
+  }
+  return names;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// A route server does not read the lines of edges. Returns the ids of those that were not straight.
+std::set<std::string> straighten(RouteGraph& graph) {
+  std::set<std::string> bent;
+  for (RouteGraph::Edge& edge : graph.edges) {
+    if (!edge.via_m.empty()) bent.insert(std::to_string(edge.id));
+    edge.via_m.clear();
+  }
+  return bent;
+}
+
+/// What a route server does otherwise than this export expects.
+std::vector<std::string> warnings_of(const Json& file, const RouteGraph& graph,
+                                     const std::set<std::string>& foreign) {
+  std::vector<std::string> warnings;
+  if (!foreign.empty())
+    warnings.push_back(
+        "operations of the graph that the route server's settings do not load: " + listed(foreign) +
+        "; the server stops a route at the first one. Add each to operations: with its plugin");
+  std::set<std::string> fixed;
+  std::size_t edge = 0;
+  for (const std::size_t i : features_of(file, true)) {
+    const RouteGraph::Edge& at = graph.edges[edge++];
+    const Json& properties = file["features"][i]["properties"];
+    if (properties.contains("overridable") && properties["overridable"] == false)
+      fixed.insert(std::to_string(at.id));
+  }
+  if (!fixed.empty())
+    warnings.push_back(
+        "edges with overridable: false, whose own cost the route server uses instead of energy_J: " +
+        listed(fixed));
+  return warnings;
+}
+
+/// `triggers`: the graph has operations of the type TriggerEvent. `foreign`: operations with plugins that
+/// only their author knows.
+std::string server_yaml(const std::string& graph_file, double most_m_s, bool triggers,
+                        const std::set<std::string>& foreign) {
+  char most[32];
+  std::snprintf(most, sizeof most, "%.6g", most_m_s);
+  std::string text =
+      "# Nav2 route server that takes the route of least energy. Settings that are not named keep their\n"
+      "# defaults. DynamicEdgesScorer keeps closed edges closed. A speed_limit of 100 percent is " +
+      std::string(most) +
+      " m/s: the\n# controller's own greatest speed has to be that.\n"
+      "route_server:\n"
+      "  ros__parameters:\n"
+      "    graph_filepath: " +
+      Json(graph_file).dump() +
+      "  # on the robot: where the file is there\n"
+      "    edge_cost_functions: [\"PenaltyScorer\", \"DynamicEdgesScorer\"]\n"
+      "    PenaltyScorer:\n"
+      "      plugin: \"nav2_route::PenaltyScorer\"\n"
+      "      penalty_tag: energy_J\n"
+      "      weight: 1.0\n"
+      "    DynamicEdgesScorer:\n"
+      "      plugin: \"nav2_route::DynamicEdgesScorer\"\n";
+  if (!foreign.empty()) text += "    # to be added, with their plugins: " + listed(foreign) + "\n";
+  text += "    operations: [\"AdjustSpeedLimit\", \"ReroutingService\"";
+  text += triggers ? ", \"TriggerEvent\"]\n" : "]\n";
+  for (const char* name : {"AdjustSpeedLimit", "ReroutingService", "TriggerEvent"})
+    if (triggers || std::string(name) != "TriggerEvent")
+      text += "    " + std::string(name) + ":\n      plugin: \"nav2_route::" + name + "\"\n";
+  return text;
 }
 
 void check_costs(const RouteGraph& graph, const std::vector<EdgeCost>& costs) {
@@ -193,7 +267,8 @@ std::string arcs_told(const GraphCosts& costs, double radius_m) {
 
 RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& robot) {
   check_radius(order.corner_radius_m);
-  const RouteGraph graph = read_route_graph(order.graph_file);
+  RouteGraph graph = read_route_graph(order.graph_file);
+  const std::set<std::string> straightened = straighten(graph);
   if (graph.edges.empty())
     throw ConfigError(
         {{order.graph_file, 1, 1}, "features", "no lines", "at least one edge (LineString)", ""});
@@ -203,20 +278,32 @@ RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& r
   for (const EdgeCost& cost : costs.edges)
     if (!std::isfinite(most_m_s) || cost.speed_m_s > most_m_s) most_m_s = cost.speed_m_s;
   Json json = Json::parse(read_text_file(order.graph_file));
+  std::set<std::string> foreign = operations_of(json);
+  const bool triggers = foreign.erase("TriggerEvent") > 0;
+  RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution,
+                          .arcs = arcs_told(costs, order.corner_radius_m),
+                          .warnings = warnings_of(json, graph, foreign)};
+  if (!straightened.empty())
+    result.warnings.push_back("edges whose lines have points beside their nodes: " + listed(straightened) +
+                              "; the route server drives straight from node to node, and so do these costs");
   if (order.expand_turns) {
-    json = Expansion(json, graph, costs, most_m_s).write();
+    Expansion expansion(json, graph, costs, most_m_s);
+    json = expansion.write();
+    result.goal_offset = expansion.offset();
+    if (expansion.largest_goal() > kMostRequestId)
+      result.warnings.push_back("ids of goals up to " + std::to_string(expansion.largest_goal()) +
+                                ": start_id and goal_id of Nav2's actions hold at most 65535");
   } else {
     std::size_t edge = 0;
-    for (const std::size_t i : line_features(json))
+    for (const std::size_t i : features_of(json, true))
       add_metadata(json["features"][i]["properties"], metadata_of(costs.with_turns[edge++], most_m_s));
   }
-  RouteGraphExport result{.attribution = order.expand_turns ? TurnAttribution{} : costs.attribution,
-                          .arcs = arcs_told(costs, order.corner_radius_m)};
   for (const Json& feature : json["features"]) ++(is_line(feature) ? result.edges : result.nodes);
-  const std::filesystem::path out(order.out_file);
+  const std::filesystem::path out = std::filesystem::absolute(order.out_file).lexically_normal();
   result.files.push_back({order.out_file, json.dump(1) + "\n"});
   result.files.push_back(
-      {(out.parent_path() / "route_server.yaml").string(), server_yaml(out.filename().string())});
+      {std::filesystem::path(order.out_file).replace_extension(".route_server.yaml").string(),
+       server_yaml(out.string(), most_m_s, triggers, foreign)});
   return result;
 }
 

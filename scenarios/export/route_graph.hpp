@@ -7,7 +7,8 @@ namespace joulepath {
 
 inline constexpr const char* kRouteGraphFormat = "route_graph";
 inline constexpr const char* kRouteGraphSays =
-    "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and route_server.yaml";
+    "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and the route server's settings "
+    "(YAML)";
 
 struct RouteGraphOrder {
   std::string graph_file{};
@@ -18,13 +19,15 @@ struct RouteGraphOrder {
 };
 
 /// The graph file with `energy_J`, `abs_time_taken`, `abs_speed_limit` and `speed_limit` (percent) in the
-/// metadata of each edge, and the settings of a route server for it. With `expand_turns`, each node becomes
-/// one node per arriving edge, so that the costs of corners are exact.
+/// metadata of each edge, and the settings of a route server for it (NAME.route_server.yaml). With
+/// `expand_turns`, each node becomes one node per arriving edge, so that the costs of corners are exact.
 struct RouteGraphExport {
   std::vector<ExportFile> files{};
   TurnAttribution attribution{};
   std::size_t nodes{}, edges{};  ///< of the written graph
   std::string arcs{};            ///< where the arcs at corners are smaller than asked for; else empty
+  long goal_offset{};            ///< of an expanded graph: a route to node N ends at the node N + goal_offset
+  std::vector<std::string> warnings{};
 };
 
 /// Throws ConfigError for a broken graph, or a robot that cannot drive it.

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <queue>
+#include <set>
 
 #include "scenarios/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
@@ -176,8 +178,114 @@ TEST(RouteGraph, ExpandedCostsOfRoutesAreExact) {
   };
   const auto& e = costs.edges;
   EXPECT_NEAR(corner_J(0, 4), 0, 1e-9);
-  EXPECT_NEAR(cheapest(1, goal.at(5)), e[0].energy_J + e[4].energy_J, 2e-3);
-  EXPECT_NEAR(cheapest(1, goal.at(3)), e[0].energy_J + corner_J(0, 1) + e[1].energy_J, 2e-3);
+  EXPECT_NEAR(cheapest(1, goal.at(5)), e[0].energy_J + e[4].energy_J, 1e-5);
+  EXPECT_NEAR(cheapest(1, goal.at(3)), e[0].energy_J + corner_J(0, 1) + e[1].energy_J, 1e-5);
+  for (const auto& [node, id] : goal) EXPECT_EQ(id, node + result.goal_offset);
+  EXPECT_EQ(result.goal_offset, 10);
+}
+
+/// The server's dense path ends with the direction of its last edge, and its tracker goes by the directions
+/// of edges: none may have length 0. What a node carries holds at its copies, too.
+TEST(RouteGraph, ExpandedNodesAndEdgesKeepWhatARouteServerNeeds) {
+  const ScratchDirectory directory;
+  std::string graph = square();
+  const std::string plain = R"({"id": 2})";
+  graph.replace(
+      graph.find(plain), plain.size(),
+      R"({"id": 2, "frame": "floor", "operations": {"door": {"type": "TriggerEvent", "trigger": "NODE"}}})");
+  const std::string file = directory.write("graph.geojson", graph);
+  const RouteGraphExport result =
+      export_route_graph({file, directory.at("o.geojson"), 5, 0, true}, testing::nomad());
+  std::map<long, Json> nodes;
+  int copies = 0;  // of node 2
+  const Json json = Json::parse(result.files[0].content);
+  for (const Json& feature : json["features"]) {
+    const Json& p = feature["properties"];
+    if (feature["geometry"]["type"] == "Point") {
+      nodes[p["id"]] = feature["geometry"]["coordinates"];
+      if (feature["geometry"]["coordinates"] == Json({4.0, 0.0})) {
+        EXPECT_EQ(p.value("frame", ""), "floor") << p;
+        EXPECT_TRUE(p.contains("operations")) << p;
+        ++copies;
+      }
+    } else {
+      EXPECT_NE(nodes.at(p["startid"]), nodes.at(p["endid"])) << p;
+    }
+  }
+  EXPECT_EQ(copies, 3);  // itself, its goal, its one arrival
+  EXPECT_NE(result.files[1].content.find("nav2_route::TriggerEvent"), std::string::npos);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+/// Nodes that routes from a node reach.
+std::set<long> reached(const std::map<long, std::vector<long>>& leaving, long from) {
+  std::set<long> seen{from};
+  std::vector<long> open{from};
+  while (!open.empty()) {
+    const long node = open.back();
+    open.pop_back();
+    if (const auto next = leaving.find(node); next != leaving.end())
+      for (const long id : next->second)
+        if (seen.insert(id).second) open.push_back(id);
+  }
+  return seen;
+}
+
+TEST(RouteGraph, AnExpandedGraphReachesWhatTheGraphReaches) {
+  const ScratchDirectory directory;
+  for (const char* name : {"warehouse_graph", "depot_graph"}) {
+    const std::string file = std::string(JOULEPATH_SOURCE_DIR "/scenarios/maps/") + name + ".geojson";
+    const RouteGraph graph = read_route_graph(file);
+    const RouteGraphExport result =
+        export_route_graph({file, directory.at("o.geojson"), 0, 0, true}, testing::nomad());
+    std::map<long, std::vector<long>> plain, expanded;
+    for (const RouteGraph::Edge& edge : graph.edges)
+      plain[graph.nodes[edge.start].id].push_back(graph.nodes[edge.end].id);
+    const Json json = Json::parse(result.files[0].content);
+    for (const Json& feature : json["features"])
+      if (const Json& p = feature["properties"]; p.contains("startid"))
+        expanded[p["startid"]].push_back(p["endid"]);
+    for (const RouteGraph::Node& from : graph.nodes) {
+      const std::set<long> goals = reached(expanded, from.id);
+      for (const long id : reached(plain, from.id))
+        EXPECT_TRUE(id == from.id || goals.contains(id + result.goal_offset)) << from.id << " to " << id;
+    }
+  }
+}
+
+/// A route server does not read the lines of edges: robots drive straight from node to node.
+TEST(RouteGraph, EdgesAreStraightAsTheServerDrivesThem) {
+  const ScratchDirectory directory;
+  const auto exported = [&](const std::string& coordinates) {
+    std::string edge = line(10, 1, 2);
+    edge.replace(edge.find(R"("coordinates": [])"), 17, R"("coordinates": )" + coordinates);
+    return export_route_graph(
+        {directory.write("graph.geojson", collection({point(1, 0, 0), point(2, 8, 0), edge})),
+         directory.at("o"), 0, 0, false},
+        testing::nomad());
+  };
+  const RouteGraphExport straight = exported("[]"), bent = exported("[[0, 0], [4, 3], [8, 0]]");
+  EXPECT_EQ(metadata_of(straight.files[0].content).at(10), metadata_of(bent.files[0].content).at(10));
+  EXPECT_TRUE(straight.warnings.empty());
+  ASSERT_EQ(bent.warnings.size(), 1u);
+  EXPECT_NE(bent.warnings[0].find("10"), std::string::npos);
+}
+
+TEST(RouteGraph, WarnsOfWhatTheServerWouldNotDo) {
+  const ScratchDirectory directory;
+  std::string edge = line(10, 1, 2);
+  edge.insert(
+      edge.find(R"("startid")"),
+      R"("overridable": false, "cost": 3.0, "operations": {"o": {"type": "open_door", "trigger": "ON_EXIT"}}, )");
+  const std::string file =
+      directory.write("graph.geojson", collection({point(1, 0, 0), point(2, 8, 0), edge}));
+  const RouteGraphExport result =
+      export_route_graph({file, directory.at("o.geojson"), 0, 0, false}, testing::nomad());
+  ASSERT_EQ(result.warnings.size(), 2u);
+  EXPECT_NE(result.warnings[0].find("open_door"), std::string::npos);
+  EXPECT_NE(result.files[1].content.find("open_door"), std::string::npos);
+  EXPECT_NE(result.warnings[1].find("overridable"), std::string::npos);
+  EXPECT_NE(result.warnings[1].find("10"), std::string::npos);
 }
 
 TEST(RouteGraph, TheSettingsNameTheGraphAndTheTag) {
@@ -186,9 +294,15 @@ TEST(RouteGraph, TheSettingsNameTheGraphAndTheTag) {
   const RouteGraphExport result =
       export_route_graph({file, directory.at("energy.geojson"), 0, 0, false}, testing::nomad());
   ASSERT_EQ(result.files.size(), 2u);
-  EXPECT_EQ(result.files[1].name, directory.at("route_server.yaml"));
-  EXPECT_NE(result.files[1].content.find("penalty_tag: energy_J"), std::string::npos);
-  EXPECT_NE(result.files[1].content.find("graph_filepath: energy.geojson"), std::string::npos);
+  EXPECT_EQ(result.files[1].name, directory.at("energy.route_server.yaml"));  // one for each payload band
+  const std::string& text = result.files[1].content;
+  EXPECT_NE(text.find("penalty_tag: energy_J"), std::string::npos);
+  // The server opens the path as it is, from its own working directory.
+  EXPECT_NE(
+      text.find("graph_filepath: \"" + std::filesystem::absolute(directory.at("energy.geojson")).string()),
+      std::string::npos);
+  EXPECT_NE(text.find("operations: [\"AdjustSpeedLimit\", \"ReroutingService\"]"), std::string::npos);
+  EXPECT_NE(text.find("plugin: \"nav2_route::ReroutingService\""), std::string::npos);
 }
 
 /// A star with a slip road: corners of very different costs meet in one node, which a fit by least squares
@@ -267,6 +381,29 @@ TEST(RouteGraph, TheGraphsOfNav2AreRead) {
     EXPECT_FALSE(read_route_graph(std::string(JOULEPATH_SOURCE_DIR "/scenarios/maps/") + name + ".geojson")
                      .edges.empty())
         << name;
+}
+
+TEST(RouteGraph, AFileOfAnotherKindIsNamed) {
+  const ScratchDirectory directory;
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      (void)read_route_graph(directory.write("file.yaml", text));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("schema: joulepath/mission/1\nlegs: []\n").find("a file of kind mission"),
+            std::string::npos);
+  EXPECT_NE(refusal("image: map.pgm\n").find("a file of kind map"), std::string::npos);
+  EXPECT_NE(refusal("a: 1\n").find("route graph"), std::string::npos);
+  try {
+    (void)read_mission(directory.write("graph.geojson", square()));
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("a file of kind route graph"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(RouteGraph, AGraphWithoutEdgesIsRefused) {

@@ -79,9 +79,26 @@ TEST(Drift, AConstantThatADayDoesNotSeeIsNotCompared) {
   days[1][1].visibility = Visibility::unseen;
   const DriftResult result = find_drift(days);
   ASSERT_EQ(result.not_compared.size(), 1u);
-  EXPECT_EQ(result.not_compared[0], kNames[2]);
+  EXPECT_EQ(result.not_compared[0].name, kNames[2]);
+  EXPECT_EQ(result.not_compared[0].days, std::vector<std::size_t>{2});
   ASSERT_EQ(result.parameters.size(), 2u);
   EXPECT_EQ(result.parameters[1].days, 1u);
+}
+
+TEST(Drift, CannotTellWhereNoConstantIsDetermined) {
+  std::mt19937_64 random(19);
+  std::vector<std::vector<CalibratedParameter>> days{day(random), day(random)};
+  for (CalibratedParameter& parameter : days.back()) {
+    parameter.visibility = Visibility::unseen;
+    parameter.note = "no run has motor voltages";
+  }
+  days.front()[0].standard_deviation = std::nan("");
+  const DriftResult result = find_drift(days);
+  EXPECT_FALSE(result.can_tell());
+  EXPECT_FALSE(result.drifted());
+  ASSERT_EQ(result.not_compared.size(), 3u);
+  EXPECT_EQ(result.not_compared[1].why, "no run has motor voltages");
+  EXPECT_NE(result.not_compared[2].needs.find("voltages"), std::string::npos);
 }
 
 }  // namespace

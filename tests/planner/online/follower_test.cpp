@@ -224,10 +224,20 @@ TEST(Follower, WheelsThatSlipAreNotBelieved) {
   EXPECT_GE(replans_with_wheels_off(0.4, 1), 10u);
 }
 
-/// Known at 3 s: 40 kg where the robot may carry 12. It stands at the end.
+/// Known at 3 s: 40 kg where the robot may carry 12. It stands at the end, where the account ends.
 TEST(Follower, StopsWithAPayloadThatTheRobotMayNotCarry) {
   const PlannedPiece piece = bend();
-  const FollowResult result = follow(request_for(piece, {{Disturbance::Kind::payload, 2, 1, 10}}));
+  const FollowRequest request = request_for(piece, {{Disturbance::Kind::payload, 2, 1, 10}});
+  const FollowResult result = follow(request);
+  ASSERT_TRUE(result.stopped);
+  const Limits& limits = piece.request.limits;
+  EXPECT_GT(result.stopped->time_s, 3.0);
+  EXPECT_LT(result.stopped->time_s, 3.5 + 1.5 * limits.speed_m_s / limits.deceleration_m_s2);
+  EXPECT_EQ(result.stopped->piece, 0u);
+  EXPECT_NEAR(result.stopped->s, result.stopped->pose.x_m, 0.3);
+  EXPECT_EQ(result.duration_s, result.stopped->time_s);
+  EXPECT_NEAR(result.executed.time_s.back(), result.duration_s, 0.021);
+  EXPECT_NEAR(result.executed.energy_J.back(), result.energy_J, 0.05 * result.energy_J);
   EXPECT_EQ(result.finished, 0u);
   EXPECT_EQ(result.stopped_by, "max_payload");
   EXPECT_FALSE(result.off_path);
