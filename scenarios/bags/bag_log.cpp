@@ -44,9 +44,11 @@ class BagLogReader {
                std::string run)
       : file_(file), run_(std::move(run)) {
     log_.sources = sources;
+    for (auto& [column, source] : log_.sources)
+      if (source.is_absent) source.from.clear();
     for (const auto& [column, source] : sources)
       if (column != "time_s") any_given_ = any_given_ || (!source.from.empty() && !names_column(source));
-    if (!any_given_) log_.sources = with_given(suggested_columns(survey_bag(file, named_by)), sources);
+    use(suggested_columns(survey_bag(file, named_by)));
     damage_ = read_bag(
         file, named_by, [&](const BagChannel& channel) { open(channel); },
         [&](const BagMessage& message) { take(message); });
@@ -77,18 +79,33 @@ class BagLogReader {
     return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
   }
 
-  /// The suggested columns, overridden by columns that are given without a topic (a scale, a delay, an absent
-  /// column).
-  static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
-    ColumnSources sources = suggested;
-    for (const auto& [column, source] : given) {
-      ColumnSource& changed = sources[column] = source;
+  /// A heading or a quaternion: one quantity, which is given or suggested as a whole.
+  static bool is_heading(const std::string& column) {
+    return column == "heading_rad" || std::ranges::count(kOrientationColumns, column) > 0;
+  }
+
+  /// Adds the suggested columns. A given column without a topic (a scale, a delay, an exchanged side) changes
+  /// the suggested one; any other given column takes its place.
+  void use(ColumnSources suggested) {
+    ColumnSources& sources = log_.sources;
+    for (auto& [column, source] : sources) {
       const auto known = suggested.find(names_column(source) ? source.from.front() : column);
-      if (known == suggested.end() || (!source.from.empty() && !names_column(source))) continue;
-      changed.from = known->second.from;
-      changed.scale *= known->second.scale;
+      if (known == suggested.end() || source.is_absent || (!source.from.empty() && !names_column(source)))
+        continue;
+      source.from = known->second.from;
+      source.scale *= known->second.scale;
     }
-    return sources;
+    const bool has_heading = std::ranges::any_of(sources, [](const auto& entry) {
+      return is_heading(entry.first) && (entry.second.is_absent || !entry.second.from.empty());
+    });
+    std::string added;
+    for (auto& [column, source] : suggested) {
+      if (has_heading && is_heading(column)) continue;
+      if (sources.try_emplace(column, std::move(source)).second)
+        added += (added.empty() ? "" : ", ") + column;
+    }
+    if (any_given_ && !added.empty())
+      tell("proposed", "", added + ": read as the types of the topics propose, beside the mapped columns", 1);
   }
 
   void open(const BagChannel& channel) {
