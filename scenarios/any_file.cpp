@@ -157,11 +157,7 @@ FileSummary summary_of_bag(const std::string& file) {
                             topic.channel.type + (topic.readable ? "" : ", cannot be read"));
   }
   if (messages == 0)
-    throw ConfigError({{file, 0, 0},
-                       "",
-                       "no message" + (survey.damage.truncated ? ": " + truncation_text(survey.damage) : ""),
-                       "a bag with messages",
-                       ""});
+    throw ConfigError({{file, 0, 0}, "", no_message_text(survey.damage), "a bag with messages", ""});
   if (survey.damage.truncated) summary.notes.push_back(truncation_text(survey.damage));
   if (survey.damage.broken_chunks > 0)
     summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));

@@ -62,10 +62,7 @@ class BagLogReader {
         drop_unknown_sources(topic);
         order.push_back(&topic);
       }
-    if (order.empty())
-      throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
-                           "a bag with Odometry or JointState, or columns: that name its topics",
-                           "joulepath check lists the topics and proposes a dataset");
+    if (order.empty()) refuse(named_by);
     std::stable_sort(order.begin(), order.end(),
                      [&](const Topic* a, const Topic* b) { return rank(*a) < rank(*b); });
     for (Topic* topic : order)
@@ -108,6 +105,13 @@ class BagLogReader {
       tell("proposed", "", added + ": read as the types of the topics propose, beside the mapped columns", 1);
   }
 
+  [[noreturn]] void refuse(const NamedBy& named_by) const {
+    if (messages_ == 0) throw named_by.error(file_, no_message_text(damage_), "a bag with messages");
+    throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
+                         "a bag with Odometry or JointState, or columns: that name its topics",
+                         "joulepath check lists the topics and proposes a dataset");
+  }
+
   void open(const BagChannel& channel) {
     topics_.push_back({.samples = {.name = channel.topic}});
     Topic& topic = topics_.back();
@@ -136,6 +140,7 @@ class BagLogReader {
   }
 
   void take(const BagMessage& message) {
+    ++messages_;
     Topic& topic = topics_[message.channel];
     if (!topic.reader) return;
     try {
@@ -190,6 +195,7 @@ class BagLogReader {
   BagLog log_{};
   bool any_given_{};
   BagDamage damage_{};
+  std::size_t messages_{};
   std::vector<Topic> topics_{};
   std::vector<double> numbers_{};
 };

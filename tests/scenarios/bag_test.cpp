@@ -112,6 +112,22 @@ TEST_F(Bags, AGivenHeadingReplacesTheQuaternionThatIsProposed) {
   for (const char* part : kOrientationColumns) EXPECT_FALSE(log.sources.contains(part)) << part;
 }
 
+/// Where topics have the same times, their values are those of the messages to the last bit.
+TEST_F(Bags, TopicsOfTheSameTimesAreNotChangedByTheirMerging) {
+  McapWriter bag;
+  const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+  const auto joint_states = bag.channel(ros("/joints", "sensor_msgs/msg/JointState"));
+  for (int k = 0; k < 200; ++k) {
+    const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+    bag.message(odom, ns, odometry(ns, std::sin(k), 0.2));
+    bag.message(joint_states, ns, joints(ns, {{"left", 1.0}, {"right", 2.0}}));
+  }
+  const RunLog log = read_run_log(written(bag.finish()), nomad().geometry);
+  ASSERT_EQ(log.trajectory.linear_speed_m_s.size(), 200u);
+  for (std::size_t k = 0; k < 200; ++k)
+    EXPECT_EQ(log.trajectory.linear_speed_m_s[k], std::sin(static_cast<double>(k))) << k;
+}
+
 TEST_F(Bags, OneWheelAloneIsNotProposed) {
   const std::string file = written(odometry_and_joints({"wheel_left", "caster"}));
   const ColumnSources proposed = suggested_columns(survey_bag(file));

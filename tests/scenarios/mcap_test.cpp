@@ -174,6 +174,12 @@ TEST_F(Bags, ABagWithoutAMessageIsAnErrorOfCheck) {
   } catch (const ConfigError& error) {
     EXPECT_EQ(error.detail().found.find("no message: the bag is truncated"), 0u) << error.what();
   }
+  try {
+    (void)read_bag_log(file, {}, {}, "run");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.detail().found.find("no message: the bag is truncated"), 0u) << error.what();
+  }
   McapWriter empty;
   (void)empty.channel(ros("/odom", "nav_msgs/msg/Odometry"));
   EXPECT_THROW((void)read_any_file(written(empty.finish()), ""), ConfigError);
