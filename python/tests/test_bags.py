@@ -114,25 +114,20 @@ def test_a_day_of_bags_is_one_dataset_that_works_where_it_is_saved(program, robo
     assert "dataset: 2 runs" in done.stdout, done.stdout + done.stderr
 
 
-def test_columns_of_one_channel_leave_the_others_as_proposed(program, robot, tmp_path):
+def test_columns_of_one_channel_leave_the_others_as_proposed(program, robot, tmp_path, monkeypatch):
     """In Python and in a dataset file."""
-    bag = tmp_path / "run.mcap"
-    record(bag, "NONE")
-    proposed = jp.diagnose(robot, [bag])
+    monkeypatch.chdir(tmp_path)
+    record("run.mcap", "NONE")
     columns = {"motor_current_left_A": {"from": "/joint_states.effort[wheel_left_joint]"},
                "motor_current_right_A": {"from": "/joint_states.effort[wheel_right_joint]"}}
-    given = jp.diagnose(robot, [bag], columns=columns)
+    proposed, given = jp.diagnose(robot, ["run.mcap"]), jp.diagnose(robot, ["run.mcap"], columns=columns)
     assert "motor_current" in proposed.missing_channels and "motor_current" not in given.missing_channels
     told = [artifact for artifact in given.artifacts if "proposed" in artifact]
     assert len(told) == 1 and "wheel_speed_left_rad_s" in told[0] and "linear_speed_m_s" in told[0]
-    robot.save(tmp_path / "robot.yaml")
+    robot.save("robot.yaml")
     (tmp_path / "dataset.yaml").write_text(json.dumps({"robot": "robot.yaml", "columns": columns, "runs": [{"file": "run.mcap"}]}))
-    subprocess.run([program, "diagnose", "dataset.yaml", "--out", "out"], check=False, stdout=subprocess.DEVNULL, cwd=tmp_path)
-    by_program, by_package = json.loads((tmp_path / "out/diagnosis.json").read_text()), given.json.to_dict()
-    for answer in (by_program, by_package):
-        for key in ("artifacts", "notes"):  # they name the bag as it was given
-            answer[key] = [text.replace(str(bag), "run.mcap") for text in answer[key]]
-    assert by_program == by_package
+    subprocess.run([program, "diagnose", "dataset.yaml", "--out", "out"], check=False, stdout=subprocess.DEVNULL)
+    assert json.loads((tmp_path / "out/diagnosis.json").read_text()) == given.json.to_dict()
 
 
 def test_a_truncated_bag_without_a_message_is_an_error(program, tmp_path):

@@ -146,7 +146,7 @@ def test_mapped_columns_are_checked_by_their_own_names(robot, log, source):
     (lambda r, log: jp.diagnose(r, [jp.Run(log, use="nothing")]), r"^logs\[0\].use: "),
     (lambda r, log: jp.diagnose(r, [jp.Run(log, name="a"), jp.Run(log, name="a")]), r"^logs\[1\]: .*a log that no other run has"),
     (lambda r, log: jp.diagnose(r, [log, "none.mcap"]), r"^logs\[1\]: found none.mcap"),
-    (lambda r, log: jp.diagnose(r, [log], columns={"time_s": {"form": "t"}}), r"^columns.time_s: .*form"),
+    (lambda r, log: jp.diagnose(r, [log], columns={"time_s": {"form": "t"}}), "^columns.time_s.form: "),
 ])
 def test_wrong_arguments_are_refused(robot, log, call, message):
     with pytest.raises(jp.ConfigError, match=message):
