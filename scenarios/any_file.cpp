@@ -156,6 +156,8 @@ FileSummary summary_of_bag(const std::string& file) {
     summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
                             topic.channel.type + (topic.readable ? "" : ", cannot be read"));
   }
+  if (messages == 0)
+    throw ConfigError({{file, 0, 0}, "", no_message_text(survey.damage), "a bag with messages", ""});
   if (survey.damage.truncated) summary.notes.push_back(truncation_text(survey.damage));
   if (survey.damage.broken_chunks > 0)
     summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
@@ -164,7 +166,11 @@ FileSummary summary_of_bag(const std::string& file) {
   char duration[32];
   std::snprintf(duration, sizeof duration, "%.1f s", survey.duration_s);
   summary.text = counted(messages, "message") + ", " + duration;
-  if (!suggested_columns(survey).empty()) summary.proposal = suggested_dataset(survey, file);
+  if (suggested_columns(survey).empty())
+    summary.notes.push_back(
+        "no topic of a motion is known by its type: a dataset file maps one under columns:");
+  else
+    summary.proposal = suggested_dataset(survey, file);
   return summary;
 }
 

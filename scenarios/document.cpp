@@ -25,9 +25,10 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
+std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates,
+                         int letters_per_slip) {
   std::string best;
-  int best_distance = std::max(2, static_cast<int>(word.size()) / 3) + 1;
+  int best_distance = std::max(2, static_cast<int>(word.size()) / letters_per_slip) + 1;
   for (const auto& candidate : candidates) {
     int distance = edit_distance(word, candidate);
     // The most frequent slip is a missing or different unit: `speed` for `speed_m_s`.

@@ -138,7 +138,8 @@ class Document {
 /// A finite number in decimal notation as YAML 1.2 defines it; empty for any other text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The candidate nearest to a mistyped word; empty when none is near.
-[[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+/// The candidate nearest to a mistyped word, with one slip in so many letters; empty when none is near.
+[[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates,
+                                       int letters_per_slip = 3);
 
 }  // namespace joulepath

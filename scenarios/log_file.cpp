@@ -22,6 +22,12 @@ bool wanted(const std::string& header, const ColumnSources& sources) {
   return std::any_of(std::begin(kOrientationColumns), std::end(kOrientationColumns), names);
 }
 
+/// "12 % of the rows are empty"; without the number where it would be 0.
+std::string share_text(std::size_t missing, std::size_t rows) {
+  const std::size_t percent = (200 * missing + rows) / (2 * rows);
+  return percent == 0 ? "empty cells" : std::to_string(percent) + " % of the rows are empty";
+}
+
 class LogFileReader {
  public:
   LogFileReader(CsvTable table, const ColumnSources& sources, const std::string& run)
@@ -122,14 +128,21 @@ class LogFileReader {
     if (mapping.is_absent) return;
     std::vector<double> channel = take(*values);
     if (const auto missing = fill_missing(file_.times, channel))
-      file_.artifacts.push_back(
-          {"missing_values", run_, name,
-           channel.empty() ? "the column is empty" : "empty cells, filled by interpolation", missing, 0.0});
+      file_.artifacts.push_back({"missing_values", run_, name,
+                                 channel.empty()
+                                     ? "the column is empty"
+                                     : share_text(missing, channel.size()) + ", filled by interpolation",
+                                 missing, 0.0});
     if (channel.empty()) return;
     if (mapping.wraps_at)
       if (const auto wraps = unwrap_counter(channel, *mapping.wraps_at))
         file_.artifacts.push_back(
             {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
+    convert(channel, mapping);
+    file_.channels[name] = std::move(channel);
+  }
+
+  void convert(std::vector<double>& channel, const ColumnSource& mapping) const {
     for (double& value : channel) value = mapping.scale * value + mapping.offset;
     if (mapping.derivative) channel = change_per_second(file_.times, channel);
     if (mapping.delay_s != 0.0) {
@@ -137,12 +150,11 @@ class LogFileReader {
       for (double& time_s : shifted) time_s -= mapping.delay_s;
       channel = interpolated(shifted, channel, file_.times);
     }
-    file_.channels[name] = std::move(channel);
   }
 
   [[nodiscard]] bool used_orientation() const {
-    return !file_.channels.contains("heading_rad") && file_.channels.contains("orientation_w") &&
-           file_.channels.contains("orientation_z");
+    return !file_.channels.contains("heading_rad") && !source("heading_rad").is_absent &&
+           file_.channels.contains("orientation_w") && file_.channels.contains("orientation_z");
   }
 
   /// Yaw of a quaternion with the two-argument arctangent; [P1, Eq. (37)] prints the one with one argument.
@@ -166,6 +178,7 @@ class LogFileReader {
       heading_rad[i] = std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
     }
     unwrap_angle(heading_rad);
+    convert(heading_rad, source("heading_rad"));
     file_.channels["heading_rad"] = std::move(heading_rad);
   }
 

@@ -231,7 +231,7 @@ std::vector<double> interpolated(const std::vector<double>& times, const std::ve
       continue;
     }
     const double share = std::clamp((at[i] - times[k]) / (times[k + 1] - times[k]), 0.0, 1.0);
-    result[i] = values[k] + share * (values[k + 1] - values[k]);
+    result[i] = share < 1.0 ? values[k] + share * (values[k + 1] - values[k]) : values[k + 1];  // exact there
   }
   return result;
 }

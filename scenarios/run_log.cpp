@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/kinematics.hpp"
 #include "model/number_text.hpp"
@@ -71,25 +72,56 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                              files.size() - 1, log.trajectory.time_s.front()});
 }
 
-void note_ignored(const std::vector<LogFile>& files, const ColumnSources& sources, RunLog& log,
-                  const std::string& run) {
-  std::string ignored;
-  std::size_t count = 0;
-  for (const auto& file : files)
-    for (const auto& header : file.table.header) {
-      bool known = find_log_column(header) != nullptr || is_orientation(header);
-      for (const auto& [column, source] : sources)
-        known = known || std::find(source.from.begin(), source.from.end(), header) != source.from.end();
-      if (known) continue;
-      ignored += (ignored.empty() ? "" : ", ") + (header.empty() ? std::string("(no name)") : header);
-      ++count;
-    }
-  if (count > 0) log.artifacts.push_back({"ignored_columns", run, "", ignored, count, 0.0});
+/// The columns of a file that are not those of the format, and not mapped to one.
+std::vector<std::string> ignored_columns(const std::vector<std::string>& header,
+                                         const ColumnSources& sources) {
+  std::vector<std::string> ignored;
+  std::ranges::copy_if(header, std::back_inserter(ignored), [&](const std::string& name) {
+    return !find_log_column(name) && !is_orientation(name) &&
+           std::ranges::none_of(
+               sources, [&](const auto& column) { return std::ranges::count(column.second.from, name) > 0; });
+  });
+  return ignored;
+}
+
+void note_ignored(const std::vector<std::string>& ignored, RunLog& log, const std::string& run) {
+  std::string listed;
+  for (const std::string& name : ignored)
+    listed += (listed.empty() ? "" : ", ") + (name.empty() ? std::string("(no name)") : name);
+  if (!ignored.empty()) log.artifacts.push_back({"ignored_columns", run, "", listed, ignored.size(), 0.0});
+}
+
+/// Columns of the format that a run may have and does not have, save those declared absent.
+std::vector<std::string> missing_columns(const Trajectory& log, const ColumnSources& sources) {
+  std::vector<std::string> missing;
+  for (const LogColumn& column : log_columns()) {
+    const auto source = sources.find(column.name);
+    const bool declared = source != sources.end() && source->second.is_absent;
+    if (column.measured && !declared && column.of(log).empty()) missing.push_back(column.name);
+  }
+  return missing;
+}
+
+/// A name that differs a little from a column that the run lacks is a slip or another unit: without it, other
+/// channels would stand in for the column.
+void refuse_mistyped(const std::vector<std::string>& ignored, const std::vector<std::string>& missing,
+                     const std::string& file) {
+  constexpr std::size_t kLongestUnit = 6;  // "_rad_s"; "wheel" alone means no column
+  for (const std::string& name : ignored) {
+    const std::string near = nearest_word(name, missing, 5);
+    if (near.empty() || near.size() > name.size() + kLongestUnit) continue;
+    throw ConfigError({{file, 1, 1},
+                       name,
+                       "an unknown column",
+                       "the columns of the run log format",
+                       "did you mean " + near + "? `columns:` maps other names and units; `" + near +
+                           ": {absent: true}` states that it was not measured"});
+  }
 }
 
 void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnSources& sources) {
   for (const auto& [column, source] : sources) {
-    if (source.from.empty()) continue;
+    if (source.from.empty() || source.is_absent) continue;
     std::vector<std::string> headers;
     for (const auto& file : files)
       headers.insert(headers.end(), file.table.header.begin(), file.table.header.end());
@@ -106,20 +138,30 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
   }
 }
 
-/// Wheel speeds from body speeds and back [P1, Eqs. (2), (3)]; body speeds from the pose where there are no
-/// others. True where the wheels' speeds come from the body's.
-bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
-                   std::vector<LogArtifact>& artifacts) {
-  const auto have_wheels = [&] {
-    return !log.wheel_speed_rad_s.left.empty() && !log.wheel_speed_rad_s.right.empty();
-  };
-  const auto have_body = [&] { return !log.linear_speed_m_s.empty() && !log.angular_speed_rad_s.empty(); };
+/// The other wheel's speed could only come from channels that contradict the measured one.
+void refuse_one_wheel(const Trajectory& log, const std::string& file) {
+  const auto& [left, right] = log.wheel_speed_rad_s;
+  if (left.empty() == right.empty()) return;
+  const std::string names[] = {"wheel_speed_left_rad_s", "wheel_speed_right_rad_s"};
+  const std::string &there = names[left.empty() ? 1 : 0], &lacking = names[left.empty() ? 0 : 1];
+  throw ConfigError(
+      {{file, 1, 1},
+       "",
+       there + " without " + lacking,
+       "the speeds of both wheels, or of none",
+       "map " + lacking + " under columns:, or leave the other out with `" + there + ": {absent: true}`"});
+}
+
+/// Body speeds that are not logged, from the pose's differences.
+void derive_body_speeds(Trajectory& log, const std::string& run, std::vector<LogArtifact>& artifacts) {
+  if (log.position_x_m.empty() || log.position_y_m.empty() || log.heading_rad.empty()) return;
   const std::size_t n = log.size();
-  if (!have_wheels() && !have_body() && !log.position_x_m.empty() && !log.position_y_m.empty() &&
-      !log.heading_rad.empty()) {
-    std::vector<double> heading = log.heading_rad;
-    unwrap_angle(heading);
-    log.angular_speed_rad_s = change_per_second(log.time_s, heading);
+  const auto tell = [&](const char* column) {
+    artifacts.push_back({"derived", run, column, "from the pose's differences", n, 0.0});
+  };
+  std::vector<double> heading = log.heading_rad;
+  unwrap_angle(heading);
+  if (log.linear_speed_m_s.empty()) {
     const auto vx = change_per_second(log.time_s, log.position_x_m),
                vy = change_per_second(log.time_s, log.position_y_m);
     log.linear_speed_m_s.resize(n);
@@ -127,17 +169,28 @@ bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string&
       const double middle = i == 0 ? heading[0] : 0.5 * (heading[i] + heading[i - 1]);
       log.linear_speed_m_s[i] = vx[i] * std::cos(middle) + vy[i] * std::sin(middle);
     }
-    artifacts.push_back(
-        {"derived", run, "linear_speed_m_s", "speeds derived from the pose's differences", n, 0.0});
+    tell("linear_speed_m_s");
   }
-  if (have_wheels() || !have_body()) return false;
-  for (std::size_t i = 0; i < n; ++i) {
+  if (log.angular_speed_rad_s.empty()) {
+    log.angular_speed_rad_s = change_per_second(log.time_s, heading);
+    tell("angular_speed_rad_s");
+  }
+}
+
+/// Wheel speeds from body speeds [P1, Eqs. (2), (3)]; body speeds from the pose where there are no others.
+/// True where the wheels' speeds come from the body's.
+bool derive_speeds(Trajectory& log, const Geometry& geometry, const std::string& run,
+                   std::vector<LogArtifact>& artifacts) {
+  if (!log.wheel_speed_rad_s.left.empty()) return false;
+  derive_body_speeds(log, run, artifacts);
+  if (log.linear_speed_m_s.empty() || log.angular_speed_rad_s.empty()) return false;
+  for (std::size_t i = 0; i < log.size(); ++i) {
     const Sided<double> wheels =
         wheel_speeds_rad_s(geometry, log.linear_speed_m_s[i], log.angular_speed_rad_s[i]);
     for (const Side side : kSides) log.wheel_speed_rad_s[side].push_back(wheels[side]);
   }
-  artifacts.push_back({"derived", run, "wheel_speed_left_rad_s",
-                       "wheel speeds derived from linear and angular speed", n, 0.0});
+  artifacts.push_back({"derived", run, "wheel_speed_left_rad_s, wheel_speed_right_rad_s",
+                       "from linear and angular speed", log.size(), 0.0});
   return true;
 }
 
@@ -174,29 +227,31 @@ void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
 RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& given,
                     const Geometry& geometry, const std::string& run) {
   RunLog log;
-  ColumnSources sources = given;
+  ColumnSources wanted = given;
   std::vector<LogFile> files;
+  std::vector<std::string> ignored;
   for (const auto& name : names) {
     if (name.table || !is_bag(name.file)) {
-      files.push_back(read_log_file(name, sources, run));
+      files.push_back(read_log_file(name, given, run));
+      std::ranges::copy(ignored_columns(files.back().table.header, given), std::back_inserter(ignored));
       continue;
     }
     BagLog bag = read_bag_log(name.file, name.named_by, given, run);
     log.artifacts.insert(log.artifacts.end(), bag.artifacts.begin(), bag.artifacts.end());
-    sources = std::move(bag.sources);
-    ColumnSources of_tables = sources;
-    of_tables.erase("time_s");
-    for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), of_tables, run));
+    for (auto& [column, source] : wanted)
+      if (!source.from.empty() && !source.is_absent)
+        std::ranges::copy(bag.sources.at(column).from, std::back_inserter(source.from));
+    bag.sources.erase("time_s");
+    for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), bag.sources, run));
   }
-  ColumnSources wanted = given;
-  for (auto& [column, source] : wanted)
-    if (!source.from.empty()) source.from = sources.at(column).from;
   check_mapped_columns_found(files, wanted);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
   merge(files, log, run);
+  refuse_mistyped(ignored, missing_columns(log.trajectory, given), names.front().file);
+  refuse_one_wheel(log.trajectory, names.front().file);
   log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
-  if (log.trajectory.wheel_speed_rad_s.left.empty() || log.trajectory.wheel_speed_rad_s.right.empty())
+  if (log.trajectory.wheel_speed_rad_s.left.empty())
     throw ConfigError({{names.front().file, 1, 1},
                        "",
                        "no motion",
@@ -206,8 +261,8 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   start_epoch_clock_at_zero(log, run);
   auto odd = find_artifacts(log.trajectory, run);
   log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());
-  sign_unsigned_channels(log.trajectory, sources, run, log);
-  note_ignored(files, sources, log, run);
+  sign_unsigned_channels(log.trajectory, given, run, log);
+  note_ignored(ignored, log, run);
   return log;
 }
 

@@ -69,6 +69,7 @@ class Check : public Command {
           std::cerr << paint(std::cerr, Paint::error, "joulepath: ") << printable(error.what()) << '\n';
       }
     }
+    if (!options_.quiet && !options_.json) std::cout << printable_text(proposal_);
     if (options_.json)
       std::cout << results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return code;
@@ -99,21 +100,37 @@ class Check : public Command {
                       options_.force);
   }
 
-  void tell(const std::string& file, const FileSummary& summary) const {
+  /// One dataset file for all bags with the columns of the first.
+  void propose(const std::string& file, const std::string& proposal) {
+    static constexpr std::string_view kRuns = "\nruns:\n";
+    const auto begin_of_runs = proposal.find(kRuns) + kRuns.size();
+    if (proposal_.empty())
+      proposal_ = proposal;
+    else if (proposal_.starts_with(proposal.substr(0, begin_of_runs)))
+      proposal_ += proposal.substr(begin_of_runs);
+    else
+      std::cerr
+          << "  note: the topics of " << printable(file)
+          << " differ from those of the first bag: its dataset file is proposed by a check of it alone\n";
+  }
+
+  /// The status of a bag goes to standard error: its dataset file alone goes to standard output.
+  void tell(const std::string& file, const FileSummary& summary) {
     const bool sound = summary.data_checks.empty();
-    std::cout << printable(file) << ": "
-              << paint(std::cout, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect") << " ("
-              << summary.kind << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
+    std::ostream& out = summary.kind == "bag" ? std::cerr : std::cout;
+    out << printable(file) << ": " << paint(out, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect")
+        << " (" << summary.kind << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
     for (const DataCheck& check : summary.data_checks)
       std::cout << "  " << printable(data_check_text(check)) << '\n';
     if (!options_.quiet)
       for (const auto& note : summary.notes) std::cerr << "  note: " << printable(note) << '\n';
-    if (!options_.quiet && !summary.proposal.empty()) std::cout << printable_text(summary.proposal);
+    if (!summary.proposal.empty()) propose(file, summary.proposal);
   }
 
   std::vector<std::string> files_{};
   std::string kind_{};
   std::string repair_{};
+  std::string proposal_{};
   bool brief_{};
   CommonOptions options_{};
 };

@@ -20,6 +20,9 @@ columns:
   angular_speed_rad_s: {from: "/odom.twist.twist.angular.z"}
   battery_voltage_V: {from: "/battery.voltage"}
   battery_current_A: {from: "/battery.current", scale: -1}
+  position_x_m: {absent: true}
+  position_y_m: {absent: true}
+  heading_rad: {absent: true}
 runs:
   - {file: day.mcap, payload_kg: 0}
 """

@@ -34,7 +34,7 @@ PathValue waypoint_path(const Points& xy_m, const std::optional<Numbers>& corner
   WaypointPath along = corner_radius_m ? lines_between(points_of(xy_m), vector_of(*corner_radius_m))
                                        : curve_through(points_of(xy_m));
   if (!along.defect) return {std::move(along.path)};
-  const std::string array = along.defect->radius ? "corner_radius_m" : "xy_m";
+  const std::string array = along.defect->radius ? "corner_radius_m" : "xy";
   throw ConfigError({{},
                      array + "[" + std::to_string(along.defect->waypoint) + "]",
                      along.defect->found,
@@ -99,7 +99,7 @@ void bind_path(nb::module_& module) {
       .def_prop_ro("length_m", [](const PathValue& self) { return self.path.distance_m(); })
       .def_prop_ro("turned_rad", [](const PathValue& self) { return self.path.turned_rad(); })
       .def("poses", &path_poses, nb::arg("step_m"), "Position and heading along the path.");
-  module.def("waypoint_path", &waypoint_path, nb::arg("xy_m"), nb::arg("corner_radius_m").none());
+  module.def("waypoint_path", &waypoint_path, nb::arg("xy"), nb::arg("corner_radius_m").none());
   module.def("load_path", &load_path, nb::arg("file"));
 }
 

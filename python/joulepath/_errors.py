@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Mapping
+import contextlib
+from typing import TYPE_CHECKING, Callable, Iterator, Mapping
 
 if TYPE_CHECKING:
     from .plans import Plan
@@ -38,6 +39,21 @@ def refused(key: str, found: str, accepted: str, hint: str = "") -> ConfigError:
     return ConfigError(message, key=key, found=found, accepted=accepted, hint=hint)
 
 
+@contextlib.contextmanager
+def named_by(place: Callable[[str, str], str | None]) -> Iterator[None]:
+    """Errors of texts and frames that were made from arguments name the argument.
+
+    ``place(file, key)``: the argument, None where the error is that of a file.
+    """
+    try:
+        yield
+    except ConfigError as error:
+        argument = place(error.file or "", error.key)
+        if argument is None:
+            raise
+        raise refused(argument, error.found, error.accepted, error.hint) from None
+
+
 class PlanningError(RuntimeError):
     """The solver failed. ``plan`` is the incomplete plan (None in another process than the planning one)."""
 
@@ -60,14 +76,16 @@ class Infeasible(PlanningError):
 
     ``limit`` is the limit that prevents it (a key of ``limits`` without its unit, or ``deadline``, ``path`` ...),
     ``amount`` and ``unit`` by how much, ``place`` where (``leg``, ``arc_length_m``, ``x_m``, ``y_m``), and
-    ``relaxation`` the smallest change found that makes it possible.
+    ``relaxation`` the smallest change found that makes it possible, by its key or argument (``time_s``).
     """
 
-    def __init__(self, message: str, plan: Plan) -> None:
+    def __init__(self, message: str, plan: Plan, arguments: Mapping[str, str] = {}) -> None:
+        for key, argument in arguments.items():
+            message = message.replace(key, argument)
         super().__init__(message, plan)
         reason = plan.json.infeasibility
         self.limit: str = reason.constraint
         self.amount: float = reason.amount
         self.unit: str = reason.unit
         self.place: Mapping[str, float] = {key: reason[key] for key in ("leg", "arc_length_m", "x_m", "y_m")}
-        self.relaxation: Mapping[str, float] = dict(reason.relaxation)
+        self.relaxation: Mapping[str, float] = {arguments.get(key, key): value for key, value in reason.relaxation.items()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any, Iterable, Mapping, Sequence, Union
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._errors import refused
+from ._errors import named_by, refused
 from ._files import save
 from ._frames import columns_of, is_frame, names_read
 from ._inputs import encodable, file_name, text_of
@@ -68,6 +69,26 @@ class Diagnosis(Value):
         """Shares of the gap by phase, wheel, part of the path, payload ..."""
         return tuple(self.json.where)
 
+    @property
+    def artifacts(self) -> tuple[str, ...]:
+        """Properties of the logs that are not physics, and what was made of them: derived, missing and held values, ignored
+        columns, jumps of the clock.
+
+        >>> diagnose(Robot.example(), [{"time_s": [0, 1], "linear_speed_m_s": [0, 1], "angular_speed_rad_s": [0, 0]}]).artifacts
+        ('logs[0]: derived in wheel_speed_left_rad_s, wheel_speed_right_rad_s: from linear and angular speed',)
+        """
+        return tuple(self.json.artifacts)
+
+    @property
+    def missing_channels(self) -> tuple[str, ...]:
+        """Channels that not all runs have: motor_current, motor_voltage, battery, pose, gyro, yaw_rate, start_time."""
+        return tuple(self.json.missing_channels)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What restricts the answer: what the runs cannot show, runs that are left out, a payload that nothing states."""
+        return tuple(self.json.notes)
+
     @functools.cached_property
     def robot(self) -> Robot | None:
         """The corrected robot; None where no correction holds on held-out runs."""
@@ -89,7 +110,12 @@ class Diagnosis(Value):
 
     def __repr__(self) -> str:
         causes = ", ".join(cause.effect for cause in self.causes)
-        return f"Diagnosis({self.verdict}{': ' + causes if causes else ''})"
+        derived = "".join("; " + artifact for artifact in self.artifacts if "derived in " in artifact)
+        return f"Diagnosis({self.verdict}{': ' + causes if causes else ''}{derived})"
+
+    def __str__(self) -> str:
+        told = {"note": self.notes, "artifact": self.artifacts, "missing channel": self.missing_channels}
+        return "\n".join([self.json.sentence, *(f"{kind}: {text}" for kind, texts in told.items() for text in texts)])
 
 
 def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
@@ -99,7 +125,8 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
 
     ``logs``: a dataset file, or a list of logs: file names, data frames, dicts of arrays, Logs, or a Run of one of them
     with its circumstances. Columns are those of the run log format, in SI units, of one length; NaN and None are missing
-    values. ``columns`` maps other names and units as in a dataset file. ``without``: effects taken out of the catalog.
+    values. ``columns`` maps other names and units as in a dataset file; a bag's other channels are read as ``joulepath check``
+    proposes them. ``without``: effects taken out of the catalog.
     ``robot`` may be None with a dataset file, which names its own. Raises ConfigError, for a value that is no number with
     its column and row.
 
@@ -122,7 +149,16 @@ def diagnose(robot: Robot | str | os.PathLike[str] | Mapping[str, Any] | None,
     read = names_read(columns or {})
     runs = [_entry(index, log if isinstance(log, Run) else Run(log), frames, read) for index, log in enumerate(logs)]
     dataset: dict[str, Any] = {"runs": runs} if columns is None else {"runs": runs, "columns": dict(columns)}
-    return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out))
+    places = {run["file"]: f"logs[{index}]" for index, run in enumerate(runs) if run["file"] in frames}
+    with named_by(functools.partial(_place, places)):
+        return Diagnosis(_core.diagnose_text(text_of("logs", dataset), "logs", robot_of(robot)._value, frames, left_out))
+
+
+def _place(frames: Mapping[str, str], file: str, key: str) -> str | None:
+    """The argument that an error of the dataset or of a frame is about."""
+    if file in frames:
+        return frames[file] + (f".{key}" if key else "")
+    return re.sub(r"[.]file$", "", re.sub(r"^runs\b", "logs", key)) or "logs" if file == "logs" else None
 
 
 def _words(name: str, words: Iterable[str]) -> list[str]:

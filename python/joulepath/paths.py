@@ -23,22 +23,22 @@ class Path(Value):
 
     __slots__ = ("_value",)
 
-    def __init__(self, xy_m: ArrayLike, *, corner_radius_m: ArrayLike | None = None) -> None:
+    def __init__(self, xy: ArrayLike, *, corner_radius_m: ArrayLike | None = None) -> None:
         """The natural cubic spline through waypoints, shape (N, 2) in meters.
 
         With ``corner_radius_m`` (one number, or one per waypoint): straight lines whose corners are rounded with
         that smallest radius; at a radius of 0 the robot turns in place. Raises ConfigError.
         """
-        xy = points("xy_m", xy_m)
+        waypoints = points("xy", xy)
         radius: NDArray[np.float64] | None = None
         if corner_radius_m is not None:
-            radius = (np.full(len(xy), number("corner_radius_m", corner_radius_m, least=0.0))
+            radius = (np.full(len(waypoints), number("corner_radius_m", corner_radius_m, least=0.0))
                       if np.ndim(corner_radius_m) == 0 else numbers("corner_radius_m", corner_radius_m))
-            if len(radius) != len(xy):
-                raise refused("corner_radius_m", f"{len(radius)} radii", f"{len(xy)}, one per waypoint")
+            if len(radius) != len(waypoints):
+                raise refused("corner_radius_m", f"{len(radius)} radii", f"{len(waypoints)}, one per waypoint")
             if (radius < 0).any():
                 raise refused("corner_radius_m", f"{radius.min():g}", "numbers >= 0")
-        self._value = _core.waypoint_path(xy, radius)
+        self._value = _core.waypoint_path(waypoints, radius)
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> Path:

@@ -8,7 +8,7 @@ import json
 import math
 import os
 from pathlib import Path as FilePath
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,17 +85,24 @@ class Plan(Value):
     def _driven(self) -> bool:
         return self._value.driven
 
-    def at(self, t: ArrayLike) -> Log:
-        """The plan at a time or at increasing times (s), shape (N,), exact at each; ``energy_J`` counts from the first.
+    @overload
+    def at(self, t: float) -> Record: ...
 
-        Raises ConfigError for times outside of the plan.
+    @overload
+    def at(self, t: Sequence[float] | NDArray[Any]) -> Log: ...
+
+    def at(self, t: ArrayLike) -> Record | Log:
+        """The plan at a time (s): numbers; or at increasing times, shape (N,): arrays. Exact at each.
+
+        ``energy_J`` counts from the first time. Raises ConfigError for times outside of the plan.
         """
         at = times("t", np.atleast_1d(numbers("t", t, ndim=np.ndim(t))))
         if not self._driven:
             raise AttributeError(f"no trajectory: the plan is {self.status}")
         if len(at) and (at[0] < 0 or at[-1] > self.duration_s):
             raise refused("t", f"{at[0]:g} to {at[-1]:g} s", f"times from 0 to {self.duration_s:g} s")
-        return Log(self._value.at(at))
+        found = Log(self._value.at(at))
+        return found if np.ndim(t) else Record({name: float(column[0]) for name, column in found.items()})
 
     def to_frame(self) -> Any:
         """The trajectory as a pandas.DataFrame; needs pandas."""
@@ -146,8 +153,8 @@ class Profile(Plan):
     >>> p = profile(Robot.example(), [[0, 0], [3, 0]])
     >>> len(p.t) == len(p.v) == len(p.power_W)
     True
-    >>> float(p.at(0.0)["linear_speed_m_s"][0])
-    0.0
+    >>> p.at(0.0)["linear_speed_m_s"], p.at([0.0, 1.0])["linear_speed_m_s"].shape
+    (0.0, (2,))
     """
 
     @property
@@ -186,8 +193,11 @@ def _solver_options(solver: Any, nodes: Any, accuracy: Any) -> tuple[str, int, f
     return one_of("solver", solver, SOLVERS), whole("nodes", nodes, 10, 20000), number("accuracy", accuracy, above=0.0)
 
 
-def _failure(result: Plan) -> PlanningError:
-    return (Infeasible if result.status == "infeasible" else PlanningError)(result._value.message, result)
+def _failure(result: Plan, along_path: bool) -> PlanningError:
+    message = result._value.message
+    if result.status != "infeasible":
+        return PlanningError(message, result)
+    return Infeasible(message, result, {"duration_s": "time_s"} if along_path else {})
 
 
 def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time_s: float | None = None,
@@ -209,7 +219,7 @@ def profile(robot: Robot, xy: ArrayLike | Path, *, payload_kg: float = 0.0, time
     result = Profile.__new__(Profile)  # before the solver fills the caches with its own data
     result._value, driven = _core.profile(robot._value, xy._value, payload_kg, time_s, solver, nodes, accuracy)
     if not driven:
-        raise _failure(result)
+        raise _failure(result, along_path=True)
     return result
 
 
@@ -253,5 +263,5 @@ def plan(mission: str | os.PathLike[str] | Mapping[str, Any], *, robot: Robot | 
             None if payload_kg is None else number("payload_kg", payload_kg, least=0.0),
             None if time_s is None else number("time_s", time_s, above=0.0), *options))
     if not result._driven:
-        raise _failure(result)
+        raise _failure(result, along_path=time_s is not None)
     return result

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import functools
+import re
 from typing import Any, Mapping, Sequence
 
 from . import _core
-from ._errors import refused
+from ._errors import named_by, refused
 from ._inputs import number, text_of, whole
 from .logs import Log
 from .plans import Plan
@@ -61,7 +62,14 @@ def simulate(plan: Plan, robot: Robot | None = None, *, effects: Effects | Seque
     if isinstance(groups, str) or not isinstance(groups, Sequence) or not all(isinstance(group, Mapping) for group in groups):
         raise refused("effects", repr(effects), "a dict {effect: {parameter: value}}, or a list of such dicts")
     listed = [{name: settings} for group in groups for name, settings in group.items()]
-    return Simulation(_core.simulate(
-        plan._value, None if robot is None else robot_of(robot)._value, text_of("effects", listed),
-        bool(ideal_sensors), number("time_of_day_s", time_of_day_s), number("sample_rate_Hz", sample_rate_Hz, 1.0, most=1000.0),
-        whole("seed", seed, 0, 2**64 - 1)))
+    places = ["effects" if isinstance(effects, Mapping) else f"effects[{index}]" for index, group in enumerate(groups) for _ in group]
+
+    def place(file: str, key: str) -> str | None:
+        entry = re.match(r"\[(\d+)\]", key)
+        return (places[int(entry[1])] + key[entry.end():] if entry else "effects") if file == "effects" else None
+
+    with named_by(place):
+        return Simulation(_core.simulate(
+            plan._value, None if robot is None else robot_of(robot)._value, text_of("effects", listed),
+            bool(ideal_sensors), number("time_of_day_s", time_of_day_s), number("sample_rate_Hz", sample_rate_Hz, 1.0, most=1000.0),
+            whole("seed", seed, 0, 2**64 - 1)))

@@ -89,17 +89,52 @@ def test_a_diagnosis_from_bags_is_that_of_their_columns(robot, tmp_path, compres
 
 def test_check_lists_topics_and_proposes_a_dataset(program, tmp_path):
     record(tmp_path / "day.mcap", "ZSTD", seconds=4.0)
-    done = subprocess.run([program, "check", tmp_path / "day.mcap"], capture_output=True, text=True, check=True)
-    assert "400 messages" in done.stdout and "/joint_states: 200 messages" in done.stderr
+    done = subprocess.run([program, "check", "day.mcap"], capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert "400 messages" in done.stderr and "/joint_states: 200 messages" in done.stderr
     assert 'wheel_speed_left_rad_s: {from: "/joint_states.velocity[wheel_left_joint]"}' in done.stdout
     robot = jp.Robot.example()
     robot.save(tmp_path / "robot.yaml")
-    text = done.stdout[done.stdout.index("schema:"):]
-    (tmp_path / "dataset.yaml").write_text(text)
+    assert "# payload_kg: 0" in done.stdout
+    (tmp_path / "dataset.yaml").write_text(done.stdout)
     done = subprocess.run([program, "check", tmp_path / "dataset.yaml"], capture_output=True, text=True)
     assert done.returncode == 1 and "heading_rad dead" in done.stdout  # the recorded robot turns, its heading stays 0
     subprocess.run([program, "estimate", tmp_path / "day.mcap", "--robot", tmp_path / "robot.yaml"], check=True,
                    stdout=subprocess.DEVNULL)
+
+
+def test_a_day_of_bags_is_one_dataset_that_works_where_it_is_saved(program, robot, tmp_path):
+    (tmp_path / "day").mkdir()
+    for k in range(2):
+        record(tmp_path / "day" / f"run_{k}.mcap", "NONE", seconds=20.0 + k)
+    robot.save(tmp_path / "robot.yaml")
+    with open(tmp_path / "dataset.yaml", "w") as stream:
+        subprocess.run([program, "check", "day/run_0.mcap", "day/run_1.mcap"], check=True, stdout=stream, stderr=subprocess.DEVNULL,
+                       cwd=tmp_path)
+    done = subprocess.run([program, "check", "--brief", "dataset.yaml"], capture_output=True, text=True, cwd=tmp_path)
+    assert "dataset: 2 runs" in done.stdout, done.stdout + done.stderr
+
+
+def test_columns_of_one_channel_leave_the_others_as_proposed(program, robot, tmp_path, monkeypatch):
+    """In Python and in a dataset file."""
+    monkeypatch.chdir(tmp_path)
+    record("run.mcap", "NONE")
+    columns = {"motor_current_left_A": {"from": "/joint_states.effort[wheel_left_joint]"},
+               "motor_current_right_A": {"from": "/joint_states.effort[wheel_right_joint]"}}
+    proposed, given = jp.diagnose(robot, ["run.mcap"]), jp.diagnose(robot, ["run.mcap"], columns=columns)
+    assert "motor_current" in proposed.missing_channels and "motor_current" not in given.missing_channels
+    told = [artifact for artifact in given.artifacts if "proposed" in artifact]
+    assert len(told) == 1 and "wheel_speed_left_rad_s" in told[0] and "linear_speed_m_s" in told[0]
+    robot.save("robot.yaml")
+    (tmp_path / "dataset.yaml").write_text(json.dumps({"robot": "robot.yaml", "columns": columns, "runs": [{"file": "run.mcap"}]}))
+    subprocess.run([program, "diagnose", "dataset.yaml", "--out", "out"], check=False, stdout=subprocess.DEVNULL)
+    assert json.loads((tmp_path / "out/diagnosis.json").read_text()) == given.json.to_dict()
+
+
+def test_a_truncated_bag_without_a_message_is_an_error(program, tmp_path):
+    record(tmp_path / "day.mcap", "ZSTD", seconds=4.0)
+    (tmp_path / "cut.mcap").write_bytes((tmp_path / "day.mcap").read_bytes()[:200])
+    done = subprocess.run([program, "check", tmp_path / "cut.mcap"], capture_output=True, text=True)
+    assert done.returncode == 2 and "no message" in done.stderr and done.stdout == ""
 
 
 def test_an_exported_bag_is_read_by_others_and_by_joulepath(program, scenarios, tmp_path):

@@ -133,7 +133,7 @@ def test_mapped_columns_are_checked_by_their_own_names(robot, log, source):
 @pytest.mark.parametrize(("call", "message"), [
     (lambda r, log: jp.diagnose(r, log), r"logs: found a value of type dict.*\[log\]"),
     (lambda r, log: jp.diagnose(r, jp.Run(log)), r"logs: found a value of type Run.*\[log\]"),
-    (lambda r, log: jp.diagnose(r, []), "runs"),
+    (lambda r, log: jp.diagnose(r, []), "^logs: "),
     (lambda r, log: jp.diagnose(r, [log], columns=["time_s"]), "columns: found a value of type list"),
     (lambda r, log: jp.diagnose(r, [log], columns={"time": {"from": "t"}}), "columns.*time"),
     (lambda r, log: jp.diagnose(r, [log], columns={"time_s": 3}), "columns.time_s"),
@@ -142,13 +142,54 @@ def test_mapped_columns_are_checked_by_their_own_names(robot, log, source):
     (lambda r, log: jp.diagnose(r, [log], without=None), "without: found None"),
     (lambda r, log: jp.diagnose(r, [log], without=[3]), "without: found"),
     (lambda r, log: jp.diagnose(r, [jp.Run(log, name=3)]), r"logs\[0\].name: found a value of type int"),
-    (lambda r, log: jp.diagnose(r, [jp.Run(log, payload_kg="5 kg")]), "payload_kg"),
-    (lambda r, log: jp.diagnose(r, [jp.Run(log, use="nothing")]), "use"),
-    (lambda r, log: jp.diagnose(r, [jp.Run(log, name="a"), jp.Run(log, name="a")]), "a log that no other run has"),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, payload_kg="5 kg")]), r"^logs\[0\].payload_kg: "),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, use="nothing")]), r"^logs\[0\].use: "),
+    (lambda r, log: jp.diagnose(r, [jp.Run(log, name="a"), jp.Run(log, name="a")]), r"^logs\[1\]: .*a log that no other run has"),
+    (lambda r, log: jp.diagnose(r, [log, "none.mcap"]), r"^logs\[1\]: found none.mcap"),
+    (lambda r, log: jp.diagnose(r, [log], columns={"time_s": {"form": "t"}}), "^columns.time_s.form: "),
 ])
 def test_wrong_arguments_are_refused(robot, log, call, message):
     with pytest.raises(jp.ConfigError, match=message):
         call(robot, log)
+
+
+def without(log, *names):
+    return {name: column for name, column in log.items() if name not in names}
+
+
+@pytest.mark.parametrize("wrong", ["wheel_speed_lft_rad_s", "wheel_speed_left_rpm", "Wheel_speed_left_rad_S"])
+def test_a_mistyped_column_is_an_error_and_not_derived(robot, log, wrong):
+    frame = {**without(log, "wheel_speed_left_rad_s"), wrong: log["wheel_speed_left_rad_s"]}
+    with pytest.raises(jp.ConfigError, match="unknown column.*did you mean wheel_speed_left_rad_s?") as raised:
+        jp.diagnose(robot, [jp.Run(log, name="first"), jp.Run(frame, name="second")])
+    assert raised.value.key == "logs[1]." + wrong and raised.value.file is None
+
+
+def test_one_wheel_is_an_error(robot, log):
+    with pytest.raises(jp.ConfigError, match=r"^logs\[0\]: found wheel_speed_right_rad_s without wheel_speed_left_rad_s"):
+        jp.diagnose(robot, [without(log, "wheel_speed_left_rad_s")])
+
+
+def test_what_was_derived_is_told(robot, log):
+    found = jp.diagnose(robot, [without(log, "wheel_speed_left_rad_s", "wheel_speed_right_rad_s", "linear_speed_m_s", "angular_speed_rad_s")])
+    assert "logs[0]: derived in wheel_speed_left_rad_s, wheel_speed_right_rad_s: from linear and angular speed" in found.artifacts
+    assert "logs[0]: derived in linear_speed_m_s: from the pose's differences" in found.artifacts
+    assert "derived in linear_speed_m_s" in repr(found) and "artifact: logs[0]: derived in linear_speed_m_s" in str(found)
+    assert "derived" not in repr(jp.diagnose(robot, [log]))
+
+
+def test_the_share_of_missing_values_is_told(robot, log):
+    found = jp.diagnose(robot, [changed(log, slice(None, None, 4), np.nan)])
+    assert "logs[0]: missing_values in motor_current_left_A: 25 % of the rows are empty, filled by interpolation" in found.artifacts
+
+
+def test_a_diagnosis_tells_what_its_file_tells(robot, log):
+    found = jp.diagnose(robot, [without(log, "battery_current_A", "payload_kg")])
+    assert found.missing_channels and found.notes
+    for name in ("artifacts", "missing_channels", "notes"):
+        assert list(getattr(found, name)) == found.json.to_dict()[name], name
+    for note in found.notes:
+        assert f"note: {note}" in str(found)
 
 
 def test_runs_of_frames_are_values(log):

@@ -41,7 +41,7 @@ def test_the_rest_of_an_undisturbed_plan_is_the_plan(planned, piece):
     replanner, t = jp.Replanner(piece), planned.t
     for at_s in (1.0, 3.0, 6.0):
         now = planned.at(at_s)
-        rest = replanner.replan(planned.at([0, at_s])["arc_length_m"][1], now["linear_speed_m_s"][0], time_left_s=t[-1] - at_s)
+        rest = replanner.replan(planned.at([0, at_s])["arc_length_m"][1], now["linear_speed_m_s"], time_left_s=t[-1] - at_s)
         assert rest.status == "optimal"
         assert rest.duration_s == pytest.approx(t[-1] - at_s, abs=2e-3)
         assert rest.energy_J == pytest.approx(planned.energy_J - np.interp(at_s, t, planned.trajectory["energy_J"]), rel=2e-3)

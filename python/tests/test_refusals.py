@@ -16,18 +16,18 @@ def test_other_layouts_and_types_are_converted(robot, same):
 
 
 @pytest.mark.parametrize(("wrong", "message"), [
-    (XY.T, r"xy_m: found shape \(2, 3\).*transpose"),
+    (XY.T, r"xy: found shape \(2, 3\).*transpose"),
     (XY[0], "axes"),
     (XY[:1], "1 points"),
     (np.zeros((3, 3)), r"shape \(3, 3\)"),
-    ([[0, 0], [np.nan, 1]], r"xy_m\[1\]\[0\]: found nan"),
+    ([[0, 0], [np.nan, 1]], r"xy\[1\]\[0\]: found nan"),
     ([[0, 0], [np.inf, 1]], r"found inf"),
     ([["a", "b"], ["c", "d"]], "type <U1"),
     ([[0, 0], [1]], "rows of different lengths"),
     (XY + 1j, "complex"),
     (XY > 1, "bool"),
     (np.ma.masked_array(XY, XY > 3), "masked"),
-    ([[0, 0], [0, 0]], r"xy_m\[1\]"),
+    ([[0, 0], [0, 0]], r"xy\[1\]"),
 ])
 def test_wrong_waypoints_are_refused(robot, wrong, message):
     with pytest.raises(jp.ConfigError, match=message):
@@ -85,13 +85,24 @@ def test_an_infeasible_profile_says_what_where_and_how(robot):
     assert set(error.place) == {"leg", "arc_length_m", "x_m", "y_m"}
     assert error.relaxation and error.plan.status == "infeasible"
     (key, value), = error.relaxation.items()
-    assert key == "duration_s"
+    assert key == "time_s" and "duration_s" not in str(error)
     assert jp.profile(robot, XY, time_s=value * (1 + 1e-6)).status in ("optimal", "feasible")
 
 
 def test_unknown_effects_are_refused(curve):
     with pytest.raises(jp.ConfigError, match="rolling_resistance"):
         jp.simulate(curve, effects={"roling_resistance": {"coefficient": 0.01}})
+
+
+@pytest.mark.parametrize(("effects", "key"), [
+    ({"rolling_resistance": {"coefficient": "much"}}, "effects.rolling_resistance.coefficient"),
+    ({"rolling_resistance": {"coefficient": -1}}, "effects.rolling_resistance.coefficient"),
+    ([{"rolling_resistance": {"coefficient": 0.01}}, {"rolling_resistance": {"coefficient": []}}], "effects[1].rolling_resistance.coefficient"),
+    ({"rolling_resistance": {"coefficient": 0.01, "nothing": 1}}, "effects.rolling_resistance")])
+def test_wrong_effects_are_named_as_the_caller_wrote_them(curve, effects, key):
+    with pytest.raises(jp.ConfigError) as raised:
+        jp.simulate(curve, effects=effects)
+    assert raised.value.key.startswith(key) and str(raised.value).startswith(key) and raised.value.file is None
 
 
 def test_wrong_logs_are_refused(robot, curve):

@@ -54,7 +54,10 @@ def test_profile_adds_up(curve):
 def test_at_is_exact_at_the_samples(curve):
     some = curve.t[::7]
     np.testing.assert_array_equal(curve.at(some)["linear_speed_m_s"], curve.v[::7])
-    assert len(curve.at(1.0)["time_s"]) == 1
+    for one in (1.0, 1, np.float32(1), np.array(1.0)):
+        now = curve.at(one)
+        assert type(now["linear_speed_m_s"]) is float and now.linear_speed_m_s == curve.at([1.0])["linear_speed_m_s"][0]
+    assert curve.at([1.0])["time_s"].shape == (1,)
     with pytest.raises(jp.ConfigError, match="t: found"):
         curve.at(curve.duration_s + 1)
 

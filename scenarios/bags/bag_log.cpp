@@ -44,9 +44,11 @@ class BagLogReader {
                std::string run)
       : file_(file), run_(std::move(run)) {
     log_.sources = sources;
+    for (auto& [column, source] : log_.sources)
+      if (source.is_absent) source.from.clear();
     for (const auto& [column, source] : sources)
       if (column != "time_s") any_given_ = any_given_ || (!source.from.empty() && !names_column(source));
-    if (!any_given_) log_.sources = with_given(suggested_columns(survey_bag(file, named_by)), sources);
+    use(suggested_columns(survey_bag(file, named_by)));
     damage_ = read_bag(
         file, named_by, [&](const BagChannel& channel) { open(channel); },
         [&](const BagMessage& message) { take(message); });
@@ -60,10 +62,7 @@ class BagLogReader {
         drop_unknown_sources(topic);
         order.push_back(&topic);
       }
-    if (order.empty())
-      throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
-                           "a bag with Odometry or JointState, or columns: that name its topics",
-                           "joulepath check lists the topics and proposes a dataset");
+    if (order.empty()) refuse(named_by);
     std::stable_sort(order.begin(), order.end(),
                      [&](const Topic* a, const Topic* b) { return rank(*a) < rank(*b); });
     for (Topic* topic : order)
@@ -77,18 +76,40 @@ class BagLogReader {
     return source.from.size() == 1 && find_log_column(source.from.front()) != nullptr;
   }
 
-  /// The suggested columns, overridden by columns that are given without a topic (a scale, a delay, an absent
-  /// column).
-  static ColumnSources with_given(const ColumnSources& suggested, const ColumnSources& given) {
-    ColumnSources sources = suggested;
-    for (const auto& [column, source] : given) {
-      ColumnSource& changed = sources[column] = source;
+  /// A heading or a quaternion: one quantity, which is given or suggested as a whole.
+  static bool is_heading(const std::string& column) {
+    return column == "heading_rad" || std::ranges::count(kOrientationColumns, column) > 0;
+  }
+
+  /// Adds the suggested columns. A given column without a topic (a scale, a delay, an exchanged side) changes
+  /// the suggested one; any other given column takes its place.
+  void use(ColumnSources suggested) {
+    ColumnSources& sources = log_.sources;
+    for (auto& [column, source] : sources) {
       const auto known = suggested.find(names_column(source) ? source.from.front() : column);
-      if (known == suggested.end() || (!source.from.empty() && !names_column(source))) continue;
-      changed.from = known->second.from;
-      changed.scale *= known->second.scale;
+      if (known == suggested.end() || source.is_absent || (!source.from.empty() && !names_column(source)))
+        continue;
+      source.from = known->second.from;
+      source.scale *= known->second.scale;
     }
-    return sources;
+    const bool has_heading = std::ranges::any_of(sources, [](const auto& entry) {
+      return is_heading(entry.first) && (entry.second.is_absent || !entry.second.from.empty());
+    });
+    std::string added;
+    for (auto& [column, source] : suggested) {
+      if (has_heading && is_heading(column)) continue;
+      if (sources.try_emplace(column, std::move(source)).second)
+        added += (added.empty() ? "" : ", ") + column;
+    }
+    if (any_given_ && !added.empty())
+      tell("proposed", "", added + ": read as the types of the topics propose, beside the mapped columns", 1);
+  }
+
+  [[noreturn]] void refuse(const NamedBy& named_by) const {
+    if (messages_ == 0) throw named_by.error(file_, no_message_text(damage_), "a bag with messages");
+    throw named_by.error(file_, any_given_ ? "none of the mapped topics" : "no topic with a motion",
+                         "a bag with Odometry or JointState, or columns: that name its topics",
+                         "joulepath check lists the topics and proposes a dataset");
   }
 
   void open(const BagChannel& channel) {
@@ -119,6 +140,7 @@ class BagLogReader {
   }
 
   void take(const BagMessage& message) {
+    ++messages_;
     Topic& topic = topics_[message.channel];
     if (!topic.reader) return;
     try {
@@ -173,6 +195,7 @@ class BagLogReader {
   BagLog log_{};
   bool any_given_{};
   BagDamage damage_{};
+  std::size_t messages_{};
   std::vector<Topic> topics_{};
   std::vector<double> numbers_{};
 };

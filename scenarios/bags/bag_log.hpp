@@ -18,7 +18,7 @@ namespace joulepath {
 /// have the names of the sources; `time_s` is the header's stamp, or the log time without a stamp.
 struct BagLog {
   std::vector<CsvTable> tables{};
-  ColumnSources sources{};  ///< the given ones, or the suggested ones if none are given
+  ColumnSources sources{};  ///< the given ones, and the suggested ones of other columns
   std::vector<LogArtifact> artifacts{};
 };
 

@@ -1,7 +1,8 @@
 #include "scenarios/bags/bag_survey.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,13 @@ namespace {
 std::string short_type(const BagTopic& topic) {
   const std::string& type = topic.channel.type;
   return type.substr(0, type.find('/')) + type.substr(std::min(type.rfind('/'), type.size()));
+}
+
+std::vector<std::string> joints_of(const BagTopic& topic, const std::string& side) {
+  std::vector<std::string> joints;
+  std::ranges::copy_if(topic.elements, std::back_inserter(joints),
+                       [&](const std::string& joint) { return joint.find(side) != std::string::npos; });
+  return joints;
 }
 
 /// Collects sources; a column keeps its first suggestion.
@@ -71,7 +79,7 @@ class Suggestion {
     } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
       if (!has_odometry()) pose(topic);
     } else if (type == "sensor_msgs/JointState") {
-      for (const char* side : {"left", "right"}) wheel(topic, side);
+      wheels(topic);
     } else if (type == "sensor_msgs/BatteryState") {
       add("battery_voltage_V", topic, "voltage");
       add("battery_current_A", topic, "current", -1.0);
@@ -97,12 +105,12 @@ class Suggestion {
       add(std::string("orientation_") + part, topic, std::string("pose.pose.orientation.") + part);
   }
 
-  /// The only joint whose name contains the side.
-  void wheel(const BagTopic& topic, const std::string& side) {
-    std::vector<std::string> found;
-    for (const std::string& joint : topic.elements)
-      if (joint.find(side) != std::string::npos) found.push_back(joint);
-    if (found.size() == 1) add("wheel_speed_" + side + "_rad_s", topic, "velocity[" + found.front() + "]");
+  /// The only joints whose names contain a side; both or none.
+  void wheels(const BagTopic& topic) {
+    const std::vector<std::string> left = joints_of(topic, "left"), right = joints_of(topic, "right");
+    if (left.size() != 1 || right.size() != 1) return;
+    add("wheel_speed_left_rad_s", topic, "velocity[" + left.front() + "]");
+    add("wheel_speed_right_rad_s", topic, "velocity[" + right.front() + "]");
   }
 
   const BagSurvey& survey_;
@@ -116,6 +124,53 @@ std::string quoted(const std::string& text) {
     if (static_cast<unsigned char>(c) >= 0x20) result += c;
   }
   return result + "\"";
+}
+
+bool is_of_odometry(const std::string& source, const BagSurvey& survey) {
+  std::string path;
+  return std::ranges::any_of(survey.topics, [&](const BagTopic& topic) {
+    return short_type(topic) == "nav_msgs/Odometry" && split_source(source, topic.channel.topic, path);
+  });
+}
+
+/// Messages that define themselves have each field of their type; of JSON, the first is looked at.
+bool is_in_messages(const ColumnSource& source, const BagSurvey& survey) {
+  const auto has = [&](const BagTopic& topic, const std::string& from) {
+    std::string path;
+    if (!split_source(from, topic.channel.topic, path)) return false;
+    if (topic.channel.encoding != "json") return true;
+    const auto reader = json_numbers();
+    reader->want(path);
+    std::vector<double> values;
+    try {
+      reader->read(topic.first, values);
+    } catch (const BytesEnd&) {
+      return false;
+    }
+    return std::isfinite(values.front());
+  };
+  return std::ranges::any_of(source.from, [&](const std::string& from) {
+    return std::ranges::any_of(survey.topics, [&](const BagTopic& topic) { return has(topic, from); });
+  });
+}
+
+ColumnSources columns_in_messages(const BagSurvey& survey) {
+  ColumnSources columns = suggested_columns(survey);
+  std::erase_if(columns, [&](const auto& column) { return !is_in_messages(column.second, survey); });
+  return columns;
+}
+
+/// Currents are not proposed: an effort may be a torque.
+std::string currents_in_comments(const BagSurvey& survey) {
+  std::string text;
+  for (const BagTopic& topic : survey.topics)
+    if (short_type(topic) == "sensor_msgs/JointState")
+      for (const char* side : {"left", "right"})
+        for (const std::string& joint : joints_of(topic, side))
+          text += std::string("  # motor_current_") + side +
+                  "_A: {from: " + quoted(topic.channel.topic + ".effort[" + joint + "]") +
+                  "}  # if effort is a current in A\n";
+  return text;
 }
 
 std::string listed(const std::vector<std::string>& sources) {
@@ -141,6 +196,7 @@ BagSurvey survey_bag(const std::string& file, const NamedBy& named_by) {
         first_ns = std::min(first_ns, message.log_time_ns);
         last_ns = std::max(last_ns, message.log_time_ns);
         if (topic.messages++ == 0 && topic.readable) try {
+            if (topic.channel.encoding == "json") topic.first = message.data;
             topic.elements = readers[message.channel]->element_names(message.data);
           } catch (const BytesEnd&) {
           }
@@ -153,7 +209,12 @@ ColumnSources suggested_columns(const BagSurvey& survey) { return Suggestion(sur
 
 std::string suggested_dataset(const BagSurvey& survey, const std::string& file) {
   std::string text = "schema: joulepath/dataset/1\nrobot: robot.yaml\ncolumns:\n";
-  const ColumnSources columns = suggested_columns(survey);
+  const ColumnSources columns = columns_in_messages(survey);
+  if (const auto x = columns.find("position_x_m");
+      x != columns.end() && is_of_odometry(x->second.from.front(), survey))
+    text +=
+        "  # a pose that is computed from the wheels is no measurement: then {absent: true} for\n"
+        "  # position_x_m, position_y_m and heading_rad\n";
   for (const LogColumn& known : log_columns())
     if (const auto found = columns.find(known.name); found != columns.end())
       text += "  " + known.name + ": {from: " + listed(found->second.from) +
@@ -161,15 +222,12 @@ std::string suggested_dataset(const BagSurvey& survey, const std::string& file) 
   for (const char* name : kOrientationColumns)
     if (const auto found = columns.find(name); found != columns.end())
       text += std::string("  ") + name + ": {from: " + quoted(found->second.from.front()) + "}\n";
-  for (const BagTopic& topic : survey.topics)
-    if (short_type(topic) == "sensor_msgs/JointState")
-      for (const char* side : {"left", "right"})
-        for (const std::string& joint : topic.elements)
-          if (joint.find(side) != std::string::npos)
-            text += std::string("  # motor_current_") + side +
-                    "_A: {from: " + quoted(topic.channel.topic + ".effort[" + joint + "]") +
-                    "}  # if effort is a current in A\n";
-  return text + "runs:\n  - {file: " + quoted(std::filesystem::path(file).filename().string()) + "}\n";
+  text += currents_in_comments(survey);
+  text += "  # a line that is removed stays as proposed; {absent: true} leaves its channel out\n";
+  text += "runs:\n  - file: " + quoted(file) + "\n";
+  if (!columns.contains("payload_kg"))
+    text += "    # payload_kg: 0  # state it, in kg; steps: [{from_s: 0, kg: 0}, {from_s: 120, kg: 10}]\n";
+  return text;
 }
 
 bool split_source(const std::string& from, const std::string& topic, std::string& path) {

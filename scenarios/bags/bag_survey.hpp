@@ -17,6 +17,7 @@ struct BagTopic {
   std::size_t messages{};
   bool readable{};                      ///< its encoding and its definition are known
   std::vector<std::string> elements{};  ///< names beside its arrays (joints)
+  std::string first{};                  ///< its first message, if it is JSON
 };
 
 struct BagSurvey {
@@ -33,7 +34,8 @@ struct BagSurvey {
 /// among them: an effort may be a torque. Power messages suggest all of their columns.
 [[nodiscard]] ColumnSources suggested_columns(const BagSurvey& survey);
 
-/// A dataset file for a bag, with the suggested columns, for the user to confirm.
+/// A dataset file for a bag, with those suggested columns that its messages have, for the user to confirm. It
+/// names the bag as given.
 [[nodiscard]] std::string suggested_dataset(const BagSurvey& survey, const std::string& file);
 
 /// The topic and the field path of a column's `from`, `/odom.twist.twist.linear.x`; false if no topic

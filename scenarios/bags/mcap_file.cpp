@@ -183,6 +183,10 @@ std::string truncation_text(const BagDamage& damage) {
              : text + ": its last " + std::to_string(damage.unread_bytes) + " bytes were not read";
 }
 
+std::string no_message_text(const BagDamage& damage) {
+  return "no message" + (damage.truncated ? ": " + truncation_text(damage) : "");
+}
+
 BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
                     const std::function<void(const BagChannel&)>& on_channel,
                     const std::function<void(const BagMessage&)>& on_message) {

@@ -52,6 +52,8 @@ struct BagDamage {
 
 /// "the bag is truncated", with the bytes that were not read.
 [[nodiscard]] std::string truncation_text(const BagDamage& damage);
+/// "no message", and why.
+[[nodiscard]] std::string no_message_text(const BagDamage& damage);
 
 /// Reads an MCAP file from start to end, without its index: chunks uncompressed, lz4 or zstd. Broken parts
 /// are skipped and counted; an announced size is checked before memory is allocated. Throws ConfigError if

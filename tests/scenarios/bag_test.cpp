@@ -67,6 +67,74 @@ TEST_F(Bags, AMistypedElementOrFieldIsAnError) {
   }
 }
 
+/// A robot of 20 samples with odometry and joints, the arms' too.
+std::string odometry_and_joints(const std::vector<std::string>& names) {
+  McapWriter bag;
+  const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+  const auto joint_states = bag.channel(ros("/joints", "sensor_msgs/msg/JointState"));
+  for (int k = 0; k < 20; ++k) {
+    const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+    bag.message(odom, ns, odometry(ns, 0.1 * k, 0.2));
+    std::vector<std::pair<std::string, double>> velocities;
+    for (const std::string& name : names) velocities.emplace_back(name, 1.0 * k + 100.0 * velocities.size());
+    bag.message(joint_states, ns, joints(ns, velocities));
+  }
+  return bag.finish();
+}
+
+TEST_F(Bags, AGivenColumnReplacesNoOtherThanItsOwn) {
+  const std::string bag = odometry_and_joints({"wheel_left", "wheel_right", "spare"});
+  const auto run_with = [&](const ColumnSources& sources) {
+    return read_run_log({{written(bag), {}}}, sources, nomad().geometry, "run");
+  };
+  const RunLog proposed = run_with({});
+  const RunLog given = run_with(one("wheel_speed_left_rad_s", "/joints.velocity[spare]"));
+  EXPECT_EQ(given.trajectory.wheel_speed_rad_s.left[1], 201.0);
+  EXPECT_EQ(given.trajectory.wheel_speed_rad_s.right, proposed.trajectory.wheel_speed_rad_s.right);
+  EXPECT_EQ(given.trajectory.linear_speed_m_s, proposed.trajectory.linear_speed_m_s);
+  EXPECT_EQ(given.trajectory.heading_rad, proposed.trajectory.heading_rad);
+  const auto told = std::ranges::find(given.artifacts, "proposed", &LogArtifact::kind);
+  ASSERT_NE(told, given.artifacts.end());
+  EXPECT_NE(told->description.find("wheel_speed_right_rad_s"), std::string::npos);
+  EXPECT_EQ(told->description.find("wheel_speed_left_rad_s"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(proposed.artifacts, "proposed", &LogArtifact::kind), 0);
+  ColumnSources absent;
+  absent["position_x_m"].is_absent = absent["heading_rad"].is_absent = true;
+  const RunLog without = run_with(absent);
+  EXPECT_TRUE(without.trajectory.position_x_m.empty() && without.trajectory.heading_rad.empty());
+  EXPECT_FALSE(without.trajectory.position_y_m.empty());
+}
+
+/// A heading of one topic and a quaternion's part of another would mix.
+TEST_F(Bags, AGivenHeadingReplacesTheQuaternionThatIsProposed) {
+  const BagLog log = read(drive(), one("heading_rad", "/odom.pose.pose.position.x"));
+  EXPECT_TRUE(log.sources.contains("linear_speed_m_s"));
+  for (const char* part : kOrientationColumns) EXPECT_FALSE(log.sources.contains(part)) << part;
+}
+
+/// Where topics have the same times, their values are those of the messages to the last bit.
+TEST_F(Bags, TopicsOfTheSameTimesAreNotChangedByTheirMerging) {
+  McapWriter bag;
+  const auto odom = bag.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+  const auto joint_states = bag.channel(ros("/joints", "sensor_msgs/msg/JointState"));
+  for (int k = 0; k < 200; ++k) {
+    const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+    bag.message(odom, ns, odometry(ns, std::sin(k), 0.2));
+    bag.message(joint_states, ns, joints(ns, {{"left", 1.0}, {"right", 2.0}}));
+  }
+  const RunLog log = read_run_log(written(bag.finish()), nomad().geometry);
+  ASSERT_EQ(log.trajectory.linear_speed_m_s.size(), 200u);
+  for (std::size_t k = 0; k < 200; ++k)
+    EXPECT_EQ(log.trajectory.linear_speed_m_s[k], std::sin(static_cast<double>(k))) << k;
+}
+
+TEST_F(Bags, OneWheelAloneIsNotProposed) {
+  const std::string file = written(odometry_and_joints({"wheel_left", "caster"}));
+  const ColumnSources proposed = suggested_columns(survey_bag(file));
+  EXPECT_FALSE(proposed.contains("wheel_speed_left_rad_s"));
+  EXPECT_TRUE(proposed.contains("linear_speed_m_s"));
+}
+
 TEST_F(Bags, TransformsAndDiagnosticsAreFoundByTheirNames) {
   CdrWriter tf;
   tf.number(std::uint32_t{2});
@@ -149,10 +217,17 @@ TEST_F(Bags, ClockOrderAndRepeatedMessagesAreReported) {
 TEST_F(Bags, TheProposedDatasetReadsTheBag) {
   const std::string file = written(drive());
   const Robot robot = nomad();
-  const std::string proposed = scratch_.write("dataset.yaml", suggested_dataset(survey_bag(file), file));
-  const Dataset dataset = dataset_from(Document::load(proposed), {}, {}, {.robot = &robot});
-  ASSERT_EQ(dataset.runs.size(), 1u);
-  EXPECT_EQ(dataset.runs[0].log.size(), 200u);
+  std::string text = suggested_dataset(survey_bag(file), file);
+  const auto read = [&] {
+    return dataset_from(Document::load(scratch_.write("dataset.yaml", text)), {}, {}, {.robot = &robot})
+        .runs.at(0);
+  };
+  EXPECT_EQ(read().log.size(), 200u);
+  EXPECT_FALSE(read().payload_known);
+  const auto comment = text.find("# payload_kg: 0");
+  ASSERT_NE(comment, std::string::npos) << text;
+  text.replace(comment, 15, "payload_kg: 4");
+  EXPECT_EQ(read().payload.at(0).payload_kg, 4.0);
 }
 
 TEST_F(Bags, StatesOfVda5050AreALogPerRobot) {
@@ -171,6 +246,11 @@ TEST_F(Bags, StatesOfVda5050AreALogPerRobot) {
   ASSERT_EQ(log.tables.size(), 1u);
   EXPECT_EQ(*log.tables[0].find("agv_1.agvPosition.x"), (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_EQ(log.tables[0].find("agv_1.mobileRobotPosition.x"), nullptr);
+  const std::string proposed = suggested_dataset(survey_bag(file), file);
+  EXPECT_EQ(proposed.find("batteryCurrent"), std::string::npos) << "these messages have none: " << proposed;
+  const Robot robot = nomad();
+  const Document document = Document::load(scratch_.write("dataset.yaml", proposed));
+  EXPECT_EQ(dataset_from(document, {}, {}, {.robot = &robot}).runs.at(0).log.battery_voltage_V.size(), 5u);
   const RunLog run = read_run_log({{file, {}}}, {}, nomad().geometry, "run");
   EXPECT_EQ(run.trajectory.battery_voltage_V, std::vector<double>(5, 48.0));
   EXPECT_EQ(utc_nanoseconds("1970-01-02T00:00:01.25Z"), std::uint64_t{86'401'250'000'000});

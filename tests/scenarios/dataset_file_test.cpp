@@ -136,6 +136,79 @@ TEST(DatasetFile, WheelSpeedsComeFromBodySpeedsWithTheHalfTrack) {
   EXPECT_NEAR(dataset.runs[0].log.wheel_speed_rad_s.right[0], (0.5 + 0.165) / 0.1, 1e-12);
 }
 
+/// A log of a pose and a column that its user meant as a wheel's speed.
+std::string posed_log(const std::string& columns, const std::string& values) {
+  std::string csv = "time_s,position_x_m,position_y_m,heading_rad" + columns + "\n";
+  for (int i = 0; i < 5; ++i)
+    csv += std::to_string(0.1 * i) + "," + std::to_string(0.05 * i) + ",0," + std::to_string(0.2 * i) +
+           values + "\n";
+  return csv;
+}
+
+TEST(DatasetFile, AMistypedColumnIsAnErrorAndNotDerivedFromOthers) {
+  const ScratchDirectory scratch;
+  for (const std::string wrong : {"wheel_speed_lft_rad_s", "wheel_speed_left_rpm", "wheel_speed_left"}) {
+    scratch.write("a.csv", posed_log("," + wrong + ",wheel_speed_right_rad_s", ",5,5"));
+    try {
+      (void)read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+      FAIL() << wrong;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().key, wrong);
+      EXPECT_NE(error.detail().hint.find("did you mean wheel_speed_left_rad_s?"), std::string::npos)
+          << error.what();
+    }
+  }
+  scratch.write("a.csv", posed_log(",wheel_speed_left_rpm,wheel,battery,step", ",5,5,5,5"));
+  const Dataset declared = read_dataset(scratch.write(
+      "d.yaml", dataset_yaml("columns: {wheel_speed_left_rad_s: {absent: true}}\nruns: [{file: a.csv}]")));
+  ASSERT_TRUE(artifact(declared, "ignored_columns"));
+  EXPECT_EQ(artifact(declared, "ignored_columns")->description, "wheel_speed_left_rpm, wheel, battery, step");
+}
+
+TEST(DatasetFile, OneWheelIsAnErrorAndNoneIsDerivedAndTold) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", posed_log(",wheel_speed_right_rad_s", ",5"));
+  const std::string whole = dataset_yaml("runs: [{file: a.csv}]\n");
+  try {
+    (void)read_dataset(scratch.write("d.yaml", whole));
+    FAIL() << "the left wheel is not logged";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.detail().found, "wheel_speed_right_rad_s without wheel_speed_left_rad_s");
+  }
+  const Dataset derived =
+      read_dataset(scratch.write("e.yaml", whole + "columns: {wheel_speed_right_rad_s: {absent: true}}\n"));
+  const Trajectory& log = derived.runs.at(0).log;
+  EXPECT_EQ(log.wheel_speed_rad_s.left.size(), log.size());
+  EXPECT_NEAR(log.angular_speed_rad_s[2], 2.0, 1e-9);
+  for (const char* column :
+       {"linear_speed_m_s", "angular_speed_rad_s", "wheel_speed_left_rad_s, wheel_speed_right_rad_s"})
+    EXPECT_TRUE(artifact(derived, "derived", column)) << column;
+}
+
+TEST(DatasetFile, AMeasuredBodySpeedIsKeptWhereTheOtherIsDerived) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", posed_log(",linear_speed_m_s", ",0.75"));
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+  EXPECT_EQ(dataset.runs.at(0).log.linear_speed_m_s, std::vector<double>(5, 0.75));
+  EXPECT_FALSE(artifact(dataset, "derived", "linear_speed_m_s"));
+  EXPECT_TRUE(artifact(dataset, "derived", "angular_speed_rad_s"));
+}
+
+TEST(DatasetFile, TheMappingOfAHeadingAppliesToQuaternions) {
+  const ScratchDirectory scratch;
+  scratch.write("a.csv",
+                "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,orientation_w,orientation_z\n"
+                "0,1,1,1,0\n1,1,1,0.8,0.6\n");
+  const auto heading_rad = [&](const std::string& mapping) {
+    return read_dataset(scratch.write("d.yaml", dataset_yaml("columns: {heading_rad: {" + mapping +
+                                                             "}}\nruns: [{file: a.csv}]")))
+        .runs.at(0)
+        .log.heading_rad;
+  };
+  EXPECT_NEAR(heading_rad("scale: -1, offset: 0.5").at(1), 0.5 - 2 * std::atan2(0.6, 0.8), 1e-12);
+  EXPECT_TRUE(heading_rad("absent: true").empty());
+}
+
 TEST(DatasetFile, QuaternionPosesGiveHeadingInAllQuadrantsAndSpeed) {
   const ScratchDirectory scratch;
   std::string csv =
@@ -201,6 +274,8 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {
   EXPECT_FALSE(artifact(dataset, "held_value", "wheel_speed_right_rad_s"));
   ASSERT_TRUE(artifact(dataset, "missing_values", "battery_voltage_V"));
   EXPECT_EQ(artifact(dataset, "missing_values", "battery_voltage_V")->count, 29u);
+  EXPECT_EQ(artifact(dataset, "missing_values", "battery_voltage_V")->description,
+            "15 % of the rows are empty, filled by interpolation");
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
 }
 

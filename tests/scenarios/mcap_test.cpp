@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "model/kinematics.hpp"
+#include "scenarios/any_file.hpp"
+#include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/export/exports.hpp"
 #include "scenarios/run_log.hpp"
 #include "tests/scenarios/bag_fixture.hpp"
@@ -158,6 +160,29 @@ TEST_F(Bags, ABagThatEndsAnywhereGivesWhatIsWhole) {
     before = rows;
   }
   EXPECT_GT(before, 190u);
+}
+
+TEST_F(Bags, ABagWithoutAMessageIsAnErrorOfCheck) {
+  const std::string whole = drive();
+  std::size_t size = whole.size();
+  const auto messages = [&] { return survey_bag(written(whole.substr(0, size))).topics.at(0).messages; };
+  while (messages() > 0) size = size * 9 / 10;
+  const std::string file = written(whole.substr(0, size));
+  try {
+    (void)read_any_file(file, "");
+    FAIL() << "a bag of " << size << " bytes";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.detail().found.find("no message: the bag is truncated"), 0u) << error.what();
+  }
+  try {
+    (void)read_bag_log(file, {}, {}, "run");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.detail().found.find("no message: the bag is truncated"), 0u) << error.what();
+  }
+  McapWriter empty;
+  (void)empty.channel(ros("/odom", "nav_msgs/msg/Odometry"));
+  EXPECT_THROW((void)read_any_file(written(empty.finish()), ""), ConfigError);
 }
 
 TEST_F(Bags, BytesAfterADamagedRecordAreCounted) {
