@@ -198,6 +198,9 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
   static const Schema schema = mission_schema();
   check_document(document, "mission", schema);
   const Node root = document.root();
+  if (const auto map = root.find("map"), stations = root.find("stations");
+      map && stations && stations->has(map->text()))
+    map->fail_found("the station " + map->text(), "the name of a Nav2 map file (YAML)");
   const auto file_named = [&](const char* key) {
     const auto node = root.find(key);
     return node ? resolve_file(*node, options) : std::string();

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kStep_m = 0.25;  ///< sampling distance of the floor's properties
 constexpr double kSlowest_m_s = 0.02;
-constexpr int kBits = 14;          ///< of the cheapest speed
+constexpr int kBits = 14;  ///< of the cheapest speed
+constexpr double kStraightBack_rad = 3.13;
 constexpr double kLeast_J = 1e-3;  ///< a router needs positive costs
 constexpr int kFitSweeps = 60;
 
@@ -32,8 +33,9 @@ class GraphPricer {
   GraphCosts price() const {
     GraphCosts costs{.typical_leg_m = leg_m_, .fits_up_to_rad = corners_.fits_up_to_rad()};
     for (const RouteGraph::Edge& edge : graph_.edges) costs.edges.push_back(edge_cost(edge));
-    add_corners(costs);
+    add_corners(costs, false);
     attribute(costs);
+    add_corners(costs, true);
     return costs;
   }
 
@@ -91,7 +93,8 @@ class GraphPricer {
     return sum_J;
   }
 
-  void add_corners(GraphCosts& costs) const {
+  /// Routes rarely lead straight back over another edge: costs on edges are not fitted to that.
+  void add_corners(GraphCosts& costs, bool straight_back) const {
     std::vector<std::vector<std::size_t>> leaving(graph_.nodes.size());
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) leaving[graph_.edges[e].start].push_back(e);
     for (std::size_t in = 0; in < graph_.edges.size(); ++in) {
@@ -102,7 +105,8 @@ class GraphPricer {
         if (graph_.edges[out].end == graph_.edges[in].start) continue;
         const double angle = wrapped_angle_rad(bearing_rad(behind[0], behind[1]) - arriving);
         const CornerTable::Cost corner = corners_.at(angle);
-        costs.corners.push_back({in, out, corner.energy_J, corner.time_s});
+        if ((std::abs(angle) >= kStraightBack_rad) == straight_back)
+          costs.corners.push_back({in, out, corner.energy_J, corner.time_s});
       }
     }
   }

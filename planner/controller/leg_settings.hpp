@@ -14,8 +14,8 @@ struct LegSettings {
 
 /// Settings of least energy for each leg of a valid plan in the plan's time: one triple for all curves of a
 /// leg and one for all its turns. A pattern search over trapezoids finds the accelerations; the time of the
-/// controller's own drive determines the cruise speed. Rounded up to millionths, so that the controller is not
-/// late. Where no cruise speed is as fast as the plan, the robot's limits.
+/// controller's own drive determines the cruise speed. Rounded up to millionths, so that the controller is
+/// not late. Where no cruise speed is as fast as the plan, the robot's limits.
 [[nodiscard]] std::vector<LegSettings> leg_settings(const Plan& plan);
 
 /// One set for all curves of a plan and one for all its turns, for controllers that cannot change settings
