@@ -72,7 +72,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                              files.size() - 1, log.trajectory.time_s.front()});
 }
 
-/// The columns of a file that are not those of the format, and not mapped to one.
+/// The columns that are not those of the format, and not mapped to one.
 std::vector<std::string> ignored_columns(const std::vector<std::string>& header,
                                          const ColumnSources& sources) {
   std::vector<std::string> ignored;
@@ -119,19 +119,18 @@ void refuse_mistyped(const std::vector<std::string>& ignored, const std::vector<
   }
 }
 
-void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnSources& sources) {
+/// `names`: of the columns, for hints. Those of a bag are sources already.
+void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnSources& sources,
+                                std::vector<std::string> names) {
   for (const auto& [column, source] : sources) {
     if (source.from.empty() || source.is_absent) continue;
-    std::vector<std::string> headers;
-    for (const auto& file : files)
-      headers.insert(headers.end(), file.table.header.begin(), file.table.header.end());
-    const bool found = std::any_of(source.from.begin(), source.from.end(), [&](const std::string& name) {
-      return std::find(headers.begin(), headers.end(), name) != headers.end();
+    const bool found = std::ranges::any_of(files, [&](const LogFile& file) {
+      return std::ranges::find_first_of(file.table.header, source.from) != file.table.header.end();
     });
     if (found) continue;
     for (const auto& [other, taken] : sources)  // a source of another column is no hint
-      for (const std::string& name : taken.from) std::erase(headers, name);
-    const std::string near = nearest_word(source.from.front(), headers);
+      for (const std::string& name : taken.from) std::erase(names, name);
+    const std::string near = nearest_word(source.from.front(), names);
     throw ConfigError({source.mark, "columns." + column + ".from", source.from.front(),
                        "a column of " + files.front().table.file,
                        near.empty() ? "" : "did you mean " + near + "?"});
@@ -150,6 +149,16 @@ void refuse_one_wheel(const Trajectory& log, const std::string& file) {
        there + " without " + lacking,
        "the speeds of both wheels, or of none",
        "map " + lacking + " under columns:, or leave the other out with `" + there + ": {absent: true}`"});
+}
+
+void refuse_no_motion(const Trajectory& log, const std::string& file) {
+  if (log.wheel_speed_rad_s.left.empty())
+    throw ConfigError({{file, 1, 1},
+                       "",
+                       "no motion",
+                       "wheel_speed_left_rad_s and wheel_speed_right_rad_s, or linear_speed_m_s and "
+                       "angular_speed_rad_s, or a pose",
+                       "map the log's own names under columns:"});
 }
 
 /// Body speeds that are not logged, from the pose's differences.
@@ -229,11 +238,11 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   RunLog log;
   ColumnSources wanted = given;
   std::vector<LogFile> files;
-  std::vector<std::string> ignored;
+  std::vector<std::string> headers;
   for (const auto& name : names) {
     if (name.table || !is_bag(name.file)) {
       files.push_back(read_log_file(name, given, run));
-      std::ranges::copy(ignored_columns(files.back().table.header, given), std::back_inserter(ignored));
+      std::ranges::copy(files.back().table.header, std::back_inserter(headers));
       continue;
     }
     BagLog bag = read_bag_log(name.file, name.named_by, given, run);
@@ -244,20 +253,15 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
     bag.sources.erase("time_s");
     for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), bag.sources, run));
   }
-  check_mapped_columns_found(files, wanted);
+  check_mapped_columns_found(files, wanted, headers);
+  const std::vector<std::string> ignored = ignored_columns(headers, given);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
   merge(files, log, run);
   refuse_mistyped(ignored, missing_columns(log.trajectory, given), names.front().file);
   refuse_one_wheel(log.trajectory, names.front().file);
   log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
-  if (log.trajectory.wheel_speed_rad_s.left.empty())
-    throw ConfigError({{names.front().file, 1, 1},
-                       "",
-                       "no motion",
-                       "wheel_speed_left_rad_s and wheel_speed_right_rad_s, or linear_speed_m_s and "
-                       "angular_speed_rad_s, or a pose",
-                       "map the log's own names under columns:"});
+  refuse_no_motion(log.trajectory, names.front().file);
   start_epoch_clock_at_zero(log, run);
   auto odd = find_artifacts(log.trajectory, run);
   log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());

@@ -48,8 +48,10 @@ TEST_F(Bags, JointsAreFoundByNameWhateverTheirOrder) {
 TEST_F(Bags, AMistypedElementOrFieldIsAnError) {
   McapWriter bag;
   const auto channel = bag.channel(ros("/joints", "sensor_msgs/msg/JointState"));
+  const auto odom = bag.channel(ros("/joints_odom", "nav_msgs/msg/Odometry"));
   for (int k = 0; k < 100; ++k) {
     const std::uint64_t ns = kStart_ns + static_cast<std::uint64_t>(k) * kSecond_ns / 50;
+    bag.message(odom, ns, odometry(ns, 0.1, 0.0));
     bag.message(channel, ns, joints(ns, {{"wheel_left", 1.0}, {"wheel_right", 2.0}}));
   }
   const std::string file = written(bag.finish());
