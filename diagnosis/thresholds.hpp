@@ -101,6 +101,8 @@ inline constexpr double kRepairHarm = 1.5;
 inline constexpr double kUnusualFault = 1.0;
 /// A smaller factor or divisor of a channel may be an effect. Declared.
 inline constexpr double kMostEffectFactor = 1.5;
+/// A unit's factor from which on noise tells it: vibration multiplies a gyro's noise by less. Chosen (0522).
+inline constexpr double kLeastNoiseOfUnit = 30.0;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
 
