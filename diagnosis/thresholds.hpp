@@ -263,6 +263,9 @@ inline constexpr double kOverlapRidge = 1e-3;
 inline constexpr double kAmplitudePriorSteps = 4.0;
 /// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
 inline constexpr double kFormSpread = 0.12;
+/// A law's form further out, in its sigmas, is part of an unknown cause. Derived: 0.3 % of normal errors
+/// (0521).
+inline constexpr double kInexactForm = 3.0;
 /// Speed in the middle of a form variable's scale. Physical scale.
 inline constexpr double kUsualSpeed_m_s = 0.3;
 /// The same of yaw rates. Physical scale.
