@@ -88,25 +88,6 @@ TEST_P(DictionaryEntries, ForceAndMomentAreSharedByTheWheels) {
   }
 }
 
-/// The load answers to a burst of acceleration later, at each entry's own lag, in proportion to the payload.
-TEST_P(DictionaryEntries, PastAccelerationsPullAtTheLoadLater) {
-  RunSignals run = there_or_back(GetParam());
-  const auto entries = [&] { return entries_of(run, "past acceleration", "current", kCurrentLeft); };
-  for (Side side : kSides) run.wheel_acceleration_rad_s2[side].setZero();
-  EXPECT_EQ(entries().at(3).norm(), 0.0);
-  constexpr Eigen::Index kBurst = 20;
-  for (Side side : kSides) run.wheel_acceleration_rad_s2[side][kBurst] = 1.0;
-  const std::vector<Eigen::VectorXd> pulls = entries();
-  for (std::size_t k = 0; k < pulls.size(); ++k) {
-    Eigen::Index latest = 0;
-    pulls[k].cwiseAbs().maxCoeff(&latest);
-    EXPECT_EQ(latest, kBurst + 2 * static_cast<Eigen::Index>(k)) << "0.2 s apart";
-    EXPECT_EQ(pulls[k].head(kBurst).norm(), 0.0) << "nothing acts before its cause";
-  }
-  run.payload_kg.setZero();
-  EXPECT_EQ(entries().front().norm(), 0.0);
-}
-
 /// A speed that the wheels do not show moves the robot along its heading; poses count from their mean.
 TEST_P(DictionaryEntries, MissedSpeedAddsUpAlongTheHeading) {
   const RunSignals run = there_or_back(GetParam());

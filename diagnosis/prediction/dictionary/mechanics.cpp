@@ -1,7 +1,6 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
 #include "diagnosis/thresholds.hpp"
 
-// Design: docs/decisions/0520-a-load-that-swings.md
 namespace joulepath {
 namespace {
 
@@ -15,19 +14,6 @@ struct Variables {
   Twist<double> rate(Eigen::Index j) const { return twist_rate_at(*signals, *robot, j); }
   double day(Eigen::Index j) const { return day_share(layout, *signals, j); }
   double load(Eigen::Index j) const { return signals->payload_kg[j] / layout.greatest_payload_kg; }
-  /// Acceleration along the heading some time before a sample, a weighted mean over a hat.
-  double acceleration_before(Eigen::Index j, double before_s, double width_s) const {
-    const double now_s = static_cast<double>(j) * signals->period_s - before_s;
-    const auto first = static_cast<Eigen::Index>(std::ceil((now_s - width_s) / signals->period_s)),
-               last = static_cast<Eigen::Index>(std::floor((now_s + width_s) / signals->period_s));
-    double sum = 0, weights = 0;
-    for (Eigen::Index k = first; k <= last; ++k) {
-      const double weight = hat(static_cast<double>(k) * signals->period_s, now_s, width_s);
-      weights += weight;
-      if (k >= 0 && k <= j) sum += weight * rate(k).speed_m_s;
-    }
-    return weights > 0 ? sum / weights : 0.0;
-  }
   double speed(Eigen::Index j, Side side) const { return signals->wheel_speed_rad_s[side][j]; }
   double angle(Eigen::Index j, Side side) const { return signals->wheel_angle_rad[side][j]; }
   /// Harmonic of the heading: cosine (phase 0) or sine (phase 1).
@@ -105,15 +91,6 @@ void add_forces(DictionaryCollector& out, const Variables& v) {
             [&](Eigen::Index j) { return v.twist(j).yaw_rate_rad_s * v.twist(j).yaw_rate_rad_s; });
 }
 
-/// A load that gives way: forces of the accelerations of the last seconds.
-void add_past_accelerations(DictionaryCollector& out, const Variables& v) {
-  constexpr double kLag_s = 0.2;
-  constexpr int kLags = 12;
-  for (int lag = 0; lag <= kLags; ++lag)
-    out.force("past acceleration",
-              [&](Eigen::Index j) { return v.load(j) * v.acceleration_before(j, lag * kLag_s, kLag_s); });
-}
-
 void add_moments(DictionaryCollector& out, const Variables& v) {
   constexpr int kYawHats = 4;
   const double yaw_width = v.layout.greatest_yaw_rate_rad_s / (kYawHats - 1);
@@ -156,7 +133,6 @@ void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, con
   add_time_of_day(out, v);
   add_heading(out, v);
   add_forces(out, v);
-  add_past_accelerations(out, v);
   add_moments(out, v);
   add_place(out, v);
 }
