@@ -164,7 +164,7 @@ double probability_of(const Names& names, const ActiveEffect& effect) {
 
 Names choose_names(const Examination& x) {
   const Inclusion inclusion = inclusion_of(x);
-  Names names{.probabilities = inclusion.of_each()};
+  Names names{.probabilities = inclusion.of_each(), .something = inclusion.of_something()};
   names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);

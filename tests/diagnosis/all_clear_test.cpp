@@ -66,7 +66,8 @@ TEST(AllClear, BatteryPowerAloneNamesNoSecondCause) {
 /// A friction that widens the held-out gap is no cause beside the slip that the pose shows.
 TEST(AllClear, BatteryPowerAloneKeepsTheNameThatHoldsOut) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
-  Dataset day = testing::blind_day("--effect wheel_slip --share 1 --protocol 24 --seed 1327994843240327159");
+  Dataset day = testing::blind_day(
+      "--effect wheel_slip --robot tug --protocol 24 --level 0 --seed 6083549644663448309 --share 1");
   for (auto& run : day.runs) {
     run.log.motor_voltage_V = {}, run.log.motor_current_A = {};
     run.log.gyro_yaw_rate_rad_s.clear();

@@ -140,7 +140,9 @@ TEST(NoisyUnit, OfAGyroOnAStraightDriveIsNamed) {
 TEST(NoisyUnit, OfAPositionOnTheSpotIsNamed) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset dataset = twelve_runs("--effect none --seed 71");
-  const auto reach = [](const joulepath::Run& run) { return std::abs(std::ranges::max(run.log.position_x_m)); };
+  const auto reach = [](const joulepath::Run& run) {
+    return std::abs(std::ranges::max(run.log.position_x_m));
+  };
   const auto spin = std::ranges::min_element(dataset.runs, {}, reach);
   scale(spin->log.position_x_m, 1e3), scale(spin->log.position_y_m, 1e3);
   const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
