@@ -101,6 +101,8 @@ inline constexpr double kRepairHarm = 1.5;
 inline constexpr double kUnusualFault = 1.0;
 /// A smaller factor or divisor of a channel may be an effect. Declared.
 inline constexpr double kMostEffectFactor = 1.5;
+/// A unit's factor from which on noise tells it: vibration multiplies a gyro's noise by less. Chosen (0522).
+inline constexpr double kLeastNoiseOfUnit = 30.0;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
 
@@ -261,6 +263,9 @@ inline constexpr double kOverlapRidge = 1e-3;
 inline constexpr double kAmplitudePriorSteps = 4.0;
 /// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
 inline constexpr double kFormSpread = 0.12;
+/// A law's form further out, in its sigmas, is part of an unknown cause. Derived: 0.3 % of normal errors
+/// (0521).
+inline constexpr double kInexactForm = 3.0;
 /// Speed in the middle of a form variable's scale. Physical scale.
 inline constexpr double kUsualSpeed_m_s = 0.3;
 /// The same of yaw rates. Physical scale.

@@ -9,6 +9,7 @@
 
 #include "diagnosis/checks/dead_channels.hpp"
 #include "diagnosis/checks/faults.hpp"
+#include "diagnosis/checks/noisy_units.hpp"
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/parallel.hpp"
@@ -255,17 +256,25 @@ class DataCheckSearch {
   std::vector<DataCheck> checks_{};
 };
 
+bool is_covered(const std::vector<DataCheck>& checks, std::size_t run, const std::string& channel) {
+  return std::ranges::any_of(checks, [&](const DataCheck& check) {
+    return check.channel.find(channel) != std::string::npos &&
+           std::ranges::find(check.runs, run) != check.runs.end();
+  });
+}
+
+/// Adds units that only the noise shows.
+void add_noisy_units(const Dataset& dataset, std::vector<DataCheck>& checks) {
+  for (DataCheck& check : noisy_units(dataset))
+    if (!is_covered(checks, check.runs.front(), check.columns.front().column))
+      checks.push_back(std::move(check));
+}
+
 /// Adds values that no robot has and that no repair above explains.
 void add_implausible(const Dataset& dataset, std::vector<DataCheck>& checks) {
-  const auto covered = [&](std::size_t run, const std::string& channel) {
-    return std::ranges::any_of(checks, [&](const DataCheck& check) {
-      return check.channel.find(channel) != std::string::npos &&
-             std::ranges::find(check.runs, run) != check.runs.end();
-    });
-  };
   for (std::size_t r = 0; r < dataset.runs.size(); ++r)
     for (const Implausible& channel : implausible_channels(dataset.runs[r], dataset.robot))
-      if (!covered(r, channel.channel))
+      if (!is_covered(checks, r, channel.channel))
         checks.push_back(
             {.runs = {r},
              .run = dataset.runs[r].name,
@@ -278,6 +287,7 @@ void add_implausible(const Dataset& dataset, std::vector<DataCheck>& checks) {
 
 std::vector<DataCheck> check_data(const Dataset& dataset, const RunsByUse& runs) {
   std::vector<DataCheck> checks = DataCheckSearch(dataset, runs).find();
+  add_noisy_units(dataset, checks);
   add_implausible(dataset, checks);
   return checks;
 }

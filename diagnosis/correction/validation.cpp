@@ -8,7 +8,8 @@
 #include "diagnosis/evidence/fitted_model.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0231-every-run-judges.md
+// Design: docs/decisions/0231-every-run-judges.md,
+// docs/decisions/0523-names-that-widen-the-gap.md
 namespace joulepath {
 namespace {
 
@@ -96,9 +97,22 @@ bool is_better(const Examination& x, double before, const JudgedModel& model) {
                           points_of(x, model));
 }
 
+/// The correction holds a part of the names. Where all together widen the held-out gap, the others are
+/// withdrawn.
+void keep_part(const std::vector<ActiveEffect>& part, const Refit& fitted, bool widens, Validation& v) {
+  v.judgment.notes.push_back(widens ? "all names together widen the held-out energy gap, " + in_words(part) +
+                                          " shrinks it: nothing else is named"
+                                    : "only " + in_words(part) +
+                                          " shrinks the held-out gap: the correction holds nothing else");
+  if (!widens) return;
+  v.judgment.named = part;
+  v.fitted = fitted;
+}
+
 /// The first part of the names that is better than the file on held-out runs. Constants are moved only where
 /// that reduces the gap. Names that widen it by more than kMaterialGap_percent are withdrawn.
 void choose_correction(const Examination& x, double before, Validation& v) {
+  const bool widens = gap_percent(x, v.model) > before + kMaterialGap_percent;
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
     const bool all = part.size() == v.judgment.named.size();
     const Refit fitted = all ? v.fitted : fit_names(x, part);
@@ -111,15 +125,13 @@ void choose_correction(const Examination& x, double before, Validation& v) {
     }
     if (!is_better(x, before, model)) continue;
     v.corrected = state, v.model = model;
-    if (!all)
-      v.judgment.notes.push_back("only " + in_words(part) +
-                                 " shrinks the held-out gap: the correction holds nothing else");
+    if (!all) keep_part(part, fitted, widens, v);
     return;
   }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out gap: none is written");
   if (before > kMaterialGap_percent && v.judgment.verdict == Verdict::explained)
     v.judgment.verdict = Verdict::partly_explained;
-  if (!(gap_percent(x, v.model) > before + kMaterialGap_percent)) return;
+  if (!widens) return;
   v.judgment.notes.push_back(in_words(v.judgment.named) +
                              " widens the held-out energy gap: no name is given");
   v.judgment.named.clear();

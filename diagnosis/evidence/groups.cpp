@@ -84,17 +84,19 @@ void for_each_rival(const Equations& equations, const std::vector<Explanation>& 
 
 void Inclusion::add(const Equations& equations, const std::vector<Explanation>& explanations, double weight) {
   const double top = explanations.empty() ? 0.0 : explanations.front().score;
-  std::map<std::multiset<std::string>, double> best_of_set;  // shapes of one effect count once
+  std::map<std::multiset<std::string>, const Explanation*> best_of_set;  // shapes of one effect count once
   for (const Explanation& e : explanations) {
     if (kScoreFlattening * (top - e.score) > kNegligibleScore) continue;
-    const auto [at, fresh] = best_of_set.try_emplace(members_of(equations, e), e.score);
-    if (!fresh) at->second = std::max(at->second, e.score);
+    const auto [at, fresh] = best_of_set.try_emplace(members_of(equations, e), &e);
+    if (!fresh && e.score > at->second->score) at->second = &e;
   }
   double total = 0;
-  for (const auto& [labels, score] : best_of_set) total += std::exp(kScoreFlattening * (score - top));
-  for (const auto& [labels, score] : best_of_set)
-    sets_.push_back(
-        {{labels.begin(), labels.end()}, weight * std::exp(kScoreFlattening * (score - top)) / total});
+  for (const auto& [labels, e] : best_of_set) total += std::exp(kScoreFlattening * (e->score - top));
+  for (const auto& [labels, e] : best_of_set)
+    sets_.push_back({.labels = {labels.begin(), labels.end()},
+                     .weight = weight * std::exp(kScoreFlattening * (e->score - top)) / total,
+                     .matters = !e->unknowns.empty() ||
+                                std::ranges::any_of(e->size, [](double size) { return size >= 1; })});
 }
 
 double Inclusion::of_any(const std::set<std::string>& labels) const {
@@ -102,6 +104,12 @@ double Inclusion::of_any(const std::set<std::string>& labels) const {
   for (const WeightedSet& set : sets_)
     if (std::ranges::any_of(labels, [&](const std::string& label) { return set.labels.contains(label); }))
       sum += set.weight;
+  return std::min(1.0, sum);
+}
+
+double Inclusion::of_something() const {
+  double sum = 0;
+  for (const WeightedSet& set : sets_) sum += set.matters ? set.weight : 0.0;
   return std::min(1.0, sum);
 }
 

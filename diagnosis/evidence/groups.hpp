@@ -20,11 +20,14 @@ class Inclusion {
   [[nodiscard]] double of_any(const std::set<std::string>& labels) const;
   [[nodiscard]] double of(const std::string& label) const { return of_any({label}); }
   [[nodiscard]] std::map<std::string, double> of_each() const;
+  /// Of any unknown term, or of any effect that is large enough to matter.
+  [[nodiscard]] double of_something() const;
 
  private:
   struct WeightedSet {
     std::set<std::string> labels{};
     double weight{};
+    bool matters{};  ///< holds an unknown term, or an effect that is large enough to matter
   };
   std::vector<WeightedSet> sets_{};
 };

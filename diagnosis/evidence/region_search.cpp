@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0524-patches-at-the-battery.md
 namespace joulepath {
 namespace {
 
@@ -20,6 +21,26 @@ struct Rectangle {
   double contrast{};
 };
 
+/// Resistance that a sample shows beyond the model, from the motors' currents; without them from the
+/// battery's power over the speed.
+std::optional<double> missing_force_N(const RunSignals& run, const ResidualRows& rows, const Robot& robot,
+                                      Eigen::Index j) {
+  if (rows.present(j, kCurrentLeft) && rows.present(j, kCurrentRight)) {
+    double torque_Nm = 0;
+    for (Side side : kSides) {
+      const double direction = run.wheel_speed_rad_s[side][j] > 0 ? 1 : -1;
+      torque_Nm += direction * rows.value(j, side == Side::left ? kCurrentLeft : kCurrentRight) *
+                   robot.motor[side].torque_per_ampere_Nm_A();
+    }
+    return torque_Nm / robot.geometry.wheel_radius_m.left;
+  }
+  double speed_m_s = 0;
+  for (Side side : kSides)
+    speed_m_s += 0.5 * std::abs(run.wheel_speed_rad_s[side][j]) * robot.geometry.wheel_radius_m[side];
+  if (measures_motors(run) || !rows.present(j, kDriverPower) || speed_m_s < kMoving_m_s) return {};
+  return rows.value(j, kDriverPower) / speed_m_s;
+}
+
 std::vector<PlacedSample> placed_samples(const std::vector<RunSignals>& signals, const Robot& robot,
                                          const std::vector<Nuisance>& nuisances, ModelState state,
                                          const EffectDescription& effect) {
@@ -31,16 +52,10 @@ std::vector<PlacedSample> placed_samples(const std::vector<RunSignals>& signals,
     const ModelPoint point = model_point(robot, nuisances, state);
     const ResidualRows rows = residual_rows(run, point, predict(run, point));
     for (Eigen::Index j = 0; j < run.size(); ++j) {
-      if (!rows.present(j, kCurrentLeft) || !rows.present(j, kCurrentRight)) continue;
-      double torque_Nm = 0;
-      for (Side side : kSides) {
-        const double direction = run.wheel_speed_rad_s[side][j] > 0 ? 1 : -1;
-        torque_Nm += 0.5 * direction * rows.value(j, side == Side::left ? kCurrentLeft : kCurrentRight) *
-                     robot.motor[side].torque_per_ampere_Nm_A();
-      }
-      const double load_N = 0.5 * kGravity_m_s2 * robot.total_mass_kg(run.payload_kg[j]);
-      samples.push_back(
-          {{run.x_m[j], run.y_m[j]}, torque_Nm / (load_N * robot.geometry.wheel_radius_m.left)});
+      const std::optional<double> force_N = missing_force_N(run, rows, robot, j);
+      if (!force_N) continue;
+      const double load_N = kGravity_m_s2 * robot.total_mass_kg(run.payload_kg[j]);
+      samples.push_back({{run.x_m[j], run.y_m[j]}, *force_N / load_N});
     }
   }
   return samples;

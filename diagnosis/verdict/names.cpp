@@ -7,8 +7,10 @@
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0230-unknown-terms-compete.md
+// Design: docs/decisions/0230-unknown-terms-compete.md,
+// docs/decisions/0521-a-form-beyond-its-doubt.md
 namespace joulepath {
 namespace {
 
@@ -106,6 +108,33 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
   std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }
 
+/// How far a form of the best set is from the textbook's, in sigmas of what its prior lets the data find.
+double form_sigmas(const Posterior& posterior, Eigen::Index at) {
+  const double found = kFormSpread * kFormSpread - posterior.covariance(at, at);
+  return found > 0 ? std::abs(posterior.mean[at]) / std::sqrt(found) : 0.0;
+}
+
+/// A named law whose strength varies with a variable by more than inexact forms do is not the whole cause.
+/// At the battery alone forms take up the power's curvature and say nothing.
+void name_inexact_forms(const Examination& x, Names& names) {
+  if (std::ranges::none_of(x.id.signals, measures_motors)) return;
+  const Equations& equations = x.id.equations;
+  const std::vector<int>& columns = x.best().columns;
+  const Posterior posterior = solve(x.id.problem, columns, x.id.dispersion);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Column& column = equations.columns[static_cast<std::size_t>(columns[k])];
+    if (column.kind != Column::Kind::form) continue;
+    const std::string law = equations.candidates[static_cast<std::size_t>(column.owner)].label();
+    const bool named = std::ranges::any_of(
+        names.named, [&](const ActiveEffect& effect) { return effect.candidate.label() == law; });
+    if (!named || form_sigmas(posterior, static_cast<Eigen::Index>(k)) < kInexactForm) continue;
+    const auto variable = static_cast<std::size_t>(column.part) % kFormVariables.size();
+    names.unknowns.push_back({.depends_on = std::string(kFormVariables[variable]) + " (" + law + ")",
+                              .probability = names.surest,
+                              .share = share_lost(x, fit_within_calibration(x.id), {columns[k]})});
+  }
+}
+
 /// Marginal inclusion, averaged over searches that each leave the runs of one fold out. Sets with effects
 /// below the materiality floor count: what they explain does not need a larger effect.
 Inclusion inclusion_of(const Examination& x) {
@@ -135,7 +164,7 @@ double probability_of(const Names& names, const ActiveEffect& effect) {
 
 Names choose_names(const Examination& x) {
   const Inclusion inclusion = inclusion_of(x);
-  Names names{.probabilities = inclusion.of_each()};
+  Names names{.probabilities = inclusion.of_each(), .something = inclusion.of_something()};
   names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
   name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
@@ -147,6 +176,7 @@ Names choose_names(const Examination& x) {
       group.insert(others->second.begin(), others->second.end());
     if (inclusion.of_any(group) >= kLeastProbabilityNamed) names.named.push_back(effect);
   }
+  name_inexact_forms(x, names);
   return names;
 }
 

@@ -11,6 +11,7 @@ struct Names {
   std::vector<UnknownCause> unknowns{};           ///< the greatest share first
   std::vector<SmallEffect> small_unknowns{};      ///< below the materiality floor
   std::map<std::string, double> probabilities{};  ///< of effects by label
+  double something{};  ///< probability that there is any cause that matters, named or not
   double surest{
       1.0};  ///< the greatest probability that is stated: share of correct names on development cases
   std::map<std::string, std::vector<std::string>> stand_ins{};  ///< by label: indistinguishable ones

@@ -4,7 +4,8 @@
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0371-evidence-is-not-withdrawn.md
+// Design: docs/decisions/0371-evidence-is-not-withdrawn.md,
+// docs/decisions/0525-a-cause-without-a-sure-name.md
 namespace joulepath {
 namespace {
 
@@ -14,6 +15,12 @@ std::string in_words(const std::vector<UnknownCause>& unknowns) {
   for (const UnknownCause& unknown : unknowns)
     text += (text.empty() ? "depends on " : ", then ") + unknown.depends_on;
   return text;
+}
+
+/// Something matters, and no name is sure: the likeliest effect, in words.
+std::string likeliest(const Names& names) {
+  const std::vector<RankedEffect> ranking = rank_effects(names.probabilities, names.surest);
+  return ranking.empty() ? "no variable alone" : ranking.front().effect + ", which is not sure";
 }
 
 /// The calibration constant (its column) that is furthest beyond its uncertainty, where nothing else won, or
@@ -57,6 +64,10 @@ Judgment judge(const Examination& x, const Names& names) {
   }
   if (nothing_won) {
     judgment.verdict = Verdict::no_gap;
+    if (names.small_unknowns.empty() && names.something > kSurest) {
+      judgment.verdict = Verdict::unexplained;
+      judgment.depends_on = "goes with " + likeliest(names);
+    }
     return judgment;
   }
   const bool sure = std::ranges::any_of(judgment.named, [&](const ActiveEffect& effect) {

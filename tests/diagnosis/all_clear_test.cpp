@@ -63,6 +63,20 @@ TEST(AllClear, BatteryPowerAloneNamesNoSecondCause) {
   EXPECT_EQ(d.causes.front().effect.name, "rolling_resistance");
 }
 
+/// A friction that widens the held-out gap is no cause beside the slip that the pose shows.
+TEST(AllClear, BatteryPowerAloneKeepsTheNameThatHoldsOut) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset day = testing::blind_day(
+      "--effect wheel_slip --robot tug --protocol 24 --level 0 --seed 6083549644663448309 --share 1");
+  for (auto& run : day.runs) {
+    run.log.motor_voltage_V = {}, run.log.motor_current_A = {};
+    run.log.gyro_yaw_rate_rad_s.clear();
+  }
+  const Diagnosis d = diagnose(day, {.bootstrap = 20});
+  ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.causes.front().effect.name, "wheel_slip");
+}
+
 /// The payload changes at a stop in one step; no sample has an intermediate value.
 TEST(Payload, AStepWithinARunIsNotInterpolated) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";

@@ -117,6 +117,41 @@ TEST_P(SpoiltChannel, OfAllRunsIsNamedAndStopsTheDiagnosis) {
 INSTANTIATE_TEST_SUITE_P(DataChecks, SpoiltChannel, ::testing::ValuesIn(cases()),
                          [](const auto& tested) { return tested.param.name; });
 
+/// On a straight drive the gyro reads noise and a bias, which no motion tells from a turn.
+TEST(NoisyUnit, OfAGyroOnAStraightDriveIsNamed) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = twelve_runs("--effect none --seed 71");
+  const auto turned = [](const joulepath::Run& run) {
+    double sum = 0;
+    for (double rate_rad_s : run.log.gyro_yaw_rate_rad_s) sum += std::abs(rate_rad_s);
+    return sum / static_cast<double>(run.log.size());
+  };
+  const auto straight = std::ranges::min_element(dataset.runs, {}, turned);
+  scale(straight->log.gyro_yaw_rate_rad_s, 180 / std::numbers::pi);
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, "unit");
+  EXPECT_EQ(found[0].channel, "gyro_yaw_rate_rad_s");
+  EXPECT_EQ(found[0].run, straight->name);
+  EXPECT_NEAR(found[0].columns.at(0).scale, std::numbers::pi / 180, 1e-12);
+}
+
+/// A position that scatters by metres while the robot spins is in mm.
+TEST(NoisyUnit, OfAPositionOnTheSpotIsNamed) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = twelve_runs("--effect none --seed 71");
+  const auto reach = [](const joulepath::Run& run) {
+    return std::abs(std::ranges::max(run.log.position_x_m));
+  };
+  const auto spin = std::ranges::min_element(dataset.runs, {}, reach);
+  scale(spin->log.position_x_m, 1e3), scale(spin->log.position_y_m, 1e3);
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, "unit");
+  EXPECT_EQ(found[0].channel, "position_x_m, position_y_m");
+  EXPECT_EQ(found[0].run, spin->name);
+}
+
 /// Effects of the catalog at full size must not make the data suspect.
 TEST(SoundData, WithEffectsOfFullSizeAreNotSuspect) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";

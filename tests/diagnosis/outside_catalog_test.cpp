@@ -86,6 +86,20 @@ INSTANTIATE_TEST_SUITE_P(Development, ForeignEffect,
                                            "driver_foldback --level 0 --seed 7341457183477400737"),
                          [](const auto& one) { return one.param.substr(0, one.param.find(' ')); });
 
+/// A draft that grows all day pulls like a slope, whose strength no floor changes with the time.
+TEST(InexactForm, OfAForceThatGrowsIsUnknown) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d =
+      diagnose(testing::blind_day(
+                   "--effect air_draft --robot small --protocol 12 --level 1 --seed 1838101856669714268"),
+               {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::partly_explained) << verdict_name(d.verdict);
+  ASSERT_EQ(d.causes.size(), 1u);
+  EXPECT_EQ(d.causes.front().effect.name, "floor_slope");
+  EXPECT_NE(d.leftover_description.find("time of day (floor_slope)"), std::string::npos)
+      << d.leftover_description;
+}
+
 TEST(ShrinkInterval, FromSixRunsIsNotAPoint) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Diagnosis d = diagnose(testing::blind_day("rolling_resistance", 0.01, 0, 6, 31), {.bootstrap = 200});

@@ -108,6 +108,24 @@ TEST(Race, ALawAndATermThatCancelEachOtherAreNoExplanation) {
     EXPECT_FALSE(!e.candidates.empty() && e.candidates.front() == 0 && !e.unknowns.empty() && e.score > 0);
 }
 
+/// Two laws that share the evidence: neither is sure, and that one of them is there is.
+TEST(Inclusion, OfSomethingCountsWhatMatters) {
+  Equations equations = drawn({.law = 0.6});
+  for (RunEquations& run : equations.runs) {
+    run.gram.row(kOtherLaw) = run.gram.row(kLaw);
+    run.gram.col(kOtherLaw) = run.gram.col(kLaw);
+  }
+  const auto something = [&](double least_amplitude) {
+    Inclusion inclusion;
+    inclusion.add(equations, search_explanations(without_calibration(equations, every(kRaceRuns)), equations,
+                                                 {.least_amplitude = {least_amplitude, least_amplitude}}));
+    EXPECT_LT(inclusion.of("viscous_friction"), 0.7);
+    return inclusion.of_something();
+  };
+  EXPECT_GT(something(0.1), 0.99);
+  EXPECT_LT(something(100.0), 0.1) << "below the materiality floor";
+}
+
 TEST(Inclusion, IsAProbabilityWhateverTheGroup) {
   Equations equations = drawn({.law = 0.6});
   for (RunEquations& run : equations.runs) {  // the second law's signature equals the first one's

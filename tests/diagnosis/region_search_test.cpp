@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/evidence/materiality.hpp"
@@ -50,6 +51,23 @@ TEST(RegionSearch, FindsTheEdgesOfARoughPatch) {
                   at.at("y_min_m") <= 0.0 && at.at("y_max_m") < 1.0);
   }
   EXPECT_TRUE(found);
+}
+
+TEST(RegionSearch, FindsThePatchInTheBatterysPower) {
+  std::vector<RunSignals> runs{straight_lane(0.0, kCoefficient), straight_lane(1.0, 0.0)};
+  for (RunSignals& run : runs) {
+    run.battery_power_W =
+        (run.motor_power_W.left + run.motor_power_W.right).array() + nomad().power.standby_W;
+    for (Side side : kSides)
+      for (auto* motor : {&run.motor_current_A, &run.motor_voltage_V, &run.motor_power_W})
+        (*motor)[side].resize(0);
+  }
+  const std::vector<Candidate> found = region_candidates(runs, nomad(), {}, {});
+  EXPECT_TRUE(std::ranges::any_of(found, [](const Candidate& candidate) {
+    const auto& at = candidate.shape.parameters;
+    return std::abs(at.at("x_min_m") - kFrom_m) < 0.25 && std::abs(at.at("x_max_m") - kTo_m) < 0.25 &&
+           at.at("y_max_m") < 1.0;
+  }));
 }
 
 TEST(RegionSearch, NeedsPlacesAndWhatIsInTheCatalog) {
