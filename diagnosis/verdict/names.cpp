@@ -8,7 +8,8 @@
 #include "diagnosis/evidence/groups.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0230-unknown-terms-compete.md
+// Design: docs/decisions/0230-unknown-terms-compete.md,
+// docs/decisions/0530-kept-runs-do-not-stand-for-all.md
 namespace joulepath {
 namespace {
 
