@@ -1,44 +1,52 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "planner/path/floor/footprint_checker.hpp"
-#include "planner/path/geometry/path.hpp"
-#include "planner/path/geometry/polygon_distance.hpp"
+#include "planner/path/shape/free_spline.hpp"
+#include "planner/path/shape/spline_slopes.hpp"
 
+// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
 namespace joulepath {
 
-/// Values above every cost, for splines that cannot be driven; they lead the optimizer away from them.
-inline constexpr double kBlocked = 1e9;  ///< blocked by an obstacle; larger for a deeper collision
-inline constexpr double kNotDrivable = 2.5 * kBlocked;  ///< no profile within the limits
-inline constexpr double kNoCurve = 3 * kBlocked;        ///< a cusp
+inline constexpr double kClearanceMargin_m = 0.002;
 
-inline constexpr double kFirstStep_m = 0.15;   ///< of knots and long handles
-inline constexpr double kFirstTurn_rad = 0.3;  ///< of a free heading
-inline constexpr double kLeastHandle_m = 0.01;
-
-/// 0 where a path is free, else kBlocked and more.
-[[nodiscard]] double blocked(const FootprintChecker& checker, const Path& path);
-
-/// Start of an optimizer over the variables of a spline.
-struct SplineVariables {
-  std::vector<double> value{};
-  std::vector<double> first_step{};
-  std::vector<double> lower{};
-
-  void add_handle(double length_m, double first_step_m);
-  void add_heading(double heading_rad);
-  void add_knot(const Point2& place_m, double first_step_m);
+/// A member of one of the splines.
+struct SplineMember {
+  enum class Kind { start_heading, start_handle, goal_heading, goal_handle, knot } kind{};
+  std::size_t spline{};
+  std::size_t knot{};  ///< index in points_m
+};
+/// What an optimizer moves: one number (two for a knot) that all its members share.
+struct SplineVariable {
+  std::vector<SplineMember> members{};
 };
 
-struct SearchEffort {
-  int evaluations_per_variable{25};
-  double relative_tolerance{1e-6};  ///< of the value
+/// Splines of consecutive legs that are moved together.
+struct SplineSearch {
+  const FootprintChecker* checker{};
+  std::vector<FreeSpline> first{};
+  std::vector<SplineVariable> variables{};
+  /// The cost of the paths of all splines, infinite where they cannot be driven; its derivatives where
+  /// `slopes` is given.
+  std::function<double(const std::vector<FreeSpline>&, const std::vector<Path>&,
+                       std::vector<SplineSlopes>* slopes)>
+      cost{};
+  int most_evaluations{40};
 };
 
-/// Minimizes with NLopt's Subplex and moves `variables.value` to the best point. Returns the value there.
-[[nodiscard]] double minimize(SplineVariables& variables, const SearchEffort& effort,
-                              const std::function<double(const std::vector<double>&)>& value);
+struct SplineSearchResult {
+  std::vector<FreeSpline> splines{};
+  std::vector<Path> paths{};
+  double cost{};
+  int evaluations{};
+};
+
+/// Minimizes the cost by sequential quadratic programming with its gradient (NLopt, SLSQP): handles by their
+/// logarithm, clearance as one inequality per part of a path. The result is free of collisions along its
+/// whole length; absent where none was found.
+[[nodiscard]] std::optional<SplineSearchResult> minimize(const SplineSearch& search);
 
 }  // namespace joulepath

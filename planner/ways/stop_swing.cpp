@@ -1,51 +1,95 @@
 #include "planner/ways/stop_swing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/ways/spline_search.hpp"
 
 namespace joulepath {
+namespace {
 
-std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
-                                    const SearchEffort& effort) {
-  std::optional<StopResult> best;
-  const bool knot_before = request.before.points_m.size() > 2, knot_after = request.after.points_m.size() > 2;
-  const auto splines_at = [&](const std::vector<double>& x) {
-    std::pair<FreeSpline, FreeSpline> splines{request.before, request.after};
-    auto& [before, after] = splines;
-    std::size_t i = 0;
-    before.goal_handle_m = x[i++];
-    after.start_handle_m = x[i++];
-    before.goal_heading_rad = after.start_heading_rad = x[i++];
-    if (knot_before) before.points_m[before.points_m.size() - 2] = {x[i], x[i + 1]}, i += 2;
-    if (knot_after) after.points_m[1] = {x[i], x[i + 1]};
-    return splines;
-  };
-  const auto value = [&](const std::vector<double>& x) {
-    const auto [before, after] = splines_at(x);
-    std::optional<Path> first = free_spline_path(before), second = free_spline_path(after);
-    if (!first || !second) return kNoCurve;
-    if (const double in_the_way = blocked(checker, *first) + blocked(checker, *second)) return in_the_way;
-    const double cost = request.cost(*first, *second);
-    if (!std::isfinite(cost)) return kNotDrivable;
-    if ((!best || cost < best->cost) && !checker.first_collision(*first) && !checker.first_collision(*second))
-      best = {.before = {.spline = before, .path = std::move(*first)},
-              .after = {.spline = after, .path = std::move(*second)},
-              .cost = cost};
-    return cost;
-  };
-  for (const double heading_rad : {request.after.start_heading_rad, request.before.goal_heading_rad}) {
-    SplineVariables variables;
-    for (const double handle_m : {request.before.goal_handle_m, request.after.start_handle_m})
-      variables.add_handle(handle_m, 0.5 * handle_m);
-    variables.add_heading(heading_rad);
-    if (knot_before)
-      variables.add_knot(request.before.points_m[request.before.points_m.size() - 2], kFirstStep_m);
-    if (knot_after) variables.add_knot(request.after.points_m[1], kFirstStep_m);
-    (void)minimize(variables, effort, value);
-    if (request.after.start_heading_rad == request.before.goal_heading_rad) break;
+constexpr int kHeadings = 8;          ///< first guesses of the heading at the stop
+constexpr std::size_t kPolished = 2;  ///< of them, beside the one in which the curves meet
+
+class StopSwing {
+ public:
+  StopSwing(const StopRequest& request, const FootprintChecker& checker) : request_(request) {
+    using Kind = SplineMember::Kind;
+    search_ = {.checker = &checker,
+               .first = {request.before, request.after},
+               .variables = {{{{Kind::goal_heading, 0}, {Kind::start_heading, 1}}}}};
+    for (std::size_t k = 0; k < 2; ++k) {
+      search_.variables.push_back({{{Kind::start_handle, k}}});
+      search_.variables.push_back({{{Kind::goal_handle, k}}});
+      for (std::size_t knot = 1; knot + 1 < search_.first[k].points_m.size(); ++knot)
+        search_.variables.push_back({{{Kind::knot, k, knot}}});
+    }
+    search_.cost = [this](const auto& splines, const auto& paths, auto* slopes) {
+      const double cost = request_.drafts_before.cost_J(paths[0]) + request_.drafts_after.cost_J(paths[1]);
+      if (slopes && std::isfinite(cost))
+        *slopes = {request_.drafts_before.slopes(splines[0]), request_.drafts_after.slopes(splines[1])};
+      return cost;
+    };
   }
-  return best;
+
+  std::optional<StopResult> run() {
+    const std::vector<std::vector<FreeSpline>> others = around();
+    polish(search_.first);
+    for (const std::vector<FreeSpline>& splines : others) polish(splines);
+    if (!best_) return std::nullopt;
+    polish(std::vector<FreeSpline>(best_->splines));
+    return StopResult{.before = {best_->splines[0], best_->paths[0], 0},
+                      .after = {best_->splines[1], best_->paths[1], 0},
+                      .cost = best_->cost};
+  }
+
+ private:
+  void restart() {
+    request_.drafts_before.restart();
+    request_.drafts_after.restart();
+  }
+  /// The same curves with other headings at the stop, the cheapest of them.
+  std::vector<std::vector<FreeSpline>> around() {
+    std::vector<std::pair<double, std::vector<FreeSpline>>> judged;
+    for (int i = 1; i < kHeadings; ++i) {
+      std::vector<FreeSpline> splines = search_.first;
+      splines[0].goal_heading_rad += 2 * std::numbers::pi * i / kHeadings;
+      splines[1].start_heading_rad = splines[0].goal_heading_rad;
+      std::vector<Path> paths;
+      for (const FreeSpline& spline : splines)
+        if (std::optional<Path> path = free_spline_path(spline)) paths.push_back(std::move(*path));
+      if (paths.size() < splines.size()) continue;
+      restart();
+      const double cost = search_.cost(splines, paths, nullptr);
+      if (std::isfinite(cost)) judged.emplace_back(cost, std::move(splines));
+    }
+    std::stable_sort(judged.begin(), judged.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::vector<FreeSpline>> cheapest;
+    for (std::size_t i = 0; i < std::min(kPolished, judged.size()); ++i)
+      cheapest.push_back(std::move(judged[i].second));
+    return cheapest;
+  }
+  void polish(const std::vector<FreeSpline>& first) {
+    search_.first = first;
+    restart();
+    std::optional<SplineSearchResult> found = minimize(search_);
+    if (!found) return;
+    restart();
+    found->cost = search_.cost(found->splines, found->paths, nullptr);
+    if (std::isfinite(found->cost) && (!best_ || found->cost < best_->cost)) best_ = std::move(found);
+  }
+
+  const StopRequest& request_;
+  SplineSearch search_{};
+  std::optional<SplineSearchResult> best_{};
+};
+
+}  // namespace
+
+std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker) {
+  return StopSwing(request, checker).run();
 }
 
 }  // namespace joulepath

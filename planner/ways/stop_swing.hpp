@@ -2,23 +2,24 @@
 
 #include "planner/ways/swing.hpp"
 
-// Design: docs/decisions/0170-ways-as-whole-curves.md
+// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
 namespace joulepath {
 
-/// Two legs that meet at a stop with a free heading.
+/// Two legs that meet at a stop with a free heading, in the same one at first.
 struct StopRequest {
   FreeSpline before{};
   FreeSpline after{};  ///< begins where `before` ends
-  std::function<double(const Path& before, const Path& after)> cost{};
+  LegDrafts& drafts_before;
+  LegDrafts& drafts_after;
 };
 struct StopResult {
   SwingResult before{}, after{};
   double cost{};  ///< of both
 };
 
-/// Optimizes the common heading at the stop, the handles beside it and the knots next to it for the least
-/// cost of both legs (Subplex). Absent where no free path was found.
-[[nodiscard]] std::optional<StopResult> best_stop(const StopRequest& request, const FootprintChecker& checker,
-                                                  const SearchEffort& effort = {});
+/// Optimizes the common heading at the stop, the handles and the knots of both legs for their least cost.
+/// Absent where no free path was found.
+[[nodiscard]] std::optional<StopResult> best_stop(const StopRequest& request,
+                                                  const FootprintChecker& checker);
 
 }  // namespace joulepath

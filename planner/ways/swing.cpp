@@ -9,8 +9,13 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kPolishedKnots = 4;  ///< greatest number of moving knots
-constexpr std::size_t kSameSpans = 3;      ///< polished guesses with the same number of spans
+constexpr std::size_t kStarts = 12;    ///< number of guesses that are polished
+constexpr std::size_t kSameSpans = 4;  ///< of them with the same number of spans
+constexpr std::size_t kAgain = 4;      ///< number of curves that are polished again
+constexpr int kFirstEvaluations = 20, kMoreEvaluations = 30;
+constexpr double kMostBlocked = 0.3;  ///< share of a guess in the way of obstacles
+constexpr double kPerBlocked = 2.0;   ///< increase of its value by that share
+constexpr double kLook_m = 0.06;
 
 struct JudgedGuess {
   SwingGuess guess{};
@@ -19,38 +24,42 @@ struct JudgedGuess {
 
 class Swing {
  public:
-  Swing(const SwingRequest& request, const FootprintChecker& checker, const PathCost& cost,
-        const SwingOptions& options)
-      : request_(request), checker_(checker), cost_(cost), options_(options) {}
+  Swing(const SwingRequest& request, const FootprintChecker& checker, LegDrafts& drafts)
+      : request_(request), checker_(checker), drafts_(drafts) {}
 
-  std::optional<SwingResult> run();
+  std::vector<SwingResult> run();
 
  private:
   std::vector<JudgedGuess> picked();
-  void polish(JudgedGuess& judged, double first_step_m);
+  double blocked(const Path& path) const;
   double value(const FreeSpline& spline);
+  std::optional<SwingResult> polished(const SwingGuess& guess, int most_evaluations);
 
   const SwingRequest& request_;
   const FootprintChecker& checker_;
-  const PathCost& cost_;
-  const SwingOptions& options_;
-  std::optional<SwingResult> best_{};
-  int evaluations_{};
+  LegDrafts& drafts_;
 };
 
-bool cheaper(const JudgedGuess& a, const JudgedGuess& b) { return a.value < b.value; }
+bool cheaper(const SwingResult& a, const SwingResult& b) { return a.cost < b.cost; }
 
-/// The cost, or a value above every cost where the spline cannot be driven.
+/// Share of a path that is not free.
+double Swing::blocked(const Path& path) const {
+  const Curve& curve = std::get<Curve>(path.pieces.front());
+  const int looks = 1 + static_cast<int>(curve.length_m() / kLook_m);
+  int in_the_way = 0;
+  for (int i = 0; i <= looks; ++i)
+    in_the_way += checker_.slack_m(curve.at(curve.length_m() * i / looks).pose) < kClearanceMargin_m;
+  return in_the_way / (1.0 + looks);
+}
+
+/// The cost, larger where a part of the path is not free; infinite for a guess that is of no use.
 double Swing::value(const FreeSpline& spline) {
-  ++evaluations_;
-  std::optional<Path> path = free_spline_path(spline);
-  if (!path) return kNoCurve;
-  if (const double in_the_way = blocked(checker_, *path)) return in_the_way;
-  const double cost = cost_(*path);
-  if (!std::isfinite(cost)) return kNotDrivable;
-  if ((!best_ || cost < best_->cost) && !checker_.first_collision(*path))
-    best_ = {.spline = spline, .path = std::move(*path), .cost = cost};
-  return cost;
+  const std::optional<Path> path = free_spline_path(spline);
+  if (!path) return kNoLimit;
+  const double share = blocked(*path);
+  if (share > kMostBlocked) return kNoLimit;
+  drafts_.restart();
+  return drafts_.cost_J(*path) * (1 + kPerBlocked * share);
 }
 
 /// The guesses to polish: the cheapest, at most kSameSpans with the same number of spans.
@@ -58,64 +67,62 @@ std::vector<JudgedGuess> Swing::picked() {
   std::vector<JudgedGuess> judged;
   for (SwingGuess& guess : swing_guesses(request_)) {
     const double cost = value(guess.spline);
-    judged.push_back({std::move(guess), cost});
+    if (std::isfinite(cost)) judged.push_back({std::move(guess), cost});
   }
-  std::stable_sort(judged.begin(), judged.end(), cheaper);
+  std::stable_sort(judged.begin(), judged.end(),
+                   [](const JudgedGuess& a, const JudgedGuess& b) { return a.value < b.value; });
   std::vector<JudgedGuess> picked;
   for (const JudgedGuess& one : judged) {
     const auto alike = std::count_if(picked.begin(), picked.end(), [&](const JudgedGuess& other) {
       return other.guess.spline.points_m.size() == one.guess.spline.points_m.size();
     });
-    if (picked.size() < options_.starts && static_cast<std::size_t>(alike) < kSameSpans)
-      picked.push_back(one);
+    if (picked.size() < kStarts && static_cast<std::size_t>(alike) < kSameSpans) picked.push_back(one);
   }
   return picked;
 }
 
 /// Optimizes both handles, a free goal heading and the moving knots.
-void Swing::polish(JudgedGuess& judged, double first_step_m) {
-  const bool free_heading = !request_.goal_heading_rad;
-  std::vector<std::size_t>& moving = judged.guess.moving;
-  if (moving.size() > kPolishedKnots) moving.resize(kPolishedKnots);
-  const FreeSpline first = judged.guess.spline;
-  const auto spline_at = [&](const std::vector<double>& x) {
-    FreeSpline spline = first;
-    std::size_t i = 0;
-    spline.start_handle_m = x[i++];
-    spline.goal_handle_m = x[i++];
-    if (free_heading) spline.goal_heading_rad = x[i++];
-    for (const std::size_t knot : moving) {
-      spline.points_m[knot] = {x[i], x[i + 1]};
-      i += 2;
-    }
-    return spline;
+std::optional<SwingResult> Swing::polished(const SwingGuess& guess, int most_evaluations) {
+  using Kind = SplineMember::Kind;
+  SplineSearch search{.checker = &checker_, .first = {guess.spline}, .most_evaluations = most_evaluations};
+  search.variables = {{{{Kind::start_handle}}}, {{{Kind::goal_handle}}}};
+  if (!request_.goal_heading_rad) search.variables.push_back({{{Kind::goal_heading}}});
+  for (const std::size_t knot : guess.moving) search.variables.push_back({{{Kind::knot, 0, knot}}});
+  drafts_.restart();
+  search.cost = [&](const std::vector<FreeSpline>& splines, const std::vector<Path>& paths,
+                    std::vector<SplineSlopes>* slopes) {
+    const double cost = drafts_.cost_J(paths.front());
+    if (slopes && std::isfinite(cost)) *slopes = {drafts_.slopes(splines.front())};
+    return cost;
   };
-  SplineVariables variables;
-  for (const double handle_m : {first.start_handle_m, first.goal_handle_m})
-    variables.add_handle(handle_m, std::min(first_step_m, 0.5 * handle_m));
-  if (free_heading) variables.add_heading(first.goal_heading_rad);
-  for (const std::size_t knot : moving) variables.add_knot(first.points_m[knot], first_step_m);
-  const double found = minimize(variables, options_.effort,
-                                [&](const std::vector<double>& at) { return value(spline_at(at)); });
-  if (found >= judged.value) return;
-  judged.value = found;
-  judged.guess.spline = spline_at(variables.value);
+  std::optional<SplineSearchResult> found = minimize(search);
+  if (!found) return std::nullopt;
+  drafts_.restart();
+  const double cost = drafts_.cost_J(found->paths.front());
+  if (!std::isfinite(cost)) return std::nullopt;
+  return SwingResult{std::move(found->splines.front()), std::move(found->paths.front()), cost};
 }
 
-std::optional<SwingResult> Swing::run() {
-  std::vector<JudgedGuess> polished = picked();
-  for (JudgedGuess& judged : polished) polish(judged, kFirstStep_m);
-  std::stable_sort(polished.begin(), polished.end(), cheaper);
-  if (!polished.empty()) polish(polished.front(), 0.3 * kFirstStep_m);
-  if (best_) best_->evaluations = evaluations_;
-  return std::move(best_);
+std::vector<SwingResult> Swing::run() {
+  std::vector<SwingResult> found;
+  for (const JudgedGuess& judged : picked())
+    if (auto result = polished(judged.guess, kFirstEvaluations)) found.push_back(std::move(*result));
+  std::stable_sort(found.begin(), found.end(), cheaper);
+  for (std::size_t i = 0; i < std::min(kAgain, found.size()); ++i) {
+    SwingGuess again{.spline = found[i].spline};
+    for (std::size_t knot = 1; knot + 1 < again.spline.points_m.size(); ++knot) again.moving.push_back(knot);
+    std::optional<SwingResult> better = polished(again, kMoreEvaluations);
+    if (better && better->cost < found[i].cost) found[i] = std::move(*better);
+  }
+  std::stable_sort(found.begin(), found.end(), cheaper);
+  return found;
 }
 
 }  // namespace
 
-std::optional<SwingResult> best_swing(const SwingRequest& request, const FootprintChecker& checker,
-                                      const PathCost& cost, const SwingOptions& options) {
-  return Swing(request, checker, cost, options).run();
+std::vector<SwingResult> best_swings(const SwingRequest& request, const FootprintChecker& checker,
+                                     LegDrafts& drafts) {
+  return Swing(request, checker, drafts).run();
 }
 
 }  // namespace joulepath

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "planner/path/floor/footprint_checker.hpp"
 #include "planner/path/shape/free_spline.hpp"
-#include "planner/path/shape/refine.hpp"
-#include "planner/ways/spline_search.hpp"
+#include "planner/ways/leg_drafts.hpp"
 
-// Design: docs/decisions/0170-ways-as-whole-curves.md, docs/decisions/0461-five-guesses-are-polished.md
+// Design: docs/decisions/0170-ways-as-whole-curves.md,
+// docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
 namespace joulepath {
 
 /// A leg between two stops with a free path: the robot leaves in its present heading, turns while it drives,
@@ -21,24 +21,18 @@ struct SwingRequest {
   const Curve* along{};
 };
 
-struct SwingOptions {
-  std::size_t starts{5};  ///< number of first guesses that are polished
-  SearchEffort effort{};  ///< per polished guess
-};
-
 struct SwingResult {
   FreeSpline spline{};
   Path path{};
   double cost{};
-  int evaluations{};
 };
 
-/// The cheapest free spline found. Many first guesses (one to three spans with short and long handles, knots
-/// beside the start and the goal, spans joined to the middle of `along`) are each scored by one evaluation.
-/// NLopt's Subplex polishes the best of them over handles, knots near the ends and a free goal heading. The
-/// result is free of collisions along its whole length. Deterministic; absent where no free spline was found.
-[[nodiscard]] std::optional<SwingResult> best_swing(const SwingRequest& request,
-                                                    const FootprintChecker& checker, const PathCost& cost,
-                                                    const SwingOptions& options = {});
+/// The cheapest free splines found, in the order of their cost. Many first guesses (one to three spans with
+/// short and long handles, knots beside the start and the goal, spans joined to the middle of `along`) are
+/// each scored by one draft. The best of them follow the gradient of their cost over handles, knots and a
+/// free goal heading; the better half of these do so again, with nodes placed anew. The results are free of
+/// collisions along their whole length. Deterministic; empty where no free spline was found.
+[[nodiscard]] std::vector<SwingResult> best_swings(const SwingRequest& request,
+                                                   const FootprintChecker& checker, LegDrafts& drafts);
 
 }  // namespace joulepath

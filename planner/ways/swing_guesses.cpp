@@ -11,6 +11,12 @@ namespace {
 constexpr double kSharp_rad = 1.2;
 /// Lengths after which a guess joins the middle of a given curve.
 constexpr double kJoinAfter_m[] = {0.6, 1.5, 3.0};
+/// Knots of a guess along the whole of a given curve: from its ends, and between them at most.
+constexpr double kFirstKnot_m[] = {0.5, 1.2};
+constexpr double kBetweenKnots_m = 1.2;
+constexpr double kHalfway_m[] = {0.15, 0.35};  ///< to a knot in the middle of a swing
+constexpr double kBack_rad = 2.4;              ///< from this turn on, swings to both sides are guessed
+constexpr double kAligned_rad = 0.3;           ///< headings this close need no swing
 
 Point2 beside(const Point2& at, double bearing, double reach_m) {
   return {at[0] + reach_m * std::cos(bearing), at[1] + reach_m * std::sin(bearing)};
@@ -26,6 +32,10 @@ struct End {
 
   Point2 knot(double share_m, double aside_rad) const {
     return beside(place, bearing_rad - sign(turn_rad) * aside_rad, share_m);
+  }
+  /// A point in the direction halfway through a turn from the heading to the bearing.
+  Point2 halfway(double share_m, double by_rad) const {
+    return beside(place, bearing_rad - turn_rad + 0.5 * by_rad, share_m);
   }
   /// A point behind the robot, opposite to its heading: the curve then nearly turns in place.
   Point2 behind(double share_m) const {
@@ -46,6 +56,13 @@ class Guesses {
   void guess_spans();
   void guess_swings();
   void guess_joined();
+  void guess_along();
+  struct Leaving {
+    double handle_m{};
+    std::vector<Point2> knots{};  ///< between the end and the curve
+  };
+  static std::vector<Leaving> leavings(const Point2& end_m, const Point2& knot_m, double away_rad,
+                                       double reach_m);
 
   const SwingRequest& request_;
   End from_{}, to_{};  ///< at the start, and at the goal in reversed direction
@@ -151,6 +168,46 @@ void Guesses::guess_joined() {
   }
 }
 
+/// Ways to leave (or reach) an end towards the first knot of a curve.
+std::vector<Guesses::Leaving> Guesses::leavings(const Point2& end_m, const Point2& knot_m, double away_rad,
+                                                double reach_m) {
+  const double bearing = bearing_rad(end_m, knot_m);
+  const End end{end_m, bearing, std::remainder(bearing - away_rad, 2 * std::numbers::pi), reach_m};
+  if (std::abs(end.turn_rad) < kAligned_rad) return {{0.3 * reach_m, {}}};
+  std::vector<Leaving> all{{0.1, {}}};
+  for (const double away_m : kHalfway_m) {
+    all.push_back({0.5 * away_m, {end.halfway(away_m, end.turn_rad)}});
+    const double other_rad = end.turn_rad - 2 * sign(end.turn_rad) * std::numbers::pi;
+    if (std::abs(end.turn_rad) > kBack_rad) all.push_back({0.5 * away_m, {end.halfway(away_m, other_rad)}});
+  }
+  return all;
+}
+
+/// Follows the whole of the given curve, with a swing at an end whose heading is another one.
+void Guesses::guess_along() {
+  const Curve& along = *request_.along;
+  const double length_m = along.length_m();
+  const double last_rad = along.at(length_m).pose.heading_rad;
+  const double away_rad = request_.goal_heading_rad.value_or(last_rad) + std::numbers::pi;
+  for (const double first_m : kFirstKnot_m) {
+    const double rest_m = length_m - 2 * first_m;
+    if (rest_m <= 0) continue;
+    const auto parts = static_cast<int>(std::ceil(rest_m / kBetweenKnots_m));
+    std::vector<Point2> middle;
+    for (int i = 0; i <= parts; ++i) {
+      const Pose pose = along.at(first_m + rest_m * i / parts).pose;
+      middle.push_back({pose.x_m, pose.y_m});
+    }
+    for (const Leaving& from : leavings(start_m(), middle.front(), request_.start.heading_rad, first_m))
+      for (const Leaving& to : leavings(request_.goal_m, middle.back(), away_rad, first_m)) {
+        std::vector<Point2> knots = from.knots;
+        knots.insert(knots.end(), middle.begin(), middle.end());
+        knots.insert(knots.end(), to.knots.begin(), to.knots.end());
+        add(from.handle_m, to.handle_m, knots, last_rad);
+      }
+  }
+}
+
 void Guesses::face(double leave_rad, double arrive_rad) {
   const double reach_m = distance_m(start_m(), request_.goal_m);
   from_ = {start_m(), leave_rad, std::remainder(leave_rad - request_.start.heading_rad, 2 * std::numbers::pi),
@@ -172,6 +229,7 @@ std::vector<SwingGuess> Guesses::all() {
     face(request_.along->at(0).pose.heading_rad,
          request_.along->at(request_.along->length_m()).pose.heading_rad);
     guess_joined();
+    guess_along();
   }
   return std::move(guesses_);
 }

@@ -56,12 +56,23 @@ PathScore RefinedRun::turn_before(std::size_t k, const Path& path) const {
 }
 
 PathScore RefinedRun::turn_after(std::size_t k, const Path& path) const {
+  return turn_after(k, path.end().heading_rad);
+}
+
+PathScore RefinedRun::turn_after(std::size_t k, double arrives_rad) const {
   const ChainLeg& leg = request_.legs[k];
-  const double arrives_rad = path.end().heading_rad;
   const std::optional<double> after_rad = heading_after(k);
   if (!after_rad) return {.drivable = true};
   if (!request_.may_turn(leg.goal, arrives_rad, *after_rad)) return {};
   return leg.turns->turn(arrives_rad, *after_rad, leg.goal_payload_kg);
+}
+
+/// Cost of the turn after the leg by the heading of its arrival; none where any heading will do.
+std::function<double(double)> RefinedRun::turning_J(std::size_t k) const {
+  if (request_.legs[k].goal_heading_rad || !heading_after(k)) return {};
+  return [this, k](double arrives_rad) {
+    return turn_after(k, arrives_rad).cost_J(run_.contexts[k].finite_price_W());
+  };
 }
 
 PathScore RefinedRun::driving(std::size_t k, const Path& path) const {
@@ -105,38 +116,70 @@ void RefinedRun::take(std::size_t k, const Path& path) {
   part.refined = true;
 }
 
-void RefinedRun::swing(std::size_t k, bool checked) {
-  Part& part = parts_[k];
-  const ChoiceContext& context = run_.contexts[k];
-  const double price_W = context.finite_price_W();
+/// Curves of a leg that leave in a heading and arrive in the heading asked, else in any.
+std::vector<SwingResult> RefinedRun::swings(std::size_t k, double leaves_rad,
+                                            const std::optional<double>& arrives_rad) const {
+  const Part& part = parts_[k];
   const ChainLeg& leg = request_.legs[k];
   SwingRequest request{.start = part.path.start(), .goal_m = {leg.goal.x_m, leg.goal.y_m}};
-  request.start.heading_rad = heading_before(k).value_or(part.leaves_rad);
-  request.goal_heading_rad = leg.goal_heading_rad;
+  request.start.heading_rad = leaves_rad;
+  request.goal_heading_rad = arrives_rad;
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
-  const auto cost = [&](const Path& path) { return score(k, path).cost_J(price_W); };
-  const std::optional<SwingResult> result = best_swing(request, context.space->checker(), cost);
-  if (!result || result->cost >= score(k).cost_J(price_W)) return;
-  if (checked && !drivable(k, result->path)) return;
-  take(k, result->path);
-  part.spline = result->spline;
+  LegDrafts drafts(run_.contexts[k], run_.first + k,
+                   arrives_rad ? std::function<double(double)>() : turning_J(k));
+  return best_swings(request, run_.contexts[k].space->checker(), drafts);
 }
 
-/// Optimizes the stop between legs k and k + 1.
+/// Replaces the leg's path by the cheapest curve that leaves in a heading; false where none is cheaper.
+bool RefinedRun::swing_from(std::size_t k, double leaves_rad, bool checked) {
+  const double price_W = run_.contexts[k].finite_price_W(), found = score(k).cost_J(price_W);
+  for (const SwingResult& result : swings(k, leaves_rad, request_.legs[k].goal_heading_rad)) {
+    if (score(k, result.path).cost_J(price_W) >= found) return false;
+    if (checked && !drivable(k, result.path)) continue;
+    take(k, result.path);
+    parts_[k].spline = result.spline;
+    return true;
+  }
+  return false;
+}
+
+/// Where no curve from the robot's heading is cheaper, one from the heading of the way may be, and lead to
+/// the next stops.
+void RefinedRun::swing(std::size_t k, bool checked) {
+  const double leaves_rad = parts_[k].leaves_rad;
+  const double before_rad = heading_before(k).value_or(leaves_rad);
+  if (swing_from(k, before_rad, checked)) return;
+  if (!same_heading(before_rad, leaves_rad)) swing_from(k, leaves_rad, checked);
+}
+
+/// Optimizes the stop between legs k and k + 1. Where the robot turns there, the first leg is searched again,
+/// towards the heading in which the second one leaves.
 void RefinedRun::swing_through(std::size_t k, bool checked) {
   Part &before = parts_[k], &after = parts_[k + 1];
-  if (request_.legs[k].goal_heading_rad || !before.spline || !after.spline) return;
+  if (request_.legs[k].goal_heading_rad || !after.spline) return;
+  std::optional<FreeSpline> arriving = before.spline;
+  if (!arriving || !same_heading(before.arrives_rad, after.leaves_rad)) {
+    const std::vector<SwingResult> found =
+        swings(k, heading_before(k).value_or(before.leaves_rad), after.leaves_rad);
+    if (found.empty()) return;
+    arriving = found.front().spline;
+  }
   const double before_W = run_.contexts[k].finite_price_W(), after_W = run_.contexts[k + 1].finite_price_W();
-  const StopRequest request{
-      .before = *before.spline, .after = *after.spline, .cost = [&](const Path& first, const Path& second) {
-        return driving(k, first).cost_J(before_W) + driving(k + 1, second).cost_J(after_W) +
-               turn_after(k + 1, second).cost_J(after_W);
-      }};
-  const double found = before.driving.cost_J(before_W) + after.driving.cost_J(after_W) +
-                       turn_after(k + 1, after.path).cost_J(after_W) +
-                       turn_before(k + 1, after.path).cost_J(after_W);
-  const std::optional<StopResult> result = best_stop(request, run_.contexts[k].space->checker());
-  if (!result || result->cost >= found) return;
+  const double found = score(k).cost_J(before_W) + after.driving.cost_J(after_W) +
+                       turn_after(k + 1, after.path).cost_J(after_W);
+  LegDrafts before_drafts(run_.contexts[k], run_.first + k),
+      after_drafts(run_.contexts[k + 1], run_.first + k + 1, turning_J(k + 1));
+  const std::optional<StopResult> result = best_stop({.before = *arriving,
+                                                      .after = *after.spline,
+                                                      .drafts_before = before_drafts,
+                                                      .drafts_after = after_drafts},
+                                                     run_.contexts[k].space->checker());
+  if (!result) return;
+  const double cost = turn_before(k, result->before.path).cost_J(before_W) +
+                      driving(k, result->before.path).cost_J(before_W) +
+                      driving(k + 1, result->after.path).cost_J(after_W) +
+                      turn_after(k + 1, result->after.path).cost_J(after_W);
+  if (!(cost < found)) return;
   if (checked && !(drivable(k, result->before.path) && drivable(k + 1, result->after.path))) return;
   take(k, result->before.path);
   take(k + 1, result->after.path);

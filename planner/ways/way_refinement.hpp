@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
+#include "planner/ways/swing.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_run.hpp"
 
@@ -49,11 +51,16 @@ class RefinedRun {
   bool drivable(std::size_t k, const Path& path) const;
   PathScore turn_before(std::size_t k, const Path& path) const;
   PathScore turn_after(std::size_t k, const Path& path) const;
+  PathScore turn_after(std::size_t k, double arrives_rad) const;
+  std::function<double(double)> turning_J(std::size_t k) const;
   void refine(std::size_t k);
   /// Only the paths at the end must be drivable also between the nodes of a draft. Where one is not, all
   /// swings are searched again, and each is checked before it is taken.
   void swing_all(bool checked);
   void swing(std::size_t k, bool checked);
+  bool swing_from(std::size_t k, double leaves_rad, bool checked);
+  std::vector<SwingResult> swings(std::size_t k, double leaves_rad,
+                                  const std::optional<double>& arrives_rad) const;
   void swing_through(std::size_t k, bool checked);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;

@@ -12,7 +12,6 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kScoringNodes = 60;
 constexpr std::size_t kTurnNodes = 30;
 constexpr double kHighestPrice_W = 1e6;
 /// Upper bound of the cost of an arc, relative to a turn in place by the same angle.

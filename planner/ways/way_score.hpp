@@ -33,6 +33,8 @@ struct PathScore {
   PathScore& operator+=(const PathScore& other);
 };
 
+inline constexpr std::size_t kScoringNodes = 60;
+
 /// The score of a path on a leg, by inner profile solves on a coarse grid (`draft`): costs of ways differ by
 /// percents, costs on different grids by hundredths of a percent.
 [[nodiscard]] PathScore score_path(const Path& path, const LegRequest& leg, std::size_t leg_index,

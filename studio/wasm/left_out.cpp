@@ -45,14 +45,7 @@ RefineResult refine_path(const FootprintChecker&, const SmoothPath&, const PathC
   refuse("a refinement of corners");
 }
 
-double blocked(const FootprintChecker&, const Path&) { refuse("a search for a curve"); }
-void SplineVariables::add_handle(double, double) { refuse("a search for a curve"); }
-void SplineVariables::add_heading(double) { refuse("a search for a curve"); }
-void SplineVariables::add_knot(const Point2&, double) { refuse("a search for a curve"); }
-double minimize(SplineVariables&, const SearchEffort&,
-                const std::function<double(const std::vector<double>&)>&) {
-  refuse("a search for a curve");
-}
+std::optional<SplineSearchResult> minimize(const SplineSearch&) { refuse("a search for a curve"); }
 
 OccupancyGrid read_map(const std::string&, const NamedBy&, const ReadOptions&) { refuse("a map file"); }
 std::string map_image_file(const std::string&, const ReadOptions&) { refuse("a map file"); }

@@ -174,6 +174,8 @@ void FastSolver::fill(Solution& solution) const {
   solution.price_W = state_.multiplier_of_time();
   solution.row_multiplier.assign(p_->rows.size(), 0.0);
   for (const RowSide& side : state_.sides) solution.row_multiplier[side.row] += side.sign * side.pair.y;
+  solution.cap_multiplier.assign(p_->node_count(), 0.0);
+  for (std::size_t k = 0; k < state_.high.size(); ++k) solution.cap_multiplier[k + 1] = state_.high[k].y;
   for (const Recovery& recovery : state_.recoveries) {
     solution.z.push_back(recovery.z.s);
     solution.recovery_multiplier.push_back(recovery.sum.y);

@@ -36,6 +36,13 @@ double FootprintChecker::slack_m(const Pose& pose) const {
   return field_->distance_m(pose.x_m, pose.y_m) - need_m;
 }
 
+double FootprintChecker::near_slack_m(const Pose& pose) const {
+  const double need_m = outer_m_ + clearance_m_;
+  if (field_->distance_bounds_m(pose.x_m, pose.y_m).lower_m - need_m >= kLookAhead_m) return kLookAhead_m;
+  return is_disc() ? std::min(kLookAhead_m, field_->distance_m(pose.x_m, pose.y_m) - need_m)
+                   : polygon_slack_m(pose);
+}
+
 double FootprintChecker::polygon_slack_m(const Pose& pose) const {
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
   const double within_m = outer_m_ + clearance_m_ + kLookAhead_m;

@@ -27,6 +27,8 @@ class FootprintChecker {
   /// Distance from the outline to the nearest obstacle minus the clearance; exact near zero and a lower
   /// bound where it is larger than a few cells.
   [[nodiscard]] double slack_m(const Pose& pose) const;
+  /// The same, exact up to a tenth of a metre and never more than that: continuous, for derivatives.
+  [[nodiscard]] double near_slack_m(const Pose& pose) const;
   [[nodiscard]] bool free(const Pose& pose) const { return slack_m(pose) >= -kTolerance_m; }
 
   [[nodiscard]] std::optional<Collision> pose_collision(const Pose& pose) const;

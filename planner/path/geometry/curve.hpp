@@ -36,11 +36,10 @@ class Curve {
   /// Where the segments meet, both ends included, ascending: kappa' may jump there, kappa does not.
   const std::vector<double>& breakpoints_m() const { return breakpoints_m_; }
   const std::vector<CurveSegment>& segments() const { return segments_; }
-
- private:
-  /// The segment at an arc length within the curve.
+  /// Index of the segment at an arc length within the curve.
   std::size_t segment_at(double s_m) const;
 
+ private:
   std::vector<CurveSegment> segments_{};
   Direction direction_{};
   std::vector<double> breakpoints_m_{};

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/problem.hpp"
+#include "planner/nlp/transcription/solution.hpp"
+#include "planner/path/geometry/path_slopes.hpp"
+
+// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+namespace joulepath::nlp {
+
+/// Derivatives of a problem's least cost by its path. By the envelope theorem they are the partial
+/// derivatives of the Lagrangian at the solution, profile and multipliers kept: no further problem is solved.
+/// Nodes stay at their material points of the path, except where a wheel reverses. Borders of the floor's
+/// regions and memories of effects are taken as fixed to the path. Requires a solution of the fast solver,
+/// which has the multipliers of the caps.
+[[nodiscard]] PathSlopes lagrangian_slopes(const Problem& problem, const PathMotion& motion,
+                                           const Solution& solution);
+
+}  // namespace joulepath::nlp

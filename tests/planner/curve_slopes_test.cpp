@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "model/plant.hpp"
+#include "planner/path/shape/spline_slopes.hpp"
+#include "planner/profile/draft_series.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+/// The least cost of driving a spline, by the variables in the order of all_of().
+class SplineCost {
+ public:
+  SplineCost(const Plant& plant, double price_W) : plant_(plant), price_W_(price_W) {}
+
+  double operator()(const FreeSpline& spline) {
+    const std::optional<Path> path = free_spline_path(spline);
+    if (!path) return NAN;
+    ProfileRequest request{.piece = path->pieces.front(),
+                           .plant = plant_,
+                           .limits = *plant_.robot.limits,
+                           .payload = {4.0, 4.0},
+                           .nodes = 1600,
+                           .draft = true};
+    if (price_W_ > 0) request.time = {.mode = TimeMode::time_price, .price_W = price_W_};
+    const std::optional<DraftSeries::Cost> cost = series_.solve(request);
+    return cost ? cost->cost_J : NAN;
+  }
+  SplineSlopes slopes(const FreeSpline& spline) const {
+    return spline_slopes(spline, std::get<Curve>(free_spline_path(spline)->pieces.front()), series_.slopes());
+  }
+
+ private:
+  Plant plant_;
+  double price_W_;
+  DraftSeries series_{1e-10};
+};
+
+std::vector<double*> all_of(FreeSpline& spline) {
+  std::vector<double*> all{&spline.start_heading_rad, &spline.start_handle_m, &spline.goal_heading_rad,
+                           &spline.goal_handle_m};
+  for (std::size_t i = 1; i + 1 < spline.points_m.size(); ++i)
+    for (double& coordinate_m : spline.points_m[i]) all.push_back(&coordinate_m);
+  return all;
+}
+
+std::vector<double> all_of(const SplineSlopes& slopes) {
+  std::vector<double> all{slopes.by_start_heading_rad, slopes.by_start_handle_m, slopes.by_goal_heading_rad,
+                          slopes.by_goal_handle_m};
+  for (std::size_t i = 1; i + 1 < slopes.by_point_m.size(); ++i)
+    all.insert(all.end(), slopes.by_point_m[i].begin(), slopes.by_point_m[i].end());
+  return all;
+}
+
+/// Largest difference between the gradient and central differences of the optimal cost, of the gradient.
+double error_of(SplineCost& cost, const FreeSpline& spline) {
+  const double step = 1e-4;
+  (void)cost(spline);
+  const std::vector<double> gradient = all_of(cost.slopes(spline));
+  double size = 0, error = 0;
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    FreeSpline low = spline, high = spline;
+    *all_of(low)[i] -= step;
+    *all_of(high)[i] += step;
+    const double difference = (cost(high) - cost(low)) / (2 * step);
+    size = std::max(size, std::abs(gradient[i]));
+    error = std::max(error, std::abs(gradient[i] - difference));
+  }
+  return error / size;
+}
+
+const FreeSpline kWide{.points_m = {{0, 0}, {2.5, 0.4}, {5, 2}},
+                       .start_heading_rad = 0.6,
+                       .start_handle_m = 0.9,
+                       .goal_heading_rad = 0.8,
+                       .goal_handle_m = 1.1};
+/// Leaves on a short handle and swings round: the inner wheel reverses.
+const FreeSpline kSwinging{.points_m = {{0, 0}, {0.5, 0.35}, {3, 0.2}},
+                           .start_heading_rad = 2.0,
+                           .start_handle_m = 0.15,
+                           .goal_heading_rad = -0.2,
+                           .goal_handle_m = 0.8};
+
+// The derivative of a least cost is that of the Lagrangian at the solution (envelope theorem).
+TEST(CurveSlopes, AreTheDerivativesOfTheLeastCost) {
+  for (const double price_W : {0.0, 40.0}) {
+    SplineCost cost(make_nominal_plant(testing::nomad()), price_W);
+    EXPECT_LT(error_of(cost, kWide), 1e-3) << price_W;
+  }
+}
+
+TEST(CurveSlopes, CountThePlaceWhereAWheelReverses) {
+  SplineCost cost(make_nominal_plant(testing::nomad()), 0.0);
+  EXPECT_LT(error_of(cost, kSwinging), 2e-3);
+}
+
+}  // namespace
+}  // namespace joulepath
