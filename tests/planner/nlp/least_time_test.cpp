@@ -114,12 +114,12 @@ TEST(LeastTime, WithAJerkLimitIsNotBelowThatWithout) {
 TEST(LeastTime, TheLimitThatHoldsTheDriveIsNamed) {
   ProfileRequest request = testing::RandomProfiles(5).next(testing::PathClass::straight);
   request.piece = straight_piece({}, 30);
-  EXPECT_NE(solve_profile(in_time(request, TimeMode::time_budget, 20)).summary.message.find("; speed holds"),
+  EXPECT_NE(solve_profile(in_time(request, TimeMode::time_budget, 20)).summary.message.find("; speed limits"),
             std::string::npos);
   request.piece = straight_piece({}, 1.5);
   const std::string message = solve_profile(in_time(request, TimeMode::time_budget, 2)).summary.message;
-  EXPECT_TRUE(message.find("; acceleration holds") != std::string::npos ||
-              message.find("; deceleration holds") != std::string::npos)
+  EXPECT_TRUE(message.find("; acceleration limits") != std::string::npos ||
+              message.find("; deceleration limits") != std::string::npos)
       << message;
 }
 
