@@ -25,7 +25,8 @@ NoiseOfRuns noise_of_runs(const Dataset& dataset) {
   return noise;
 }
 
-/// Noise of a run's column over the median of the other runs; none where too few runs have it.
+/// Noise of a run's column over the median of the other runs; none where too few runs have it, where another
+/// run is nearly as noisy, and where the column has no noise: third differences then show the motion.
 std::optional<double> noise_ratio(const NoiseOfRuns& noise, std::size_t run, const std::string& column) {
   const auto own = noise[run].find(column);
   std::vector<double> others;
@@ -34,8 +35,9 @@ std::optional<double> noise_ratio(const NoiseOfRuns& noise, std::size_t run, con
   if (own == noise[run].end() || others.size() + 1 < kLeastRunsToName) return {};
   const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
   std::ranges::nth_element(others, middle);
-  if (*middle <= 0) return {};
-  return own->second / *middle;
+  const double most = std::ranges::max(others), median = *middle;
+  if (median < kLeastNoise || own->second < kNoiseApart * most) return {};
+  return own->second / median;
 }
 
 bool has_noise_of_unit(const NoiseOfRuns& noise, std::size_t run, const Fault& fault) {

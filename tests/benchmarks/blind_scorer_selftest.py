@@ -2,7 +2,6 @@
 
 usage: python3 blind_scorer_selftest.py"""
 import json
-import os
 import pathlib
 import sys
 import tempfile
@@ -161,17 +160,12 @@ class Campaign(unittest.TestCase):
             self.assertEqual(list(campaign.done_cases(log)), ["case_0001"])
             self.assertEqual(log.read_text(), '{"id": "case_0001"}\n')
 
-    def test_a_campaign_that_was_not_scored_is_not_asked_again(self):
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "full-0123456789ab").mkdir()
-            kept, os.environ["JOULEPATH_SEALED_DIR"] = os.environ.get("JOULEPATH_SEALED_DIR"), folder
-            try:
-                with self.assertRaises(SystemExit):
-                    again.newest_scored("full")
-            finally:
-                del os.environ["JOULEPATH_SEALED_DIR"]
-                if kept is not None:
-                    os.environ["JOULEPATH_SEALED_DIR"] = kept
+    def test_cases_of_other_logs_are_not_asked_again(self):
+        hashes = again.published()[2]
+        first = min(hashes)
+        again.refuse_other_logs({first: {"data_sha256": hashes[first] + "0" * 48}}, hashes)
+        with self.assertRaises(SystemExit):
+            again.refuse_other_logs({first: {"data_sha256": "0" * 64}}, hashes)
 
     def test_a_motion_that_is_none_is_not_driven(self):
         self.assertIsNone(examine.described({}))

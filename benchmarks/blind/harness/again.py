@@ -26,15 +26,19 @@ def asked(case):
     return seal.label_of(case), examine(case, with_controls=False)
 
 
+def refuse_other_logs(results, hashes):
+    changed = [i for i in results if not results[i].get("data_sha256", "").startswith(hashes[i])]
+    if changed:
+        sys.exit(f"the generator has changed since: {len(changed)} of {len(results)} cases have other logs, the first is {changed[0]}")
+
+
 def again(count, jobs):
     name, frozen, hashes = published()
     cases = [case for case in plan.plan(frozen, *workspace.effect_names(), plan.FULL)[: count or None] if case["id"] in hashes]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         answers = list(pool.map(asked, cases))
     labels, results = {label["id"]: label for label, _ in answers}, {result["id"]: result for _, result in answers}
-    changed = [i for i in results if not results[i].get("data_sha256", "").startswith(hashes[i])]
-    if changed:
-        sys.exit(f"the generator has changed since: {len(changed)} of {len(results)} cases have other logs, the first is {changed[0]}")
+    refuse_other_logs(results, hashes)
     lines = ["# Cases of the blind benchmark, asked again", "",
              f"Command `./dev bench blind again --cases {len(results)}`; program of commit `{workspace.head()[:12]}`; campaign `{name}` of `{frozen[:12]}`; {report.machine()}.",
              f"The first {len(results)} cases of a campaign whose labels are published: development data, which the program's thresholds have seen. The column",
