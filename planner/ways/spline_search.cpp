@@ -10,7 +10,7 @@
 namespace joulepath {
 namespace {
 
-using Kind = SplineMember::Kind;
+using MemberKind = SplineMember::Kind;
 
 constexpr double kLeastHandle_m = 0.01, kMostHandle_m = 20;
 constexpr double kReach_m = 3;         ///< how far a knot may move
@@ -23,13 +23,13 @@ constexpr double kNotDrivable = 100;  ///< in units of the first cost
 
 double& value_of(FreeSpline& spline, const SplineMember& member, std::size_t axis) {
   switch (member.kind) {
-    case Kind::start_heading:
+    case MemberKind::start_heading:
       return spline.start_heading_rad;
-    case Kind::start_handle:
+    case MemberKind::start_handle:
       return spline.start_handle_m;
-    case Kind::goal_heading:
+    case MemberKind::goal_heading:
       return spline.goal_heading_rad;
-    case Kind::goal_handle:
+    case MemberKind::goal_handle:
       return spline.goal_handle_m;
     default:
       return spline.points_m[member.knot][axis];
@@ -38,20 +38,22 @@ double& value_of(FreeSpline& spline, const SplineMember& member, std::size_t axi
 
 double slope_of(const SplineSlopes& slopes, const SplineMember& member, std::size_t axis) {
   switch (member.kind) {
-    case Kind::start_heading:
+    case MemberKind::start_heading:
       return slopes.by_start_heading_rad;
-    case Kind::start_handle:
+    case MemberKind::start_handle:
       return slopes.by_start_handle_m;
-    case Kind::goal_heading:
+    case MemberKind::goal_heading:
       return slopes.by_goal_heading_rad;
-    case Kind::goal_handle:
+    case MemberKind::goal_handle:
       return slopes.by_goal_handle_m;
     default:
       return slopes.by_point_m[member.knot][axis];
   }
 }
 
-bool is_handle(Kind kind) { return kind == Kind::start_handle || kind == Kind::goal_handle; }
+bool is_handle(MemberKind kind) {
+  return kind == MemberKind::start_handle || kind == MemberKind::goal_handle;
+}
 
 /// A part of a span that has a constraint of its own.
 struct Part {
@@ -103,7 +105,7 @@ void Search::take_first() {
   for (std::size_t v = 0; v < search_.variables.size(); ++v) {
     const SplineMember& member = search_.variables[v].members.front();
     FreeSpline spline = search_.first[member.spline];
-    for (std::size_t axis = 0; axis < (member.kind == Kind::knot ? 2u : 1u); ++axis) {
+    for (std::size_t axis = 0; axis < (member.kind == MemberKind::knot ? 2u : 1u); ++axis) {
       const double value = value_of(spline, member, axis);
       columns_.push_back({v, axis});
       if (is_handle(member.kind)) {
@@ -112,7 +114,7 @@ void Search::take_first() {
         upper_.push_back(std::log(kMostHandle_m));
         continue;
       }
-      const double reach = member.kind == Kind::knot ? kReach_m : std::numbers::pi;
+      const double reach = member.kind == MemberKind::knot ? kReach_m : std::numbers::pi;
       x_.push_back(value);
       lower_.push_back(value - reach);
       upper_.push_back(value + reach);
