@@ -104,7 +104,7 @@ inline constexpr double kMostEffectFactor = 1.5;
 /// A unit's factor from which on noise tells it: vibration multiplies a gyro's noise by less. Chosen (0522).
 inline constexpr double kLeastNoiseOfUnit = 30.0;
 /// Noise (SI units) below which a channel was computed, not measured. Physical scale (0522).
-inline constexpr double kLeastNoise = 1e-6;
+inline constexpr double kLeastSensorNoise = 1e-6;
 /// A run with another unit is noisier than every other run by this factor. Declared (0522).
 inline constexpr double kNoiseApart = 3.0;
 /// Faults of one dataset that are sought. Declared: bounds time.

@@ -36,7 +36,7 @@ std::optional<double> noise_ratio(const NoiseOfRuns& noise, std::size_t run, con
   const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
   std::ranges::nth_element(others, middle);
   const double most = std::ranges::max(others), median = *middle;
-  if (median < kLeastNoise || own->second < kNoiseApart * most) return {};
+  if (median < kLeastSensorNoise || own->second < kNoiseApart * most) return {};
   return own->second / median;
 }
 
