@@ -32,9 +32,8 @@ std::string frame_hint(const PathRequest& path, const Pose& start, const RouteSp
   const auto [x_m, y_m] = path.bezier_m.front().front();
   if (path.frame == PathRequest::Frame::map) {
     const bool counts_from_robot = x_m == 0 && y_m == 0;
-    return counts_from_robot
-               ? "points relative to the robot (x ahead, y to its left) need `frame: start`"
-               : "";
+    return counts_from_robot ? "points relative to the robot (x ahead, y to its left) need `frame: start`"
+                             : "";
   }
   const BezierChainResult on_map = bezier_chain(path.bezier_m, start, BezierFrame::map);
   const bool begins_here = on_map.ok() && !(space && blocked_path(on_map.path, *space));
