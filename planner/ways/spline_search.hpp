@@ -15,10 +15,12 @@ inline constexpr double kClearanceMargin_m = 0.002;
 
 /// A member of one of the splines.
 struct SplineMember {
-  enum class Kind { start_heading, start_handle, goal_heading, goal_handle, knot } kind{};
+  enum class Kind { start_heading, start_handle, goal_heading, goal_handle, knot };
+  Kind kind{};
   std::size_t spline{};
   std::size_t knot{};  ///< index in points_m
 };
+
 /// What an optimizer moves: one number (two for a knot) that all its members share.
 struct SplineVariable {
   std::vector<SplineMember> members{};
