@@ -16,9 +16,9 @@ class StopSwing {
  public:
   StopSwing(const StopRequest& request, const FootprintChecker& checker) : request_(request) {
     using Kind = SplineMember::Kind;
-    search_ = {.checker = &checker,
-               .first = {request.before, request.after},
-               .variables = {{{{Kind::goal_heading, 0}, {Kind::start_heading, 1}}}}};
+    search_.checker = &checker;
+    search_.first = {request.before, request.after};
+    search_.variables = {{{{Kind::goal_heading, 0}, {Kind::start_heading, 1}}}};
     for (std::size_t k = 0; k < 2; ++k) {
       search_.variables.push_back({{{Kind::start_handle, k}}});
       search_.variables.push_back({{{Kind::goal_handle, k}}});
