@@ -124,8 +124,9 @@ void check_mapped_columns_found(const std::vector<LogFile>& files, const ColumnS
                                 std::vector<std::string> names) {
   for (const auto& [column, source] : sources) {
     if (source.from.empty() || source.is_absent) continue;
-    const bool found = std::ranges::any_of(files, [&](const LogFile& file) {
-      return std::ranges::find_first_of(file.table.header, source.from) != file.table.header.end();
+    const std::vector<std::string>& from = source.from;  // clang 14 captures no structured binding
+    const bool found = std::ranges::any_of(files, [&from](const LogFile& file) {
+      return std::ranges::find_first_of(file.table.header, from) != file.table.header.end();
     });
     if (found) continue;
     for (const auto& [other, taken] : sources)  // a source of another column is no hint
