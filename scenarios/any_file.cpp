@@ -8,6 +8,7 @@
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/counted.hpp"
@@ -186,10 +187,8 @@ std::string kind_of(const Document& document) {
   if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar) {
     for (const auto& kind : file_kinds())
       if (line->text().rfind("joulepath/" + kind.name + "/", 0) == 0) return kind.name;
-    std::string names;
-    for (const auto& kind : file_kinds())
-      names += (names.empty() ? "" : ", ") + ("joulepath/" + kind.name + "/1");
-    line->fail("one of: " + names);
+    line->fail("one of: " +
+               text_of_list(file_kinds(), [](const auto& kind) { return "joulepath/" + kind.name + "/1"; }));
   }
   return told_kind(root);
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "model/number_text.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/quoted.hpp"
@@ -23,14 +24,15 @@ std::string flow_text(const Value& value) {
       return !value.quoted && (word || parse_number(value.text)) ? value.text : quoted(value.text);
     }
     case Value::Kind::list:
-      for (const Value& item : value.items) text += (text.empty() ? "" : ", ") + flow_text(item);
-      return "[" + text + "]";
+      return "[" + text_of_list(value.items, flow_text) + "]";
     case Value::Kind::map:
-      for (const Value::Entry& entry : value.entries)
-        text += (text.empty() ? "" : ", ") + entry.key + ": " + flow_text(entry.value);
-      return "{" + text + "}";
+      return "{" +
+             text_of_list(
+                 value.entries,
+                 [](const Value::Entry& entry) { return entry.key + ": " + flow_text(entry.value); }) +
+             "}";
   }
-  return text;
+  return "";
 }
 
 /// Converts file names relative to the dataset's folder to names relative to another folder.
@@ -54,10 +56,9 @@ class Relocation {
 std::string source_text(const std::string& column, const ColumnSource& source) {
   std::string text;
   const auto add = [&](const std::string& key, const std::string& value) {
-    text += (text.empty() ? "" : ", ") + key + ": " + value;
+    append_item(text, key + ": " + value);
   };
-  std::string names;
-  for (const std::string& name : source.from) names += (names.empty() ? "" : ", ") + quoted(name);
+  const std::string names = text_of_list(source.from, quoted);
   if (source.from.size() > 1) add("from", "[" + names + "]");
   if (source.from.size() == 1 && source.from.front() != column) add("from", names);
   if (source.is_absent) add("absent", "true");
@@ -95,10 +96,11 @@ Document document_of(const Dataset& dataset) {
 }
 
 std::string columns_text(const ColumnSources& sources) {
-  std::string text;
-  for (const auto& [column, source] : sources)
-    text += (text.empty() ? "" : ", ") + column + ": " + source_text(column, source);
-  return "{" + text + "}";
+  return "{" +
+         text_of_list(
+             sources,
+             [](const auto& entry) { return entry.first + ": " + source_text(entry.first, entry.second); }) +
+         "}";
 }
 
 std::string dataset_text(const Dataset& dataset, const DatasetEdit& edit, const std::string& directory) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 namespace {
@@ -161,9 +162,8 @@ std::string Node::described() const {
       if (!value_->items.empty() && value_->items.size() <= 4 &&
           std::all_of(value_->items.begin(), value_->items.end(),
                       [](const Value& item) { return item.kind == Value::Kind::scalar; })) {
-        std::string items;
-        for (const auto& item : value_->items) items += (items.empty() ? "" : ", ") + shortened(item.text);
-        return "[" + items + "]";
+        return "[" + text_of_list(value_->items, [](const Value& item) { return shortened(item.text); }) +
+               "]";
       }
       return value_->items.empty() ? "an empty list" : "a list of " + std::to_string(value_->items.size());
     case Value::Kind::map:

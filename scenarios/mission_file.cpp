@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/motion_entry.hpp"
 #include "scenarios/vda5050/order_mission.hpp"
 
@@ -26,13 +27,10 @@ std::string station_named(const Node& node, const std::map<std::string, Station>
   const std::string& name = node.text();
   if (stations.contains(name)) return name;
   std::vector<std::string> names;
-  std::string known;
-  for (const auto& [station, place] : stations) {
-    names.push_back(station);
-    known += (known.empty() ? "" : ", ") + station;
-  }
+  for (const auto& [station, place] : stations) names.push_back(station);
   const std::string near = nearest_word(name, names);
-  node.fail(known.empty() ? "a station; this mission has no stations" : "one of the stations: " + known,
+  node.fail(names.empty() ? "a station; this mission has no stations"
+                          : "one of the stations: " + text_of_list(names),
             near.empty() ? "" : "did you mean " + near + "?");
 }
 

@@ -3,6 +3,7 @@
 
 #include "model/limit_table.hpp"
 #include "model/number_text.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/quoted.hpp"
 #include "scenarios/robot_file.hpp"
 
@@ -22,7 +23,7 @@ class Section {
     return std::isfinite(value) ? raw(key, number_text(value)) : *this;
   }
   Section& raw(std::string_view key, const std::string& value) {
-    body_ += (body_.empty() ? "" : ", ") + std::string(key) + ": " + value;
+    append_item(body_, std::string(key) + ": " + value);
     return *this;
   }
   [[nodiscard]] std::string line() const { return body_.empty() ? "" : name_ + ": {" + body_ + "}\n"; }

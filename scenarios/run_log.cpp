@@ -6,6 +6,7 @@
 
 #include "model/kinematics.hpp"
 #include "model/number_text.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
@@ -85,10 +86,9 @@ std::vector<std::string> ignored_columns(const std::vector<std::string>& header,
 }
 
 void note_ignored(const std::vector<std::string>& ignored, RunLog& log, const std::string& run) {
-  std::string listed;
-  for (const std::string& name : ignored)
-    listed += (listed.empty() ? "" : ", ") + (name.empty() ? std::string("(no name)") : name);
-  if (!ignored.empty()) log.artifacts.push_back({"ignored_columns", run, "", listed, ignored.size(), 0.0});
+  if (ignored.empty()) return;
+  const auto text = [](const std::string& name) { return name.empty() ? "(no name)" : name; };
+  log.artifacts.push_back({"ignored_columns", run, "", text_of_list(ignored, text), ignored.size(), 0.0});
 }
 
 /// Columns of the format that a run may have and does not have, save those declared absent.

@@ -7,6 +7,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/dataset_file.hpp"
 
 namespace joulepath {
@@ -102,10 +103,8 @@ class DriftCommand : public Command {
   void print_not_compared(const DriftResult& result) const {
     std::map<std::string, std::string> names;  // by the reason
     for (const NotCompared& c : result.not_compared) {
-      std::string days;
-      for (const std::string& day : names_of(c.days)) days += (days.empty() ? "" : " and ") + day;
-      std::string& of = names[c.why + " (" + days + "); needs " + c.needs];
-      of += (of.empty() ? "" : ", ") + c.name;
+      const std::string days = text_of_list(names_of(c.days), " and ");
+      append_item(names[c.why + " (" + days + "); needs " + c.needs], c.name);
     }
     for (const auto& [reason, of] : names)
       (result.can_tell() ? std::cerr : std::cout) << "not compared: " << of << ": " << reason << "\n";

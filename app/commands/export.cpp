@@ -8,6 +8,7 @@
 #include "app/output_directory.hpp"
 #include "app/plan_options.hpp"
 #include "app/terminal.hpp"
+#include "model/text_of_list.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/export/exports.hpp"
@@ -160,9 +161,7 @@ class ExportCommand : public Command {
   }
 
   static void tell_names(const std::vector<ExportFile>& files) {
-    std::string names;
-    for (const ExportFile& file : files) names += (names.empty() ? "" : ", ") + file.name;
-    std::cout << "written: " << names << "\n";
+    std::cout << "written: " << text_of_list(files, &ExportFile::name) << "\n";
   }
 
   MissionSource source_{};

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
+#include "model/text_of_list.hpp"
 #include "planner/online/follow_drive.hpp"
 #include "scenarios/planned_pieces.hpp"
 #include "scenarios/robot_file.hpp"
@@ -219,11 +220,12 @@ class FollowPlanCommand : public Command {
       std::cout << "late by at most " << figure(executed["late_s"], 3) << " s; off by "
                 << figure(executed["end_error_m"], 3) << " m, " << figure(executed["worst_lateral_m"], 3)
                 << " m aside at most; planned again " << executed["replans"] << " times\n";
-    std::string uses;
-    for (const Json& use : report["command_limits"])
-      uses += (uses.empty() ? "" : ", ") + use["limit"].get<std::string>() + " " +
-              figure(100 * use["largest_fraction"].get<double>(), 3) + " %";
-    std::cout << "largest use of the limits by the commands: " << uses << "\n";
+    const auto use_text = [](const Json& use) {
+      return use["limit"].get<std::string>() + " " + figure(100 * use["largest_fraction"].get<double>(), 3) +
+             " %";
+    };
+    std::cout << "largest use of the limits by the commands: "
+              << text_of_list(report["command_limits"], use_text) << "\n";
   }
 
   std::string directory_{};

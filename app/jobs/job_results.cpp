@@ -11,6 +11,7 @@
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/counted.hpp"
 #include "scenarios/significant.hpp"
 
@@ -28,8 +29,9 @@ std::string joined(const std::vector<std::string>& lines) {
 std::string design_text(const Json& total) {
   std::string text;
   for (const auto& [name, value] : total["parameters"].items())
-    text += (text.empty() ? "" : ", ") + name + " " +
-            (value.is_string() ? value.get<std::string>() : significant_text(value.get<double>()));
+    append_item(
+        text,
+        name + " " + (value.is_string() ? value.get<std::string>() : significant_text(value.get<double>())));
   return printable(text) + ": " + figure(total["energy_J"].get<double>(), 6) + " J, " +
          figure(total["duration_s"].get<double>(), 5) + " s";
 }
@@ -46,10 +48,10 @@ void print_sweep(const Json& json) {
   if (json["planned"] == 0) return;  // no energies to compare
   Table table({"parameter", "share of the variance of energy", "levels: mean J"});
   for (const auto& effect : json["effects"]["energy_J"]["main"]) {
-    std::string levels;
-    for (const auto& level : effect["levels"])
-      levels += (levels.empty() ? "" : ", ") + level["level"].get<std::string>() + ": " +
-                figure(level["mean"].get<double>(), 5);
+    const std::string levels = text_of_list(effect["levels"], [](const auto& level) {
+      return level["level"].template get<std::string>() + ": " +
+             figure(level["mean"].template get<double>(), 5);
+    });
     table.row(
         {effect["parameter"], figure(100.0 * effect["share_of_variance"].get<double>(), 3) + " %", levels});
   }

@@ -6,6 +6,7 @@
 
 #include "app/build_id.hpp"
 #include "app/command.hpp"
+#include "model/text_of_list.hpp"
 #include "scenarios/output_schemas.hpp"
 
 namespace joulepath {
@@ -141,8 +142,7 @@ void check_complete(const std::vector<std::string>& directories, const std::vect
   std::string missing;
   std::size_t count = 0;
   for (std::size_t k = 1; k <= shards.front().shard.of; ++k)
-    if (!directory_of.contains(k) && ++count <= 10)
-      missing += (missing.empty() ? "" : ", ") + std::to_string(k);
+    if (!directory_of.contains(k) && ++count <= 10) append_item(missing, std::to_string(k));
   if (count > 0)
     refuse(directories[0], "of",
            std::to_string(count) + " of " + std::to_string(shards.front().shard.of) +

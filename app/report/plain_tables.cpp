@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/report/page_text.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath::report {
 namespace {
@@ -53,9 +54,7 @@ std::string cell_text(const json& value) {
     return text;
   }
   if (!value.is_array()) return value.dump();
-  std::string text;
-  for (const json& item : value) text += (text.empty() ? "" : ", ") + cell_text(item);
-  return text;
+  return text_of_list(value, cell_text);
 }
 
 bool is_table(const json& value) {

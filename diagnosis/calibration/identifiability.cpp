@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "model/text_of_list.hpp"
+
 namespace joulepath::calibration {
 namespace {
 
@@ -38,7 +40,7 @@ std::string others(const Eigen::VectorXd& direction, const std::vector<int>& fre
   std::string names;
   for (Eigen::Index i = 0; i < direction.size(); ++i)
     if (i != held && std::abs(direction[i]) > 0.2)
-      names += std::string(names.empty() ? "" : ", ") + fit_parameter_name(free[static_cast<std::size_t>(i)]);
+      append_item(names, fit_parameter_name(free[static_cast<std::size_t>(i)]));
   return names;
 }
 

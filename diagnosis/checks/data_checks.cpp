@@ -14,6 +14,7 @@
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0220-the-data-are-checked-first.md
 namespace joulepath {
 namespace {
@@ -120,8 +121,7 @@ class DataCheckSearch {
   void report(DataCheck check, const std::vector<std::size_t>& which) {
     for (std::size_t r : which) {
       check.runs.push_back(runs_[r].index());
-      if (which.size() < runs_.size())
-        check.run += (check.run.empty() ? "" : ", ") + dataset_.runs[runs_[r].index()].name;
+      if (which.size() < runs_.size()) append_item(check.run, dataset_.runs[runs_[r].index()].name);
     }
     checks_.push_back(std::move(check));
   }
@@ -143,7 +143,7 @@ class DataCheckSearch {
       std::vector<std::size_t> which;
       const bool needed = where.front().second.needed;
       for (const std::string& column : columns) {
-        check.channel += (check.channel.empty() ? "" : ", ") + column;
+        append_item(check.channel, column);
         if (!needed) check.columns.push_back({.column = column, .absent = true});
       }
       for (const auto& [r, channel] : where) which.push_back(r);

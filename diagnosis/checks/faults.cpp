@@ -7,6 +7,7 @@
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
 #include "model/log_columns.hpp"
+#include "model/text_of_list.hpp"
 
 namespace joulepath {
 namespace {
@@ -87,7 +88,7 @@ class Faults {
     Fault fault{.kind = "swapped"};
     for (const Names& pair : pairs) {
       if (!logged(pair)) continue;
-      fault.channel += (fault.channel.empty() ? "" : ", ") + pair[0] + ", " + pair[1];
+      append_item(fault.channel, pair[0] + ", " + pair[1]);
       fault.columns.push_back({.column = pair[0], .from = pair[1]});
       fault.columns.push_back({.column = pair[1], .from = pair[0]});
     }
@@ -105,7 +106,7 @@ class Faults {
       if (!logged({column})) continue;
       const ColumnRepair repair{.column = column, .scale = factor};
       add({kind, column, {repair}});
-      both.channel += (both.channel.empty() ? "" : ", ") + column;
+      append_item(both.channel, column);
       both.columns.push_back(repair);
     }
     if (both.columns.size() > 1) add(std::move(both));

@@ -7,6 +7,7 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 #include "model/limit_table.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0372-what-no-run-shows-has-no-name.md
 namespace joulepath {
 namespace {
@@ -26,7 +27,7 @@ std::string runs_text(const std::vector<std::string>& runs, std::size_t all) {
     return (runs.size() == all ? "all " : "") + std::to_string(runs.size()) + " runs: ";
   std::string text;
   for (const std::string& run : runs)
-    if (!run.empty()) text += (text.empty() ? "" : ", ") + run;
+    if (!run.empty()) append_item(text, run);
   return text.empty() ? text : text + ": ";
 }
 
@@ -39,9 +40,7 @@ std::vector<std::string> hidden_without(bool Needs::*need) {
 }
 
 std::string hidden_text(const std::vector<std::string>& effects) {
-  std::string text;
-  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
-  return text + " cannot be seen";
+  return text_of_list(effects) + " cannot be seen";
 }
 
 /// A channel that runs may lack: the effects that need it, or another consequence.

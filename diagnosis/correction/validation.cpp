@@ -8,6 +8,7 @@
 #include "diagnosis/evidence/fitted_model.hpp"
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0231-every-run-judges.md,
 // docs/decisions/0523-names-that-widen-the-gap.md
 namespace joulepath {
@@ -81,9 +82,7 @@ std::vector<std::vector<ActiveEffect>> parts_of(const std::vector<ActiveEffect>&
 }
 
 std::string in_words(const std::vector<ActiveEffect>& effects) {
-  std::string text;
-  for (const ActiveEffect& effect : effects) text += (text.empty() ? "" : ", ") + effect.candidate.label();
-  return text;
+  return text_of_list(effects, [](const ActiveEffect& effect) { return effect.candidate.label(); });
 }
 
 /// Whether a model may be written: it shrinks the held-out energy gap, or hardly changes it and shrinks the

@@ -4,6 +4,7 @@
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0371-evidence-is-not-withdrawn.md,
 // docs/decisions/0525-a-cause-without-a-sure-name.md
 namespace joulepath {
@@ -11,10 +12,8 @@ namespace {
 
 /// "depends on wheel speed (current), then payload (current)".
 std::string in_words(const std::vector<UnknownCause>& unknowns) {
-  std::string text;
-  for (const UnknownCause& unknown : unknowns)
-    text += (text.empty() ? "depends on " : ", then ") + unknown.depends_on;
-  return text;
+  if (unknowns.empty()) return "";
+  return "depends on " + text_of_list(unknowns, &UnknownCause::depends_on, ", then ");
 }
 
 /// Something matters, and no name is sure: the likeliest effect, in words.

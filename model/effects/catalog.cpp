@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "model/config_error.hpp"
+#include "model/text_of_list.hpp"
 // Design: docs/decisions/0003-effects.md
 // Design: docs/decisions/0120-effects-say-what-the-diagnosis-must-know.md
 namespace joulepath {
@@ -94,9 +95,8 @@ Effect build(const EffectSetting& setting) {
   }
   for (const auto& [name, value] : setting.parameters)
     if (!has_parameter<Type>(name)) {
-      std::string known;
-      for (const auto& p : Type::parameters()) known += (known.empty() ? "" : ", ") + std::string(p.name);
-      refuse(setting, name, "a parameter that this effect does not have", known);
+      refuse(setting, name, "a parameter that this effect does not have",
+             text_of_list(Type::parameters(), [](const auto& p) { return p.name; }));
     }
   if constexpr (requires { effect.side; }) {
     if (!setting.side) refuse(setting, "side", "nothing", "left or right");
@@ -160,11 +160,12 @@ const EffectDescription* find_effect(const std::string& name) {
 Effect make_effect(const EffectSetting& setting) {
   std::optional<Effect> effect = build_any(setting, static_cast<const Effect*>(nullptr));
   if (!effect) {
-    std::string known;
-    for (const EffectDescription& d : effect_catalog())
-      known += (known.empty() ? "" : ", ") + std::string(d.info.name);
     throw ConfigError(
-        {.mark = {}, .key = "effects", .found = "'" + setting.name + "'", .accepted = known, .hint = {}});
+        {.mark = {},
+         .key = "effects",
+         .found = "'" + setting.name + "'",
+         .accepted = text_of_list(effect_catalog(), [](const EffectDescription& d) { return d.info.name; }),
+         .hint = {}});
   }
   return *effect;
 }

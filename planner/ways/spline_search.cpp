@@ -21,7 +21,9 @@ constexpr double kTrust = 0.7;        ///< share of the excess of slack that a s
 constexpr double kStep_m = 1e-4;      ///< of differences of the clearance
 constexpr double kNotDrivable = 100;  ///< in units of the first cost
 
-double& value_of(FreeSpline& spline, const SplineMember& member, std::size_t axis) {
+/// Of a constant or a changing spline.
+template <class Spline>
+auto& value_of(Spline& spline, const SplineMember& member, std::size_t axis) {
   switch (member.kind) {
     case MemberKind::start_heading:
       return spline.start_heading_rad;
@@ -104,7 +106,7 @@ class Search {
 void Search::take_first() {
   for (std::size_t v = 0; v < search_.variables.size(); ++v) {
     const SplineMember& member = search_.variables[v].members.front();
-    FreeSpline spline = search_.first[member.spline];
+    const FreeSpline& spline = search_.first[member.spline];
     for (std::size_t axis = 0; axis < (member.kind == MemberKind::knot ? 2u : 1u); ++axis) {
       const double value = value_of(spline, member, axis);
       columns_.push_back({v, axis});
@@ -148,8 +150,7 @@ std::vector<double> Search::gradient_of(const std::vector<FreeSpline>& at,
     for (const SplineMember& member : variable(i).members) {
       if (only < at.size() && member.spline != only) continue;
       const SplineSlopes& of = slopes[only < at.size() ? 0 : member.spline];
-      FreeSpline spline = at[member.spline];
-      const double factor = is_handle(member.kind) ? value_of(spline, member, 0) : 1.0;
+      const double factor = is_handle(member.kind) ? value_of(at[member.spline], member, 0) : 1.0;
       gradient[i] += factor * slope_of(of, member, columns_[i].axis);
     }
   return gradient;

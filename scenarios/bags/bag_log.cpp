@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "model/text_of_list.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/bags/byte_reader.hpp"
@@ -98,8 +99,7 @@ class BagLogReader {
     std::string added;
     for (auto& [column, source] : suggested) {
       if (has_heading && is_heading(column)) continue;
-      if (sources.try_emplace(column, std::move(source)).second)
-        added += (added.empty() ? "" : ", ") + column;
+      if (sources.try_emplace(column, std::move(source)).second) append_item(added, column);
     }
     if (any_given_ && !added.empty())
       tell("proposed", "", added + ": read as the types of the topics propose, beside the mapped columns", 1);

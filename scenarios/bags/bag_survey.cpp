@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "model/text_of_list.hpp"
 #include "scenarios/bags/byte_reader.hpp"
 #include "scenarios/bags/message_numbers.hpp"
 #include "scenarios/bags/state_lines.hpp"
@@ -173,9 +174,8 @@ std::string currents_in_comments(const BagSurvey& survey) {
   return text;
 }
 
-std::string listed(const std::vector<std::string>& sources) {
-  std::string text;
-  for (const std::string& source : sources) text += (text.empty() ? "" : ", ") + quoted(source);
+std::string from_text(const std::vector<std::string>& sources) {
+  const std::string text = text_of_list(sources, quoted);
   return sources.size() == 1 ? text : "[" + text + "]";
 }
 
@@ -217,7 +217,7 @@ std::string suggested_dataset(const BagSurvey& survey, const std::string& file) 
         "  # position_x_m, position_y_m and heading_rad\n";
   for (const LogColumn& known : log_columns())
     if (const auto found = columns.find(known.name); found != columns.end())
-      text += "  " + known.name + ": {from: " + listed(found->second.from) +
+      text += "  " + known.name + ": {from: " + from_text(found->second.from) +
               (found->second.scale == 1.0 ? "}\n" : ", scale: -1}  # positive: the battery gives\n");
   for (const char* name : kOrientationColumns)
     if (const auto found = columns.find(name); found != columns.end())

@@ -9,9 +9,11 @@
 #include <set>
 
 #include "model/limit_table.hpp"
+#include "model/text_of_list.hpp"
 #include "planner/accounts/corner_table.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/mission_file.hpp"
+#include "scenarios/quoted.hpp"
 
 namespace joulepath {
 namespace {
@@ -159,12 +161,6 @@ std::set<std::string> operations_of(const Json& file) {
   return names;
 }
 
-std::string listed(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// A route server does not read the lines of edges. Returns the ids of those that were not straight.
 std::set<std::string> straighten(RouteGraph& graph) {
   std::set<std::string> bent;
@@ -181,7 +177,7 @@ std::vector<std::string> warnings_of(const Json& file, const RouteGraph& graph,
   std::vector<std::string> warnings;
   if (!foreign.empty())
     warnings.push_back(
-        "operations of the graph that the route server's settings do not load: " + listed(foreign) +
+        "operations of the graph that the route server's settings do not load: " + text_of_list(foreign) +
         "; the server stops a route at the first one. Add each to operations: with its plugin");
   std::set<std::string> fixed;
   std::size_t edge = 0;
@@ -194,7 +190,7 @@ std::vector<std::string> warnings_of(const Json& file, const RouteGraph& graph,
   if (!fixed.empty())
     warnings.push_back(
         "edges with overridable: false, whose own cost the route server uses instead of energy_J: " +
-        listed(fixed));
+        text_of_list(fixed));
   return warnings;
 }
 
@@ -221,12 +217,12 @@ std::string server_yaml(const std::string& graph_file, double most_m_s, bool tri
       "      weight: 1.0\n"
       "    DynamicEdgesScorer:\n"
       "      plugin: \"nav2_route::DynamicEdgesScorer\"\n";
-  if (!foreign.empty()) text += "    # to be added, with their plugins: " + listed(foreign) + "\n";
-  text += "    operations: [\"AdjustSpeedLimit\", \"ReroutingService\"";
-  text += triggers ? ", \"TriggerEvent\"]\n" : "]\n";
-  for (const char* name : {"AdjustSpeedLimit", "ReroutingService", "TriggerEvent"})
-    if (triggers || std::string(name) != "TriggerEvent")
-      text += "    " + std::string(name) + ":\n      plugin: \"nav2_route::" + name + "\"\n";
+  if (!foreign.empty()) text += "    # to be added, with their plugins: " + text_of_list(foreign) + "\n";
+  std::vector<std::string> operations = {"AdjustSpeedLimit", "ReroutingService"};
+  if (triggers) operations.push_back("TriggerEvent");
+  text += "    operations: [" + text_of_list(operations, quoted) + "]\n";
+  for (const std::string& name : operations)
+    text += "    " + name + ":\n      plugin: \"nav2_route::" + name + "\"\n";
   return text;
 }
 
@@ -284,8 +280,9 @@ RouteGraphExport export_route_graph(const RouteGraphOrder& order, const Robot& r
                           .arcs = arcs_told(costs, order.corner_radius_m),
                           .warnings = warnings_of(json, graph, foreign)};
   if (!straightened.empty())
-    result.warnings.push_back("edges whose lines have points beside their nodes: " + listed(straightened) +
-                              "; the route server drives straight from node to node, and so do these costs");
+    result.warnings.push_back(
+        "edges whose lines have points beside their nodes: " + text_of_list(straightened) +
+        "; the route server drives straight from node to node, and so do these costs");
   if (order.expand_turns) {
     Expansion expansion(json, graph, costs, most_m_s);
     json = expansion.write();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/text_of_list.hpp"
+
 namespace joulepath::studio {
 namespace {
 
@@ -47,7 +49,7 @@ Json json_of(const Value& value) {
 
 std::string flow_text(const Json& value) {
   std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto add = [&](const std::string& part) { append_item(text, part); };
   if (value.is_array()) {
     for (const Json& item : value) add(flow_text(item));
     return "[" + text + "]";
