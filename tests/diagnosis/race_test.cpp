@@ -150,7 +150,8 @@ bool is_beyond_doubt(double strength, std::size_t runs, const std::string& law) 
       .small.empty();
 }
 
-/// 600 readings of unit noise give a law of strength s about 300 s^2 - 9 log units, 10 to 18 and 66 with this noise.
+/// 600 readings of unit noise give a law of strength s about 300 s^2 - 9 log units, 10 to 18 and 66 with this
+/// noise.
 TEST(SmallMembers, OfFewRunsNeedAFirmLawAndTwiceTheEvidence) {
   EXPECT_TRUE(is_beyond_doubt(0.25, kRunsForSmallEffects, "viscous_friction"));
   EXPECT_FALSE(is_beyond_doubt(0.25, 6, "viscous_friction"));
