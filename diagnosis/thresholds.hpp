@@ -24,8 +24,8 @@ inline constexpr std::size_t kFolds = 5;
 /// With fewer held-out runs their scatter says little. Chosen: guards datasets with validation runs of their
 /// own.
 inline constexpr std::size_t kFewHeldOut = 3;
-/// With fewer diagnosis runs noise and scatter are known too little to be sure: no effect below the
-/// materiality floor is named. Chosen.
+/// With fewer diagnosis runs noise and scatter are known less: effects below the materiality floor need
+/// kSmallEffectEvidenceOfFewRuns. Chosen.
 inline constexpr std::size_t kRunsForSmallEffects = 8;
 /// Travel of one wheel beyond the other's over their sum, from which on a run turns; folds share such runs.
 /// Chosen.
@@ -252,7 +252,12 @@ inline constexpr std::size_t kMostReconsidered = 300;
 inline constexpr int kRelinearizations = 4;
 /// Log evidence needed to name an effect below the materiality floor. Chosen (0045).
 inline constexpr double kSmallEffectEvidence = 10.0;
-/// The same for pliable effects at just material size; grows as 1/sqrt(size). Chosen (0043).
+/// The same from fewer than kRunsForSmallEffects, firm effects alone. Derived: twice the above, as the
+/// scatter of six runs is underestimated by that factor in one draw of four (chi-square of 5 below 2.7)
+/// (0552).
+inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;
+/// The same as kSmallEffectEvidence for pliable effects at just material size; grows as 1/sqrt(size). Chosen
+/// (0043).
 inline constexpr double kSmallPliableEvidence = 13.0;
 /// Effects below this share of the materiality floor are not named. Chosen (0045): guards logs without noise.
 inline constexpr double kLeastSize = 0.03;

@@ -198,7 +198,7 @@ std::vector<Explanation> explain_energies(const EnergyProblem& problem,
                           {.most_effects = problem.visible.empty() ? 0 : kMostEffectsOfEnergies,
                            .allowed = problem.visible,
                            .least_amplitude = material_amplitudes(problem)});
-  std::erase_if(explanations, [](const Explanation& e) { return !e.material; });
+  std::erase_if(explanations, [](const Explanation& e) { return !e.small.empty(); });
   return explanations;
 }
 

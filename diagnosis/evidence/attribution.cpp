@@ -7,7 +7,9 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0043-small-effects-and-foreign-forms.md
+// Design: docs/decisions/0043-small-effects-and-foreign-forms.md,
+// docs/decisions/0551-a-small-member-keeps-its-set.md,
+// docs/decisions/0552-strong-evidence-of-few-runs.md
 namespace joulepath {
 namespace {
 
@@ -96,8 +98,8 @@ Explanation evaluate(const LinearProblem& problem, const Equations& equations, s
   explanation.loss = posterior.loss;
   if (!options.least_amplitude.empty()) {
     explanation.size = sizes_of(equations, explanation, posterior.mean, options.least_amplitude);
-    explanation.material =
-        std::all_of(explanation.size.begin(), explanation.size.end(), [](double size) { return size >= 1; });
+    for (std::size_t k = 0; k < explanation.size.size(); ++k)
+      if (explanation.size[k] < 1) explanation.small.push_back(explanation.candidates[k]);
   }
   if (!signs_hold(equations, explanation.columns, posterior.mean) ||
       !parts_hold(problem, equations, explanation, posterior.mean, explained))
@@ -112,26 +114,23 @@ double evidence_needed(const Candidate& candidate, double size, const SearchOpti
   return options.small_effect_evidence;
 }
 
-/// Whether every effect below the materiality floor has enough evidence: each alone must add a minimum.
+/// Whether an effect below the materiality floor has enough evidence: alone it must add a minimum.
 /// Inexact forms of a large effect bring a small share of its evidence, so the minimum includes that share,
 /// in proportion to the part of the signature that the other effects can reproduce.
 bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
-                  const SearchOptions& options, double empty_evidence) {
-  for (std::size_t k = 0; k < explanation.candidates.size(); ++k) {
-    if (explanation.size[k] >= 1) continue;
-    if (explanation.size[k] < kLeastSize) return false;
-    std::vector<int> others = explanation.candidates;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const double without =
-        evaluate(problem, equations, std::move(others), explanation.unknowns, options, empty_evidence).score;
-    const int c = explanation.candidates[k];
-    const double needed =
-        evidence_needed(equations.candidates[static_cast<std::size_t>(c)], explanation.size[k], options) +
-        ghost_share(problem, equations, explanation, c) * kShareOfFormError *
-            std::max(0.0, explanation.score);
-    if (explanation.score - without < needed) return false;
-  }
-  return true;
+                  int candidate, const SearchOptions& options, double empty_evidence) {
+  std::vector<int> others = explanation.candidates;
+  const auto at = std::ranges::find(others, candidate);
+  const double size = explanation.size[static_cast<std::size_t>(at - others.begin())];
+  if (size < kLeastSize) return false;
+  others.erase(at);
+  const double without =
+      evaluate(problem, equations, std::move(others), explanation.unknowns, options, empty_evidence).score;
+  const double needed =
+      evidence_needed(equations.candidates[static_cast<std::size_t>(candidate)], size, options) +
+      ghost_share(problem, equations, explanation, candidate) * kShareOfFormError *
+          std::max(0.0, explanation.score);
+  return explanation.score - without >= needed;
 }
 
 void insert_sorted(std::vector<int>& set, int member) {
@@ -208,6 +207,15 @@ double ghost_share(const LinearProblem& problem, const Equations& equations, con
   return std::clamp(most / kFullOverlap, 0.0, 1.0);
 }
 
+SearchOptions search_options(double dispersion, std::size_t runs, std::vector<double> least_amplitude) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const bool few = runs < kRunsForSmallEffects;
+  return {.dispersion = dispersion,
+          .least_amplitude = std::move(least_amplitude),
+          .small_effect_evidence = few ? kSmallEffectEvidenceOfFewRuns : kSmallEffectEvidence,
+          .small_pliable_evidence = few ? kNever : kSmallPliableEvidence};
+}
+
 std::vector<Explanation> search_explanations(const LinearProblem& problem, const Equations& equations,
                                              const SearchOptions& asked) {
   SearchOptions options = asked;
@@ -232,10 +240,17 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
                    [](const Explanation& a, const Explanation& b) { return a.score > b.score; });
   if (std::isfinite(options.small_effect_evidence))
     parallel_for(std::min(met.size(), kMostReconsidered), [&](std::size_t k) {
-      if (!met[k].material)
-        met[k].material = beyond_doubt(problem, equations, met[k], options, empty_evidence);
+      std::erase_if(met[k].small, [&](int candidate) {
+        return beyond_doubt(problem, equations, met[k], candidate, options, empty_evidence);
+      });
     });
   return met;
+}
+
+void erase_immaterial(std::vector<Explanation>& explanations) {
+  const bool keeps_best = !explanations.empty() && explanations.front().has_material();
+  std::erase_if(explanations,
+                [&](const Explanation& e) { return !e.small.empty() && !(keeps_best && e.has_material()); });
 }
 
 void scale_unknowns(Equations& equations, LinearProblem& problem, const std::vector<int>& known,

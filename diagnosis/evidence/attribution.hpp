@@ -17,7 +17,10 @@ struct Explanation {
   double score{};          ///< log evidence and log prior, relative to "nothing"
   double loss{};
   std::vector<double> size{};  ///< of each candidate, in just material amplitudes
-  bool material{true};         ///< every effect of it is large enough to matter, or beyond doubt
+  std::vector<int> small{};    ///< candidates below the materiality floor and not beyond doubt
+
+  /// Whether it holds a candidate that may be named.
+  bool has_material() const { return small.size() < candidates.size(); }
 };
 
 struct SearchOptions {
@@ -33,6 +36,11 @@ struct SearchOptions {
   std::vector<double> cost_of_unknown{};  ///< log odds against each; the search sets them
 };
 
+/// Options of a search on this many runs. Of effects below the materiality floor few runs name firm ones
+/// alone.
+[[nodiscard]] SearchOptions search_options(double dispersion, std::size_t runs,
+                                           std::vector<double> least_amplitude);
+
 /// How far an effect of an explanation may be the others' inexact form, 0 to 1: the part of its
 /// signature that they reproduce with strengths free to vary as their forms allow. Near 0 where they act on
 /// other channels or at other times.
@@ -45,6 +53,10 @@ struct SearchOptions {
 [[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
                                                            const Equations& equations,
                                                            const SearchOptions& options);
+
+/// Erases the sets that cannot be an answer: those with a small effect. Where the best set holds an effect
+/// that may be named beside it, sets like it stay: a worse set would name what explains less.
+void erase_immaterial(std::vector<Explanation>& explanations);
 
 /// Gives each unknown term the prior width at which it explains most beside the given columns: nobody knows
 /// how large an unknown cause is.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "diagnosis/evidence/delay_search.hpp"
 #include "diagnosis/evidence/groups.hpp"
@@ -39,25 +38,16 @@ std::vector<std::string> labels_of(const ModelState& state) {
   return labels;
 }
 
-/// Options of a search. Few runs name no effect below the materiality floor.
-SearchOptions search_options(double dispersion, bool few, std::vector<double> least_amplitude) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  return {.dispersion = dispersion,
-          .least_amplitude = std::move(least_amplitude),
-          .small_effect_evidence = few ? kNever : kSmallEffectEvidence,
-          .small_pliable_evidence = few ? kNever : kSmallPliableEvidence};
-}
-
 /// Effects of the best set of all that are not large enough to matter, nor beyond doubt.
 std::vector<SmallEffect> small_effects(const Equations& equations,
                                        const std::vector<Explanation>& explanations) {
   const Explanation& best = explanations.front();
   std::vector<SmallEffect> small;
-  if (best.material) return small;
+  if (best.small.empty()) return small;
   Inclusion inclusion;
   inclusion.add(equations, explanations);
   for (std::size_t k = 0; k < best.candidates.size(); ++k) {
-    if (best.size[k] >= 1) continue;
+    if (std::ranges::count(best.small, best.candidates[k]) == 0) continue;
     const std::string label = equations.candidates[static_cast<std::size_t>(best.candidates[k])].label();
     const double probability = inclusion.of(label);
     if (probability < kLeastProbabilityNamed) continue;
@@ -102,12 +92,12 @@ void search_about_state(const LogSet& logs, const std::set<std::string>& without
   id.problem = without_calibration(id.equations, runs, id.dispersion);
   scale_unknowns(id.equations, id.problem, columns_of(id.equations, id.state), id.dispersion);
   id.options = search_options(
-      id.dispersion, runs.size() < kRunsForSmallEffects,
+      id.dispersion, runs.size(),
       least_amplitudes(id.signals, robot, id.nuisances, id.state, id.equations.candidates, known));
   id.options.most_members = most;
   id.explanations = search_explanations(id.problem, id.equations, id.options);
   id.below_materiality = small_effects(id.equations, id.explanations);
-  std::erase_if(id.explanations, [](const Explanation& e) { return !e.material; });
+  erase_immaterial(id.explanations);
 }
 
 /// The state of the best set, refitted without the linearization.

@@ -156,6 +156,13 @@ Inclusion inclusion_of(const Examination& x) {
   return inclusion;
 }
 
+/// Whether an effect is one of the best set that is listed, not named.
+bool is_small(const Examination& x, const std::string& label) {
+  return std::ranges::any_of(x.best().small, [&](int c) {
+    return x.id.equations.candidates[static_cast<std::size_t>(c)].label() == label;
+  });
+}
+
 }  // namespace
 
 double probability_of(const Names& names, const ActiveEffect& effect) {
@@ -172,6 +179,7 @@ Names choose_names(const Examination& x) {
   share_probabilities(x, inclusion, names);
   for (const ActiveEffect& effect : x.id.state.effects) {
     const std::string label = effect.candidate.label();
+    if (is_small(x, label)) continue;
     std::set<std::string> group{label};
     if (const auto others = names.stand_ins.find(label); others != names.stand_ins.end())
       group.insert(others->second.begin(), others->second.end());

@@ -11,6 +11,7 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/signals/runs_by_use.hpp"
+#include "diagnosis/verdict/names.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -26,6 +27,7 @@ struct Gap {
   double law{};
   double term{};
   double difference{};
+  double other_law{};
 };
 
 /// Whitened rows of one calibration constant, two laws and one unknown term.
@@ -51,8 +53,8 @@ Equations drawn(const Gap& gap) {
       for (int k = 0; k < 4; ++k) curve += rows(t, kFirstOfTerm + k);
       const double difference = normal(engine);
       if (gap.difference != 0) rows(t, kLaw) = rows(t, kFirstOfTerm) + 1e-3 * difference;
-      rows(t, kColumns) =
-          gap.difference * difference + gap.law * rows(t, kLaw) + gap.term * curve + normal(engine);
+      rows(t, kColumns) = gap.difference * difference + gap.law * rows(t, kLaw) + gap.term * curve +
+                          gap.other_law * rows(t, kOtherLaw) + normal(engine);
     }
     equations.runs.push_back({.gram = rows.transpose() * rows});
   }
@@ -98,6 +100,63 @@ TEST(Race, ATermThatRefinesALawIsNoCauseBesideIt) {
   const Explanation best = raced(drawn({.law = 10.0, .term = 0.4})).front();
   EXPECT_EQ(best.candidates, std::vector<int>{0});
   EXPECT_TRUE(best.unknowns.empty());
+}
+
+/// {0, 1} is the best set; {2, 3} explains less and holds no small member.
+TEST(SmallMembers, DoNotGiveTheBestSetsPlaceToAWorseOne) {
+  std::vector<Explanation> sets{{.candidates = {0, 1}, .score = 20, .small = {1}},
+                                {.candidates = {2, 3}, .score = 12},
+                                {.candidates = {0}, .score = 10},
+                                {.candidates = {1}, .score = 5, .small = {1}},
+                                {}};
+  erase_immaterial(sets);
+  EXPECT_EQ(sets.front().candidates, (std::vector<int>{0, 1}));
+  EXPECT_EQ(sets.size(), 4u) << "a small effect alone is no answer";
+}
+
+TEST(SmallMembers, AloneAreNoAnswer) {
+  std::vector<Explanation> sets{
+      {.candidates = {1}, .score = 9, .small = {1}}, {.candidates = {0, 1}, .score = 8, .small = {1}}, {}};
+  erase_immaterial(sets);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_TRUE(sets.front().candidates.empty());
+}
+
+TEST(SmallMembers, AreNotNamedBesideALargeOne) {
+  const Dataset dataset{.robot = testing::nomad()};
+  const RunsByUse runs;
+  Identification id{.equations = drawn({.law = 0.6, .other_law = 0.6})};
+  id.problem = without_calibration(id.equations, every(kRaceRuns));
+  for (const Candidate& candidate : id.equations.candidates) id.state.effects.push_back({candidate, {0.6}});
+  const auto names = [&](double least_of_other) {
+    id.options.least_amplitude = {0.1, least_of_other};
+    id.explanations = search_explanations(id.problem, id.equations, id.options);
+    erase_immaterial(id.explanations);
+    return choose_names({.dataset = dataset, .runs = runs, .id = id}).named;
+  };
+  EXPECT_EQ(names(0.1).size(), 2u);
+  ASSERT_EQ(names(10.0).size(), 1u);
+  EXPECT_EQ(names(10.0).front().candidate.label(), "viscous_friction");
+}
+
+/// Whether a law of a tenth of the floor is beyond doubt, were it told by this many runs.
+bool is_beyond_doubt(double strength, std::size_t runs, const std::string& law) {
+  Equations equations = drawn({.law = strength});
+  equations.candidates.front().shape.name = law;
+  const double least = 10 * strength;
+  return search_explanations(without_calibration(equations, every(kRaceRuns)), equations,
+                             search_options(1.0, runs, {least, least}))
+      .front()
+      .small.empty();
+}
+
+/// 600 readings of unit noise give a law of strength s about 300 s^2 - 9 log units, 10 to 18 and 66 with this
+/// noise.
+TEST(SmallMembers, OfFewRunsNeedAFirmLawAndTwiceTheEvidence) {
+  EXPECT_TRUE(is_beyond_doubt(0.25, kRunsForSmallEffects, "viscous_friction"));
+  EXPECT_FALSE(is_beyond_doubt(0.25, 6, "viscous_friction"));
+  EXPECT_TRUE(is_beyond_doubt(0.5, 6, "viscous_friction"));
+  EXPECT_FALSE(is_beyond_doubt(0.5, 6, "turning_scrub"));
 }
 
 /// A law of five hundred times its size that a term takes back fits the gap, and explains nothing.
