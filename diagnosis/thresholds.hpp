@@ -202,6 +202,14 @@ inline constexpr double kLeastManoeuvreShare = 0.01;
 
 // Noise and calibration.
 
+/// Samples over which a residual of heading or position changes: longer than the memory of its short noise,
+/// so that only the walk of the encoders' noise makes longer ones change more. Chosen (0550).
+inline constexpr std::ptrdiff_t kShortNoiseLag = 5;
+/// See kShortNoiseLag; shorter than a run. Chosen (0550).
+inline constexpr std::ptrdiff_t kLongNoiseLag = 30;
+/// Least variance of that short noise over the mean square of the changes over kShortNoiseLag. Chosen (0550):
+/// guards logs where the walk is all.
+inline constexpr double kLeastShortNoise = 0.05;
 /// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
 inline constexpr double kResolution = 5e-4;
 /// The same of voltages: a duty cycle is set, not sensed, and finer. Physical scale.

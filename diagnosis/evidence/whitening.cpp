@@ -7,7 +7,8 @@
 #include <map>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0041-noise-is-what-a-fit-of-everything-leaves.md
+// Design: docs/decisions/0041-noise-is-what-a-fit-of-everything-leaves.md,
+// docs/decisions/0550-encoder-noise-is-a-random-walk.md
 namespace joulepath {
 namespace {
 
@@ -50,29 +51,21 @@ double size_of(const Autocovariance& r, double least_sd) {
   return r.count > 0 ? std::hypot(std::sqrt(r.lag[0]), least_sd) : 1.0;
 }
 
-/// Yule-Walker equations for two lags.
-void fit_memory(NoiseModel& noise, int channel, const Autocovariance& r, double least_sd) {
-  const auto c = static_cast<std::size_t>(channel);
-  noise.stationary_ratio[c] = 1.0;
-  noise.channel_sd[c] = size_of(r, least_sd);
-  if (r.count < kLeastSamples || r.lag[0] <= 0) return;
-  const double rho1 = std::clamp(r.lag[1] / r.lag[0], -0.98, 0.98);
-  const double rho2 = std::clamp(r.lag[2] / r.lag[0], -0.98, 0.98);
-  double a1 = rho1 * (1 - rho2) / (1 - rho1 * rho1), a2 = (rho2 - rho1 * rho1) / (1 - rho1 * rho1);
-  a2 = std::clamp(a2, -0.95, 0.95);
-  a1 = std::clamp(a1, -0.98 * (1 - a2), 0.98 * (1 - a2));
-  noise.memory[c] = {a1, a2};
-  noise.stationary_ratio[c] = std::sqrt(std::clamp(1 - a1 * rho1 - a2 * rho2, 0.02, 1.0));
+/// One channel of all runs that have a row of it.
+std::vector<ChannelOfRun> runs_with(const std::vector<ResidualRows>& runs, int channel) {
+  std::vector<ChannelOfRun> list;
+  for (const ResidualRows& run : runs)
+    if (run.present.col(channel).any())
+      list.push_back({run.value.col(channel), run.present.col(channel).array()});
+  return list;
 }
 
-double innovation(const NoiseModel& noise, const Eigen::MatrixXd& rows, const Eigen::MatrixXi& history,
-                  Eigen::Index t, Eigen::Index channel) {
+void fit_channel(NoiseModel& noise, int channel, const std::vector<ResidualRows>& runs, double least_sd) {
+  const Autocovariance r = autocovariance(runs, channel);
   const auto c = static_cast<std::size_t>(channel);
-  if (history(t, channel) < kAutoregressionOrder) return noise.stationary_ratio[c] * rows(t, channel);
-  double value = rows(t, channel);
-  for (int k = 1; k <= kAutoregressionOrder; ++k)
-    value -= noise.memory[c][static_cast<std::size_t>(k - 1)] * rows(t - k, channel);
-  return value;
+  noise.channel_sd[c] = size_of(r, least_sd);
+  if (r.count >= kLeastSamples && r.lag[0] > 0) noise.memory[c] = fit_autoregression(r.lag);
+  if (channel >= kHeading) noise.walk[c] = estimate_walk(runs_with(runs, channel));
 }
 
 /// True for channels with a common source of noise: a current enters the winding row and the driver row, the
@@ -99,29 +92,24 @@ Covariance made_positive(const Covariance& covariance) {
   return fixed;
 }
 
+/// Adds the products of the innovations of each two channels, and their number.
+void add_products(const NoiseModel& noise, const ResidualRows& run, Covariance& sum, Covariance& count) {
+  const Innovations innovations(noise, run.present);
+  Eigen::MatrixXd fresh(run.value.rows(), kChannelCount);
+  for (int c = 0; c < kChannelCount; ++c) fresh.col(c) = innovations(run.value, c);
+  const Eigen::MatrixXd present = run.present.cast<double>();
+  sum += fresh.transpose() * fresh;
+  count += present.transpose() * present;
+}
+
 }  // namespace
 
 NoiseModel estimate_noise(const std::vector<ResidualRows>& runs,
                           const std::array<double, kChannelCount>& least_sd) {
   NoiseModel noise;
-  for (int c = 0; c < kChannelCount; ++c)
-    fit_memory(noise, c, autocovariance(runs, c), least_sd[static_cast<std::size_t>(c)]);
+  for (int c = 0; c < kChannelCount; ++c) fit_channel(noise, c, runs, least_sd[static_cast<std::size_t>(c)]);
   Covariance sum = Covariance::Zero(), count = Covariance::Zero();
-  for (const ResidualRows& run : runs) {
-    const Eigen::MatrixXi history = history_of(run.present);
-    for (Eigen::Index t = 0; t < run.value.rows(); ++t) {
-      std::array<double, kChannelCount> fresh{};
-      for (int c = 0; c < kChannelCount; ++c)
-        if (history(t, c) >= 0)
-          fresh[static_cast<std::size_t>(c)] = innovation(noise, run.value, history, t, c);
-      for (int a = 0; a < kChannelCount; ++a)
-        for (int b = 0; b <= a; ++b)
-          if (history(t, a) >= 0 && history(t, b) >= 0) {
-            sum(a, b) += fresh[static_cast<std::size_t>(a)] * fresh[static_cast<std::size_t>(b)];
-            count(a, b) += 1;
-          }
-    }
-  }
+  for (const ResidualRows& run : runs) add_products(noise, run, sum, count);
   Covariance covariance = Covariance::Identity();
   for (int a = 0; a < kChannelCount; ++a)
     for (int b = 0; b <= a; ++b)
@@ -142,15 +130,38 @@ NoiseModel white_noise(const std::vector<ResidualRows>& runs,
   for (int c = 0; c < kChannelCount; ++c) {
     const Autocovariance r = autocovariance(runs, c);
     const auto i = static_cast<std::size_t>(c);
-    noise.stationary_ratio[i] = 1.0;
     noise.channel_sd[i] = r.count > 0 && r.lag[0] + least_sd[i] > 0 ? size_of(r, least_sd[i]) : 1.0;
     noise.innovation_covariance(c, c) = noise.channel_sd[i] * noise.channel_sd[i];
   }
   return noise;
 }
 
-Whitener::Whitener(const NoiseModel& noise, const Presence& present)
-    : noise_(noise), history_(history_of(present)) {
+Innovations::Innovations(const NoiseModel& noise, const Presence& present)
+    : memory_(noise.memory), history_(history_of(present)) {
+  for (Eigen::Index c = 0; c < present.cols(); ++c) {
+    const WalkNoise& walk = noise.walk[static_cast<std::size_t>(c)];
+    if (walk.step_variance > 0 && present.col(c).any())
+      walk_[static_cast<std::size_t>(c)].emplace(walk, present.col(c).array());
+  }
+}
+
+Eigen::VectorXd Innovations::operator()(const Eigen::MatrixXd& rows, int channel) const {
+  const auto c = static_cast<std::size_t>(channel);
+  if (walk_[c]) return walk_[c]->innovations(rows.col(channel));
+  Eigen::VectorXd result = rows.col(channel);
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    if (history_(t, channel) < 0)
+      result[t] = 0;
+    else if (history_(t, channel) < kAutoregressionOrder)
+      result[t] *= memory_[c].innovation_ratio;
+    else
+      for (int k = 1; k <= kAutoregressionOrder; ++k)
+        result[t] -= memory_[c].coefficient[static_cast<std::size_t>(k - 1)] * rows(t - k, channel);
+  }
+  return result;
+}
+
+Whitener::Whitener(const NoiseModel& noise, const Presence& present) : innovations_(noise, present) {
   std::map<std::vector<int>, int> known;
   for (Eigen::Index t = 0; t < present.rows(); ++t) {
     std::vector<int> channels;
@@ -175,9 +186,9 @@ Whitener::Whitener(const NoiseModel& noise, const Presence& present)
 }
 
 Eigen::VectorXd Whitener::operator()(const Eigen::MatrixXd& rows) const {
-  std::array<bool, kChannelCount> touched{};  // most columns touch one or two channels
-  for (Eigen::Index c = 0; c < rows.cols(); ++c)
-    touched[static_cast<std::size_t>(c)] = (rows.col(c).array() != 0).any();
+  std::array<Eigen::VectorXd, kChannelCount> innovations{};  // most columns touch one or two channels
+  for (int c = 0; c < kChannelCount; ++c)
+    if ((rows.col(c).array() != 0).any()) innovations[static_cast<std::size_t>(c)] = innovations_(rows, c);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(entries_);
   Eigen::Index first = 0;
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
@@ -185,12 +196,11 @@ Eigen::VectorXd Whitener::operator()(const Eigen::MatrixXd& rows) const {
         patterns_[static_cast<std::size_t>(pattern_of_sample_[static_cast<std::size_t>(t)])];
     const auto m = static_cast<Eigen::Index>(pattern.channels.size());
     for (Eigen::Index j = 0; j < m; ++j) {
-      const int channel = pattern.channels[static_cast<std::size_t>(j)];
-      if (!touched[static_cast<std::size_t>(channel)]) continue;
-      const double fresh = innovation(noise_, rows, history_, t, channel);
-      if (fresh == 0) continue;
+      const Eigen::VectorXd& of_channel =
+          innovations[static_cast<std::size_t>(pattern.channels[static_cast<std::size_t>(j)])];
+      if (of_channel.size() == 0 || of_channel[t] == 0) continue;
       const double* const factor = pattern.inverse_factor.data() + j * m;
-      for (Eigen::Index i = j; i < m; ++i) result[first + i] += fresh * factor[i];
+      for (Eigen::Index i = j; i < m; ++i) result[first + i] += of_channel[t] * factor[i];
     }
     first += m;
   }

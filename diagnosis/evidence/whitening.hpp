@@ -2,20 +2,21 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "diagnosis/evidence/walk_noise.hpp"
 #include "diagnosis/prediction/prediction.hpp"
 
 namespace joulepath {
 
-inline constexpr int kAutoregressionOrder = 2;
-
 /// Noise of the structured rows, estimated from the residuals of a dataset: an AR(2) process for each
-/// channel, and the covariance of the innovations of all channels at a sample.
+/// channel, with a random walk beside it in heading and positions, and the covariance of the innovations of
+/// all channels at a sample.
 struct NoiseModel {
-  std::array<std::array<double, kAutoregressionOrder>, kChannelCount> memory{};
-  std::array<double, kChannelCount> stationary_ratio{};  ///< sd of the innovation / sd of the channel
-  std::array<double, kChannelCount> channel_sd{};        ///< of the smoothed channel
+  std::array<Autoregression, kChannelCount> memory{};  ///< where the channel has no walk
+  std::array<WalkNoise, kChannelCount> walk{};
+  std::array<double, kChannelCount> channel_sd{};  ///< of the smoothed channel
   Eigen::Matrix<double, kChannelCount, kChannelCount> innovation_covariance{};
 };
 
@@ -27,6 +28,20 @@ struct NoiseModel {
 /// The same without memory and without shared noise: only the size of each channel's noise.
 [[nodiscard]] NoiseModel white_noise(const std::vector<ResidualRows>& rows,
                                      const std::array<double, kChannelCount>& least_sd = {});
+
+/// What the rows of a run add to what the rows before them tell, channel by channel.
+class Innovations {
+ public:
+  Innovations(const NoiseModel& noise, const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& present);
+
+  /// One channel; 0 where the row is absent. In steady state all have the same variance.
+  Eigen::VectorXd operator()(const Eigen::MatrixXd& rows, int channel) const;
+
+ private:
+  std::array<Autoregression, kChannelCount> memory_{};
+  Eigen::MatrixXi history_{};  ///< samples x channels: number of present samples before, -1 = absent
+  std::array<std::optional<WalkFilter>, kChannelCount> walk_{};
+};
 
 /// Turns rows into uncorrelated entries of unit variance. The same pattern of presence gives the same
 /// order of entries, so that signatures and residuals of a run match.
@@ -44,8 +59,7 @@ class Whitener {
     std::vector<int> channels{};
     Eigen::MatrixXd inverse_factor{};  ///< lower triangular
   };
-  NoiseModel noise_;
-  Eigen::MatrixXi history_;  ///< samples x channels: number of present samples before, -1 = absent
+  Innovations innovations_;
   std::vector<Pattern> patterns_{};
   std::vector<int> pattern_of_sample_{};
   std::vector<int> channel_of_entry_{};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/numerics/indices.hpp"
@@ -11,6 +12,8 @@
 
 namespace joulepath {
 namespace {
+
+using Presence = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Rows of pure AR(1) noise in every channel.
 ResidualRows noise_rows(Eigen::Index samples, double memory, std::mt19937& engine) {
@@ -36,7 +39,7 @@ TEST(Whitening, LeavesUnitUncorrelatedEntriesOfColoredNoise) {
   std::vector<ResidualRows> runs;
   for (int r = 0; r < 10; ++r) runs.push_back(noise_rows(400, 0.7, engine));
   const NoiseModel noise = estimate_noise(runs);
-  EXPECT_NEAR(noise.memory[kGyro][0], 0.7, 0.06);
+  EXPECT_NEAR(noise.memory[kGyro].coefficient[0], 0.7, 0.06);
   const Whitener whiten(noise, runs[0].present);
   const Eigen::VectorXd white = whiten(runs[0].value);
   EXPECT_NEAR(white.squaredNorm() / static_cast<double>(white.size()), 1.0, 0.08);
@@ -44,6 +47,84 @@ TEST(Whitening, LeavesUnitUncorrelatedEntriesOfColoredNoise) {
   for (Eigen::Index i = kChannelCount; i < white.size(); ++i)
     neighbors += white[i] * white[i - kChannelCount];
   EXPECT_NEAR(neighbors / static_cast<double>(white.size()), 0.0, 0.05);
+}
+
+/// A run's heading: a random walk beside AR(2) noise with the coefficients 0.9 and -0.3.
+ResidualRows walking_rows(Eigen::Index samples, double step_sd, double short_sd, std::mt19937& engine) {
+  std::normal_distribution<double> normal;
+  ResidualRows rows{.value = Eigen::MatrixXd::Zero(samples, kChannelCount)};
+  rows.present.setConstant(samples, kChannelCount, false);
+  rows.present.col(kHeading).setConstant(true);
+  double walk = 0, now = 0, before = 0;
+  for (Eigen::Index t = 0; t < samples; ++t) {
+    walk += step_sd * normal(engine);
+    before = std::exchange(now, 0.9 * now - 0.3 * before + short_sd * normal(engine));
+    rows.value(t, kHeading) = walk + now;
+  }
+  return rows;
+}
+
+std::vector<ResidualRows> walking_runs(double step_sd, double short_sd) {
+  std::mt19937 engine(11);
+  std::vector<ResidualRows> runs;
+  for (int r = 0; r < 24; ++r) runs.push_back(walking_rows(400, step_sd, short_sd, engine));
+  return runs;
+}
+
+/// Mean product of the entries of all runs with those `lag` later.
+double product_of_entries(const Whitener& whiten, const std::vector<ResidualRows>& runs, Eigen::Index lag) {
+  double sum = 0, count = 0;
+  for (const ResidualRows& run : runs) {
+    const Eigen::VectorXd white = whiten(run.value);
+    sum += white.head(white.size() - lag).dot(white.tail(white.size() - lag));
+    count += static_cast<double>(white.size() - lag);
+  }
+  return sum / count;
+}
+
+TEST(Whitening, LeavesUnitUncorrelatedEntriesOfAWalkBesideShortNoise) {
+  const std::vector<ResidualRows> runs = walking_runs(0.5, 1.0);
+  const NoiseModel noise = estimate_noise(runs);
+  EXPECT_NEAR(noise.walk[kHeading].step_variance, 0.25, 0.05);
+  EXPECT_NEAR(noise.walk[kHeading].memory.coefficient[0], 0.9, 0.1);
+  EXPECT_NEAR(noise.walk[kHeading].memory.coefficient[1], -0.3, 0.1);
+  const Whitener whiten(noise, runs[0].present);
+  EXPECT_NEAR(product_of_entries(whiten, runs, 0), 1.0, 0.03);
+  EXPECT_NEAR(noise.innovation_covariance(kHeading, kHeading), noise.walk[kHeading].settled_variance, 0.1);
+  for (Eigen::Index lag : {1, 2, 3, 5, 10, 30}) EXPECT_NEAR(product_of_entries(whiten, runs, lag), 0.0, 0.05);
+}
+
+TEST(Whitening, ALevelTellsNothingAboutAWalkAndASlopeItsSteps) {
+  const NoiseModel noise = estimate_noise(walking_runs(0.5, 0.01));
+  const Presence present = walking_runs(0.5, 0.01)[0].present;
+  const Eigen::MatrixXd level = Eigen::MatrixXd::Constant(present.rows(), kChannelCount, 1.0);
+  const Eigen::MatrixXd slope = Eigen::VectorXd::LinSpaced(present.rows(), 0, 1).replicate(1, kChannelCount);
+  const Whitener whiten(noise, present);
+  EXPECT_LT(whiten(level).squaredNorm(), 1e-3);  // its start is unknown
+  // The differences of a walk are white: 399 steps of 1/399 each, of variance 1/4.
+  EXPECT_NEAR(whiten(slope).squaredNorm(), 4.0 / 399, 0.2 * 4.0 / 399);
+}
+
+TEST(Whitening, AWalkThatIsNotThereChangesLittle) {
+  const std::vector<ResidualRows> runs = walking_runs(0.0, 1.0);
+  NoiseModel noise = estimate_noise(runs);
+  const Eigen::VectorXd with_walk = Whitener(noise, runs[0].present)(runs[0].value);
+  EXPECT_LT(noise.walk[kHeading].step_variance, 0.01);
+  noise.walk = {};
+  const Eigen::VectorXd without = Whitener(noise, runs[0].present)(runs[0].value);
+  EXPECT_LT((with_walk - without).squaredNorm(), 0.05 * without.squaredNorm());
+}
+
+TEST(Whitening, AWalkPassesRowsThatAreAbsent) {
+  std::vector<ResidualRows> runs = walking_runs(0.5, 0.3);
+  for (ResidualRows& run : runs)
+    for (int t = 100; t < 140; ++t) run.present(t, kHeading) = false;
+  const Whitener whiten(estimate_noise(runs), runs[0].present);
+  EXPECT_EQ(whiten.entries(), 360);
+  EXPECT_NEAR(product_of_entries(whiten, runs, 0), 1.0, 0.05);
+  double after = 0;  // the walk went on for 40 samples: its size there is known
+  for (const ResidualRows& run : runs) after += std::pow(whiten(run.value)[100], 2) / 24;
+  EXPECT_NEAR(after, 1.0, 0.7);
 }
 
 TEST(Whitening, AbsentRowsDoNotCount) {
