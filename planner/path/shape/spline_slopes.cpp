@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+// Design: docs/decisions/0560-the-gradient-of-a-spline-in-one-pass.md
 namespace joulepath {
 namespace {
 
