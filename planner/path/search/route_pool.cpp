@@ -18,7 +18,6 @@ constexpr double kDearer = 1.0;      // increase of the price of a metre per ear
 constexpr double kWideWithin_m = 2.5;
 constexpr double kWideExtra_m = 0.6;
 constexpr int kAttemptsPerClass = 2;
-constexpr double kNearlyStraight = 0.03;
 constexpr std::uint64_t kSeedStride = 7919;
 
 /// The routes found so far between the ends of one request.
@@ -46,12 +45,6 @@ class Pool {
     if (line.empty()) line = floor_.cell_route(start_, goal_, cells_);
     if (line.empty()) line = floor_.cell_route(start_, goal_, cells_ = FreeSpace::Cells::free);
     add_taut(line, "lattice");
-  }
-  /// Whether no other route can be shorter by more than kNearlyStraight; never on a floor that is not
-  /// uniform.
-  bool nearly_straight() const {
-    return !request_.cost.rate && !routes_.empty() &&
-           routes_.front().cost <= (1 + kNearlyStraight) * distance_m(start_, goal_);
   }
   void search(SearchPlanner planner, std::uint64_t seed) {
     const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, planner, cost_, seed});
@@ -118,7 +111,7 @@ std::vector<PooledRoute> search_all(const RouteSpace& space, const RouteRequest&
   Pool pool(space, request);
   if (!pool.straight()) {
     pool.search_cells();
-    for (int k = 0; k < options.searches && !pool.nearly_straight(); ++k)
+    for (int k = 0; k < options.searches; ++k)
       pool.search(request.planner, request.seed + kSeedStride * static_cast<std::uint64_t>(k));
     if (options.classes > 1) pool.search_away(options.classes);
   }

@@ -51,20 +51,6 @@ TEST(RoutePool, PassesTheIslandOnBothSidesCheapestFirst) {
   EXPECT_FALSE(same_homotopy_class(routes[0].polyline_m, routes[1].polyline_m, space.islands_m()));
 }
 
-// A route nearly as short as the straight line needs no search by samples: no other one is much shorter.
-TEST(RoutePool, SearchesBySamplesOnlyWhereAShorterRouteCanExist) {
-  const auto iterations = [](int row0, int row1) {
-    OccupancyGrid map = free_grid(200, 100, 0.1);
-    fill(map, 95, row0, 105, row1);
-    const RouteSpace space(map, nullptr, kRound, 0.05);
-    const auto routes = pool_routes(space, route_across(3, 5, 17, 5), {});
-    EXPECT_EQ(routes.size(), 2u);
-    return routes.front().search_iterations;
-  };
-  EXPECT_EQ(iterations(47, 54), 0u);
-  EXPECT_GT(iterations(20, 80), 0u);
-}
-
 TEST(RoutePool, HoldsFreeRoutesOfDifferentClassesInAWarehouse) {
   const OccupancyGrid map = warehouse_grid(2);
   const RouteSpace space(map, nullptr, kRound, 0.05);
