@@ -20,6 +20,11 @@ constexpr double kSlackStep_m = 0.03;
 constexpr double kTrust = 0.7;        ///< share of the excess of slack that a step may take
 constexpr double kStep_m = 1e-4;      ///< of differences of the clearance
 constexpr double kNotDrivable = 100;  ///< in units of the first cost
+/// A search ends that after so many evaluations is dearer than the cost to beat by more than this share.
+constexpr struct {
+  int evaluations{};
+  double excess{};
+} kHopeless[] = {{5, 0.10}, {9, 0.06}, {14, 0.02}};
 
 /// Of a constant or a changing spline.
 template <class Spline>
@@ -89,6 +94,7 @@ class Search {
   PointSlope slack_slope(const Part& part, const Curve& curve, double s_m) const;
   void constraints(double* result, const std::vector<double>& x, double* gradient);
   void keep(const Trial& here);
+  [[nodiscard]] bool hopeless() const;
   std::vector<double> gradient_of(const std::vector<FreeSpline>& at, const std::vector<SplineSlopes>& slopes,
                                   std::size_t only) const;
   void make_parts(const Trial& here);
@@ -100,6 +106,7 @@ class Search {
   Trial last_{};
   double scale_{1};
   int evaluations_{};
+  double least_{kNoLimit};  ///< cost so far, also of paths that are not free
   std::optional<SplineSearchResult> best_{};
 };
 
@@ -160,17 +167,29 @@ double Search::objective(const std::vector<double>& x, std::vector<double>& grad
   const Trial& here = trial(x);
   if (!gradient.empty()) std::fill(gradient.begin(), gradient.end(), 0.0);
   if (here.paths.empty()) return kNotDrivable;
-  ++evaluations_;
-  std::vector<SplineSlopes> slopes;
-  last_.cost = search_.cost(here.splines, here.paths, gradient.empty() ? nullptr : &slopes);
+  if (std::isnan(here.cost)) {
+    ++evaluations_;
+    last_.cost = search_.cost(here.paths);
+    if (std::isfinite(here.cost)) {
+      if (scale_ == 1) scale_ = here.cost;
+      keep(here);
+      least_ = std::min(least_, here.cost);
+    }
+    if (hopeless()) throw nlopt::forced_stop();
+  }
   if (!std::isfinite(here.cost)) return kNotDrivable;
-  if (scale_ == 1) scale_ = here.cost;
-  keep(here);
   if (!gradient.empty()) {
-    gradient = gradient_of(here.splines, slopes, here.splines.size());
+    gradient = gradient_of(here.splines, search_.slopes(here.splines), here.splines.size());
     for (double& part : gradient) part /= scale_;
   }
   return here.cost / scale_;
+}
+
+bool Search::hopeless() const {
+  if (!std::isfinite(search_.cost_to_beat)) return false;
+  const double excess = (least_ - search_.cost_to_beat) / std::abs(search_.cost_to_beat);
+  return std::any_of(std::begin(kHopeless), std::end(kHopeless),
+                     [&](const auto& at) { return evaluations_ >= at.evaluations && excess > at.excess; });
 }
 
 void Search::keep(const Trial& here) {
@@ -263,7 +282,7 @@ std::optional<SplineSearchResult> Search::run() {
         static_cast<Search*>(self)->constraints(result, std::vector<double>(x, x + n), gradient);
       },
       this, std::vector<double>(parts_.size(), 1e-5));
-  optimizer.set_ftol_rel(1e-6);
+  optimizer.set_ftol_rel(1e-5);
   optimizer.set_xtol_rel(1e-6);
   optimizer.set_maxeval(search_.most_evaluations);
   optimize_as_far_as_possible(optimizer, x_);

@@ -8,7 +8,8 @@
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/path/shape/spline_slopes.hpp"
 
-// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md,
+// docs/decisions/0561-hopeless-searches-end-early.md
 namespace joulepath {
 
 inline constexpr double kClearanceMargin_m = 0.002;
@@ -31,11 +32,12 @@ struct SplineSearch {
   const FootprintChecker* checker{};
   std::vector<FreeSpline> first{};
   std::vector<SplineVariable> variables{};
-  /// The cost of the paths of all splines, infinite where they cannot be driven; its derivatives where
-  /// `slopes` is given.
-  std::function<double(const std::vector<FreeSpline>&, const std::vector<Path>&,
-                       std::vector<SplineSlopes>* slopes)>
-      cost{};
+  /// The cost of the paths of all splines, infinite where they cannot be driven.
+  std::function<double(const std::vector<Path>&)> cost{};
+  /// Derivatives of the last cost, which was finite and that of these splines.
+  std::function<std::vector<SplineSlopes>(const std::vector<FreeSpline>&)> slopes{};
+  /// The search ends early where its cost falls too slowly for this one.
+  double cost_to_beat{kNoLimit};
   int most_evaluations{40};
 };
 

@@ -10,6 +10,7 @@ namespace joulepath {
 namespace {
 
 constexpr int kHeadings = 8;          ///< first guesses of the heading at the stop
+constexpr int kEvaluations = 25;      ///< of one optimization
 constexpr std::size_t kPolished = 2;  ///< of them, beside the one in which the curves meet
 
 class StopSwing {
@@ -25,12 +26,14 @@ class StopSwing {
       for (std::size_t knot = 1; knot + 1 < search_.first[k].points_m.size(); ++knot)
         search_.variables.push_back({{{Kind::knot, k, knot}}});
     }
-    search_.cost = [this](const auto& splines, const auto& paths, auto* slopes) {
-      const double cost = request_.drafts_before.cost_J(paths[0]) + request_.drafts_after.cost_J(paths[1]);
-      if (slopes && std::isfinite(cost))
-        *slopes = {request_.drafts_before.slopes(splines[0]), request_.drafts_after.slopes(splines[1])};
-      return cost;
+    search_.cost = [this](const auto& paths) {
+      return request_.drafts_before.cost_J(paths[0]) + request_.drafts_after.cost_J(paths[1]);
     };
+    search_.slopes = [this](const auto& splines) {
+      return std::vector<SplineSlopes>{request_.drafts_before.slopes(splines[0]),
+                                       request_.drafts_after.slopes(splines[1])};
+    };
+    search_.most_evaluations = kEvaluations;
   }
 
   std::optional<StopResult> run() {
@@ -61,7 +64,7 @@ class StopSwing {
         if (std::optional<Path> path = free_spline_path(spline)) paths.push_back(std::move(*path));
       if (paths.size() < splines.size()) continue;
       restart();
-      const double cost = search_.cost(splines, paths, nullptr);
+      const double cost = search_.cost(paths);
       if (std::isfinite(cost)) judged.emplace_back(cost, std::move(splines));
     }
     std::stable_sort(judged.begin(), judged.end(),
@@ -74,10 +77,11 @@ class StopSwing {
   void polish(const std::vector<FreeSpline>& first) {
     search_.first = first;
     restart();
+    if (best_) search_.cost_to_beat = best_->cost;
     std::optional<SplineSearchResult> found = minimize(search_);
     if (!found) return;
     restart();
-    found->cost = search_.cost(found->splines, found->paths, nullptr);
+    found->cost = search_.cost(found->paths);
     if (std::isfinite(found->cost) && (!best_ || found->cost < best_->cost)) best_ = std::move(found);
   }
 

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kStarts = 12;    ///< number of guesses that are polished
 constexpr std::size_t kSameSpans = 4;  ///< of them with the same number of spans
 constexpr std::size_t kAgain = 4;      ///< number of curves that are polished again
+constexpr double kNearBest = 0.02;     ///< their excess over the cheapest one at most
+constexpr double kSame_m = 0.02;       ///< curves this close everywhere are one
 constexpr int kFirstEvaluations = 20, kMoreEvaluations = 30;
 constexpr double kMostBlocked = 0.3;  ///< share of a guess in the way of obstacles
 constexpr double kPerBlocked = 2.0;   ///< increase of its value by that share
@@ -33,12 +35,22 @@ class Swing {
   std::vector<JudgedGuess> picked();
   double blocked(const Path& path) const;
   double value(const FreeSpline& spline);
-  std::optional<SwingResult> polished(const SwingGuess& guess, int most_evaluations);
+  std::optional<SwingResult> polished(const SwingGuess& guess, int most_evaluations, double cost_to_beat);
 
   const SwingRequest& request_;
   const FootprintChecker& checker_;
   LegDrafts& drafts_;
 };
+
+/// Compares places at equal shares of the lengths.
+bool same_curve(const Path& a, const Path& b) {
+  for (int i = 1; i < 16; ++i) {
+    const Curve &p = std::get<Curve>(a.pieces.front()), &q = std::get<Curve>(b.pieces.front());
+    const Pose at = p.at(p.length_m() * i / 16).pose, other = q.at(q.length_m() * i / 16).pose;
+    if (distance_m({at.x_m, at.y_m}, {other.x_m, other.y_m}) > kSame_m) return false;
+  }
+  return true;
+}
 
 bool cheaper(const SwingResult& a, const SwingResult& b) { return a.cost < b.cost; }
 
@@ -82,18 +94,20 @@ std::vector<JudgedGuess> Swing::picked() {
 }
 
 /// Optimizes both handles, a free goal heading and the moving knots.
-std::optional<SwingResult> Swing::polished(const SwingGuess& guess, int most_evaluations) {
+std::optional<SwingResult> Swing::polished(const SwingGuess& guess, int most_evaluations,
+                                           double cost_to_beat) {
   using Kind = SplineMember::Kind;
-  SplineSearch search{.checker = &checker_, .first = {guess.spline}, .most_evaluations = most_evaluations};
+  SplineSearch search{.checker = &checker_,
+                      .first = {guess.spline},
+                      .cost_to_beat = cost_to_beat,
+                      .most_evaluations = most_evaluations};
   search.variables = {{{{Kind::start_handle}}}, {{{Kind::goal_handle}}}};
   if (!request_.goal_heading_rad) search.variables.push_back({{{Kind::goal_heading}}});
   for (const std::size_t knot : guess.moving) search.variables.push_back({{{Kind::knot, 0, knot}}});
   drafts_.restart();
-  search.cost = [&](const std::vector<FreeSpline>& splines, const std::vector<Path>& paths,
-                    std::vector<SplineSlopes>* slopes) {
-    const double cost = drafts_.cost_J(paths.front());
-    if (slopes && std::isfinite(cost)) *slopes = {drafts_.slopes(splines.front())};
-    return cost;
+  search.cost = [&](const std::vector<Path>& paths) { return drafts_.cost_J(paths.front()); };
+  search.slopes = [&](const std::vector<FreeSpline>& splines) {
+    return std::vector<SplineSlopes>{drafts_.slopes(splines.front())};
   };
   std::optional<SplineSearchResult> found = minimize(search);
   if (!found) return std::nullopt;
@@ -105,13 +119,22 @@ std::optional<SwingResult> Swing::polished(const SwingGuess& guess, int most_eva
 
 std::vector<SwingResult> Swing::run() {
   std::vector<SwingResult> found;
+  double least = kNoLimit;
   for (const JudgedGuess& judged : picked())
-    if (auto result = polished(judged.guess, kFirstEvaluations)) found.push_back(std::move(*result));
+    if (auto result = polished(judged.guess, kFirstEvaluations, least)) {
+      least = std::min(least, result->cost);
+      found.push_back(std::move(*result));
+    }
   std::stable_sort(found.begin(), found.end(), cheaper);
   for (std::size_t i = 0; i < std::min(kAgain, found.size()); ++i) {
+    if (found[i].cost - least > kNearBest * std::abs(least)) break;
+    const auto same = [&](const SwingResult& other) { return same_curve(other.path, found[i].path); };
+    const auto here = found.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(found.begin(), here, same)) continue;
     SwingGuess again{.spline = found[i].spline};
     for (std::size_t knot = 1; knot + 1 < again.spline.points_m.size(); ++knot) again.moving.push_back(knot);
-    std::optional<SwingResult> better = polished(again, kMoreEvaluations);
+    std::optional<SwingResult> better = polished(again, kMoreEvaluations, least);
+    if (better) least = std::min(least, better->cost);
     if (better && better->cost < found[i].cost) found[i] = std::move(*better);
   }
   std::stable_sort(found.begin(), found.end(), cheaper);

@@ -3,10 +3,17 @@
 #include <cmath>
 
 #include "planner/path/shape/refine.hpp"
-#include "planner/ways/stop_swing.hpp"
 // Design: docs/decisions/0420-curves-are-checked-at-the-end.md
 namespace joulepath {
 namespace {
+
+constexpr double kAnyHeading = -100;
+
+void append(std::vector<double>& key, const FreeSpline& spline) {
+  key.insert(key.end(), {spline.start_heading_rad, spline.start_handle_m, spline.goal_heading_rad,
+                         spline.goal_handle_m});
+  for (const Point2& point : spline.points_m) key.insert(key.end(), point.begin(), point.end());
+}
 
 bool same_heading(const std::optional<double>& a_rad, double b_rad) {
   return a_rad && std::abs(wrapped_angle_rad(*a_rad - b_rad)) < 1e-6;
@@ -117,9 +124,19 @@ void RefinedRun::take(std::size_t k, const Path& path) {
 }
 
 /// Curves of a leg that leave in a heading and arrive in the heading asked, else in any.
-std::vector<SwingResult> RefinedRun::swings(std::size_t k, double leaves_rad,
-                                            const std::optional<double>& arrives_rad) const {
+const std::vector<SwingResult>& RefinedRun::swings(std::size_t k, double leaves_rad,
+                                                   const std::optional<double>& arrives_rad) {
   const Part& part = parts_[k];
+  const std::vector<double> key{static_cast<double>(k),
+                                leaves_rad,
+                                arrives_rad.value_or(kAnyHeading),
+                                heading_after(k).value_or(kAnyHeading),
+                                part.leaves_rad,
+                                part.arrives_rad,
+                                part.path.distance_m(),
+                                part.driving.energy_J};
+  const auto [entry, fresh] = known_swings_.try_emplace(key);
+  if (!fresh) return entry->second;
   const ChainLeg& leg = request_.legs[k];
   SwingRequest request{.start = part.path.start(), .goal_m = {leg.goal.x_m, leg.goal.y_m}};
   request.start.heading_rad = leaves_rad;
@@ -127,7 +144,22 @@ std::vector<SwingResult> RefinedRun::swings(std::size_t k, double leaves_rad,
   if (part.path.pieces.size() == 1) request.along = std::get_if<Curve>(&part.path.pieces.front());
   LegDrafts drafts(run_.contexts[k], run_.first + k,
                    arrives_rad ? std::function<double(double)>() : turning_J(k));
-  return best_swings(request, run_.contexts[k].space->checker(), drafts);
+  return entry->second = best_swings(request, run_.contexts[k].space->checker(), drafts);
+}
+
+/// The curves through the stop after leg k: that leg's first guess is `arriving`, the next one's its spline.
+const std::optional<StopResult>& RefinedRun::stop_swing(std::size_t k, const FreeSpline& arriving) {
+  const FreeSpline& leaving = *parts_[k + 1].spline;
+  std::vector<double> key{static_cast<double>(k), heading_after(k + 1).value_or(kAnyHeading)};
+  append(key, arriving);
+  append(key, leaving);
+  const auto [entry, fresh] = known_stops_.try_emplace(key);
+  if (!fresh) return entry->second;
+  LegDrafts before(run_.contexts[k], run_.first + k),
+      after(run_.contexts[k + 1], run_.first + k + 1, turning_J(k + 1));
+  return entry->second =
+             best_stop({.before = arriving, .after = leaving, .drafts_before = before, .drafts_after = after},
+                       run_.contexts[k].space->checker());
 }
 
 /// Replaces the leg's path by the cheapest curve that leaves in a heading; false where none is cheaper.
@@ -167,13 +199,7 @@ void RefinedRun::swing_through(std::size_t k, bool checked) {
   const double before_W = run_.contexts[k].finite_price_W(), after_W = run_.contexts[k + 1].finite_price_W();
   const double found = score(k).cost_J(before_W) + after.driving.cost_J(after_W) +
                        turn_after(k + 1, after.path).cost_J(after_W);
-  LegDrafts before_drafts(run_.contexts[k], run_.first + k),
-      after_drafts(run_.contexts[k + 1], run_.first + k + 1, turning_J(k + 1));
-  const std::optional<StopResult> result = best_stop({.before = *arriving,
-                                                      .after = *after.spline,
-                                                      .drafts_before = before_drafts,
-                                                      .drafts_after = after_drafts},
-                                                     run_.contexts[k].space->checker());
+  const std::optional<StopResult>& result = stop_swing(k, *arriving);
   if (!result) return;
   const double cost = turn_before(k, result->before.path).cost_J(before_W) +
                       driving(k, result->before.path).cost_J(before_W) +

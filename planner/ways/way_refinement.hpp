@@ -1,11 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
-#include "planner/ways/swing.hpp"
+#include "planner/ways/stop_swing.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_run.hpp"
 
@@ -59,8 +60,9 @@ class RefinedRun {
   void swing_all(bool checked);
   void swing(std::size_t k, bool checked);
   bool swing_from(std::size_t k, double leaves_rad, bool checked);
-  std::vector<SwingResult> swings(std::size_t k, double leaves_rad,
-                                  const std::optional<double>& arrives_rad) const;
+  const std::vector<SwingResult>& swings(std::size_t k, double leaves_rad,
+                                         const std::optional<double>& arrives_rad);
+  const std::optional<StopResult>& stop_swing(std::size_t k, const FreeSpline& arriving);
   void swing_through(std::size_t k, bool checked);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
@@ -68,6 +70,9 @@ class RefinedRun {
   const ChainRequest& request_;
   const WayRun& run_;
   std::vector<Part> parts_{};
+  /// Curves found so far by what determines them: swing_all() asks again for most of them.
+  std::map<std::vector<double>, std::vector<SwingResult>> known_swings_{};
+  std::map<std::vector<double>, std::optional<StopResult>> known_stops_{};
 };
 
 }  // namespace joulepath

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner/mission/mission.hpp"
+#include "planner/ways/spline_search.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -181,6 +182,50 @@ TEST(Swing, KeepsItsClearanceFromAWallBesideTheStart) {
   const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
   for (const StretchPlan& stretch : plan.legs[0].stretches)
     EXPECT_FALSE(space.checker().first_collision(stretch.request.piece));
+}
+
+/// A search for the shortest curve between two places, from a long one.
+SplineSearch shortest_curve(const FootprintChecker& checker) {
+  SplineSearch search{.checker = &checker,
+                      .first = {{.points_m = {{10, 10}, {11, 13}, {13, 8}, {15, 12}, {17, 10}},
+                                 .start_heading_rad = 1,
+                                 .start_handle_m = 1,
+                                 .goal_heading_rad = -1,
+                                 .goal_handle_m = 1}},
+                      .variables = {{{{SplineMember::Kind::knot, 0, 1}}},
+                                    {{{SplineMember::Kind::knot, 0, 2}}},
+                                    {{{SplineMember::Kind::knot, 0, 3}}}}};
+  search.cost = [](const std::vector<Path>& paths) { return paths.front().distance_m(); };
+  search.slopes = [](const std::vector<FreeSpline>& at) {
+    constexpr double kStep_m = 1e-5;
+    SplineSlopes slopes{.by_point_m = std::vector<Point2>(5)};
+    for (std::size_t i = 1; i < 4; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        FreeSpline low = at.front(), high = at.front();
+        low.points_m[i][k] -= kStep_m;
+        high.points_m[i][k] += kStep_m;
+        slopes.by_point_m[i][k] =
+            (free_spline_path(high)->distance_m() - free_spline_path(low)->distance_m()) / (2 * kStep_m);
+      }
+    return std::vector<SplineSlopes>{slopes};
+  };
+  return search;
+}
+
+// A start that stays far above the best cost known is given up; one that reaches it runs to its end.
+TEST(SplineSearch, EndsEarlyWhereItCannotBeatTheBestCost) {
+  const MissionWorld world = empty_floor();
+  const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
+  SplineSearch search = shortest_curve(space.checker());
+  const std::optional<SplineSearchResult> whole = minimize(search);
+  ASSERT_TRUE(whole);
+  EXPECT_GT(whole->evaluations, 6);
+  search.cost_to_beat = 0.5 * whole->cost;
+  const std::optional<SplineSearchResult> hopeless = minimize(search);
+  ASSERT_TRUE(hopeless);
+  EXPECT_LE(hopeless->evaluations, 5);
+  search.cost_to_beat = whole->cost;
+  EXPECT_DOUBLE_EQ(minimize(search)->cost, whole->cost);
 }
 
 }  // namespace

@@ -3,13 +3,22 @@
 #include <array>
 #include <cmath>
 
+// Design: docs/decisions/0560-the-gradient-of-a-spline-in-one-pass.md
 namespace joulepath {
 namespace {
 
-constexpr double kStep = 1e-6;  ///< of differences: control points are smooth in the variables
-
 double cross_m2(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
 double dot_m2(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+/// Derivatives of the cost by a spline's points, by its derivatives m at them per unit of chord, and by its
+/// chords, each with the others kept.
+struct Adjoint {
+  std::vector<Point2> point{}, derivative{};
+  std::vector<Point2> m{};
+  std::vector<double> chord{}, chord_m{};
+
+  void through_rows(const std::vector<Point2>& p);
+};
 
 /// Derivatives of the cost by the control points of the spans.
 class ControlSlopes {
@@ -24,7 +33,7 @@ class ControlSlopes {
  private:
   void add_first(std::size_t span, double t, const Point2& by_first);
   void add_differences(std::size_t span, const std::array<double, 3>& share, const Point2& by);
-  double along(const FreeSpline& low, const FreeSpline& high) const;
+  Adjoint by_points() const;
 
   const FreeSpline& spline_;
   std::vector<BezierPoints> spans_;
@@ -85,33 +94,86 @@ void ControlSlopes::add_length(std::size_t span, double from_t, double to_t, dou
   }
 }
 
-/// Change of the cost between two neighboring splines.
-double ControlSlopes::along(const FreeSpline& low, const FreeSpline& high) const {
-  const std::vector<BezierPoints> from = spline_spans(low), to = spline_spans(high);
-  double sum = 0;
-  for (std::size_t span = 0; span < spans_.size(); ++span)
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 2; ++k) sum += by_point_[span][i][k] * (to[span][i][k] - from[span][i][k]);
-  return sum;
+/// From the control points to the points, chords and derivatives m of the spline: a span is
+/// p, p + h m/3, p' - h m'/3, p'.
+Adjoint ControlSlopes::by_points() const {
+  const std::size_t last = spans_.size();
+  Adjoint by{.point = std::vector<Point2>(last + 1),
+             .derivative = std::vector<Point2>(last + 1),
+             .m = std::vector<Point2>(last + 1),
+             .chord = std::vector<double>(last),
+             .chord_m = std::vector<double>(last)};
+  for (std::size_t i = 0; i < last; ++i) {
+    const BezierPoints &span = spans_[i], &by_span = by_point_[i];
+    const double h = distance_m(span[0], span[3]);
+    by.chord_m[i] = h;
+    for (std::size_t k = 0; k < 2; ++k) {
+      by.m[i][k] = 3 * (span[1][k] - span[0][k]) / h;
+      by.m[i + 1][k] = 3 * (span[3][k] - span[2][k]) / h;
+      by.point[i][k] += by_span[0][k] + by_span[1][k];
+      by.point[i + 1][k] += by_span[2][k] + by_span[3][k];
+      by.derivative[i][k] += h / 3 * by_span[1][k];
+      by.derivative[i + 1][k] -= h / 3 * by_span[2][k];
+      by.chord[i] += (by_span[1][k] * by.m[i][k] - by_span[2][k] * by.m[i + 1][k]) / 3;
+    }
+  }
+  return by;
+}
+
+/// Through the tridiagonal rows of the spline (free_spline.cpp) by their transpose:
+///   h_i m_{i-1} + 2 (h_{i-1} + h_i) m_i + h_{i-1} m_{i+1} = 3 (h_i d_{i-1} + h_{i-1} d_i).
+void Adjoint::through_rows(const std::vector<Point2>& p) {
+  const std::size_t last = chord_m.size();
+  const std::vector<double>& h = chord_m;
+  std::vector<double> pivot(last);
+  std::vector<Point2> weight = derivative;
+  for (std::size_t i = 1; i < last; ++i) {
+    pivot[i] = 2 * (h[i - 1] + h[i]);
+    if (i == 1) continue;
+    const double share = h[i - 2] / pivot[i - 1];
+    pivot[i] -= share * h[i];
+    for (std::size_t k = 0; k < 2; ++k) weight[i][k] -= share * weight[i - 1][k];
+  }
+  for (std::size_t i = last; i-- > 1;)
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (i + 1 < last) weight[i][k] -= h[i + 1] * weight[i + 1][k];
+      const double w = weight[i][k] /= pivot[i];
+      const double before = h[i - 1], after = h[i];
+      const double in = (p[i][k] - p[i - 1][k]) / before, out = (p[i + 1][k] - p[i][k]) / after;
+      point[i - 1][k] -= w * 3 * after / before;
+      point[i][k] += w * 3 * (after / before - before / after);
+      point[i + 1][k] += w * 3 * before / after;
+      chord[i] -= w * (m[i - 1][k] + 2 * m[i][k] - 3 * in + 3 * before / after * out);
+      chord[i - 1] -= w * (2 * m[i][k] + m[i + 1][k] + 3 * after / before * in - 3 * out);
+      if (i == 1) derivative.front()[k] -= after * w;
+      if (i + 1 == last) derivative.back()[k] -= before * w;
+    }
 }
 
 SplineSlopes ControlSlopes::by_variables() const {
-  FreeSpline low = spline_, high = spline_;
-  const auto by = [&](double& in_low, double& in_high) {
-    const double value = in_low;
-    in_low = value - kStep;
-    in_high = value + kStep;
-    const double slope = along(low, high) / (2 * kStep);
-    in_low = in_high = value;
-    return slope;
+  const std::vector<Point2>& p = spline_.points_m;
+  Adjoint by = by_points();
+  by.through_rows(p);
+  SplineSlopes slopes;
+  // m = 3 handle / chord along the heading
+  const auto end = [](const Point2& by_m, double heading_rad, double handle_m, double chord_m,
+                      double& by_heading, double& by_handle, double& by_chord) {
+    const double c = 3 / chord_m * std::cos(heading_rad), s = 3 / chord_m * std::sin(heading_rad);
+    by_heading = handle_m * (by_m[1] * c - by_m[0] * s);
+    by_handle = by_m[0] * c + by_m[1] * s;
+    by_chord -= by_handle * handle_m / chord_m;
   };
-  SplineSlopes slopes{.by_start_heading_rad = by(low.start_heading_rad, high.start_heading_rad),
-                      .by_start_handle_m = by(low.start_handle_m, high.start_handle_m),
-                      .by_goal_heading_rad = by(low.goal_heading_rad, high.goal_heading_rad),
-                      .by_goal_handle_m = by(low.goal_handle_m, high.goal_handle_m)};
-  for (std::size_t i = 0; i < spline_.points_m.size(); ++i)
-    slopes.by_point_m.push_back(
-        {by(low.points_m[i][0], high.points_m[i][0]), by(low.points_m[i][1], high.points_m[i][1])});
+  end(by.derivative.front(), spline_.start_heading_rad, spline_.start_handle_m, by.chord_m.front(),
+      slopes.by_start_heading_rad, slopes.by_start_handle_m, by.chord.front());
+  end(by.derivative.back(), spline_.goal_heading_rad, spline_.goal_handle_m, by.chord_m.back(),
+      slopes.by_goal_heading_rad, slopes.by_goal_handle_m, by.chord.back());
+  slopes.by_point_m = std::move(by.point);
+  for (std::size_t i = 0; i + 1 < p.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double part = by.chord[i] * (p[i + 1][k] - p[i][k]) / by.chord_m[i];
+      slopes.by_point_m[i + 1][k] += part;
+      slopes.by_point_m[i][k] -= part;
+    }
   return slopes;
 }
 
