@@ -24,7 +24,7 @@ constexpr double kNotDrivable = 100;  ///< in units of the first cost
 constexpr struct {
   int evaluations{};
   double excess{};
-} kHopeless[] = {{5, 0.10}, {9, 0.06}, {14, 0.02}};
+} kHopeless[] = {{5, 0.10}, {9, 0.03}, {14, 0.01}};
 
 /// Of a constant or a changing spline.
 template <class Spline>
