@@ -75,7 +75,7 @@ double settled_variance(const WalkNoise& noise) {
 
 }  // namespace
 
-Autoregression fit_autoregression(const std::array<double, kAutoregressionOrder + 1>& lag) {
+Autoregression fit_autoregression(const Autocovariances& lag) {
   const double rho1 = std::clamp(lag[1] / lag[0], -0.98, 0.98);
   const double rho2 = std::clamp(lag[2] / lag[0], -0.98, 0.98);
   double a1 = rho1 * (1 - rho2) / (1 - rho1 * rho1), a2 = (rho2 - rho1 * rho1) / (1 - rho1 * rho1);
@@ -93,7 +93,7 @@ WalkNoise estimate_walk(const std::vector<ChannelOfRun>& runs) {
       std::max(kLeastShortNoise * near.value,
                0.5 * (near.value - static_cast<double>(kShortNoiseLag) * noise.step_variance));
   if (variance <= 0) return {};
-  std::array<double, kAutoregressionOrder + 1> lag{variance};
+  Autocovariances lag{variance};
   for (int k = 1; k <= kAutoregressionOrder; ++k)
     lag[static_cast<std::size_t>(k)] =
         variance - 0.5 * (change_over(runs, k).value - k * noise.step_variance);

@@ -7,6 +7,9 @@
 namespace joulepath {
 
 inline constexpr int kAutoregressionOrder = 2;
+/// Autocovariances at the lags 0 to kAutoregressionOrder.
+using Autocovariances = std::array<double, 3>;
+static_assert(std::tuple_size_v<Autocovariances> == kAutoregressionOrder + 1);
 
 /// x_t = coefficient[0] x_(t-1) + coefficient[1] x_(t-2) + innovation.
 struct Autoregression {
@@ -14,8 +17,8 @@ struct Autoregression {
   double innovation_ratio{1.0};  ///< sd of the innovation / sd of x
 };
 
-/// Yule-Walker equations for two lags; autocovariances at the lags 0 to 2, the first of them positive.
-[[nodiscard]] Autoregression fit_autoregression(const std::array<double, kAutoregressionOrder + 1>& lag);
+/// Yule-Walker equations for two lags; the variance is positive.
+[[nodiscard]] Autoregression fit_autoregression(const Autocovariances& lag);
 
 /// Noise of a channel that integrates: a random walk beside an AR(2) process. In the channel's unit, squared.
 struct WalkNoise {

@@ -26,13 +26,13 @@ Eigen::MatrixXi history_of(const Presence& present) {
 }
 
 struct Autocovariance {
-  std::array<double, kAutoregressionOrder + 1> lag{};
+  Autocovariances lag{};
   double count{};
 };
 
 Autocovariance autocovariance(const std::vector<ResidualRows>& runs, int channel) {
   Autocovariance sum;
-  std::array<double, kAutoregressionOrder + 1> counts{};
+  Autocovariances counts{};
   for (const ResidualRows& run : runs)
     for (Eigen::Index t = 0; t < run.value.rows(); ++t)
       for (int k = 0; k <= kAutoregressionOrder && k <= t; ++k) {
