@@ -20,6 +20,14 @@ SmoothingKernel gaussian_kernel(double sigma_s, double period_s) {
   }
   for (double& w : kernel.weight) w /= sum;
   for (double& w : kernel.slope_weight) w /= first_moment;
+  const double variance = first_moment / sum;
+  double of_parabola = 0;
+  for (int k = -half; k <= half; ++k) {
+    const double t = k * period_s;
+    kernel.curvature_weight.push_back((t * t - variance) * kernel.weight[static_cast<std::size_t>(k + half)]);
+    of_parabola += 0.5 * t * t * kernel.curvature_weight.back();
+  }
+  for (double& w : kernel.curvature_weight) w /= of_parabola;
   return kernel;
 }
 

@@ -4,11 +4,12 @@
 
 namespace joulepath {
 
-/// A Gaussian kernel on a uniform grid and its derivative, both discrete and normalized: smoothing preserves
-/// constants, and the derivative gives the slope of a straight line, both exactly.
+/// A Gaussian kernel on a uniform grid and its derivatives, discrete and normalized: smoothing preserves
+/// constants, and the derivatives give the slope of a straight line and the curvature of a parabola exactly.
 struct SmoothingKernel {
   std::vector<double> weight{};
-  std::vector<double> slope_weight{};  ///< 1/s
+  std::vector<double> slope_weight{};      ///< 1/s
+  std::vector<double> curvature_weight{};  ///< 1/s^2
   std::size_t half_width() const { return weight.size() / 2; }
 };
 

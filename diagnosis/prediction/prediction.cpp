@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "diagnosis/prediction/contact_creep.hpp"
 #include "diagnosis/prediction/region_edge.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "model/channel_delay.hpp"
@@ -108,24 +112,16 @@ Prediction empty_prediction(Eigen::Index n) {
   return out;
 }
 
-/// How far the body lags behind its wheels since the run's start.
+/// How far the body has lagged behind its wheels since the run's start.
 struct Slip {
   double heading_rad{}, x_m{}, y_m{};
-};
 
-/// Contact points are slower than the wheels by creep times force.
-void creep(const Plant& plant, const Sided<WheelState<double>>& state, double heading_rad, double period_s,
-           Twist<double>& twist, Slip& slip) {
-  const Sided<double> slip_m_s{plant.creep_m_s_N * state.left.contact_force_N,
-                               plant.creep_m_s_N * state.right.contact_force_N};
-  const double along_m_s = 0.5 * (slip_m_s.left + slip_m_s.right);
-  const double yaw_rad_s = (slip_m_s.right - slip_m_s.left) / (2 * plant.robot.geometry.half_track_m);
-  twist.speed_m_s -= along_m_s;
-  twist.yaw_rate_rad_s -= yaw_rad_s;
-  slip.heading_rad += yaw_rad_s * period_s;
-  slip.x_m += along_m_s * std::cos(heading_rad) * period_s;
-  slip.y_m += along_m_s * std::sin(heading_rad) * period_s;
-}
+  void add(double along_m, double turn_rad, double course_rad) {
+    heading_rad += turn_rad;
+    x_m += along_m * std::cos(course_rad);
+    y_m += along_m * std::sin(course_rad);
+  }
+};
 
 void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index j,
                      Sided<WheelState<double>> state, Prediction& out) {
@@ -222,38 +218,72 @@ void fill_motion(const RunSignals& signals, const Prediction& prediction, Residu
 
 }  // namespace
 
+namespace {
+
+/// Motion of the body as the wheels tell it, without creep.
+BodyMotion<double> rolled_motion(const RunSignals& signals, const Geometry& geometry, Eigen::Index j) {
+  const Twist<double> twist = body_twist(
+      geometry, Sided<double>{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]});
+  const Twist<double> rate = body_twist(geometry, Sided<double>{signals.wheel_acceleration_rad_s2.left[j],
+                                                                signals.wheel_acceleration_rad_s2.right[j]});
+  return {twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s};
+}
+
+/// Calls `visit(j, site, motion)` for the samples of a run in their order, and advances the effects' memory
+/// by the motion that `visit` returns.
+template <class Visit>
+void drive(const Plant& plant, const RunSignals& signals, const Visit& visit) {
+  const Geometry& geometry = plant.robot.geometry;
+  EffectMemory memory{};
+  for (Eigen::Index j = 0; j < signals.size(); ++j) {
+    const BodyMotion<double> rolled = rolled_motion(signals, geometry, j);
+    const Site site = site_at(signals, j, geometry, {rolled.speed_m_s, rolled.yaw_rate_rad_s}, memory);
+    const BodyMotion<double> motion = visit(j, site, rolled);
+    advance_memory(plant,
+                   caster_speed_m_s(geometry, motion.speed_m_s, motion.yaw_rate_rad_s) * signals.period_s,
+                   site.course, memory);
+  }
+}
+
+Sided<WheelState<double>> state_at(const Plant& plant, const RunSignals& signals,
+                                   const BodyMotion<double>& motion, const Site& site) {
+  return operating_point_over_kernel(plant, motion, site, motion.speed_m_s * signals.kernel_sigma_s);
+}
+
+/// Where a plant has no creep: nothing.
+std::optional<ContactCreep> creep_of(const Plant& plant, const RunSignals& signals) {
+  if (plant.creep_m_s_N == 0) return std::nullopt;
+  std::vector<Sided<double>> force_N;
+  force_N.reserve(static_cast<std::size_t>(signals.size()));
+  drive(plant, signals, [&](Eigen::Index, const Site& site, const BodyMotion<double>& motion) {
+    const auto [left, right] = state_at(plant, signals, motion, site);
+    force_N.push_back({left.contact_force_N, right.contact_force_N});
+    return motion;
+  });
+  return std::optional<ContactCreep>(std::in_place, plant, signals, force_N);
+}
+
+}  // namespace
+
 Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   const SplitModel split = split_model(point);
   const Plant& plant = split.plant;
-  const Geometry& geometry = plant.robot.geometry;
   Prediction out = empty_prediction(signals.size());
-  EffectMemory memory{};
+  const std::optional<ContactCreep> creep = creep_of(plant, signals);
   Slip slip;
-  for (Eigen::Index j = 0; j < signals.size(); ++j) {
-    const Sided<double> wheel{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]};
-    const Sided<double> turn{signals.wheel_acceleration_rad_s2.left[j],
-                             signals.wheel_acceleration_rad_s2.right[j]};
-    Twist<double> twist = body_twist(geometry, wheel);
-    const Twist<double> rate = body_twist(geometry, turn);
-    const Site site = site_at(signals, j, geometry, twist, memory);
-    const auto state_now = [&] {
-      return operating_point_over_kernel(
-          plant,
-          BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s},
-          site, twist.speed_m_s * signals.kernel_sigma_s);
-    };
-    Sided<WheelState<double>> state = state_now();
-    if (plant.creep_m_s_N != 0) {
-      creep(plant, state, site.pose.heading_rad, signals.period_s, twist, slip);
-      state = state_now();
+  drive(plant, signals, [&](Eigen::Index j, const Site& site, const BodyMotion<double>& rolled) {
+    const BodyMotion<double> motion = creep ? creep->body_motion(rolled, j) : rolled;
+    Sided<WheelState<double>> state = state_at(plant, signals, motion, site);
+    if (creep) {
+      creep->spin_wheels(site, j, state);
+      slip.add(creep->along_m_s(j) * signals.period_s, creep->turn_rad_s(j) * signals.period_s,
+               site.pose.heading_rad);
     }
     write_electrics(plant, signals, j, state, out);
-    out.yaw_rate_rad_s[j] = twist.yaw_rate_rad_s;
-    write_pose(geometry, signals, j, slip, out);
-    advance_memory(plant,
-                   caster_speed_m_s(geometry, twist.speed_m_s, twist.yaw_rate_rad_s) * signals.period_s,
-                   site.course, memory);
-  }
+    out.yaw_rate_rad_s[j] = motion.yaw_rate_rad_s;
+    write_pose(plant.robot.geometry, signals, j, slip, out);
+    return motion;
+  });
   distort(split.instruments, point.channel_delay_s, signals, out);
   return out;
 }

@@ -24,8 +24,8 @@ double noise_variance(const Eigen::VectorXd& mode, double third_difference_gain)
 }
 
 Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double third_difference_gain,
-                            Eigen::Index half_width) {
-  const double least = kAccelerationOverNoise * noise_variance(mode, third_difference_gain);
+                            Eigen::Index half_width, double over_noise) {
+  const double least = over_noise * noise_variance(mode, third_difference_gain);
   Eigen::VectorXd kept = mode;
   for (Eigen::Index j = 0; j < mode.size(); ++j) {
     const Eigen::Index first = std::max<Eigen::Index>(0, j - half_width),
@@ -35,18 +35,28 @@ Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double third_difference
   return kept;
 }
 
+Sided<Eigen::VectorXd> modes_above_noise(const Sided<Eigen::VectorXd>& wheels, double third_difference_gain,
+                                         Eigen::Index half_width, double over_noise) {
+  const auto kept = [&](const Eigen::VectorXd& mode) {
+    return above_noise(mode, third_difference_gain, half_width, over_noise);
+  };
+  const Eigen::VectorXd driving = kept(0.5 * (wheels.left + wheels.right)),
+                        turning = kept(0.5 * (wheels.right - wheels.left));
+  return {driving - turning, driving + turning};
+}
+
 }  // namespace
 
 void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, double third_difference_gain,
                                double period_s) {
   if (period_s > kLongestNoisePeriod_s) return;
   const auto half_width = static_cast<Eigen::Index>(std::lround(kAccelerationWindow_s / period_s));
-  const auto without_noise = [&](const Eigen::VectorXd& mode) {
-    return above_noise(mode, third_difference_gain, half_width);
-  };
-  const Eigen::VectorXd driving = without_noise(0.5 * (acceleration_rad_s2.left + acceleration_rad_s2.right));
-  const Eigen::VectorXd turning = without_noise(0.5 * (acceleration_rad_s2.right - acceleration_rad_s2.left));
-  acceleration_rad_s2 = {driving - turning, driving + turning};
+  acceleration_rad_s2 =
+      modes_above_noise(acceleration_rad_s2, third_difference_gain, half_width, kAccelerationOverNoise);
+}
+
+void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain) {
+  jerk_rad_s3 = modes_above_noise(jerk_rad_s3, third_difference_gain, 1, kJerkOverNoise);
 }
 
 }  // namespace joulepath

@@ -15,4 +15,7 @@ namespace joulepath {
 void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, double third_difference_gain,
                                double period_s);
 
+/// The same for jerks, which come in short peaks: three samples count.
+void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain);
+
 }  // namespace joulepath

@@ -42,8 +42,9 @@ bool has_yaw(const std::vector<RunSignals>& signals, const Geometry& geometry) {
 }
 
 RunSignals straightened(RunSignals run) {
-  for (Sided<Eigen::VectorXd>* of : {&run.wheel_speed_rad_s, &run.wheel_acceleration_rad_s2,
-                                     &run.wheel_angle_rad, &run.wheel_along_x_rad, &run.wheel_along_y_rad})
+  for (Sided<Eigen::VectorXd>* of :
+       {&run.wheel_speed_rad_s, &run.wheel_acceleration_rad_s2, &run.wheel_jerk_rad_s3, &run.wheel_angle_rad,
+        &run.wheel_along_x_rad, &run.wheel_along_y_rad})
     of->left = of->right = Eigen::VectorXd(0.5 * (of->left + of->right));
   return run;
 }

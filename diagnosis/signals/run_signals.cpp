@@ -82,17 +82,20 @@ class Thinner {
 
   Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
   Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
+  Eigen::VectorXd curvature(const Samples& on_grid) const { return thin(on_grid, kernel_.curvature_weight); }
   /// Variance of the third differences of slopes over that of the slopes, both of white noise of the channel.
-  double third_difference_gain() const {
+  double third_difference_gain() const { return third_difference_gain(kernel_.slope_weight); }
+  double third_difference_gain_of_jerk() const { return third_difference_gain(kernel_.curvature_weight); }
+
+ private:
+  double third_difference_gain(const Samples& weights) const {
     const auto correlation = [&](std::size_t lag) {
-      const std::size_t shift = std::min(lag * stride_, kernel_.slope_weight.size());
-      return std::inner_product(kernel_.slope_weight.begin() + static_cast<std::ptrdiff_t>(shift),
-                                kernel_.slope_weight.end(), kernel_.slope_weight.begin(), 0.0);
+      const std::size_t shift = std::min(lag * stride_, weights.size());
+      return std::inner_product(weights.begin() + static_cast<std::ptrdiff_t>(shift), weights.end(),
+                                weights.begin(), 0.0);
     };
     return 20 - (30 * correlation(1) - 12 * correlation(2) + 2 * correlation(3)) / correlation(0);
   }
-
- private:
   Eigen::VectorXd thin(const Samples& on_grid, const Samples& weights) const {
     if (on_grid.empty()) return {};
     Eigen::VectorXd result(static_cast<Eigen::Index>(centers_.size()));
@@ -167,6 +170,8 @@ void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Sample
   signals.wheel_acceleration_rad_s2 = {thinner.slope(wheels.left), thinner.slope(wheels.right)};
   remove_acceleration_noise(signals.wheel_acceleration_rad_s2, thinner.third_difference_gain(),
                             thinner.period_s());
+  signals.wheel_jerk_rad_s3 = {thinner.curvature(wheels.left), thinner.curvature(wheels.right)};
+  remove_jerk_noise(signals.wheel_jerk_rad_s3, thinner.third_difference_gain_of_jerk());
   for (Side side : kSides) {
     const Samples& speed = wheels[side];
     signals.wheel_speed_rad_s[side] = thinner.smooth(speed);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/prediction/candidates.hpp"
+#include "diagnosis/prediction/contact_creep.hpp"
 #include "diagnosis/where/localize.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
@@ -70,6 +71,44 @@ TEST(Prediction, OfResistanceChangesTheWindingAndNotTheCurrent) {
                 1e-9);
     EXPECT_NEAR(hot.power_W.left[j] - base.power_W.left[j],
                 0.1 * nomad().motor.left.resistance_ohm * std::pow(base.current_A.left[j], 2), 1e-9);
+  }
+}
+
+/// A body whose wheels slip lags behind them: at 400 N s/m by 29 kg/(2 400 N s/m) = 36 ms.
+TEST(Prediction, OfSlipKnowsTheLagOfTheBody) {
+  for (const double stiffness_N_s_m : {100.0, 400.0, 1500.0}) {
+    Robot truth = nomad();
+    truth.inertia.wheel_axle_inertia_kg_m2 = 0;  // the log's wheels turn without inertia of their own
+    const EffectSetting slip{.name = "wheel_slip",
+                             .parameters = {{"creep_stiffness_N_s_m", stiffness_N_s_m}}};
+    Robot slipping = truth;
+    slipping.effects = {slip};
+    const joulepath::Run drive =
+        testing::synthetic_run(slipping, "weaving", 15, 3.0, testing::swinging(0.5, 0.2, 3.0, 0.5, 2.0));
+    const RunSignals run = make_run_signals(drive, 0, truth);
+    const auto worst_A = [&](const ModelPoint& point) {
+      const Prediction p = predict(run, point);
+      return (run.motor_current_A.left - p.current_A.left).segment(5, run.size() - 10).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(worst_A({.robot = slipping}), 0.05 * worst_A({.robot = truth})) << stiffness_N_s_m;
+  }
+}
+
+/// y' + y / lag = ramp / lag: behind a ramp by slope times lag once the start has decayed; at once without
+/// lag.
+TEST(Lagged, FollowsARampBehindItByTheLag) {
+  constexpr Eigen::Index kCount = 40;
+  constexpr double kPeriod = 0.1, kSlope = 3.0;
+  const Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(kCount, 0, kSlope * kPeriod * (kCount - 1)),
+                        slope = Eigen::VectorXd::Constant(kCount, kSlope);
+  for (const double lag_s : {0.0, 1e-6, 0.02, 0.1, 0.4}) {
+    const Lagged y = lagged(ramp, slope, Eigen::VectorXd::Constant(kCount, lag_s), kPeriod);
+    for (Eigen::Index j = 1; j < kCount; ++j) {
+      const double t = kPeriod * static_cast<double>(j);
+      const double decayed = lag_s > 0 ? std::exp(-t / lag_s) : 0.0;
+      EXPECT_NEAR(y.value[j], kSlope * (t - lag_s * (1 - decayed)), 1e-12) << lag_s;
+      EXPECT_NEAR(y.rate[j], kSlope * (1 - decayed), 1e-12) << lag_s;
+    }
   }
 }
 

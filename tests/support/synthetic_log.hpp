@@ -23,7 +23,7 @@ struct LogNoise {
 inline Run synthetic_run(const Robot& robot, const std::string& name, double duration_s, double payload_kg,
                          const MotionLaw& law, const LogNoise& noise = {}, unsigned seed = 1,
                          double period_s = 0.02) {
-  const Plant plant = make_nominal_plant(robot);
+  const Plant plant = make_plant(robot, {});
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   Run run{.name = name, .payload = {{0, payload_kg}}, .payload_known = true};

@@ -1,0 +1,88 @@
+#include "diagnosis/prediction/contact_creep.hpp"
+
+#include <cmath>
+
+// Design: docs/decisions/0553-slip-is-a-state.md
+namespace joulepath {
+namespace {
+
+/// Central differences.
+Eigen::VectorXd slopes(const Eigen::VectorXd& y, double period_s) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(y.size());
+  for (Eigen::Index j = 1; j + 1 < y.size(); ++j) result[j] = (y[j + 1] - y[j - 1]) / (2 * period_s);
+  return result;
+}
+
+/// Creep and its rate in one direction. What follows the acceleration has its slope from the jerk, for which
+/// the samples are too rare.
+Lagged follow(const Eigen::VectorXd& at_once, const Eigen::VectorXd& lag_s,
+              const Eigen::VectorXd& acceleration, const Eigen::VectorXd& jerk, double period_s) {
+  const Eigen::VectorXd rest = at_once - lag_s.cwiseProduct(acceleration);
+  return lagged(at_once, slopes(rest, period_s) + lag_s.cwiseProduct(jerk), lag_s, period_s);
+}
+
+}  // namespace
+
+Lagged lagged(const Eigen::VectorXd& target, const Eigen::VectorXd& slope, const Eigen::VectorXd& lag_s,
+              double period_s) {
+  Lagged y{target, slope};
+  for (Eigen::Index j = 1; j < target.size(); ++j) {
+    const double lag = lag_s[j], bend = (slope[j] - slope[j - 1]) / period_s;
+    if (!(lag > 0)) continue;
+    // A parabola p has the solution p - lag (p' - lag p"); what is left at the start decays.
+    const double left = y.value[j - 1] - (target[j - 1] - lag * (slope[j - 1] - lag * bend));
+    const double decayed = left * std::exp(-period_s / lag);
+    y.value[j] = target[j] - lag * (slope[j] - lag * bend) + decayed;
+    y.rate[j] = slope[j] - lag * bend - decayed / lag;
+  }
+  return y;
+}
+
+ContactCreep::ContactCreep(const Plant& plant, const RunSignals& signals,
+                           const std::vector<Sided<double>>& contact_force_N)
+    : plant_(plant) {
+  const double c = 0.5 * plant.creep_m_s_N, half_track_m = plant.robot.geometry.half_track_m;
+  const Eigen::Index n = signals.size();
+  Eigen::VectorXd along(n), turn(n), along_lag_s(n), turn_lag_s(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto [left_N, right_N] = contact_force_N[static_cast<std::size_t>(j)];
+    const MassProperties mass = mass_properties(plant.robot, plant.payload_kg(signals.payload_kg[j]));
+    along[j] = c * (left_N + right_N);
+    turn[j] = c * (right_N - left_N) / half_track_m;
+    along_lag_s[j] = c * mass.mass_kg;
+    turn_lag_s[j] = c * mass.yaw_inertia_kg_m2 / (half_track_m * half_track_m);
+  }
+  const Sided<double>& r = plant.robot.geometry.wheel_radius_m;
+  const Sided<Eigen::VectorXd>& a = signals.wheel_acceleration_rad_s2;
+  Sided<Eigen::VectorXd> jerk = signals.wheel_jerk_rad_s3;
+  if (jerk.left.size() != n) jerk.left = jerk.right = Eigen::VectorXd::Zero(n);
+  along_ = follow(along, along_lag_s, 0.5 * (r.left * a.left + r.right * a.right),
+                  0.5 * (r.left * jerk.left + r.right * jerk.right), signals.period_s);
+  turn_ = follow(turn, turn_lag_s, (r.right * a.right - r.left * a.left) / (2 * half_track_m),
+                 (r.right * jerk.right - r.left * jerk.left) / (2 * half_track_m), signals.period_s);
+}
+
+BodyMotion<double> ContactCreep::body_motion(BodyMotion<double> wheels, Eigen::Index j) const {
+  wheels.speed_m_s -= along_.value[j];
+  wheels.acceleration_m_s2 -= along_.rate[j];
+  wheels.yaw_rate_rad_s -= turn_.value[j];
+  wheels.yaw_acceleration_rad_s2 -= turn_.rate[j];
+  return wheels;
+}
+
+void ContactCreep::spin_wheels(const Site& site, Eigen::Index j, Sided<WheelState<double>>& state) const {
+  const Robot& robot = plant_.robot;
+  const Sided<double> ahead_rad_s2 = wheel_speeds_rad_s(robot.geometry, along_.rate[j], turn_.rate[j]);
+  for (const Side side : kSides) {
+    const Motor& motor = robot.motor[side];
+    WheelState<double>& wheel = state[side];
+    wheel.torque_Nm += robot.inertia.wheel_axle_inertia_kg_m2 * ahead_rad_s2[side];
+    const double before_A = wheel.current_A;
+    wheel.current_A = motor_current_A(motor, wheel.torque_Nm);
+    wheel.voltage_V +=
+        plant_.resistance_factor(site.time_of_day_s) * motor.resistance_ohm * (wheel.current_A - before_A);
+    wheel.power_W = wheel.voltage_V * wheel.current_A;
+  }
+}
+
+}  // namespace joulepath
