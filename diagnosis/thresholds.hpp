@@ -52,11 +52,11 @@ inline constexpr double kMostGrowth = 50.0;
 /// Mean square of an acceleration over that of the encoders' noise, below which it counts as none. Derived:
 /// 99.9 % of windows of eleven samples of noise are below, at kPeriod_s and logs of 50 Hz and more (0510).
 inline constexpr double kAccelerationOverNoise = 3.0;
-/// The same of jerks, over three samples. Chosen (0553): guards stiffnesses of contacts against the smoothing
-/// of noise.
-inline constexpr double kJerkOverNoise = 5.0;
 /// Half the width of such a window. Chosen (0510).
 inline constexpr double kAccelerationWindow_s = 0.5;
+/// kAccelerationOverNoise of jerks, over three samples. Chosen (0553): guards stiffnesses of contacts against
+/// the smoothing of noise.
+inline constexpr double kJerkOverNoise = 5.0;
 /// Samples further apart tell noise from motion no more. Chosen (0510).
 inline constexpr double kLongestNoisePeriod_s = 0.2;
 /// Below it dry friction has no known direction under the kernel. Chosen.

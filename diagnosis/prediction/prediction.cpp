@@ -216,10 +216,6 @@ void fill_motion(const RunSignals& signals, const Prediction& prediction, Residu
   for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
 }
 
-}  // namespace
-
-namespace {
-
 /// Motion of the body as the wheels tell it, without creep.
 BodyMotion<double> rolled_motion(const RunSignals& signals, const Geometry& geometry, Eigen::Index j) {
   const Twist<double> twist = body_twist(

@@ -28,7 +28,7 @@ struct RunSignals {
   bool payload_known{true};  ///< false: payload_kg is a guess, or an estimate from this log
   Sided<Eigen::VectorXd> wheel_speed_rad_s{};
   Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
-  Sided<Eigen::VectorXd> wheel_jerk_rad_s3{};  ///< zero where the acceleration is; empty: unknown
+  Sided<Eigen::VectorXd> wheel_jerk_rad_s3{};  ///< zero below its noise; empty: unknown
   Sided<Eigen::VectorXd> wheel_angle_rad{};    ///< since the run's start
   /// Integrals of a wheel's speed times cosine and sine of the measured heading: the wheel's contribution to
   /// x and y per meter of radius (times two, because the axle's midpoint moves with the mean of both wheels).
