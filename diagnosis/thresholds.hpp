@@ -90,6 +90,8 @@ inline constexpr double kSoundTorque = 0.3;
 inline constexpr double kSoundMotion = 0.1;
 /// The same of the battery's power against the motors'. Chosen (0220).
 inline constexpr double kSoundBattery = 0.05;
+/// Above it the scale of the motors' currents may be wrong: standby hides a factor. Chosen (0570).
+inline constexpr double kDoubtfulBattery = 0.0001;
 /// A relation that leaves a smaller share unexplained is exact: repairs are weighed no finer. Chosen (0220).
 inline constexpr double kExactRelation = 1e-5;
 /// Exponent of the coefficients' boxes while a factor is refined: they are nearly fixed. Chosen (0220).
@@ -110,6 +112,10 @@ inline constexpr double kLeastNoiseOfUnit = 30.0;
 inline constexpr double kLeastSensorNoise = 1e-6;
 /// A run with another unit is noisier than every other run by this factor. Declared (0522).
 inline constexpr double kNoiseApart = 3.0;
+/// Exponent of the coefficients' boxes where one run is held against the others. Chosen (0570).
+inline constexpr double kComparedFreedom = 0.2;
+/// Kinds of laws that a run has to break where no other run does: an effect breaks one. Chosen (0570).
+inline constexpr std::size_t kLeastOddKinds = 2;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
 

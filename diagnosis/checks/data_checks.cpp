@@ -10,6 +10,7 @@
 #include "diagnosis/checks/dead_channels.hpp"
 #include "diagnosis/checks/faults.hpp"
 #include "diagnosis/checks/noisy_units.hpp"
+#include "diagnosis/checks/odd_laws.hpp"
 #include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/parallel.hpp"
@@ -18,8 +19,6 @@
 // Design: docs/decisions/0220-the-data-are-checked-first.md
 namespace joulepath {
 namespace {
-
-using Relations = std::vector<std::optional<Relation>>;
 
 /// A run with the repairs found so far.
 struct Examined {
@@ -91,12 +90,14 @@ class DataCheckSearch {
     });
   }
 
-  /// Order of the search: sides, signs and units, then dead channels, then other factors. A swapped or tiny
-  /// channel follows its quantity as little as a dead one, and a factor could imitate a dead channel.
+  /// Order of the search: sides, signs and units, then dead channels, then other factors, then one run
+  /// against the others. A swapped or tiny channel follows its quantity as little as a dead one, and a factor
+  /// could imitate a dead channel.
   std::vector<DataCheck> find() {
     find_faults(false);
     find_dead();
     find_faults(true);
+    find_odd_runs();
     return std::move(checks_);
   }
 
@@ -132,32 +133,54 @@ class DataCheckSearch {
   }
 
   void find_dead() {
-    std::map<std::vector<std::string>, std::vector<std::pair<std::size_t, DeadChannel>>> found;
-    std::vector<std::vector<DeadChannel>> dead(runs_.size());
+    std::vector<std::vector<FollowedChannel>> channels(runs_.size());
     parallel_for(runs_.size(),
-                 [&](std::size_t r) { dead[r] = dead_channels(runs_[r].signals(), dataset_.robot); });
+                 [&](std::size_t r) { channels[r] = followed_channels(runs_[r].signals(), dataset_.robot); });
+    std::map<std::vector<std::string>, std::map<std::size_t, FollowedChannel>> found;
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      for (const DeadChannel& channel : dead[r]) found[channel.columns].emplace_back(r, channel);
-    for (const auto& [columns, where] : found) {
-      DataCheck check{.kind = "dead"};
-      std::vector<std::size_t> which;
-      const bool needed = where.front().second.needed;
-      for (const std::string& column : columns) {
-        append_item(check.channel, column);
-        if (!needed) check.columns.push_back({.column = column, .absent = true});
-      }
-      for (const auto& [r, channel] : where) which.push_back(r);
-      check.evidence = "shows " + percent(std::abs(where.front().second.followed)) +
-                       " of the change that the other channels ask for (" +
-                       dataset_.runs[runs_[which.front()].index()].name + ")";
-      for (std::size_t r : which) {
-        if (needed)
-          runs_[r].lost = true;
-        else
-          mend(runs_[r], check.columns);
-      }
-      report(std::move(check), which);
+      for (const FollowedChannel& channel : channels[r]) found[channel.columns].emplace(r, channel);
+    for (const auto& [columns, runs] : found)
+      if (const std::vector<std::size_t> dead = dead_runs(runs); !dead.empty()) report_dead(runs, dead);
+  }
+
+  /// The runs in which a channel is dead: all that have it where each run that could show the contrary is one
+  /// of them.
+  static std::vector<std::size_t> dead_runs(const std::map<std::size_t, FollowedChannel>& runs) {
+    std::vector<std::size_t> dead, all;
+    bool alive = false, varies = false, dead_vary = false;  // of the other runs, and of the dead ones
+    for (const auto& [r, channel] : runs) {
+      all.push_back(r);
+      const bool varies_with_less = std::ranges::any_of(runs, [&own = channel](const auto& other) {
+        return !other.second.is_constant && other.second.expected <= own.expected;
+      });
+      if (channel.is_dead || (channel.is_constant && varies_with_less))
+        dead.push_back(r), dead_vary |= !channel.is_constant;
+      else
+        alive |= channel.is_alive, varies |= !channel.is_constant;
     }
+    const bool contradicted = alive || (varies && !dead_vary);
+    return dead.empty() || contradicted ? dead : all;
+  }
+
+  void report_dead(const std::map<std::size_t, FollowedChannel>& runs, const std::vector<std::size_t>& dead) {
+    const FollowedChannel& first = runs.at(dead.front());
+    DataCheck check{.kind = "dead"};
+    for (const std::string& column : first.columns) {
+      append_item(check.channel, column);
+      if (!first.needed) check.columns.push_back({.column = column, .absent = true});
+    }
+    const std::string& run = dataset_.runs[runs_[dead.front()].index()].name;
+    check.evidence = first.is_dead
+                         ? "shows " + percent(std::abs(first.followed)) +
+                               " of the change that the other channels ask for (" + run + ")"
+                         : "reads one value throughout, and varies in runs with less motion (" + run + ")";
+    for (std::size_t r : dead) {
+      if (first.needed)
+        runs_[r].lost = true;
+      else
+        mend(runs_[r], check.columns);
+    }
+    report(std::move(check), dead);
   }
 
   struct Found {
@@ -222,6 +245,48 @@ class DataCheckSearch {
     found.fault = with_factor(found.fault, best);
   }
 
+  /// Holds each run against the others, by coefficients that are nearly those of the robot file: what no
+  /// other run needs is a fault of the run where its repair makes every odd law as sound as in the others.
+  void find_odd_runs() {
+    if (runs_.size() < kLeastRunsToName) return;
+    std::vector<Relations> relations(runs_.size());
+    parallel_for(runs_.size(), [&](std::size_t r) {
+      relations[r] = relations_of(runs_[r].signals(), dataset_.robot, kComparedFreedom);
+    });
+    for (std::size_t r = 0; r < runs_.size(); ++r)
+      if (!runs_[r].lost) find_odd_run(relations, r);
+  }
+
+  void find_odd_run(const std::vector<Relations>& relations, std::size_t r) {
+    const OddLaws laws = odd_laws(relations, r);
+    if (!laws.suspect) return;
+    const auto repair = [&](const Fault& fault) {
+      return repair_gain(laws, relations[r], relations_with(runs_[r], fault.columns, kComparedFreedom));
+    };
+    std::optional<Found> best;
+    for (const Fault& fault : possible_faults(run_of(runs_[r])))
+      if (const std::optional<double> nats = repair(fault); nats && (!best || *nats > best->nats))
+        best = Found{.fault = fault, .which = {r}, .nats = *nats};
+    if (!best) return;
+    if (best->fault.kind == "scaled") refine(*best);
+    if (may_be_effect(best->fault) || !repair(best->fault)) return;
+    const std::size_t law = laws.odd.front();
+    const std::string evidence = relations[r][law]->law + ": " + percent(relations[r][law]->unexplained) +
+                                 " unexplained as logged, at most " + percent(laws.most[law]) +
+                                 " in the other runs; the repair makes every law as sound as there";
+    mend(runs_[r], best->fault.columns);
+    report({.channel = best->fault.channel,
+            .kind = best->fault.kind,
+            .evidence = evidence,
+            .columns = best->fault.columns},
+           best->which);
+  }
+
+  static bool may_be_effect(const Fault& fault) {
+    const double factor = fault.columns.front().scale;
+    return fault.kind == "scaled" && factor > 1 / kMostEffectFactor && factor < kMostEffectFactor;
+  }
+
   bool find_fault(bool with_factors) {
     std::vector<std::size_t> broken;
     for (std::size_t r = 0; r < runs_.size(); ++r)
@@ -230,11 +295,8 @@ class DataCheckSearch {
     std::optional<Found> found = best_fault(broken, with_factors);
     if (!found) return false;
     const std::size_t shown = found->which.front();
-    if (found->fault.kind == "scaled") {
-      refine(*found);
-      const double factor = found->fault.columns.front().scale;
-      if (factor > 1 / kMostEffectFactor && factor < kMostEffectFactor) return false;
-    }
+    if (found->fault.kind == "scaled") refine(*found);
+    if (may_be_effect(found->fault)) return false;
     const Relations before = runs_[shown].relations,
                     after = relations_with(runs_[shown], found->fault.columns);
     const std::size_t most = compare(before, after, found->fault.kind == "scaled").most;

@@ -20,25 +20,12 @@ VectorXd differences(const VectorXd& values) {
   return n > 0 ? VectorXd(values.tail(n) - values.head(n)) : VectorXd();
 }
 
-/// Share of an expected change that a channel shows, and the ratio of the channel's own change to the
-/// expected change. A channel with a large change of another shape is not dead.
-struct Following {
-  double share{1.0};
-  double size{1.0};
-  bool is_dead() const { return std::abs(share) < kDeadShare && size < kDeadSize; }
-};
-
-Following following(const VectorXd& channel, const VectorXd& expected, double least_rms) {
-  if (channel.size() != expected.size() || channel.size() == 0 || rms(expected) < least_rms) return {};
-  return {channel.dot(expected) / expected.squaredNorm(), channel.norm() / expected.norm()};
-}
-
 class Search {
  public:
   Search(const RunSignals& run, const Robot& robot)
       : run_(run), robot_(robot), expected_(expected_motors(run, robot)) {}
 
-  std::vector<DeadChannel> list() {
+  std::vector<FollowedChannel> list() {
     for (Side side : kSides) wheel(side);
     const VectorXd yaw = body_twist(robot_.geometry, run_.wheel_speed_rad_s).yaw_rate_rad_s;
     compare(run_.gyro_yaw_rate_rad_s, yaw, kMovingYawRate_rad_s, {"gyro_yaw_rate_rad_s"});
@@ -47,7 +34,7 @@ class Search {
               {"heading_rad"});
     place();
     supply();
-    return std::move(dead_);
+    return std::move(channels_);
   }
 
  private:
@@ -57,10 +44,18 @@ class Search {
     return sum;
   }
 
+  /// A channel with a large change of another shape is not dead.
   void compare(const VectorXd& channel, const VectorXd& expected, double least_rms,
                std::vector<std::string> columns, bool needed = false) {
-    const Following follows = following(channel, expected, least_rms);
-    if (follows.is_dead()) dead_.push_back({std::move(columns), follows.share, needed});
+    if (channel.size() != expected.size() || channel.size() == 0) return;
+    FollowedChannel found{.columns = std::move(columns), .expected = rms(expected), .needed = needed};
+    found.is_constant = channel.maxCoeff() - channel.minCoeff() <= kLeastSensorNoise;
+    if (found.expected > 0) found.followed = channel.dot(expected) / expected.squaredNorm();
+    if (found.expected >= least_rms) {
+      found.is_dead = std::abs(found.followed) < kDeadShare && rms(channel) < kDeadSize * found.expected;
+      found.is_alive = !found.is_dead;
+    }
+    channels_.push_back(std::move(found));
   }
 
   /// Compares a motor's channels with its wheel's motion, and the wheel's speed with its voltage.
@@ -108,12 +103,12 @@ class Search {
   const RunSignals& run_;
   const Robot& robot_;
   ExpectedMotors expected_;
-  std::vector<DeadChannel> dead_{};
+  std::vector<FollowedChannel> channels_{};
 };
 
 }  // namespace
 
-std::vector<DeadChannel> dead_channels(const RunSignals& run, const Robot& robot) {
+std::vector<FollowedChannel> followed_channels(const RunSignals& run, const Robot& robot) {
   return Search(run, robot).list();
 }
 

@@ -7,13 +7,18 @@
 
 namespace joulepath {
 
-/// A channel that does not follow the change that the other channels imply.
-struct DeadChannel {
+/// What a channel of one run shows of the change that the other channels imply.
+struct FollowedChannel {
   std::vector<std::string> columns{};
-  double followed{};  ///< share of the expected change that the channel shows; 1 = all
-  bool needed{};      ///< the run cannot be used without this channel (a wheel's speed)
+  double followed{};   ///< share of the expected change that the channel shows; 1 = all
+  double expected{};   ///< rms of the expected change, unit of the channel
+  bool is_dead{};      ///< the expected change is large enough to tell, and the channel does not show it
+  bool is_alive{};     ///< the expected change is large enough to tell, and the channel shows it
+  bool is_constant{};  ///< one value throughout
+  bool needed{};       ///< the run cannot be used without this channel (a wheel's speed)
 };
 
-[[nodiscard]] std::vector<DeadChannel> dead_channels(const RunSignals& run, const Robot& robot);
+/// The channels that the run has, always in the same order.
+[[nodiscard]] std::vector<FollowedChannel> followed_channels(const RunSignals& run, const Robot& robot);
 
 }  // namespace joulepath

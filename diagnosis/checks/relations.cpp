@@ -48,7 +48,9 @@ BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
 
 std::optional<Relation> relation(std::string law, double sound, const VectorXd& explained,
                                  const std::vector<BoxedTerm>& terms) {
-  const double doubtful = sound == kSoundWinding ? kDoubtfulWinding : sound;
+  const double doubtful = sound == kSoundWinding   ? kDoubtfulWinding
+                          : sound == kSoundBattery ? kDoubtfulBattery
+                                                   : sound;
   return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
 }
 

@@ -15,8 +15,13 @@
 namespace joulepath {
 namespace {
 
+double likelihood_over_named(const StandIn& other) {
+  return std::exp(-0.5 * kScoreFlattening * std::max(0.0, other.loss_more));
+}
+
 /// Effects that the data cannot separate share the probability that one of them is there by their likelihood,
-/// not by their typical size.
+/// not by their typical size. One that fits better as the textbook has it is no likelier than the one named,
+/// which won with inexact forms.
 void share_probabilities(const Examination& x, const Inclusion& inclusion, Names& names) {
   const Identification& id = x.id;
   for (int c : id.explanations.front().candidates) {
@@ -28,13 +33,13 @@ void share_probabilities(const Examination& x, const Inclusion& inclusion, Names
     for (const StandIn& other : others) {
       names.stand_ins[label].push_back(other.label);
       group.insert(other.label);
-      weight += std::exp(-0.5 * kScoreFlattening * other.loss_more);
+      weight += likelihood_over_named(other);
     }
     if (others.empty()) continue;
     const double share = inclusion.of_any(group) / weight;
     names.probabilities[label] = share;
     for (const StandIn& other : others)
-      names.probabilities[other.label] = share * std::exp(-0.5 * kScoreFlattening * other.loss_more);
+      names.probabilities[other.label] = share * likelihood_over_named(other);
   }
 }
 

@@ -79,6 +79,13 @@ std::vector<Case> cases() {
       {"ClockInMilliseconds", "clock", "time_s", [](Trajectory& t) { scale(t.time_s, 1e3); }},
       {"BatteryCurrentInverted", "inverted", "battery_current_A",
        [](Trajectory& t) { scale(t.battery_current_A, -1); }},
+      {"CurrentStuck", "dead", "motor_current_left_A",
+       [](Trajectory& t) { std::ranges::fill(t.motor_current_A.left, 0.7); }},
+      {"GyroDead", "dead", "gyro_yaw_rate_rad_s", [](Trajectory& t) { scale(t.gyro_yaw_rate_rad_s, 0); }},
+      {"CurrentsTimesThree", "scaled", "motor_current_left_A",
+       [](Trajectory& t) { scale(t.motor_current_A.left, 3), scale(t.motor_current_A.right, 3); }},
+      {"CurrentTimesThreeTenths", "scaled", "motor_current_right_A",
+       [](Trajectory& t) { scale(t.motor_current_A.right, 0.3); }},
   };
 }
 
@@ -110,12 +117,49 @@ TEST_P(SpoiltChannel, OfAllRunsIsNamedAndStopsTheDiagnosis) {
   EXPECT_EQ(d.verdict, Verdict::data_suspect) << verdict_name(d.verdict);
   EXPECT_TRUE(d.causes.empty());
   ASSERT_FALSE(d.data_checks.empty());
+  EXPECT_EQ(d.data_checks[0].run, "") << "a fault of all runs";
   EXPECT_EQ(d.data_checks[0].kind, GetParam().kind) << d.data_checks[0].evidence;
   EXPECT_NE(d.data_checks[0].channel.find(GetParam().channel), std::string::npos) << d.data_checks[0].channel;
 }
 
 INSTANTIATE_TEST_SUITE_P(DataChecks, SpoiltChannel, ::testing::ValuesIn(cases()),
                          [](const auto& tested) { return tested.param.name; });
+
+/// Spoils each run in turn. Returns how many are named, each alone and with its run.
+std::size_t named_whichever(const Spoil& spoil, const char* kind, const char* channel) {
+  const Dataset sound = twelve_runs("--effect none --seed 71");
+  std::size_t named = 0;
+  for (std::size_t r = 0; r < sound.runs.size(); ++r) {
+    Dataset dataset = sound;
+    spoil(dataset.runs[r].log);
+    const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+    if (found.empty()) continue;
+    ++named;
+    EXPECT_EQ(found.size(), 1u) << sound.runs[r].name;
+    EXPECT_EQ(found[0].kind, kind);
+    EXPECT_EQ(found[0].channel, channel);
+    EXPECT_EQ(found[0].run, sound.runs[r].name);
+  }
+  return named;
+}
+
+/// No run may hide a wrong current behind the freedom that its own laws have: the other runs take it away.
+/// The slowest run needs so little power that its battery does not tell.
+TEST(OddRun, WithAWrongCurrentIsNamedWhicheverItIs) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  EXPECT_GE(named_whichever([](Trajectory& t) { scale(t.motor_current_A.right, 0.3); }, "scaled",
+                            "motor_current_right_A"),
+            11u);
+}
+
+/// A gyro without even noise is dead, also where the robot drives straight; but for the run whose wheels
+/// differ least: no run with less motion shows noise.
+TEST(OddRun, WithADeadGyroIsNamedWhicheverItIs) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  EXPECT_GE(
+      named_whichever([](Trajectory& t) { scale(t.gyro_yaw_rate_rad_s, 0); }, "dead", "gyro_yaw_rate_rad_s"),
+      11u);
+}
 
 /// On a straight drive the gyro reads noise and a bias, which no motion tells from a turn.
 TEST(NoisyUnit, OfAGyroOnAStraightDriveIsNamed) {
@@ -155,14 +199,28 @@ TEST(NoisyUnit, OfAPositionOnTheSpotIsNamed) {
 /// Effects of the catalog at full size must not make the data suspect.
 TEST(SoundData, WithEffectsOfFullSizeAreNotSuspect) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
-  for (const char* effect :
-       {"none --level 1", "torque_constant_error --size 0.12", "torque_constant_error --size -0.12",
-        "winding_resistance_error --size 0.35", "winding_heating --size 0.4", "time_misalignment --size 0.12",
-        "track_width_error --size 0.12", "wheel_radius_mismatch --size 0.05",
-        "payload_mass_error --size 0.45", "yaw_inertia_error --size 0.9", "current_sensor_gain --size 0.15",
-        "floor_slope --size 0.02", "rolling_resistance --size 0.02",
-        "regeneration_error --size 0.8 --robot warehouse", "driver_foldback --robot small",
-        "encoder_drift --size 0.05"}) {
+  for (const char* effect : {"none --level 1",
+                             "torque_constant_error --size 0.12",
+                             "torque_constant_error --size -0.12",
+                             "winding_resistance_error --size 0.35",
+                             "winding_heating --size 0.4",
+                             "time_misalignment --size 0.12",
+                             "track_width_error --size 0.12",
+                             "wheel_radius_mismatch --size 0.05",
+                             "payload_mass_error --size 0.45",
+                             "yaw_inertia_error --size 0.9",
+                             "current_sensor_gain --size 0.15",
+                             "floor_slope --size 0.02",
+                             "rolling_resistance --size 0.02",
+                             "regeneration_error --size 0.8 --robot warehouse",
+                             "driver_foldback --robot small",
+                             "encoder_drift --size 0.05",
+                             "floor_patch --size 0.03",
+                             "coulomb_friction --size 0.5",
+                             "supply_sag --size 0.3",
+                             "standby_power_error --size 0.8",
+                             "eddy_brake",
+                             "cold_grease"}) {
     const Dataset dataset = twelve_runs(std::string("--effect ") + effect + " --seed 5");
     for (const DataCheck& check : check_data(dataset, sort_runs(dataset)))
       ADD_FAILURE() << effect << ": " << check.run << " " << check.kind << " " << check.channel << ", "
