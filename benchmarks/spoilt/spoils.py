@@ -76,6 +76,17 @@ def spoils():
     return ways
 
 
+LEAST_TURN_rad_s = 0.3  # rms difference of the wheels' speeds in a run that turns
+SHOWN_BY_TURNS = ("gyro inverted", "gyro times 0.3", "heading inverted", "sides swapped", "wheel speeds swapped", "voltages swapped",
+                  "currents swapped")
+
+
+def shows(way, rows):
+    """Whether a run can show the way: without turns a gyro and a heading read noise, and both sides are equal."""
+    turned = math.sqrt(sum((row[SPEED[1]] - row[SPEED[0]]) ** 2 for row in rows) / len(rows))
+    return way not in SHOWN_BY_TURNS or turned >= LEAST_TURN_rad_s
+
+
 def read_rows(path):
     with open(path, newline="") as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]

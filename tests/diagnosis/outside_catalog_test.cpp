@@ -86,6 +86,17 @@ INSTANTIATE_TEST_SUITE_P(Development, ForeignEffect,
                                            "driver_foldback --level 0 --seed 7341457183477400737"),
                          [](const auto& one) { return one.param.substr(0, one.param.find(' ')); });
 
+/// A load that swings takes no energy on the whole; what it does depends on accelerations that are over.
+TEST(ForeignEffectWithMemory, OfASwingingLoadIsNoAllClear) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d = diagnose(
+      testing::blind_day("--effect payload_slosh --size 0.3 --robot nomad --protocol 12 --level 0 --seed 5"),
+      {.bootstrap = 20});
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_NE(d.leftover_description.find("past acceleration"), std::string::npos) << d.leftover_description;
+}
+
 /// A draft that grows all day pulls like a slope, whose strength no floor changes with the time.
 TEST(InexactForm, OfAForceThatGrowsIsUnknown) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";

@@ -12,7 +12,7 @@ import time
 
 import seal
 import workspace
-from spoils import read_rows, spoils, write_rows
+from spoils import read_rows, shows, spoils, write_rows
 
 KEEP = ("gap", "where", "verdict", "causes", "ranking", "leftover", "next_experiment", "ceiling", "control", "data_checks",
         "below_materiality", "unknowns")
@@ -60,8 +60,11 @@ class Examination:
         """The day as the case's bin logs it: a channel spoilt, or odometry and battery alone."""
         runs = sorted(data.glob("run_*.csv"))
         if "spoil" in self.case:
-            _, _, spoil = spoils()[self.case["spoil"]["way"]]
-            chosen = runs if self.case["spoil"]["all_runs"] else [random.Random(self.case["seed"]).choice(runs)]
+            way = self.case["spoil"]["way"]
+            _, _, spoil = spoils()[way]
+            chosen = runs
+            if not self.case["spoil"]["all_runs"]:
+                chosen = [random.Random(self.case["seed"]).choice([run for run in runs if shows(way, read_rows(run))])]
             for run in chosen:
                 rows = read_rows(run)
                 spoil(rows)

@@ -1,6 +1,6 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0571-the-load-may-remember.md
 namespace joulepath {
 namespace {
 
@@ -91,6 +91,27 @@ void add_forces(DictionaryCollector& out, const Variables& v) {
             [&](Eigen::Index j) { return v.twist(j).yaw_rate_rad_s * v.twist(j).yaw_rate_rad_s; });
 }
 
+/// What the load still feels of earlier accelerations: it swings, slides or yields. The present one keeps it
+/// from a false mass; the first fifth of a second is left out, where smoothed accelerations are inexact.
+void add_past_acceleration(DictionaryCollector& out, const Variables& v) {
+  constexpr int kLagHats = 11;
+  constexpr double kLagWidth_s = 0.2;
+  const auto load_acceleration = [&](Eigen::Index j, Eigen::Index at) {
+    return v.load(j) * v.rate(at).speed_m_s;
+  };
+  out.force("past acceleration", [&](Eigen::Index j) { return load_acceleration(j, j); });
+  for (int k = 1; k <= kLagHats; ++k)
+    out.force("past acceleration", [&](Eigen::Index j) {
+      const double period_s = v.signals->period_s, center_s = (k + 1) * kLagWidth_s;
+      const auto last = std::min(j, static_cast<Eigen::Index>((center_s + kLagWidth_s) / period_s));
+      double sum = 0;
+      for (auto lag = static_cast<Eigen::Index>((center_s - kLagWidth_s) / period_s); lag <= last; ++lag)
+        sum +=
+            hat(static_cast<double>(lag) * period_s, center_s, kLagWidth_s) * load_acceleration(j, j - lag);
+      return sum * period_s / kLagWidth_s;
+    });
+}
+
 void add_moments(DictionaryCollector& out, const Variables& v) {
   constexpr int kYawHats = 4;
   const double yaw_width = v.layout.greatest_yaw_rate_rad_s / (kYawHats - 1);
@@ -133,6 +154,7 @@ void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, con
   add_time_of_day(out, v);
   add_heading(out, v);
   add_forces(out, v);
+  add_past_acceleration(out, v);
   add_moments(out, v);
   add_place(out, v);
 }
