@@ -44,11 +44,14 @@ TEST(MandatoryNodes, AreWhereAWheelReverses) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   const Plant plant = make_plant(testing::nomad());
   std::size_t reversals = 0;
-  for (int trial = 0; trial < 80; ++trial) {
-    const BezierPoints points_m{{{0, 0},
-                                 {0.3 * coordinate(random), 0.3 * coordinate(random)},
-                                 {coordinate(random), coordinate(random)},
-                                 {2, coordinate(random)}}};
+  for (int trial = 0; trial < 120; ++trial) {
+    BezierPoints points_m{{{0, 0},
+                           {0.3 * coordinate(random), 0.3 * coordinate(random)},
+                           {coordinate(random), coordinate(random)},
+                           {2, coordinate(random)}}};
+    if (trial >= 80)  // on a short curve as exactly, of its length
+      for (auto& point_m : points_m)
+        for (double& x_m : point_m) x_m *= 0.05;
     const Curve curve({BezierSegment(points_m)});
     const ProfileRequest request{.piece = curve, .plant = plant};
     const std::vector<double> nodes = mandatory_nodes(PathMotion(request.piece, request.plant, {}), request);
