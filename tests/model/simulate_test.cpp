@@ -214,7 +214,13 @@ TEST(Simulate, TheBatterySagsUnderLoadAndSaysWhereItGivesWay) {
               result.motor_energy_J.left + result.motor_energy_J.right + 10 * result.duration_s,
               0.05 * result.energy_J);  // braking is not recovered
   request.effects = {{.name = "supply_sag", .parameters = {{"resistance_ohm", 14.0}}}};
-  EXPECT_TRUE(simulate(request).battery_gave_way);
+  const SimulationResult weak = simulate(request);
+  EXPECT_TRUE(weak.battery_gave_way);
+  // The most power is drawn at half of the open-circuit voltage.
+  for (double voltage_V : weak.log.battery_voltage_V) {
+    EXPECT_GE(voltage_V, 25.0 / 2 - 1e-9);
+    EXPECT_LE(voltage_V, 25.0 + 1e-9);
+  }
 }
 
 TEST(Simulate, WithoutABatteryTheLogHasNoBatteryChannels) {
