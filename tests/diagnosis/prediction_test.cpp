@@ -187,5 +187,19 @@ TEST(Prediction, OfCreepingWheelsFallsBehindThem) {
   EXPECT_NEAR(without_m - with_m, force_N / 2000.0 * 15, 0.2 * force_N / 2000.0 * 15);
 }
 
+/// A driver takes its drop from the motor in the direction of the current, whichever that is.
+TEST(Prediction, OfADriversDropHasTheSignOfTheCurrent) {
+  for (const double speed_m_s : {0.5, -0.5}) {
+    const RunSignals run = weaving(nomad(), speed_m_s);
+    const Prediction base = predict(run, {.robot = nomad()}),
+                     more = predict(run, with_effect({.name = "driver_voltage_drop",
+                                                      .parameters = {{"voltage_V", 0.3}}}));
+    Eigen::Index greatest;
+    base.current_A.left.cwiseAbs().maxCoeff(&greatest);
+    EXPECT_NEAR(more.voltage_V.left[greatest] - base.voltage_V.left[greatest],
+                std::copysign(0.3, base.current_A.left[greatest]), 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace joulepath
