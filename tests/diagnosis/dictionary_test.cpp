@@ -112,5 +112,25 @@ TEST_P(DictionaryEntries, MissedSpeedAddsUpAlongTheHeading) {
 INSTANTIATE_TEST_SUITE_P(Forward, DictionaryEntries, ::testing::Values(0.5));
 INSTANTIATE_TEST_SUITE_P(Reverse, DictionaryEntries, ::testing::Values(-0.5));
 
+/// A turn to the right is the mirror image of one to the left.
+TEST(DictionaryOfTurns, IsTheMirrorImageToTheOtherSide) {
+  const auto turning = [](double turn_rad_s) {
+    const auto run = testing::synthetic_run(testing::nomad(), "run", 10, 2.0,
+                                            testing::swinging(0.5, 0.2, 1.3, turn_rad_s));
+    return make_run_signals(run, 0, testing::nomad());
+  };
+  const RunSignals to_left = turning(0.6), to_right = turning(-0.6);
+  const auto left = entries_of(to_left, "yaw rate", "current", kCurrentLeft),
+             right = entries_of(to_right, "yaw rate", "current", kCurrentRight);
+  ASSERT_GT(left.size(), 1u);
+  ASSERT_EQ(left.size(), right.size());
+  double most = 0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    EXPECT_LT((left[k] - right[k]).cwiseAbs().maxCoeff(), 1e-9) << k;
+    most = std::max(most, left[k].cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(most, 1e-3);
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -180,5 +180,12 @@ TEST(EnergyOnly, AMotionThatCannotBeDrivenIsToldWithItsPlace) {
   }
 }
 
+TEST(EnergyOnly, ReadsWattHoursOfTheBatteryAsJoules) {
+  Dataset dataset{.robot = testing::nomad()};
+  dataset.runs = {run_of(steady(0.5), 0, 0)};
+  dataset.runs[0].battery_energy_Wh = 0.5;
+  EXPECT_EQ(energy_runs(dataset).front().battery_J, 1800.0);
+}
+
 }  // namespace
 }  // namespace joulepath

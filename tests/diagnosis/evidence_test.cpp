@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/evidence/signatures.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -62,6 +64,13 @@ TEST(AmplitudeStep, ChangesOneAmplitudeAndAddsWhatIsAbsent) {
   const ModelState again = with_change(changed, candidate, amplitude_step(changed, candidate, 1), 1, 0.5);
   ASSERT_EQ(again.effects.size(), 1u) << "replaced, not added";
   EXPECT_EQ(again.effects[0].amplitude, (std::vector<double>{0.0, 0.75}));
+}
+
+TEST(UnstatedPayloadWidth, IsTheLimitOrAShareOfTheRobot) {
+  Robot robot = testing::nomad();
+  EXPECT_EQ(payload_prior_sd_kg(robot), 12.0);
+  robot.limits->max_payload_kg = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(payload_prior_sd_kg(robot), kUnstatedPayloadShare * (21.2 + 2 * 1.39), 1e-12);
 }
 
 }  // namespace

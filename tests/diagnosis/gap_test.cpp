@@ -109,6 +109,32 @@ TEST(Gap, OfTheTrueModelIsSmallInEveryChannel) {
   EXPECT_LT(before_J, report.energy.before_J * 1.05);
 }
 
+/// Runs that are all alike leave nothing to chance but another day.
+TEST(Gap, OfEqualRunsShrinksByAnIntervalAroundTheShrink) {
+  const std::vector<RunSignals> signals(3, three_runs()[1]);
+  Robot half = nomad();
+  for (Side side : kSides) half.motor[side].friction_torque_Nm *= 1.1;
+  const EnergyGap gap = gap_between(signals, nomad(), half).energy;
+  EXPECT_NEAR(gap.shrink_fraction, 0.5, 0.05);
+  EXPECT_NEAR(gap.shrink_interval_95.first, gap.shrink_fraction, 0.1);
+  EXPECT_NEAR(gap.shrink_interval_95.second, gap.shrink_fraction, 0.1);
+}
+
+/// A wattmeter that reads 5 W less than the model predicts, in every phase.
+TEST(Gap, OfTheBatteryAloneIsSharedByThePhases) {
+  std::vector<RunSignals> signals = three_runs();
+  double duration_s = 0;
+  for (RunSignals& run : signals) {
+    run.battery_power_W = predict(run, {.robot = nomad()}).battery_power_W.array() - 5.0;
+    run.motor_current_A = run.motor_voltage_V = run.motor_power_W = {};
+    duration_s += run.period_s * static_cast<double>(run.size());
+  }
+  double before_J = 0;
+  for (const auto& [phase, gaps] : gap_between(signals, nomad(), nomad()).energy_by_phase_J)
+    before_J += gaps.first;
+  EXPECT_NEAR(before_J, 5.0 * duration_s, 1e-6 * duration_s);
+}
+
 /// Speed along the heading, speed of the wheels across it and acceleration tell the phase.
 TEST(Phase, FollowsTheMotion) {
   const Robot robot = nomad();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/signals/manoeuvres.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -92,6 +94,36 @@ TEST(Manoeuvres, AnArcIsWithinEachLimitOfTurning) {
   EXPECT_NEAR(*with({.yaw_acceleration_rad_s2 = 0.05}).acceleration_m_s2, 0.05 * r, 1e-12);
   EXPECT_NEAR(*with({.deceleration_m_s2 = 0.07}).acceleration_m_s2, 0.07, 1e-12);
   EXPECT_EQ(with({}).speed_m_s, arcs[0].speed_m_s);
+}
+
+/// 5 and 5.5 rad/s are a straight drive, whatever its direction; 5 and 8 rad/s are a turn.
+TEST(ManoeuvresOfRuns, CountTurnsByTheSizeOfTheSpeeds) {
+  for (const double sign : {1.0, -1.0})
+    for (const double right : {5.5, 8.0}) {
+      RunSignals run;
+      run.time_s = Eigen::VectorXd::LinSpaced(10, 0, 0.9);
+      run.wheel_speed_rad_s = {Eigen::VectorXd::Constant(10, 5 * sign),
+                               Eigen::VectorXd::Constant(10, right * sign)};
+      const Manoeuvres share = manoeuvres_of({run});
+      EXPECT_EQ(share.turning, right > 6 ? 1.0 : 0.0) << sign;
+      EXPECT_EQ(share.reverse, sign < 0 ? 1.0 : 0.0);
+      EXPECT_EQ(share.still, 0.0);
+    }
+}
+
+/// A sudden turn is within 2 `half` windows: half a percent of a long run, 1.5 % of a shorter one.
+TEST(ManoeuvresOfRuns, HaveYawFromAPercentOfTheSamples) {
+  constexpr double kPeriod_s = 0.05;
+  const auto half = std::max<Eigen::Index>(1, std::lround(kAccelerationWindow_s / kPeriod_s));
+  for (const double share : {0.005, 0.015}) {
+    const auto samples = static_cast<Eigen::Index>(2 * static_cast<double>(half) / share);
+    RunSignals run;
+    run.period_s = kPeriod_s;
+    run.time_s = Eigen::VectorXd::LinSpaced(samples, 0, kPeriod_s * static_cast<double>(samples - 1));
+    run.wheel_angle_rad = {Eigen::VectorXd::Zero(samples), Eigen::VectorXd::Zero(samples)};
+    run.wheel_angle_rad.right.tail(samples / 2).setConstant(10.0);
+    EXPECT_EQ(has_yaw({run}, testing::nomad().geometry), share > 0.01) << share;
+  }
 }
 
 }  // namespace

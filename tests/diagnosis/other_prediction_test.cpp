@@ -1,3 +1,5 @@
+#include "diagnosis/where/other_prediction.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,6 +41,22 @@ TEST(OtherPrediction, LocationRefersToTheOtherSimulatorAndCausesToOurs) {
   EXPECT_TRUE(std::ranges::any_of(d.notes, [](const std::string& note) {
     return note.find("another simulator's prediction") != std::string::npos;
   }));
+}
+
+/// 10 J too much of 100 J in one run and 60 J too little of 300 J in the other.
+TEST(OtherPrediction, TellsGapAndBiasOfAllItsRuns) {
+  const auto constant_W = [](double both_W) {
+    const Eigen::VectorXd one = Eigen::VectorXd::Constant(20, both_W / 2);
+    return Sided<Eigen::VectorXd>{one, one};
+  };
+  std::vector<RunSignals> signals(2);
+  for (RunSignals& run : signals) run.period_s = 0.5, run.time_s = Eigen::VectorXd::LinSpaced(20, 0, 9.5);
+  signals[0].motor_power_W = constant_W(10);
+  signals[1].motor_power_W = constant_W(30);
+  const std::string told =
+      told_by_others(signals, {{.power_W = constant_W(11)}, {.power_W = constant_W(24)}});
+  EXPECT_NE(told.find("2 of 2 runs"), std::string::npos) << told;
+  EXPECT_NE(told.find("energy gap 17.5 %, bias -12.5 %"), std::string::npos) << told;
 }
 
 }  // namespace

@@ -170,5 +170,36 @@ TEST(Localization, FindsTheWheelAndTheDirection) {
   EXPECT_GT(share["channel current"], 0.9);
 }
 
+/// A driven wheel creeps: uphill the body travels less than its wheels roll.
+TEST(Prediction, OfCreepingWheelsFallsBehindThem) {
+  const EffectSetting slope{.name = "floor_slope",
+                            .parameters = {{"grade", 0.02}, {"uphill_direction_rad", 0.0}}};
+  const EffectSetting slip{.name = "wheel_slip", .parameters = {{"creep_stiffness_N_s_m", 2000.0}}};
+  const RunSignals run = make_run_signals(
+      testing::synthetic_run(nomad(), "lane", 15, 3.0, testing::swinging(0.5, 0.1, 1.1)), 0, nomad());
+  const auto travelled_m = [&](const std::vector<EffectSetting>& effects) {
+    const Prediction p = predict(run, {.robot = nomad(), .effects = effects});
+    return p.x_m[p.x_m.size() - 1] - p.x_m[0];
+  };
+  const double with_m = travelled_m({slope, slip}), without_m = travelled_m({slope});
+  // Force per wheel over the stiffness, over the time; the force of the acceleration nearly cancels.
+  const double force_N = 0.02 * (21.2 + 2 * 1.39 + 3.0) * 9.81 / 2;
+  EXPECT_NEAR(without_m - with_m, force_N / 2000.0 * 15, 0.2 * force_N / 2000.0 * 15);
+}
+
+/// A driver takes its drop from the motor in the direction of the current, whichever that is.
+TEST(Prediction, OfADriversDropHasTheSignOfTheCurrent) {
+  for (const double speed_m_s : {0.5, -0.5}) {
+    const RunSignals run = weaving(nomad(), speed_m_s);
+    const Prediction base = predict(run, {.robot = nomad()}),
+                     more = predict(run, with_effect({.name = "driver_voltage_drop",
+                                                      .parameters = {{"voltage_V", 0.3}}}));
+    Eigen::Index greatest;
+    base.current_A.left.cwiseAbs().maxCoeff(&greatest);
+    EXPECT_NEAR(more.voltage_V.left[greatest] - base.voltage_V.left[greatest],
+                std::copysign(0.3, base.current_A.left[greatest]), 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -4,6 +4,7 @@
 #include <random>
 #include <utility>
 
+#include "diagnosis/evidence/walk_noise.hpp"
 #include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/normal_equations.hpp"
@@ -257,6 +258,17 @@ TEST(Bootstrap, IsTheSameEveryTimeAndHoldsTheMean) {
   EXPECT_EQ(first, second);
   EXPECT_LT(first.first, 5.5);
   EXPECT_GT(first.second, 5.5);
+}
+
+/// Yule-Walker: rho_1 = a_1/(1 - a_2), rho_2 = a_1 rho_1 + a_2.
+TEST(Autoregression, IsThatOfItsAutocovariances) {
+  for (const auto& [a1, a2] : {std::pair{0.6, -0.3}, std::pair{0.4, 0.3}, std::pair{-0.5, 0.2}}) {
+    const double rho1 = a1 / (1 - a2), rho2 = a1 * rho1 + a2;
+    const Autoregression found = fit_autoregression({2.0, 2.0 * rho1, 2.0 * rho2});
+    EXPECT_NEAR(found.coefficient[0], a1, 1e-12);
+    EXPECT_NEAR(found.coefficient[1], a2, 1e-12);
+    EXPECT_NEAR(found.innovation_ratio, std::sqrt(1 - a1 * rho1 - a2 * rho2), 1e-12);
+  }
 }
 
 }  // namespace

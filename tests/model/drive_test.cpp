@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "model/simulation/integrator.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -33,6 +35,16 @@ TEST(Drive, CastersPushWhileTheRobotMoves) {
   EXPECT_NEAR(yaw_from_casters(0.5, -0.5), -0.5 * moving, 1e-9);
   EXPECT_NEAR(yaw_from_casters(1e-3, 1.0), 0.5 * moving, 1e-5 * std::abs(moving));
   EXPECT_NEAR(yaw_from_casters(1e-6, 1.0), 0.0, 1e-5 * std::abs(moving));
+}
+
+/// At a heading of 30 degrees, 2 m ahead and 1 m to the left.
+TEST(DriveIntegrator, DisplacesTheRobotInItsOwnDirections) {
+  DriveState start{};
+  start[kYaw] = std::numbers::pi / 6;
+  DriveIntegrator integrator(Drive(make_plant(testing::nomad())), start, {});
+  integrator.displace(2.0, 1.0);
+  EXPECT_NEAR(integrator.state()[kX], std::sqrt(3.0) - 0.5, 1e-12);
+  EXPECT_NEAR(integrator.state()[kY], 1.0 + std::sqrt(3.0) / 2, 1e-12);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "model/effects/catalog.hpp"
+#include "model/effects/yardsticks.hpp"
 #include "model/power.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -276,6 +277,17 @@ TEST(EffectCatalog, WithoutAGridOfItsOwnASearchSpansADecadeAroundTheTypicalSize)
       ++searched;
     }
   EXPECT_GT(searched, 5);
+}
+
+/// Sizes are typical of what resists the robot: friction of its motors, and rolling at a hundredth of its
+/// chassis' weight.
+TEST(Yardsticks, OfARobotWithoutMotorFrictionAreThoseOfItsRolling) {
+  Robot robot = testing::nomad();
+  for (Side side : kSides) robot.motor[side].friction_torque_Nm = 0;
+  const double rolling_N = 0.01 * 9.81 * robot.inertia.chassis_mass_kg;
+  EXPECT_NEAR(robot_measures::resisting_force_N(robot), rolling_N, 1e-9);
+  EXPECT_NEAR(robot_measures::resisting_moment_Nm(robot), rolling_N * robot.geometry.half_track_m, 1e-9);
+  EXPECT_NEAR(robot_measures::resisting_torque_Nm(robot), rolling_N / 2 * 0.1, 1e-9);
 }
 
 }  // namespace

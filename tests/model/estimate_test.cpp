@@ -189,5 +189,16 @@ TEST(Estimate, ALogWithoutSpeedsIsRefused) {
   EXPECT_THROW((void)estimate_energy(make_plant(nomad()), log), ConfigError);
 }
 
+/// The trapezoidal rule on uneven rows.
+TEST(Estimate, MeasuredEnergyIsExactForPowerThatIsLinearBetweenRows) {
+  Trajectory log;
+  log.time_s = {0, 1, 3};
+  log.motor_power_W = {{7, 10, 20}, {1, 1, 1}};
+  const auto energy_J = measured_motor_energy_J(log, 1.0);
+  ASSERT_TRUE(energy_J.has_value());
+  EXPECT_NEAR(energy_J->left, 8.5 + 30.0, 1e-12);
+  EXPECT_NEAR(energy_J->right, 3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace joulepath

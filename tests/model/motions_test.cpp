@@ -83,6 +83,23 @@ TEST(Motions, RepeatedRampsAndStandsAreChained) {
   EXPECT_EQ(t.payload_kg.back(), 3);
 }
 
+/// M dv/dt = -(F + c v) from v0 to rest takes M/c ln(1 + c v0/F).
+TEST(Motions, CoastingAgainstViscousFrictionEndsInTheClosedForm) {
+  Robot robot = testing::nomad();
+  const double r = 0.1;
+  double force_N = 0, slope_N_s_m = 0, mass_kg = robot.total_mass_kg(0.0);
+  for (Side side : kSides) {
+    robot.motor[side].viscous_friction_Nm_s_rad = 0.05;
+    force_N += robot.motor[side].friction_torque_Nm / r;
+    slope_N_s_m += 0.05 / (r * r);
+    mass_kg += robot.inertia.wheel_axle_inertia_kg_m2 / (r * r);
+  }
+  const TimedMotion motion = timed_motion(robot, {{.profile = MotionProfile::coast, .speed_m_s = 0.8}});
+  ASSERT_EQ(motion.coasting.size(), 1u);
+  const double exact_s = mass_kg / slope_N_s_m * std::log(1 + slope_N_s_m * 0.8 / force_N);
+  EXPECT_NEAR(motion.coasting[0].to_s, exact_s, 1e-4 * exact_s);
+}
+
 TEST(Motions, CoastingLosesItsKineticEnergyToFriction) {
   Robot robot = nomad();
   for (Side side : kSides) robot.motor[side].viscous_friction_Nm_s_rad = 0;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/config_error.hpp"
+#include "model/simulation/controller.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/typical_effect.hpp"
 
@@ -213,7 +214,13 @@ TEST(Simulate, TheBatterySagsUnderLoadAndSaysWhereItGivesWay) {
               result.motor_energy_J.left + result.motor_energy_J.right + 10 * result.duration_s,
               0.05 * result.energy_J);  // braking is not recovered
   request.effects = {{.name = "supply_sag", .parameters = {{"resistance_ohm", 14.0}}}};
-  EXPECT_TRUE(simulate(request).battery_gave_way);
+  const SimulationResult weak = simulate(request);
+  EXPECT_TRUE(weak.battery_gave_way);
+  // The most power is drawn at half of the open-circuit voltage.
+  for (double voltage_V : weak.log.battery_voltage_V) {
+    EXPECT_GE(voltage_V, 25.0 / 2 - 1e-9);
+    EXPECT_LE(voltage_V, 25.0 + 1e-9);
+  }
 }
 
 TEST(Simulate, WithoutABatteryTheLogHasNoBatteryChannels) {
@@ -272,6 +279,26 @@ TEST(Simulate, AReferenceWithoutSpeedsIsRefused) {
   EXPECT_THROW((void)simulate(request), ConfigError);
   request.reference.time_s = {0, 1};
   EXPECT_THROW((void)simulate(request), ConfigError);
+}
+
+/// With an integral gain alone the voltage is the integral. At rest it decays with 0.1 s; a wheel that still
+/// turns keeps it, but for the speed error of one period.
+TEST(WheelController, KeepsItsIntegralUntilTheWheelsStand) {
+  constexpr double kGain_V_rad = 1.0, kPeriod_s = 0.01, kTurning_rad_s = 0.5;
+  const auto stopped_V = [&](double wheel_rad_s) {
+    WheelController controller({.period_s = kPeriod_s,
+                                .proportional_V_s_rad = 0.0,
+                                .integral_V_rad = kGain_V_rad,
+                                .feed_forward = false},
+                               testing::nomad());
+    double before_V = 0;
+    for (int i = 0; i < 100; ++i)
+      before_V = controller.command_V({.speed_m_s = 1.0}, {}, {0.0, 0.0}, {24.0, 24.0}).left;
+    EXPECT_NEAR(before_V, 100 * kGain_V_rad * (1.0 / 0.1) * kPeriod_s, 1e-9);
+    return controller.command_V({}, {}, {wheel_rad_s, wheel_rad_s}, {24.0, 24.0}).left / before_V;
+  };
+  EXPECT_NEAR(stopped_V(0.0), std::exp(-kPeriod_s / 0.1), 1e-9);
+  EXPECT_NEAR(stopped_V(kTurning_rad_s), 1.0 - kGain_V_rad * kTurning_rad_s * kPeriod_s / 10.0, 2e-3);
 }
 
 }  // namespace

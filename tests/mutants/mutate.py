@@ -116,29 +116,34 @@ def suites(program):
     return [name + "*-" + ":".join(own) for name in names] + own
 
 
-def suites_of(program):
-    """What each suite reaches and its CPU time, with no mutant active."""
-    notes, found = os.path.join(OUT, "reached.txt"), []
-    for choice in suites(program):
-        write(notes, "")
-        start_s = children_s()
-        done = run_tests(program, choice, notes=notes)
-        if done.returncode != 0:
-            sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
-        found.append({"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))})
+def suite_of(program, choice):
+    """What a suite reaches and its CPU time, with no mutant active."""
+    notes, start_s = os.path.join(OUT, "reached.%d.txt" % os.getpid()), children_s()
+    write(notes, "")
+    done = run_tests(program, choice, notes=notes)
+    if done.returncode != 0:
+        sys.exit(done.stdout[-4000:] + "\nmutate: %s fails without a mutant" % choice)
+    return {"program": program, "choice": choice, "cpu_s": children_s() - start_s, "reaches": list(map(int, read(notes).split()))}
+
+
+def suites_of(program, pool):
+    """All suites of a program; slow ones stand last and begin first."""
+    choices = suites(program)[::-1]
+    found = list(pool.map(suite_of, [program] * len(choices), choices))
     print("%s: %d suites take %.0f s of CPU" % (program, len(found), sum(suite["cpu_s"] for suite in found)), flush=True)
     return found
 
 
-def survey(programs):
+def survey(programs, jobs):
     """The suites of all programs, quick ones first. Kept for each program as long as its bytes stay."""
     kept = json.loads(read(SURVEY)) if os.path.exists(SURVEY) else {}
-    for program in programs:
-        with open(os.path.join(BUILD, "bin", program), "rb") as stream:
-            state = hashlib.sha256(stream.read()).hexdigest()
-        if kept.get(program, {}).get("state") != state:
-            kept[program] = {"state": state, "suites": suites_of(program)}
-            write(SURVEY, json.dumps(kept))
+    with concurrent.futures.ProcessPoolExecutor(jobs) as pool:  # processes: each knows the CPU time of its own tests
+        for program in programs:
+            with open(os.path.join(BUILD, "bin", program), "rb") as stream:
+                state = hashlib.sha256(stream.read()).hexdigest()
+            if kept.get(program, {}).get("state") != state:
+                kept[program] = {"state": state, "suites": suites_of(program, pool)}
+                write(SURVEY, json.dumps(kept))
     return sorted((suite for program in programs for suite in kept[program]["suites"]), key=lambda suite: suite["cpu_s"])
 
 
@@ -221,7 +226,7 @@ def judge_all(queues, asked):
     sites = [site for queue in queues.values() for site in queue]
     number(sites)
     build_all(sites, programs)
-    surveyed = survey(programs)
+    surveyed = survey(programs, asked.jobs)
     chosen = open_sites(queues, areas, asked, done)
 
     def judged(site):

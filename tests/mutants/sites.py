@@ -11,7 +11,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 SEED, PER_AREA = 20261122, 75
 AREAS = {  # folders and the test programs that judge their mutants
     "model": (["model/"], ["test_model", "test_energy", "test_estimation", "test_calibration", "test_diagnosis"]),
-    "nlp": (["planner/nlp/"], ["test_nlp", "test_energy"]),
+    "nlp": (["planner/nlp/"], ["test_nlp", "test_energy", "test_mission"]),
     "profile": (["planner/accounts/", "planner/profile/"], ["test_nlp", "test_energy", "test_mission", "test_route_graph"]),
     "diagnosis": (["diagnosis/"], ["test_estimation", "test_calibration", "test_diagnosis", "test_monitor"]),
 }

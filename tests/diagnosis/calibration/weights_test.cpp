@@ -1,6 +1,8 @@
 // Weights of the two equations of the full method, from sums with known residuals.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "diagnosis/calibration/full_fit.hpp"
 
 namespace joulepath::calibration {
@@ -51,6 +53,33 @@ TEST(FitWeights, WithoutVoltagesLeaveTheirEquationOut) {
   sums.voltage.setZero();
   sums.voltage_count = 0;
   EXPECT_EQ(weights_of(sums).voltage, 0.0);
+}
+
+/// The current asks for K = 0.5, the voltage for K = 1: the fit is between them, and no neighbor is better.
+TEST(FitFull, IsTheLeastOfBothWeightedSquares) {
+  FitSums sums = two_way_sums(0, 0);
+  // The sign of the motion is an instrument; i, q' and V have it.
+  for (const auto& [column, value] :
+       {std::pair{0, 1.0}, std::pair{6, 1.0}, std::pair{7, 1.0}, std::pair{8, 2.0}})
+    sums.voltage(0, column) = sums.voltage(column, 0) = kRows * value;
+  FitValues start{};
+  start[kFrictionLeft] = 0.5;
+  start[kTorquePerAmpere] = start[kResistance] = 1.0;
+  FreeParameters free{};
+  free[kTorquePerAmpere] = true;
+  const FitWeights weights{2.0, 3.0};
+  const FitResult result = fit_full(sums, weights, start, {}, free);
+  ASSERT_TRUE(result.converged);
+  const auto squares = [&](double torque_per_ampere) {
+    FitValues values = result.values;
+    values[kTorquePerAmpere] = torque_per_ampere;
+    return weights.torque * current_mean_square_A2(sums, values) +
+           weights.voltage * voltage_mean_square_V2(sums, values);
+  };
+  const double found = result.values[kTorquePerAmpere];
+  EXPECT_GT(found, 0.5);
+  EXPECT_LT(found, 1.0);
+  for (const double other : {0.999 * found, 1.001 * found}) EXPECT_LT(squares(found), squares(other));
 }
 
 }  // namespace

@@ -188,6 +188,31 @@ TEST(Monitor, ExecutedIsPlannedWhereNothingIsHidden) {
   EXPECT_NEAR(monitor.status().rest_J, 0, 0.01 * monitor.status().planned_J);
 }
 
+/// 10 m at 1 m/s, planned with 10 W of the motors and 10 W of standby. Half as much deviates as half more
+/// does.
+TEST(Monitor, ALegThatTakesMoreOrLessThanPlannedDeviates) {
+  PlannedCourse course;
+  for (int k = 0; k <= 100; ++k) {
+    course.time_s.push_back(0.1 * k);
+    course.travel_m.push_back(0.1 * k);
+    course.energy_J.push_back(2.0 * k);
+    course.payload_kg.push_back(0);
+    course.leg.push_back(0);
+  }
+  for (const double motors_W : {5.0, 10.0, 15.0}) {
+    Monitor monitor(nomad(), course, {});
+    for (int k = 0; k < 100; ++k)
+      (void)monitor.add({.time_s = 0.1 * k,
+                         .wheel_speed_rad_s = {10, 10},
+                         .motor_voltage_V = {10, 10},
+                         .motor_current_A = {motors_W / 20, motors_W / 20},
+                         .payload_kg = 0});
+    const LegExecuted leg = monitor.leg_executed();
+    EXPECT_NEAR(leg.executed_J, 9.9 * (motors_W + 10), 1e-6);
+    EXPECT_EQ(leg.deviates, motors_W != 10.0) << motors_W;
+  }
+}
+
 /// Rows doubled, out of order, without numbers, left out: the same change is found.
 TEST(Monitor, NoRowStopsIt) {
   const Day quiet = day(30);
