@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "diagnosis/checks/dead_channels.hpp"
+#include "diagnosis/checks/effectiveness.hpp"
 #include "diagnosis/checks/faults.hpp"
 #include "diagnosis/checks/noisy_units.hpp"
 #include "diagnosis/checks/odd_laws.hpp"
@@ -36,43 +37,6 @@ bool has_doubtful(const Relations& relations) {
   return std::ranges::any_of(relations, [](const auto& relation) {
     return relation && !(relation->unexplained <= relation->doubtful);
   });
-}
-
-/// Effect of a repair on the relations of a run.
-struct Effectiveness {
-  double nats{};       ///< sum over the relations of log(unexplained share before / after)
-  bool repairs{};      ///< the repair makes a relation sound and harms none
-  bool contradicts{};  ///< the repair breaks a sound relation
-  std::size_t most{};  ///< relation with the greatest gain
-};
-
-/// With `by_factor` (a factor that is not a unit conversion), relations that predict torques do not count:
-/// resistances of the floor may multiply the torque several times.
-Effectiveness compare(const Relations& before, const Relations& after, bool by_factor = false) {
-  Effectiveness result;
-  double greatest = 0;
-  bool harmed = false;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!before[k] || !after[k] || (by_factor && before[k]->sound >= kSoundTorque)) continue;
-    const double old_share = before[k]->unexplained + kExactRelation,
-                 new_share = after[k]->unexplained + kExactRelation;
-    const double nats = std::log(old_share / new_share);
-    result.nats += nats;
-    const bool broken = before[k]->unexplained > before[k]->sound;
-    if (nats < -std::log(kRepairHarm) &&
-        after[k]->unexplained > (by_factor ? after[k]->sound : after[k]->doubtful)) {
-      harmed = true;
-      if (!broken) result.contradicts = true;
-    }
-    const bool doubtful = before[k]->unexplained > before[k]->doubtful;
-    const double least = broken     ? std::log(kRepairGain)
-                         : doubtful ? std::log(kRepairGainOfDoubtful)
-                                    : std::numeric_limits<double>::infinity();
-    if (nats > std::max(greatest, least) && after[k]->unexplained <= after[k]->sound)
-      greatest = nats, result.most = k;
-  }
-  result.repairs = greatest > 0 && !harmed;
-  return result;
 }
 
 std::string percent(double share) {
@@ -141,25 +105,6 @@ class DataCheckSearch {
       for (const FollowedChannel& channel : channels[r]) found[channel.columns].emplace(r, channel);
     for (const auto& [columns, runs] : found)
       if (const std::vector<std::size_t> dead = dead_runs(runs); !dead.empty()) report_dead(runs, dead);
-  }
-
-  /// The runs in which a channel is dead: all that have it where each run that could show the contrary is one
-  /// of them.
-  static std::vector<std::size_t> dead_runs(const std::map<std::size_t, FollowedChannel>& runs) {
-    std::vector<std::size_t> dead, all;
-    bool alive = false, varies = false, dead_vary = false;  // of the other runs, and of the dead ones
-    for (const auto& [r, channel] : runs) {
-      all.push_back(r);
-      const bool varies_with_less = std::ranges::any_of(runs, [&own = channel](const auto& other) {
-        return !other.second.is_constant && other.second.expected <= own.expected;
-      });
-      if (channel.is_dead || (channel.is_constant && varies_with_less))
-        dead.push_back(r), dead_vary |= !channel.is_constant;
-      else
-        alive |= channel.is_alive, varies |= !channel.is_constant;
-    }
-    const bool contradicted = alive || (varies && !dead_vary);
-    return dead.empty() || contradicted ? dead : all;
   }
 
   void report_dead(const std::map<std::size_t, FollowedChannel>& runs, const std::vector<std::size_t>& dead) {

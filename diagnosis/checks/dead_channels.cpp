@@ -112,4 +112,21 @@ std::vector<FollowedChannel> followed_channels(const RunSignals& run, const Robo
   return Search(run, robot).list();
 }
 
+std::vector<std::size_t> dead_runs(const std::map<std::size_t, FollowedChannel>& runs) {
+  std::vector<std::size_t> dead, all;
+  bool alive = false, varies = false, dead_vary = false;  // of the other runs, and of the dead ones
+  for (const auto& [r, channel] : runs) {
+    all.push_back(r);
+    const bool varies_with_less = std::ranges::any_of(runs, [&own = channel](const auto& other) {
+      return !other.second.is_constant && other.second.expected <= own.expected;
+    });
+    if (channel.is_dead || (channel.is_constant && varies_with_less))
+      dead.push_back(r), dead_vary |= !channel.is_constant;
+    else
+      alive |= channel.is_alive, varies |= !channel.is_constant;
+  }
+  const bool contradicted = alive || (varies && !dead_vary);
+  return dead.empty() || contradicted ? dead : all;
+}
+
 }  // namespace joulepath

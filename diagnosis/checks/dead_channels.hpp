@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "diagnosis/checks/faults.hpp"
@@ -20,5 +23,9 @@ struct FollowedChannel {
 
 /// The channels that the run has, always in the same order.
 [[nodiscard]] std::vector<FollowedChannel> followed_channels(const RunSignals& run, const Robot& robot);
+
+/// The runs in which a channel is dead: all that have it where each run that could show the contrary is one
+/// of them.
+[[nodiscard]] std::vector<std::size_t> dead_runs(const std::map<std::size_t, FollowedChannel>& runs);
 
 }  // namespace joulepath

@@ -8,9 +8,6 @@
 
 namespace joulepath {
 
-/// The relations of one run, as relations_of() returns them.
-using Relations = std::vector<std::optional<Relation>>;
-
 /// What one run's laws leave unexplained, held against the other runs.
 struct OddLaws {
   std::vector<double> most{};      ///< by law: greatest unexplained share of the other runs

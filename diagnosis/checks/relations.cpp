@@ -219,7 +219,7 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
   return expected;
 }
 
-std::vector<std::optional<Relation>> relations_of(const RunSignals& run, const Robot& robot, double freedom) {
+Relations relations_of(const RunSignals& run, const Robot& robot, double freedom) {
   const ExpectedMotors expected = expected_motors(run, robot);
   const Geometry& geometry = robot.geometry;
   return {winding(run, robot, expected, Side::left, freedom),

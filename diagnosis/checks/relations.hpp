@@ -27,10 +27,11 @@ struct ExpectedMotors {
 
 [[nodiscard]] ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot);
 
-/// The relations that the run's channels and motion allow, always in the same order; empty where a channel is
-/// absent or the run does not move. With `freedom` 1 a factor may take any value inside its box; with 0 it
-/// has the value of the robot file.
-[[nodiscard]] std::vector<std::optional<Relation>> relations_of(const RunSignals& run, const Robot& robot,
-                                                                double freedom = 1.0);
+/// Of one run, by law, always in the same order; empty where a channel is absent or the run does not move.
+using Relations = std::vector<std::optional<Relation>>;
+
+/// The relations that the run's channels and motion allow. With `freedom` 1 a factor may take any value
+/// inside its box; with 0 it has the value of the robot file.
+[[nodiscard]] Relations relations_of(const RunSignals& run, const Robot& robot, double freedom = 1.0);
 
 }  // namespace joulepath
