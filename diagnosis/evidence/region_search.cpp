@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0524-patches-at-the-battery.md
 namespace joulepath {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnosis/evidence/walk_noise.hpp"
-#include "diagnosis/prediction/prediction.hpp"
+#include "diagnosis/prediction/rows.hpp"
 
 namespace joulepath {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/prediction/prediction.hpp"
+#include "diagnosis/prediction/rows.hpp"
 
 namespace joulepath {
 

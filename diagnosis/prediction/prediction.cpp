@@ -95,14 +95,6 @@ void distort(const std::vector<Effect>& instruments, double channel_delay_s, con
     }
 }
 
-/// Motor power drawn from the supply, from the logged voltages and currents.
-double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
-  return supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]});
-}
-
-/// Removes the mean of a column: the offset of a run's pose is free.
-void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }
-
 Prediction empty_prediction(Eigen::Index n) {
   Prediction out;
   const Resizer resize{n};
@@ -151,69 +143,6 @@ void write_pose(const Geometry& geometry, const RunSignals& signals, Eigen::Inde
       slip.heading_rad;
   out.x_m[j] = rolled(signals.wheel_along_x_rad) - slip.x_m;
   out.y_m[j] = rolled(signals.wheel_along_y_rad) - slip.y_m;
-}
-
-void fill(Channel channel, const Eigen::VectorXd& residual, ResidualRows& rows) {
-  rows.value.col(channel) = residual;
-  rows.present.col(channel).setConstant(true);
-}
-
-void fill_motor(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction, Side side,
-                ResidualRows& rows) {
-  const Eigen::Index n = signals.size();
-  const int s = side == Side::left ? 0 : 1;
-  const auto current = static_cast<Channel>(kCurrentLeft + s),
-             winding = static_cast<Channel>(kWindingLeft + s);
-  const bool has_current = signals.motor_current_A[side].size() == n && n > 0;
-  const bool has_voltage = signals.motor_voltage_V[side].size() == n && n > 0;
-  const double resistance_ohm = point.robot.motor[side].resistance_ohm;
-  if (has_current) fill(current, signals.motor_current_A[side] - prediction.current_A[side], rows);
-  if (has_voltage) {
-    Eigen::VectorXd winding_V = signals.motor_voltage_V[side] - prediction.voltage_V[side];
-    if (has_current) winding_V -= resistance_ohm * rows.value.col(current);
-    fill(winding, winding_V, rows);
-  }
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const bool turning = signals.turning[side][static_cast<std::size_t>(j)];
-    if (!turning) rows.present(j, current) = false;
-    const bool told = has_current ? signals.conducting[side][static_cast<std::size_t>(j)] : turning;
-    if (!told) rows.present(j, winding) = false;
-  }
-}
-
-void fill_supply(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction,
-                 ResidualRows& rows) {
-  const Eigen::Index n = signals.size();
-  const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
-                      signals.motor_current_A.left.size() == n;
-  const bool battery = signals.battery_power_W.size() == n && n > 0;
-  if (battery && !measures_motors(signals))
-    fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W, rows);
-  if (battery && motors) {
-    Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Sided<double> measured_W;
-      for (Side side : kSides)
-        measured_W[side] = signals.motor_voltage_V[side][j] * signals.motor_current_A[side][j];
-      driver_W[j] -= supply_power_W(point.robot.power, measured_W) - logged_supply_W(point, prediction, j);
-    }
-    fill(kDriverPower, driver_W, rows);
-  }
-  if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
-      std::isfinite(point.robot.battery.open_circuit_voltage_V))
-    fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V, rows);
-}
-
-void fill_motion(const RunSignals& signals, const Prediction& prediction, ResidualRows& rows) {
-  const Eigen::Index n = signals.size();
-  if (signals.gyro_yaw_rate_rad_s.size() == n && n > 0)
-    fill(kGyro, signals.gyro_yaw_rate_rad_s - prediction.yaw_rate_rad_s, rows);
-  if (signals.heading_measured) fill(kHeading, signals.heading_rad - prediction.heading_rad, rows);
-  if (signals.heading_measured && signals.x_m.size() == n && n > 0) {
-    fill(kPositionX, signals.x_m - prediction.x_m, rows);
-    fill(kPositionY, signals.y_m - prediction.y_m, rows);
-  }
-  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.value.col(pose));
 }
 
 /// Motion of the body as the wheels tell it, without creep.
@@ -282,42 +211,6 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   });
   distort(split.instruments, point.channel_delay_s, signals, out);
   return out;
-}
-
-ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction) {
-  ResidualRows rows{.value = Eigen::MatrixXd::Zero(signals.size(), kChannelCount)};
-  rows.present.setConstant(signals.size(), kChannelCount, false);
-  for (Side side : kSides) fill_motor(signals, point, prediction, side, rows);
-  fill_supply(signals, point, prediction, rows);
-  fill_motion(signals, prediction, rows);
-  return rows;
-}
-
-Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& base,
-                               const Prediction& changed) {
-  const Eigen::Index n = base.heading_rad.size();
-  Eigen::MatrixXd rows(n, kChannelCount);
-  Eigen::VectorXd driver_W = changed.battery_power_W - base.battery_power_W;
-  if (measures_motors(signals))
-    for (Eigen::Index j = 0; j < n; ++j)
-      driver_W[j] -= logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
-  for (Side side : kSides) {
-    const int s = side == Side::left ? 0 : 1;
-    const Eigen::VectorXd current = changed.current_A[side] - base.current_A[side];
-    const Eigen::VectorXd voltage = changed.voltage_V[side] - base.voltage_V[side];
-    rows.col(kCurrentLeft + s) = current;
-    rows.col(kWindingLeft + s) = voltage;
-    if (signals.motor_current_A[side].size() == n)
-      rows.col(kWindingLeft + s) -= point.robot.motor[side].resistance_ohm * current;
-  }
-  rows.col(kDriverPower) = driver_W;
-  rows.col(kSupplyVoltage) = changed.battery_voltage_V - base.battery_voltage_V;
-  rows.col(kGyro) = changed.yaw_rate_rad_s - base.yaw_rate_rad_s;
-  rows.col(kHeading) = changed.heading_rad - base.heading_rad;
-  rows.col(kPositionX) = changed.x_m - base.x_m;
-  rows.col(kPositionY) = changed.y_m - base.y_m;
-  for (Channel pose : {kHeading, kPositionX, kPositionY}) remove_mean(rows.col(pose));
-  return rows;
 }
 
 }  // namespace joulepath

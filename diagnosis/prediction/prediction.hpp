@@ -1,11 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "diagnosis/signals/run_signals.hpp"
-#include "diagnosis/values/channels.hpp"
 #include "model/plant.hpp"
 
 namespace joulepath {
@@ -32,22 +30,6 @@ struct Prediction {
   Eigen::VectorXd y_m{};
 };
 
-/// Rows of one run: one column per Channel. `present` is false for a row that does not count (absent channel,
-/// wheel near standstill).
-struct ResidualRows {
-  Eigen::MatrixXd value{};  ///< samples x kChannelCount
-  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> present{};
-};
-
 [[nodiscard]] Prediction predict(const RunSignals& signals, const ModelPoint& point);
-
-/// Measured minus predicted values as structured rows.
-[[nodiscard]] ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point,
-                                         const Prediction& prediction);
-
-/// Difference of the structured rows of two predictions: the signature of the changed parameter. Free of
-/// noise, because only predictions enter.
-[[nodiscard]] Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& point,
-                                             const Prediction& base, const Prediction& changed);
 
 }  // namespace joulepath

@@ -8,6 +8,7 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/numerics/resample.hpp"
+#include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"

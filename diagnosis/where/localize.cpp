@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
 #include "model/kinematics.hpp"

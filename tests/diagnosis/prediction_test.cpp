@@ -1,5 +1,5 @@
 // Predictions of a model for measured motions, and their rows, against the laws that they state.
-#include "diagnosis/prediction/prediction.hpp"
+#include "diagnosis/prediction/rows.hpp"
 
 #include <gtest/gtest.h>
 
