@@ -110,6 +110,15 @@ OptionRules& OptionRules::existing_path() {
   return *this;
 }
 
+/// A script's variable that is not set gives an empty text.
+OptionRules& OptionRules::not_empty() {
+  const auto check = [](const std::string& text) {
+    return std::string(text.empty() ? "found an empty text, accepted: a value" : "");
+  };
+  option_->check(CLI::Validator(check, ""));
+  return *this;
+}
+
 OptionRules& OptionRules::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
   return *this;

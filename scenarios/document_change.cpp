@@ -34,7 +34,7 @@ std::vector<Step> steps_of(const std::string& path, const NamedBy& named_by) {
       steps.push_back(bracket_step(path.substr(at + 1, end - at - 1), path, named_by));
       at = end + 1;
     } else {
-      if (path[at] == '.') ++at;
+      if (path[at] == '.' && at > 0) ++at;
       const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
       if (end == at) refuse(named_by, path, "keys with a point between them: motor.gear_ratio");
       steps.push_back({.key = path.substr(at, end - at)});

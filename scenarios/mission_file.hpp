@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "planner/values/mission_request.hpp"
@@ -31,10 +32,10 @@ void check_footprint(const MissionRequest& request, const Robot& robot);
 void check_payload(double payload_kg, const Robot& robot, const std::string& robot_file,
                    const NamedBy& named_by);
 
-/// All files that the plan of a mission depends on, except the mission's own: robot, order, route graph, and
-/// maps with their images. Throws ConfigError if a map file cannot be read.
-[[nodiscard]] std::vector<std::string> files_read_by(const MissionRequest& request,
-                                                     const ReadOptions& options = {});
+/// Calls `visit` for all files that the plan of a mission depends on, except the mission's own: robot, order,
+/// route graph, and maps with their images. Throws ConfigError if a map file cannot be read, after its visit.
+void visit_files_read_by(const MissionRequest& request, const ReadOptions& options,
+                         const std::function<void(const std::string&)>& visit);
 
 /// The marks of a map in the file and of its keys.
 [[nodiscard]] ItemMarks marks_of(const Node& node);

@@ -65,17 +65,16 @@ MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& 
   return world;
 }
 
-std::vector<std::string> files_read_by(const MissionRequest& request, const ReadOptions& options) {
-  std::vector<std::string> files;
+void visit_files_read_by(const MissionRequest& request, const ReadOptions& options,
+                         const std::function<void(const std::string&)>& visit) {
   for (const std::string& file : {request.robot_file, request.order_file, request.route_graph_file})
-    if (!file.empty()) files.push_back(file);
+    if (!file.empty()) visit(file);
   for (const std::string& file : {request.map_file, request.keepout_file,
                                   request.speed_mask ? request.speed_mask->file : std::string()}) {
     if (file.empty()) continue;
-    files.push_back(file);
-    files.push_back(map_image_file(file, options));
+    visit(file);
+    visit(map_image_file(file, options));
   }
-  return files;
 }
 
 }  // namespace joulepath

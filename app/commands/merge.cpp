@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "app/command_line.hpp"
@@ -11,20 +10,27 @@
 namespace joulepath {
 namespace {
 
-/// Puts the lines of one shard at their indices.
-void take_lines(const std::string& directory, const ShardManifest& manifest, std::vector<std::string>& all) {
-  const std::string file = directory + "/results.jsonl", text = read_text_file(file);
-  const auto refuse = [&](const std::string& found, const std::string& accepted) {
-    throw ConfigError({{file, 0, 0}, "", found, accepted, "run this shard again"});
-  };
-  if (ContentHash().mix(text).text() != manifest.results_digest)
-    refuse("lines that were changed or cut", "the lines that the shard wrote");
+[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& accepted) {
+  throw ConfigError({{file, 0, 0}, "", found, accepted, "run this shard again"});
+}
+
+/// Puts the lines of a shard's file at the indices of their jobs.
+void take_lines(const std::string& file, const std::string& text, const ShardManifest& manifest,
+                std::vector<std::string>& all) {
   const std::vector<std::size_t> indices = manifest.shard.indices(manifest.jobs);
   const auto count = static_cast<std::size_t>(std::ranges::count(text, '\n'));
   if (count != indices.size())
-    refuse(std::to_string(count) + " lines", std::to_string(indices.size()) + " lines");
+    refuse(file, std::to_string(count) + " lines", std::to_string(indices.size()) + " lines");
   std::istringstream lines(text);
   for (const std::size_t index : indices) std::getline(lines, all[index]);
+}
+
+void take_results(const std::string& directory, const ShardManifest& manifest,
+                  std::vector<std::string>& all) {
+  const std::string file = directory + "/results.jsonl", text = read_text_file(file);
+  if (ContentHash().mix(text).text() != manifest.results_digest)
+    refuse(file, "lines that were changed or cut", "the lines that the shard wrote");
+  take_lines(file, text, manifest, all);
 }
 
 class MergeCommand : public Command {
@@ -56,7 +62,7 @@ class MergeCommand : public Command {
     const ShardManifest& first = shards.front();
     OutputDirectory out(out_, first.command == "sweep" ? kSweepFiles : kBatchFiles, common_.force);
     std::vector<std::string> lines(first.jobs);
-    for (std::size_t i = 0; i < shards.size(); ++i) take_lines(directories_[i], shards[i], lines);
+    for (std::size_t i = 0; i < shards.size(); ++i) take_results(directories_[i], shards[i], lines);
     add_merged_timings(out, first.jobs, shards);
     if (first.command == "sweep")
       finish_sweep(out, study_from(Document::parse(first.study_text, first.study_file)), lines, {}, common_);
@@ -71,8 +77,8 @@ class MergeCommand : public Command {
                           const std::vector<ShardManifest>& shards) const {
     std::vector<std::string> timings(jobs);
     for (std::size_t i = 0; i < shards.size(); ++i) {
-      std::ifstream in(directories_[i] + "/timings.jsonl");
-      for (const std::size_t index : shards[i].shard.indices(jobs)) std::getline(in, timings[index]);
+      const std::string file = directories_[i] + "/timings.jsonl";
+      take_lines(file, read_text_file(file), shards[i], timings);
     }
     std::string text;
     for (const std::string& line : timings) text += line + "\n";

@@ -15,6 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kUnreadable = "unreadable";  // instead of a digest
+
 /// A batch result of a plan: the figures for reports and fleet managers.
 Json plan_line(const Plan& plan) {
   Json json{{"status", solve_status_name(plan.status)}};
@@ -54,9 +56,11 @@ std::string text_of(const PlanOptions& o) {
 
 std::string MissionPlanner::content_digest(const std::string& file) {
   const std::lock_guard lock(digests_mutex_);
-  const auto known = digests_.find(file);
-  if (known != digests_.end()) return known->second;
-  return digests_[file] = ContentHash().mix(read_text_file(file)).text();
+  const auto [digest, is_new] = digests_.emplace(file, kUnreadable);
+  if (is_new) digest->second = ContentHash().mix(read_text_file(file)).text();
+  if (digest->second == kUnreadable)
+    throw ConfigError({{file, 0, 0}, "", "a file that could not be read", "a file that can be read"});
+  return digest->second;
 }
 
 std::map<std::string, std::string> MissionPlanner::files_read() const {
@@ -81,9 +85,9 @@ std::string MissionPlanner::fingerprint(const MissionItem& item, const MissionVa
   ContentHash hash;
   for (const std::string& part : {std::string(kBuildId), item.name, item.text, text_of(options_)})
     hash.mix(part);
-  std::vector<std::string> files = files_read_by(mission_of(item, variant), reading_);
-  if (item.text.empty()) files.push_back(item.file);
-  for (const std::string& file : files) hash.mix(file + "=" + content_digest(file));
+  const auto mix_file = [&](const std::string& file) { hash.mix(file + "=" + content_digest(file)); };
+  if (item.text.empty()) mix_file(item.file);
+  visit_files_read_by(mission_of(item, variant), reading_, mix_file);
   return hash.text();
 } catch (const std::exception&) {
   return "";  // planning reports the reason

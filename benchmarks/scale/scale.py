@@ -47,12 +47,12 @@ def wait(processes):
     return costs
 
 
-def write_missions(count):
-    """One curve each, no two alike."""
-    file = pathlib.Path(f"missions_{count}.jsonl")
+def write_missions(count, curves=None, name="missions"):
+    """One curve each, no two alike unless `curves` says how many there are."""
+    file = pathlib.Path(f"{name}_{count}.jsonl")
     with open(file, "w", encoding="utf-8") as out:
         for k in range(count):
-            curve = [[[0, 0], [1, 0], [2, k / count], [3, 0.5]]]
+            curve = [[[0, 0], [1, 0], [2, k % (curves or count) / (curves or count)], [3, 0.5]]]
             out.write(json.dumps({"robot": "robot.yaml", "legs": [{"path": {"bezier_m": curve}}]}) + "\n")
     return file
 
@@ -79,8 +79,9 @@ def sharded(program, count, processes):
     return costs, merge, same
 
 
-def beside_planning(program, count, planned, shards=4):
-    """What `count` missions cost beside their planning: a batch that plans none of them, and the merge of lines like real ones."""
+def beside_planning(program, count, shards=4):
+    """What `count` missions cost beside their planning: a batch that plans none of them, and the merge of shards whose missions share
+    100 curves, so that most of their plans are remembered."""
     file = write_missions(count)
     pathlib.Path("held.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(count)))
     words = [program, "batch", file, "-j", "1", "--quiet", "--force", *OPTIONS, "--quarantine", "held.jsonl", "--out"]
@@ -88,13 +89,9 @@ def beside_planning(program, count, planned, shards=4):
     pathlib.Path("few.jsonl").write_text("".join(json.dumps({"index": k, "reason": "not planned"}) + "\n" for k in range(0, count, SHARDS)))
     listing, = wait([start([program, "batch", file, "-j", "1", "--quiet", "--force", *OPTIONS, "--quarantine", "few.jsonl", "--shard", f"1/{SHARDS}",
                             "--out", "listing"])])
-    known = [json.loads(line) for line in pathlib.Path(f"one_{planned}/results.jsonl").read_text().splitlines()]
-    folders = [pathlib.Path(f"again_{k}") for k in range(shards)]
-    for k, folder in enumerate(folders):
-        wait([start([*words, folder, "--shard", f"{k + 1}/{shards}"])])
-        with open(folder / "results.jsonl", "w", encoding="utf-8") as out:
-            for index in range(k, count, shards):
-                out.write(json.dumps({**known[index % planned], "index": index}, separators=(",", ":")) + "\n")
+    alike, folders = write_missions(count, 100, "alike"), [pathlib.Path(f"again_{k}") for k in range(1, shards + 1)]
+    for k, folder in enumerate(folders, 1):
+        wait([start([program, "batch", alike, "-j", "1", "--quiet", "--force", *OPTIONS, "--shard", f"{k}/{shards}", "--out", folder])])
     merge, = wait([start([program, "merge", *folders, "--out", "merged_again", "--quiet", "--force"])])
     return books, listing, merge, sum(f.stat().st_size for f in pathlib.Path("merged_again").iterdir()) / 2**20
 
@@ -169,10 +166,10 @@ def main():
         wall_s, peak_MiB, same = on_dask(count, workers, 8)
         lines.append(f"| {workers} Dask worker{'s' * (workers > 1)}, 8 shards | | | {wall_s:.0f} | {peak_MiB:.0f} (the worker itself) | {yes(same)} |")
     many = 100_000
-    books, listing, merge, files_MiB = beside_planning(program, many, count)
+    books, listing, merge, files_MiB = beside_planning(program, many)
     lines += ["", f"## {many:,} missions without their planning", "", "| part | CPU, s | peak memory, MiB |", "|---|---:|---:|",
               f"| `batch` that reads all missions and plans none (`--quarantine`) | {books.cpu_s:.1f} | {books.peak_MiB:.0f} |",
-              f"| `merge` of 4 shards with lines like real ones: {files_MiB:.0f} MiB of files | {merge.cpu_s:.1f} | {merge.peak_MiB:.0f} |"]
+              f"| `merge` of 4 shards whose missions share 100 curves: {files_MiB:.0f} MiB of files | {merge.cpu_s:.1f} | {merge.peak_MiB:.0f} |"]
     largest, cost, *_ = rows[-1]
     lines += ["", *projection(cost.cpu_s / largest, task_cost(), books, listing, merge, many, files_MiB)]
     result.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -54,8 +54,10 @@ def command(study: Any, options: Any) -> tuple[str, ...]:
     is_study = os.path.splitext(file)[1] in (".yaml", ".yml") and "missions" in cast(Any, _core.load_document(file))
     words = ("sweep" if is_study else "batch", file, *words)
     with tempfile.TemporaryDirectory() as scratch:  # the last of so many shards has no job
+        held = Path(scratch, "held.jsonl")
+        held.touch()
         tried = subprocess.run((sys.executable, "-m", "joulepath", *words, "-j1", "-q", "--shard", f"{MOST_SHARDS}/{MOST_SHARDS}",
-                                "--out", os.path.join(scratch, "none")), stderr=subprocess.PIPE, text=True)
+                                "--quarantine", str(held), "--out", os.path.join(scratch, "none")), stderr=subprocess.PIPE, text=True)
     if tried.returncode != 0:
         raise ConfigError(tried.stderr.strip(), key="options")
     return words

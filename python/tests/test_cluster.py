@@ -219,6 +219,7 @@ def test_one_shard_is_a_run_too(client, missions):
     ({"options": ("--nodes", "1")}, "--nodes"),
     ({"options": ("--out", "elsewhere")}, "--out"),
     ({"options": ("--shard", "1/2")}, "--shard"),
+    ({"options": ("--quarantine", "held.jsonl")}, "--quarantine"),
 ])
 def test_a_wrong_argument_is_refused_before_anything_is_written(client, missions, tmp_path, wrong, said):
     before = sorted(tmp_path.rglob("*"))

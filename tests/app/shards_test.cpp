@@ -111,6 +111,32 @@ TEST_F(Shards, FilesThatADesignNamesAreInputs) {
   EXPECT_NE(done.err.find("b.yaml with another content"), std::string::npos) << done.err;
 }
 
+/// A file that one shard could not read, or could not make sense of, is another input, too.
+TEST_F(Shards, AFileThatOneShardCouldNotReadIsAnInput) {
+  const auto refused = [&](const std::string& word) {
+    const auto done = merge("s1 s2", "all");
+    EXPECT_EQ(done.code, 2);
+    EXPECT_NE(done.err.find(word + " with another content"), std::string::npos) << done.err;
+  };
+  std::filesystem::rename(scratch.at("robot.yaml"), scratch.at("away.yaml"));
+  ASSERT_EQ(batch("s1", "--shard 1/2").code, 0);
+  std::filesystem::rename(scratch.at("away.yaml"), scratch.at("robot.yaml"));
+  ASSERT_EQ(batch("s2", "--shard 2/2").code, 0);
+  refused("robot.yaml");
+  const std::string study = scratch.write("study.yaml",
+                                          "missions: [mission.yaml, other.yaml, third.yaml]\nparameters:\n"
+                                          "  gear: {key: robot.motor.gear_ratio, values: [10, 20]}\n");
+  scratch.write("third.yaml", kMission + "name: third\n");
+  for (const std::string k : {"1", "2"}) {
+    scratch.write("other.yaml", k == "1" ? "legs: [\n" : kMission);
+    ASSERT_EQ(run_program(scratch, "sweep " + study + " -q --nodes 20 --force --out " + scratch.at("s" + k) +
+                                       " --shard " + k + "/2")
+                  .code,
+              0);
+  }
+  refused("other.yaml");
+}
+
 TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   for (const char* k : {"1", "2", "3"})
     ASSERT_EQ(batch(std::string("s") + k, std::string("--shard ") + k + "/3").code, 0);
@@ -140,6 +166,7 @@ TEST_F(Shards, ShardsOfDifferentRunsAreRejected) {
   refused("s1 s3", "version");
   EXPECT_EQ(batch("bad", "--shard 4/3").code, 2);
   EXPECT_EQ(batch("bad", "--shard x").code, 2);
+  EXPECT_EQ(batch("bad", "--shard ''").code, 2) << "a script's variable that is not set";
 }
 
 /// Two programs of one version may have other code: only the build says whether their results belong
@@ -192,6 +219,10 @@ TEST_F(Shards, ACutShardIsRefused) {
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.err.find("changed or cut"), std::string::npos) << done.err;
   scratch.write("s1/results.jsonl", lines);
+  const std::string timings = text_of(scratch.at("s1/timings.jsonl"));
+  scratch.write("s1/timings.jsonl", "");
+  EXPECT_EQ(merge("s1 s2", "all").code, 2);
+  scratch.write("s1/timings.jsonl", timings);
   EXPECT_EQ(merge("s1 s2", "all").code, 0);
 }
 

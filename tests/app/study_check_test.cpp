@@ -21,6 +21,8 @@ TEST_F(Sweep, AMistakeInTheStudyIsToldAtItsPlace) {
   refused("  a: {key: 'mission.legs[7].payload_kg', values: [1]}\n", "study.yaml:3", "counted from 0");
   refused("  a: {key: limits.speed_m_s, values: [1]}\n", "study.yaml:3", "robot.limits.speed_m_s");
   refused("  a: {key: robot., values: [1]}\n", "study.yaml:3", "robot.KEY or mission.KEY");
+  refused("  a: {key: robot..motor.gear_ratio, values: [1]}\n", "study.yaml:3",
+          "keys with a point between them");
   refused("  a: {key: robot.limits.speed_m_s, from: 2, to: 1}\n", "study.yaml:3", "> from");
   for (const std::string column : {"energy_J", "design", "mission", "status", "meets_constraints", "reason"})
     refused("  " + column + ": {key: robot.limits.speed_m_s, values: [1]}\n", "study.yaml:3", column);

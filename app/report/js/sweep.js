@@ -37,8 +37,9 @@ jp.sweep_effects = function (effects, unit) {
       one.levels.map((level) => [level.level, {n: number(level.mean, 6)}, {n: high === low ? "–" : level.mean === low ? "best" : "+" + percent(100 * (level.mean / low - 1), 3)}, {n: String(level.designs)}])));
   });
   const pairs = effects.interactions.filter((one) => one.share_of_variance > 1e-4).slice(0, 10);
+  const alone = effects.main.length < 2 ? null : h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects.");
   return [h("h3", {}, "Share of the variance"), shares,
-    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: fraction(one.share_of_variance)}])) : h("p", {class: "soft"}, "No two parameters have a joint effect beyond the sum of their own effects."),
+    pairs.length ? jp.table(["joint effect, beyond the sum", {n: "share of the variance"}], pairs.map((one) => [one.parameters.join(" and "), {n: fraction(one.share_of_variance)}])) : alone,
     h("div", {class: "columns"}, means)];
 };
 
@@ -50,7 +51,7 @@ jp.draw_sweep = function (data) {
   const best = sweep.optimized && sweep.optimized.within_constraints ? sweep.optimized : sweep.best;
   const reasons = Object.entries(sweep.not_counted || {});
   jp.page(jp.header(data.title || "Sweep", `${short(sweep.designs, 9)} design${sweep.designs === 1 ? "" : "s"}`, best ? `${short(sweep.within_constraints, 9)} within the constraints` : "no design within the constraints", Boolean(best)),
-    best ? h("div", {class: "tiles"}, jp.tile("Best energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "found by --optimize" : `design ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
+    best ? h("div", {class: "tiles"}, jp.tile("Energy", with_unit(best.energy_J, "J"), best === sweep.optimized ? "best design, found by --optimize" : `best design: ${best.design}`), ...names.map((name) => jp.tile(name, value(best, name))), jp.tile("Time", with_unit(best.duration_s, "s"))) : null,
     h("div", {class: "notice aside"}, h("b", {}, "Held constant: "), (sweep.held_constant || []).join("; ") + "."),
     sweep.pareto && sweep.pareto.length ? jp.section("Designs", jp.design_cloud(sweep), jp.table(heads, sweep.pareto.slice(0, 30).map(row), sweep.pareto.length > 30 ? `The first 30 of ${sweep.pareto.length} on the Pareto front` : "Pareto front")) : null,
     sweep.planned > 1 ? jp.section("Effect of each parameter on the energy", jp.sweep_effects(sweep.effects.energy_J, "J")) : null,
