@@ -123,7 +123,7 @@ def run(study: str | os.PathLike[str], client: Any, out: str | os.PathLike[str],
     held = sum(entry.name.isdigit() for entry in folder.glob("*"))  # shards of an unfinished run
     count = shard_count(shards, held, connected(client))
     if target.exists() or (held and not (resume and count == held)):
-        raise refused("out", f"{folder if held else target}, which exists", "a new name, or resume=True with as many shards")
+        raise refused("out", f"{target if target.exists() else folder}, which exists", "a new name, or resume=True with as many shards")
     builds = client.run(build_id, on_error="return").items()  # OSError: a worker that has just died
     if strangers := {worker: build for worker, build in builds if build != build_id() and not isinstance(build, OSError)}:
         raise ClusterError(f"workers with another build of joulepath than {build_id()}: {strangers}")
