@@ -92,12 +92,14 @@ void add_forces(DictionaryCollector& out, const Variables& v) {
 }
 
 /// What the load still feels of earlier accelerations: it swings, slides or yields. The present one keeps it
-/// from a false mass; the first fifth of a second is left out, where smoothed accelerations are inexact.
+/// from a false mass; the first fifth of a second is left out, where smoothed accelerations are inexact. A
+/// log that begins in motion does not hold what the load still feels.
 void add_past_acceleration(DictionaryCollector& out, const Variables& v) {
   constexpr int kLagHats = 11;
   constexpr double kLagWidth_s = 0.2;
   const auto load_acceleration = [&](Eigen::Index j, Eigen::Index at) {
-    return v.load(j) * v.rate(at).speed_m_s;
+    const bool from_rest = std::abs(v.twist(0).speed_m_s) <= kStandstillAlong_m_s;
+    return from_rest ? v.load(j) * v.rate(at).speed_m_s : 0.0;
   };
   out.force("past acceleration", [&](Eigen::Index j) { return load_acceleration(j, j); });
   for (int k = 1; k <= kLagHats; ++k)
