@@ -83,6 +83,16 @@ class DataCheckSearch {
     examined.relations = relations_of(examined.signals(), dataset_.robot);
   }
 
+  /// Mends the runs of a fault and reports it.
+  void settle(const Fault& fault, const std::vector<std::size_t>& which, std::string evidence) {
+    for (std::size_t r : which) mend(runs_[r], fault.columns);
+    report({.channel = fault.channel,
+            .kind = fault.kind,
+            .evidence = std::move(evidence),
+            .columns = fault.columns},
+           which);
+  }
+
   void report(DataCheck check, const std::vector<std::size_t>& which) {
     for (std::size_t r : which) {
       check.runs.push_back(runs_[r].index());
@@ -216,15 +226,10 @@ class DataCheckSearch {
     if (best->fault.kind == "scaled") refine(*best);
     if (may_be_effect(best->fault) || !repair(best->fault)) return;
     const std::size_t law = laws.odd.front();
-    const std::string evidence = relations[r][law]->law + ": " + percent(relations[r][law]->unexplained) +
-                                 " unexplained as logged, at most " + percent(laws.most[law]) +
-                                 " in the other runs; the repair makes every law as sound as there";
-    mend(runs_[r], best->fault.columns);
-    report({.channel = best->fault.channel,
-            .kind = best->fault.kind,
-            .evidence = evidence,
-            .columns = best->fault.columns},
-           best->which);
+    settle(best->fault, best->which,
+           relations[r][law]->law + ": " + percent(relations[r][law]->unexplained) +
+               " unexplained as logged, at most " + percent(laws.most[law]) +
+               " in the other runs; the repair makes every law as sound as there");
   }
 
   static bool may_be_effect(const Fault& fault) {
@@ -246,14 +251,10 @@ class DataCheckSearch {
                     after = relations_with(runs_[shown], found->fault.columns);
     const std::size_t most = compare(before, after, found->fault.kind == "scaled").most;
     widen(*found);
-    for (std::size_t r : found->which) mend(runs_[r], found->fault.columns);
-    report({.channel = found->fault.channel,
-            .kind = found->fault.kind,
-            .evidence = before[most]->law + ": " + percent(before[most]->unexplained) +
-                        " unexplained as logged, " + percent(after[most]->unexplained) +
-                        " with the repair (" + dataset_.runs[runs_[shown].index()].name + ")",
-            .columns = found->fault.columns},
-           found->which);
+    settle(found->fault, found->which,
+           before[most]->law + ": " + percent(before[most]->unexplained) + " unexplained as logged, " +
+               percent(after[most]->unexplained) + " with the repair (" +
+               dataset_.runs[runs_[shown].index()].name + ")");
     return true;
   }
 

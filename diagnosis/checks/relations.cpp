@@ -46,12 +46,16 @@ BoxedTerm factor(VectorXd value, double least, double most, double freedom) {
   return {std::move(value), std::pow(least, freedom), std::pow(most, freedom)};
 }
 
-std::optional<Relation> relation(std::string law, double sound, const VectorXd& explained,
+/// Shares of the sum of squares that a law leaves unexplained in a sound and in a doubtful log.
+struct Bounds {
+  double sound{}, doubtful{};
+};
+constexpr Bounds kWinding{kSoundWinding, kDoubtfulWinding}, kTorque{kSoundTorque, kSoundTorque},
+    kMotion{kSoundMotion, kSoundMotion}, kBattery{kSoundBattery, kDoubtfulBattery};
+
+std::optional<Relation> relation(std::string law, const Bounds& bounds, const VectorXd& explained,
                                  const std::vector<BoxedTerm>& terms) {
-  const double doubtful = sound == kSoundWinding   ? kDoubtfulWinding
-                          : sound == kSoundBattery ? kDoubtfulBattery
-                                                   : sound;
-  return Relation{std::move(law), fit_in_box(explained, terms).unexplained, sound, doubtful};
+  return Relation{std::move(law), fit_in_box(explained, terms).unexplained, bounds.sound, bounds.doubtful};
 }
 
 /// V = R i + Kv n q'. The constant term models a sensor offset, the sign term a driver's voltage drop, the
@@ -69,7 +73,7 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
   const double drop_V = kGreatestDrop * voltage.cwiseAbs().maxCoeff();
   const VectorXd& speed = run.wheel_speed_rad_s[side];
   return relation(
-      std::string("V = R i + Kv n w ") + side_name(side), kSoundWinding, voltage,
+      std::string("V = R i + Kv n w ") + side_name(side), kWinding, voltage,
       {factor(motor.resistance_ohm * current, measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
               measured ? kMostMeasuredFactor : kMostPredictedCurrent, freedom),
        factor(emf * speed, kLeastScale, kMostScale, freedom),
@@ -99,7 +103,7 @@ std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, con
     terms.push_back({run.heading_rad.array().cos(), -kGreatestSlope * load_A, kGreatestSlope * load_A});
     terms.push_back({run.heading_rad.array().sin(), -kGreatestSlope * load_A, kGreatestSlope * load_A});
   }
-  return relation(std::string("i = torque of the motion / (Kt n) ") + side_name(side), kSoundTorque, current,
+  return relation(std::string("i = torque of the motion / (Kt n) ") + side_name(side), kTorque, current,
                   terms);
 }
 
@@ -109,7 +113,7 @@ std::optional<Relation> gyro_and_wheels(const RunSignals& run, const Geometry& g
   const VectorXd& yaw = wheels.yaw_rate_rad_s;
   if (std::max(rms(yaw), rms(run.gyro_yaw_rate_rad_s)) < kLeastYawRate_rad_s) return {};
   const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
-  return relation("gyro = yaw rate of the wheels", kSoundMotion, run.gyro_yaw_rate_rad_s,
+  return relation("gyro = yaw rate of the wheels", kMotion, run.gyro_yaw_rate_rad_s,
                   {factor(yaw, kLeastRolled, kMostRolled, freedom),
                    {wheels.speed_m_s, -mismatch, mismatch},
                    {VectorXd::Ones(run.size()), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
@@ -124,7 +128,7 @@ std::optional<Relation> heading_and_wheels(const RunSignals& run, const Geometry
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < least) return {};
   const double mismatch = kGreatestMismatch / (2 * geometry.half_track_m);
   return relation(
-      "heading = angle turned by the wheels", kSoundMotion, heading,
+      "heading = angle turned by the wheels", kMotion, heading,
       {factor(turned, kLeastRolled, kMostRolled, freedom), {wheels.speed_m_s, -mismatch, mismatch}});
 }
 
@@ -137,7 +141,7 @@ std::optional<Relation> heading_and_gyro(const RunSignals& run, double freedom) 
   const double span_s = run.period_s * kIncrementRows;
   if (heading.size() == 0 || std::max(rms(turned), rms(heading)) < kLeastYawRate_rad_s * span_s) return {};
   return relation(
-      "heading = angle turned by the gyro", kSoundMotion, heading,
+      "heading = angle turned by the gyro", kMotion, heading,
       {factor(turned, kLeastScale, kMostScale, freedom),
        {VectorXd::Constant(turned.size(), span_s), -kGreatestGyroBias_rad_s, kGreatestGyroBias_rad_s}});
 }
@@ -151,12 +155,12 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
   const VectorXd distance = rolled(geometry, run.wheel_angle_rad).speed_m_s;
   if (rms(distance) < least_m && rms(stacked(dx, dy)) < least_m) return {};
   if (!run.heading_measured)
-    return relation("distance = path of the wheels", kSoundMotion,
+    return relation("distance = path of the wheels", kMotion,
                     (dx.array().square() + dy.array().square()).sqrt().matrix(),
                     {factor(distance.cwiseAbs(), kLeastRolled, kMostRolled, freedom)});
   const VectorXd x = rolled(geometry, run.wheel_along_x_rad).speed_m_s;
   const VectorXd y = rolled(geometry, run.wheel_along_y_rad).speed_m_s;
-  return relation("position = path of the wheels along the heading", kSoundMotion, stacked(dx, dy),
+  return relation("position = path of the wheels along the heading", kMotion, stacked(dx, dy),
                   {factor(stacked(x, y), kLeastRolled, kMostRolled, freedom),
                    {stacked(-y, x), -kGreatestHeadingOffset_rad, kGreatestHeadingOffset_rad}});
 }
@@ -181,7 +185,7 @@ std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const
   const double least = measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
                most = measured ? kMostMeasuredFactor : kMostPredictedPower;
   const double standby_W = robot.power.standby_W > 0 ? kMostStandby * robot.power.standby_W : kInfinity;
-  return relation("battery power = motor power + standby", kSoundBattery, run.battery_power_W,
+  return relation("battery power = motor power + standby", kBattery, run.battery_power_W,
                   {factor(drive, least, most, freedom),
                    {brake, -kGreatestBrakeDraw, kGreatestBrakeFactor * most},
                    {VectorXd::Ones(run.size()), 0.0, standby_W}});
@@ -195,14 +199,8 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
     for (VectorXd* part : {&expected.friction_A[side], &expected.viscous_A[side], &expected.inertia_A[side]})
       *part = VectorXd::Zero(run.size());
   for (Eigen::Index j = 0; j < run.size(); ++j) {
-    const Twist<double> twist = body_twist(
-        robot.geometry, Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
-    const Twist<double> rate = body_twist(
-        robot.geometry,
-        Sided<double>{run.wheel_acceleration_rad_s2.left[j], run.wheel_acceleration_rad_s2.right[j]});
-    const Wrench<double> wrench = inertial_wrench(
-        mass_properties(robot, run.payload_kg[j]),
-        BodyMotion<double>{twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s});
+    const Wrench<double> wrench =
+        inertial_wrench(mass_properties(robot, run.payload_kg[j]), run.rolled(robot.geometry, j));
     const Sided<double> force_N = contact_forces_N(robot.geometry.half_track_m, wrench);
     for (Side side : kSides) {
       const Motor& motor = robot.motor[side];

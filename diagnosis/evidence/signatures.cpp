@@ -42,22 +42,19 @@ constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 
 /// A variable of kFormVariables, scaled to [-1, 1].
 double form_variable(const RunSignals& s, const Geometry& geometry, int form, Eigen::Index j) {
-  const Twist<double> twist =
-      body_twist(geometry, Sided<double>{s.wheel_speed_rad_s.left[j], s.wheel_speed_rad_s.right[j]});
-  const Twist<double> rate = body_twist(
-      geometry, Sided<double>{s.wheel_acceleration_rad_s2.left[j], s.wheel_acceleration_rad_s2.right[j]});
+  const BodyMotion<double> motion = s.rolled(geometry, j);
   const auto scaled = [](double value, double usual) {
     return 2 * std::abs(value) / (std::abs(value) + usual) - 1;
   };
   switch (form) {
     case 0:
-      return scaled(twist.speed_m_s, kUsualSpeed_m_s);
+      return scaled(motion.speed_m_s, kUsualSpeed_m_s);
     case 1:
-      return scaled(twist.yaw_rate_rad_s, kUsualYawRate_rad_s);
+      return scaled(motion.yaw_rate_rad_s, kUsualYawRate_rad_s);
     case 2:
       return scaled(s.payload_kg[j], kUsualPayload_kg);
     case 3:
-      return scaled(rate.speed_m_s, kUsualAcceleration_m_s2);
+      return scaled(motion.acceleration_m_s2, kUsualAcceleration_m_s2);
     default:
       return scaled(s.time_of_day_s[j], kUsualTime_s);
   }

@@ -145,15 +145,6 @@ void write_pose(const Geometry& geometry, const RunSignals& signals, Eigen::Inde
   out.y_m[j] = rolled(signals.wheel_along_y_rad) - slip.y_m;
 }
 
-/// Motion of the body as the wheels tell it, without creep.
-BodyMotion<double> rolled_motion(const RunSignals& signals, const Geometry& geometry, Eigen::Index j) {
-  const Twist<double> twist = body_twist(
-      geometry, Sided<double>{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]});
-  const Twist<double> rate = body_twist(geometry, Sided<double>{signals.wheel_acceleration_rad_s2.left[j],
-                                                                signals.wheel_acceleration_rad_s2.right[j]});
-  return {twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s};
-}
-
 /// Calls `visit(j, site, motion)` for the samples of a run in their order, and advances the effects' memory
 /// by the motion that `visit` returns.
 template <class Visit>
@@ -161,7 +152,7 @@ void drive(const Plant& plant, const RunSignals& signals, const Visit& visit) {
   const Geometry& geometry = plant.robot.geometry;
   EffectMemory memory{};
   for (Eigen::Index j = 0; j < signals.size(); ++j) {
-    const BodyMotion<double> rolled = rolled_motion(signals, geometry, j);
+    const BodyMotion<double> rolled = signals.rolled(geometry, j);
     const Site site = site_at(signals, j, geometry, {rolled.speed_m_s, rolled.yaw_rate_rad_s}, memory);
     const BodyMotion<double> motion = visit(j, site, rolled);
     advance_memory(plant,

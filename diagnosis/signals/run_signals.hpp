@@ -6,6 +6,8 @@
 
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/dataset.hpp"
+#include "model/kinematics.hpp"
+#include "model/motion.hpp"
 
 namespace joulepath {
 
@@ -54,6 +56,14 @@ struct RunSignals {
   Sided<std::vector<bool>> conducting{};
 
   Eigen::Index size() const { return time_s.size(); }
+
+  /// Motion of the body at a sample as the wheels tell it, without creep.
+  [[nodiscard]] BodyMotion<double> rolled(const Geometry& geometry, Eigen::Index j) const {
+    const auto at = [j](const Sided<Eigen::VectorXd>& v) { return Sided<double>{v.left[j], v.right[j]}; };
+    const Twist<double> twist = body_twist(geometry, at(wheel_speed_rad_s)),
+                        rate = body_twist(geometry, at(wheel_acceleration_rad_s2));
+    return {twist.speed_m_s, rate.speed_m_s, twist.yaw_rate_rad_s, rate.yaw_rate_rad_s};
+  }
 };
 
 /// Marks the samples whose currents are beyond the driver's dead band.

@@ -236,16 +236,13 @@ bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const Model
 }
 
 const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index j) {
-  const Twist<double> twist =
-      body_twist(geometry, Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
-  const Twist<double> rate = body_twist(
-      geometry, Sided<double>{run.wheel_acceleration_rad_s2.left[j], run.wheel_acceleration_rad_s2.right[j]});
-  const double across_m_s = std::abs(twist.yaw_rate_rad_s) * geometry.half_track_m;
-  const double along_m_s = std::abs(twist.speed_m_s);
+  const BodyMotion<double> motion = run.rolled(geometry, j);
+  const double across_m_s = std::abs(motion.yaw_rate_rad_s) * geometry.half_track_m;
+  const double along_m_s = std::abs(motion.speed_m_s);
   if (along_m_s < kStandstillAlong_m_s && across_m_s < kStandstillAcross_m_s) return "standstill";
   if (across_m_s > kSpinRatio * along_m_s) return "spin";
   if (across_m_s > kTurnRatio * along_m_s + kTurnAcross_m_s) return "turn";
-  const double gain = rate.speed_m_s * (twist.speed_m_s > 0 ? 1 : -1);
+  const double gain = motion.acceleration_m_s2 * (motion.speed_m_s > 0 ? 1 : -1);
   return gain > kCruise_m_s2 ? "accelerate" : gain < -kCruise_m_s2 ? "brake" : "cruise";
 }
 

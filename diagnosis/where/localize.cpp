@@ -94,17 +94,15 @@ class Localizer {
 
   void book_sample(const RunSignals& run, std::size_t r, std::optional<Side> side, Eigen::Index j,
                    const GapAmount& amount) {
-    const Twist<double> twist =
-        body_twist(nominal_.robot.geometry,
-                   Sided<double>{run.wheel_speed_rad_s.left[j], run.wheel_speed_rad_s.right[j]});
+    const double speed_m_s = run.rolled(nominal_.robot.geometry, j).speed_m_s;
     ledger_.book("phase", phase_of(run, nominal_.robot.geometry, j), r, amount);
     if (side) ledger_.book("wheel", side_name(*side), r, amount);
-    ledger_.book("speed", speed_cell(twist.speed_m_s), r, amount);
+    ledger_.book("speed", speed_cell(speed_m_s), r, amount);
     ledger_.book("payload", run.payload_known ? number_text(run.payload_kg[j], "kg") : "not stated", r,
                  amount);
     ledger_.book("run", run.name, r, amount);
-    const bool moving = std::abs(twist.speed_m_s) > kStandstillAlong_m_s;
-    ledger_.book("direction", !moving ? "in place" : twist.speed_m_s > 0 ? "forward" : "reverse", r, amount);
+    const bool moving = std::abs(speed_m_s) > kStandstillAlong_m_s;
+    ledger_.book("direction", !moving ? "in place" : speed_m_s > 0 ? "forward" : "reverse", r, amount);
     if (run.heading_measured) ledger_.book("heading", heading_cell(run.heading_rad[j]), r, amount);
     if (run.x_m.size() > 0) ledger_.book("floor", floor_cell(run.x_m[j], run.y_m[j]), r, amount);
     if (run.time_of_day_known) {

@@ -8,7 +8,6 @@
 
 #include "diagnosis/prediction/dictionary.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
-#include "model/kinematics.hpp"
 
 namespace joulepath {
 
@@ -21,18 +20,6 @@ inline double hat(double x, double center, double width) {
 inline double day_share(const DictionaryLayout& layout, const RunSignals& signals, Eigen::Index j) {
   return (signals.time_of_day_s[j] - layout.day_begin_s) /
          std::max(1.0, layout.day_end_s - layout.day_begin_s);
-}
-
-/// Body velocity at a sample from the wheel speeds.
-inline Twist<double> twist_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
-  return body_twist(robot.geometry,
-                    Sided<double>{signals.wheel_speed_rad_s.left[j], signals.wheel_speed_rad_s.right[j]});
-}
-
-/// Body acceleration at a sample from the wheel accelerations.
-inline Twist<double> twist_rate_at(const RunSignals& signals, const Robot& robot, Eigen::Index j) {
-  return body_twist(robot.geometry, Sided<double>{signals.wheel_acceleration_rad_s2.left[j],
-                                                  signals.wheel_acceleration_rad_s2.right[j]});
 }
 
 /// Collects entries of the dictionary: names only (without signals), or names and rows.

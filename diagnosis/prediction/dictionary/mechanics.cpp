@@ -10,8 +10,7 @@ struct Variables {
   const RunSignals* signals;
   const Robot* robot;
 
-  Twist<double> twist(Eigen::Index j) const { return twist_at(*signals, *robot, j); }
-  Twist<double> rate(Eigen::Index j) const { return twist_rate_at(*signals, *robot, j); }
+  BodyMotion<double> body(Eigen::Index j) const { return signals->rolled(robot->geometry, j); }
   double day(Eigen::Index j) const { return day_share(layout, *signals, j); }
   double load(Eigen::Index j) const { return signals->payload_kg[j] / layout.greatest_payload_kg; }
   double speed(Eigen::Index j, Side side) const { return signals->wheel_speed_rad_s[side][j]; }
@@ -23,7 +22,7 @@ struct Variables {
   }
   /// Soft sign of the yaw rate.
   double turn(Eigen::Index j) const {
-    return std::clamp(twist(j).yaw_rate_rad_s / kBlurredTurn_rad_s, -1.0, 1.0);
+    return std::clamp(body(j).yaw_rate_rad_s / kBlurredTurn_rad_s, -1.0, 1.0);
   }
 };
 
@@ -80,15 +79,14 @@ void add_heading(DictionaryCollector& out, const Variables& v) {
 }
 
 void add_forces(DictionaryCollector& out, const Variables& v) {
-  const auto speed = [&](Eigen::Index j) { return v.twist(j).speed_m_s; };
-  const auto acceleration = [&](Eigen::Index j) { return v.rate(j).speed_m_s; };
+  const auto speed = [&](Eigen::Index j) { return v.body(j).speed_m_s; };
+  const auto acceleration = [&](Eigen::Index j) { return v.body(j).acceleration_m_s2; };
   out.force("speed", speed);
   out.force("speed", [&](Eigen::Index j) { return speed(j) * std::abs(speed(j)); });
   out.force("acceleration", acceleration);
   out.force("acceleration", [&](Eigen::Index j) { return acceleration(j) * std::abs(acceleration(j)); });
   out.force("acceleration", [&](Eigen::Index j) { return acceleration(j) * v.load(j); });
-  out.force("yaw rate",
-            [&](Eigen::Index j) { return v.twist(j).yaw_rate_rad_s * v.twist(j).yaw_rate_rad_s; });
+  out.force("yaw rate", [&](Eigen::Index j) { return v.body(j).yaw_rate_rad_s * v.body(j).yaw_rate_rad_s; });
 }
 
 /// What the load still feels of earlier accelerations: it swings, slides or yields. The present one keeps it
@@ -97,9 +95,9 @@ void add_forces(DictionaryCollector& out, const Variables& v) {
 void add_past_acceleration(DictionaryCollector& out, const Variables& v) {
   constexpr int kLagHats = 11;
   constexpr double kLagWidth_s = 0.2;
+  const bool from_rest = v.signals && std::abs(v.body(0).speed_m_s) <= kStandstillAlong_m_s;
   const auto load_acceleration = [&](Eigen::Index j, Eigen::Index at) {
-    const bool from_rest = std::abs(v.twist(0).speed_m_s) <= kStandstillAlong_m_s;
-    return from_rest ? v.load(j) * v.rate(at).speed_m_s : 0.0;
+    return from_rest ? v.load(j) * v.body(at).acceleration_m_s2 : 0.0;
   };
   out.force("past acceleration", [&](Eigen::Index j) { return load_acceleration(j, j); });
   for (int k = 1; k <= kLagHats; ++k)
@@ -119,10 +117,10 @@ void add_moments(DictionaryCollector& out, const Variables& v) {
   const double yaw_width = v.layout.greatest_yaw_rate_rad_s / (kYawHats - 1);
   for (int k = 0; k < kYawHats; ++k)
     out.moment("yaw rate", [&](Eigen::Index j) {
-      return v.turn(j) * hat(std::abs(v.twist(j).yaw_rate_rad_s), k * yaw_width, yaw_width);
+      return v.turn(j) * hat(std::abs(v.body(j).yaw_rate_rad_s), k * yaw_width, yaw_width);
     });
-  out.moment("yaw acceleration", [&](Eigen::Index j) { return v.rate(j).yaw_rate_rad_s; });
-  out.moment("yaw rate", [&](Eigen::Index j) { return v.twist(j).yaw_rate_rad_s * v.twist(j).speed_m_s; });
+  out.moment("yaw acceleration", [&](Eigen::Index j) { return v.body(j).yaw_acceleration_rad_s2; });
+  out.moment("yaw rate", [&](Eigen::Index j) { return v.body(j).yaw_rate_rad_s * v.body(j).speed_m_s; });
   out.moment("yaw rate", [&](Eigen::Index j) { return v.turn(j) * v.load(j); });
 }
 

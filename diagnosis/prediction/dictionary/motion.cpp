@@ -4,11 +4,10 @@ namespace joulepath {
 
 void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Robot* robot) {
-  const auto twist = [&](Eigen::Index j) { return twist_at(*s, *robot, j); };
-  const auto rate = [&](Eigen::Index j) { return twist_rate_at(*s, *robot, j); };
+  const auto body = [&](Eigen::Index j) { return s->rolled(robot->geometry, j); };
   const auto none = [](Eigen::Index) { return 0.0; };
-  const auto speed = [&](Eigen::Index j) { return twist(j).speed_m_s; };
-  const auto yaw = [&](Eigen::Index j) { return twist(j).yaw_rate_rad_s; };
+  const auto speed = [&](Eigen::Index j) { return body(j).speed_m_s; };
+  const auto yaw = [&](Eigen::Index j) { return body(j).yaw_rate_rad_s; };
   out.motion("speed", speed, none);
   out.motion(
       "speed", [&](Eigen::Index j) { return speed(j) * std::abs(speed(j)); }, none);
@@ -16,8 +15,8 @@ void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const 
   out.motion("yaw rate", none, yaw);
   out.motion("yaw rate", none, [&](Eigen::Index j) { return yaw(j) * std::abs(yaw(j)); });
   out.motion(
-      "acceleration", [&](Eigen::Index j) { return rate(j).speed_m_s; }, none);
-  out.motion("acceleration", none, [&](Eigen::Index j) { return rate(j).yaw_rate_rad_s; });
+      "acceleration", [&](Eigen::Index j) { return body(j).acceleration_m_s2; }, none);
+  out.motion("acceleration", none, [&](Eigen::Index j) { return body(j).yaw_acceleration_rad_s2; });
   out.motion(
       "payload", [&](Eigen::Index j) { return speed(j) * s->payload_kg[j] / layout.greatest_payload_kg; },
       none);
