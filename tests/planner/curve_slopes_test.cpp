@@ -14,7 +14,8 @@ namespace {
 /// The least cost of driving a spline, by the variables in the order of all_of().
 class SplineCost {
  public:
-  SplineCost(const Plant& plant, double price_W) : plant_(plant), price_W_(price_W) {}
+  SplineCost(const Plant& plant, double price_W, std::size_t nodes = 1600)
+      : plant_(plant), price_W_(price_W), nodes_(nodes) {}
 
   double operator()(const FreeSpline& spline) {
     const std::optional<Path> path = free_spline_path(spline);
@@ -23,7 +24,7 @@ class SplineCost {
                            .plant = plant_,
                            .limits = *plant_.robot.limits,
                            .payload = {4.0, 4.0},
-                           .nodes = 1600,
+                           .nodes = nodes_,
                            .draft = true};
     if (price_W_ > 0) request.time = {.mode = TimeMode::time_price, .price_W = price_W_};
     const std::optional<DraftSeries::Cost> cost = series_.solve(request);
@@ -36,6 +37,7 @@ class SplineCost {
  private:
   Plant plant_;
   double price_W_;
+  std::size_t nodes_;
   DraftSeries series_{1e-10};
 };
 
@@ -95,6 +97,14 @@ TEST(CurveSlopes, AreTheDerivativesOfTheLeastCost) {
 TEST(CurveSlopes, CountThePlaceWhereAWheelReverses) {
   SplineCost cost(make_nominal_plant(testing::nomad()), 0.0);
   EXPECT_LT(error_of(cost, kSwinging), 2e-3);
+}
+
+/// The caps of a coarse grid fall steeply within a segment where nothing bounds the speed on the straight.
+TEST(CurveSlopes, FollowCapsThatFallSteeply) {
+  Robot robot = testing::nomad();
+  robot.limits->speed_m_s = kNoLimit;
+  SplineCost cost(make_nominal_plant(robot), 40.0, 8);
+  EXPECT_LT(error_of(cost, kWide), 0.1);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "planner/nlp/transcription/lagrangian_slopes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "planner/nlp/transcription/affine_fit.hpp"
 
@@ -11,7 +13,6 @@ namespace {
 /// Multipliers that change the cost by less than this share are those of inactive constraints.
 constexpr double kActive = 1e-8;
 constexpr double kStep = 1e-4;  ///< of differences: costs are low polynomials of curvature and length
-constexpr double kInside[] = {0.2, 0.4, 0.6, 0.8};  ///< where lower_caps looks
 
 class Slopes {
  public:
@@ -162,25 +163,33 @@ void Slopes::add_cap(std::size_t k) {
   for (const std::size_t segment : {k - 1, k}) {
     const Segment& part = p_.segments[segment];
     const bool first = segment == k;
-    const Place at0 = place_at(part.s0, part.limit_points.front().rates),
-                at1 = place_at(part.s0 + part.ds, part.limit_points.back().rates);
+    Place at0 = place_at(part.s0, part.limit_points.front().rates),
+          at1 = place_at(part.s0 + part.ds, part.limit_points.back().rates);
     const Place& own = first ? at0 : at1;
     if (own.cap.squared < least_squared) {
       least_squared = own.cap.squared;
       least.clear();
       add(least, own, 1.0);
     }
-    for (const double f : kInside) {
-      const double s = part.s0 + f * part.ds;
-      const Place inside = place_at(s, motion_.rates(s));
-      const double chord = (1 - f) * at0.cap.squared + f * at1.cap.squared;
-      const bool bounded = std::isfinite(chord);
-      const double squared = bounded ? own.cap.squared * inside.cap.squared / chord : inside.cap.squared;
+    const auto bound = [](Place& end, Place inside, double share) {
+      inside.cap.squared /= share;
+      if (inside.cap.squared < end.cap.squared) end = inside;
+    };
+    std::array<Place, std::size(kInsideSegment)> insides;
+    for (std::size_t i = 0; i < insides.size(); ++i) {
+      const double f = kInsideSegment[i], s = part.s0 + f * part.ds;
+      insides[i] = place_at(s, motion_.rates(s));
+      bound(at0, insides[i], 1 - f);
+      bound(at1, insides[i], f);
+    }
+    for (std::size_t i = 0; i < insides.size(); ++i) {
+      const double f = kInsideSegment[i], chord = (1 - f) * at0.cap.squared + f * at1.cap.squared;
+      const Place& inside = insides[i];
+      const double squared = own.cap.squared * inside.cap.squared / chord;
       if (!(inside.cap.squared < chord) || squared >= least_squared) continue;
       least_squared = squared;
       least.clear();
       add(least, inside, 1.0);
-      if (!bounded) continue;
       const double share0 = (1 - f) * at0.cap.squared / chord;
       add(least, at0, (first ? 1.0 : 0.0) - share0);
       add(least, at1, (first ? 0.0 : 1.0) - (1 - share0));

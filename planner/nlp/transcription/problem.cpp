@@ -1,7 +1,9 @@
 #include "planner/nlp/transcription/problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "planner/motion/path_motion.hpp"
@@ -148,23 +150,23 @@ void lower_caps(const ProfileRequest& request, const PathMotion& motion, const S
   lower(cap0, at0);
   lower(cap1, at1);
   if (first.turn == last.turn && first.turn_slope == 0 && last.turn_slope == 0) return;
-  RateCap dip0 = at0, dip1 = at1;
-  for (double f : {0.2, 0.4, 0.6, 0.8}) {
-    const RateCap inside = capped(f);
-    const double chord = (1 - f) * at0.squared + f * at1.squared;
-    if (!(inside.squared < chord)) continue;
-    const double share = inside.squared / chord;
-    lower(dip0, {std::isfinite(share) ? at0.squared * share : inside.squared, inside.limit});
-    lower(dip1, {std::isfinite(share) ? at1.squared * share : inside.squared, inside.limit});
+  // No chord below the caps inside begins above end0 or ends above end1. The caps' ratio is kept from there:
+  // it lowers them by half at most.
+  RateCap end0 = at0, end1 = at1;
+  std::array<RateCap, std::size(kInsideSegment)> inside;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const double f = kInsideSegment[i];
+    inside[i] = capped(f);
+    lower(end0, {inside[i].squared / (1 - f), inside[i].limit});
+    lower(end1, {inside[i].squared / f, inside[i].limit});
   }
-  if (!std::isfinite(at0.squared) || !std::isfinite(at1.squared))
-    for (double f : {0.2, 0.4, 0.6, 0.8}) {
-      const RateCap inside = capped(f);
-      lower(dip0, inside);
-      lower(dip1, inside);
-    }
-  lower(cap0, dip0);
-  lower(cap1, dip1);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const double f = kInsideSegment[i], chord = (1 - f) * end0.squared + f * end1.squared;
+    if (!(inside[i].squared < chord)) continue;
+    const double share = inside[i].squared / chord;
+    lower(cap0, {end0.squared * share, inside[i].limit});
+    lower(cap1, {end1.squared * share, inside[i].limit});
+  }
 }
 
 void set_objective(Problem& problem) {

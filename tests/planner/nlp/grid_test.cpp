@@ -146,11 +146,14 @@ bool lowers_dips(const ProfileRequest& request) {
       const double ds = motion.length() / count, s0 = k * ds, s1 = s0 + ds;
       RateCap cap0, cap1;
       lower_caps(request, motion, make_segment(request, motion, s0, s1, nullptr), {}, cap0, cap1);
+      double least = std::min(cap_at(s0), cap_at(s1));
       for (const double f : {0.2, 0.4, 0.6, 0.8}) {
         const double inside = cap_at(s0 + f * ds);
         EXPECT_LE((1 - f) * cap0.squared + f * cap1.squared, inside * (1 + 1e-9)) << count << " " << k;
         dips = dips || inside < 0.9 * ((1 - f) * cap_at(s0) + f * cap_at(s1));
+        least = std::min(least, inside);
       }
+      EXPECT_GE(std::min(cap0.squared, cap1.squared), 0.5 * least * (1 - 1e-9)) << count << " " << k;
     }
   return dips;
 }

@@ -110,5 +110,18 @@ TEST(EveryLimitOfTheTable, IsTightenedAbove) {
   }
 }
 
+/// Nothing bounds the speed at the straight start of the bend; a coarse grid must not bound it either.
+TEST(NoLimitOfSpeed, CostsACoarseGridLittle) {
+  const auto cost_J = [](int nodes) {
+    ProfileRequest request = fastest_drive(Curve({BezierSegment({{{0, 0}, {1, 0}, {2, 0}, {2.5, 0.5}}})}));
+    request.limits.speed_m_s = kNoLimit;
+    request.time = {TimeMode::free_time};
+    request.nodes = nodes;
+    const Profile profile = *solve_profile(request).profile;
+    return replay(request, profile).energy_J + request.plant.robot.power.standby_W * profile.duration_s();
+  };
+  EXPECT_LT(cost_J(20), 1.02 * cost_J(160));
+}
+
 }  // namespace
 }  // namespace joulepath
