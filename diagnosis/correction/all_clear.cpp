@@ -80,7 +80,7 @@ std::string size_text(double percent) {
 
 }  // namespace
 
-AllClear examine_all_clear(const Examination& x, Verdict verdict) {
+AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured) {
   if (verdict != Verdict::no_gap && verdict != Verdict::explained) return {.verdict = verdict};
   if (!energies_were_measured(x))
     return {
@@ -93,9 +93,15 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict) {
             .detectable_percent = percent,
             .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
                     " of the energy: log more channels or more runs"};
+  const double least = std::max(percent, 100 * kMaterialEnergy);
+  if (measured.before_percent - measured.noise_floor_percent > least)
+    return {.verdict = Verdict::unexplained,
+            .note = "calibration errors within their uncertainty explain the gap, and it is greater than " +
+                    size_text(least) + ", above which an effect would have been seen: calibrate again",
+            .depends_on = "goes with calibration errors within their uncertainty"};
   return {.verdict = verdict,
-          .detectable_percent = percent,
-          .note = "no gap above " + size_text(std::max(percent, 100 * kMaterialEnergy)) + " of the energy (" +
+          .detectable_percent = std::max(percent, measured.before_percent),
+          .note = "no gap above " + size_text(std::max(least, measured.before_percent)) + " of the energy (" +
                   std::to_string(std::lround(100 * kShareSeen)) + " % of such gaps would have been seen)"};
 }
 

@@ -25,7 +25,9 @@ struct EnergyGap {
   double before_J{}, after_J{};
   double shrink_fraction{};
   Range95 shrink_interval_95{};
-  double detectable_percent{};  ///< with no_gap: a gap of this size would have been seen in 90 % of cases
+  /// With no_gap: a gap of this size would have been seen in 90 % of cases; the measured one where it is
+  /// larger.
+  double detectable_percent{};
 };
 
 /// Root mean squares over the validation runs.

@@ -42,6 +42,18 @@ TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   EXPECT_TRUE(d.causes.empty());
 }
 
+/// What calibration errors may explain is no all-clear where it is greater than what the runs would have
+/// shown.
+TEST(AllClear, IsNotGivenAboveTheGapThatItStates) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Dataset day = testing::blind_day(
+      "--effect gear_efficiency --size 0.0273095 --protocol 12 --level 0 --seed 4495434890916876233 --label "
+      "none");
+  const Diagnosis d = diagnose(day, {.bootstrap = 20, .without = {"gear_efficiency"}});
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
+  EXPECT_EQ(d.leftover_description, "goes with calibration errors within their uncertainty");
+}
+
 /// A resistance shows in the battery's power and is localized to driving phases, but to no wheel.
 TEST(AllClear, BatteryPowerAloneShowsAGapAndWhereItLies) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
