@@ -80,10 +80,13 @@ TEST(Judgment, NamesAConstantFarOutsideItsUncertaintyOnly) {
     const Judgment far = judged(constant_at(sigmas));
     EXPECT_EQ(far.verdict, Verdict::unexplained) << sigmas;
     EXPECT_NE(far.depends_on.find("friction"), std::string::npos) << far.depends_on;
-    const Judgment law = judged(constant_at(sigmas, 0.995));
+    const Judgment law = judged(constant_at(sigmas, 0.995), {.probabilities = {{"coulomb_friction", 0.2}}});
     EXPECT_EQ(law.verdict, Verdict::explained) << "the law that changes the same number";
     ASSERT_EQ(law.named.size(), 1u);
     EXPECT_EQ(law.named[0].candidate.label(), "coulomb_friction");
+    const Judgment unlikely = judged(constant_at(sigmas, 0.995));
+    EXPECT_EQ(unlikely.verdict, Verdict::unexplained) << "a law that the race gives no probability";
+    EXPECT_TRUE(unlikely.named.empty());
   }
 }
 
