@@ -88,6 +88,10 @@ class Answer:
         """The effects that are stated as below the materiality floor."""
         return {effect_of(entry["effect"]) for entry in self.raw.get("below_materiality") or []}
 
+    def lists_unknown(self):
+        """An unknown term below the materiality floor."""
+        return any(entry["effect"].startswith("unknown, ") for entry in self.raw.get("below_materiality") or [])
+
     def energy(self, key):
         return self.raw.get("gap", {}).get("energy", {}).get(key)
 

@@ -70,6 +70,7 @@ def rates(cases):
     """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions of answers."""
     of = lambda *names: [(l, a) for l, a in cases if l["bin"] in names]
     seen = lambda entries: [(l, a) for l, a in entries if judge.detectable(l)]
+    none_or_small = lambda l, a: a.says_none_fits() or a.lists_unknown()
     large = lambda entries: [(l, a) for l, a in entries if judge.material(l)]
     singles, pairs, triples = seen(of("single")), seen(of("pair")), seen(of("triple"))
     many, few = ([(l, a) for l, a in large(singles) if (l["runs"] > 6) == more] for more in (True, False))
@@ -103,8 +104,10 @@ def rates(cases):
         rate("triples: all three", every, triples),
         rate("triples: at least one", any_of, triples),
         rate("foreign effect: says none fits (unexplained or partly)", lambda l, a: a.says_none_fits(), seen(of("foreign")), 0.93, 0.88),
+        rate("the same, or lists an unknown below the materiality floor", none_or_small, seen(of("foreign"))),
         rate("foreign effect: says unexplained, names nothing", lambda l, a: a.verdict == "unexplained", seen(of("foreign"))),
         rate("true effect removed: says none fits", lambda l, a: a.says_none_fits(), seen(of("removed")), 0.90, 0.85),
+        rate("the same, or lists an unknown below the materiality floor (removed)", none_or_small, seen(of("removed"))),
         rate("sound day called data_suspect", lambda l, a: a.verdict == "data_suspect",
              [(l, a) for l, a in cases if l["bin"] not in ("spoilt", "removed")], 0.005, 0.015, False),
         rate("spoilt channel is named", lambda l, a: judge.names_spoilt_channel(a, l), of("spoilt"), 0.95, 0.9),
