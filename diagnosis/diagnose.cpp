@@ -79,12 +79,10 @@ double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
 /// What the held-out runs say of the named causes: verdict, gap, causes, and what they are worth.
 Diagnosis conclusion(const Examination& x, const Names& names, const Validation& validation,
                      std::size_t bootstrap) {
-  const auto& [judged, named, unknowns, judged_to_go_with, judgment_notes] = validation.judgment;
+  const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
-  const auto [verdict, detectable_percent, all_clear_note, goes_with] =
-      examine_all_clear(x, judged, gap.energy);
+  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged, gap.energy);
   gap.energy.detectable_percent = detectable_percent;
-  const std::string& depends_on = goes_with.empty() ? judged_to_go_with : goes_with;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
   return {.gap = gap,

@@ -362,7 +362,7 @@ inline constexpr double kFreeAmplitude = 30.0;
 /// A less likely effect, group or unknown term is not named; a group without a member as likely is ambiguous.
 /// Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
 inline constexpr double kLeastProbabilityNamed = 0.7;
-/// A less likely effect is not listed. Declared.
+/// A less likely effect is not listed, nor named for a calibration constant. Declared.
 inline constexpr double kLeastProbabilityRanked = 1e-4;
 /// Effects listed. Declared.
 inline constexpr std::size_t kLongestRanking = 12;

@@ -53,9 +53,10 @@ std::string gap_words(const Diagnosis& d) {
          percent_text(e.after_percent) + floor;
 }
 
-/// " above 2.3 % of the energy": what the runs would have shown, where more than what matters.
+/// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,
+/// where more than what matters.
 std::string size_not_seen(const Diagnosis& d) {
-  const double percent = d.gap.energy.detectable_percent;
+  const double percent = std::max(d.gap.energy.detectable_percent, d.gap.energy.before_percent);
   return percent > 100 * kMaterialEnergy ? " above " + three_digits(percent) + " % of the energy" : "";
 }
 

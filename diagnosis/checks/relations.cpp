@@ -200,7 +200,7 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
       *part = VectorXd::Zero(run.size());
   for (Eigen::Index j = 0; j < run.size(); ++j) {
     const Wrench<double> wrench =
-        inertial_wrench(mass_properties(robot, run.payload_kg[j]), run.rolled(robot.geometry, j));
+        inertial_wrench(mass_properties(robot, run.payload_kg[j]), run.rolled_motion(robot.geometry, j));
     const Sided<double> force_N = contact_forces_N(robot.geometry.half_track_m, wrench);
     for (Side side : kSides) {
       const Motor& motor = robot.motor[side];

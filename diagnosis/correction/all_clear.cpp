@@ -93,16 +93,12 @@ AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGa
             .detectable_percent = percent,
             .note = "no gap is seen, but these runs would not show one of " + size_text(percent) +
                     " of the energy: log more channels or more runs"};
-  const double least = std::max(percent, 100 * kMaterialEnergy);
-  if (measured.before_percent - measured.noise_floor_percent > least)
-    return {.verdict = Verdict::unexplained,
-            .note = "calibration errors within their uncertainty explain the gap, and it is greater than " +
-                    size_text(least) + ", above which an effect would have been seen: calibrate again",
-            .depends_on = "goes with calibration errors within their uncertainty"};
   return {.verdict = verdict,
-          .detectable_percent = std::max(percent, measured.before_percent),
-          .note = "no gap above " + size_text(std::max(least, measured.before_percent)) + " of the energy (" +
-                  std::to_string(std::lround(100 * kShareSeen)) + " % of such gaps would have been seen)"};
+          .detectable_percent = percent,
+          .note = "no gap above " +
+                  size_text(std::max({percent, 100 * kMaterialEnergy, measured.before_percent})) +
+                  " of the energy (" + std::to_string(std::lround(100 * kShareSeen)) +
+                  " % of such gaps would have been seen)"};
 }
 
 }  // namespace joulepath

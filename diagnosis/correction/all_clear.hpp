@@ -8,14 +8,13 @@
 namespace joulepath {
 
 /// The verdict after a check of the runs' statistical power: `no_gap` and `explained` need runs that could
-/// have shown a gap, and `no_gap` needs a measured gap below the size that they would have shown.
+/// have shown a gap.
 struct AllClear {
   Verdict verdict{};
   /// Gap (% of the energy) caused by an effect of the catalog that is detected in 90 % of such datasets. 0
   /// where the verdict does not need it.
   double detectable_percent{};
   std::string note{};
-  std::string depends_on{};  ///< what a gap that contradicts the all-clear goes with
 };
 
 [[nodiscard]] AllClear examine_all_clear(const Examination& x, Verdict verdict, const EnergyGap& measured);

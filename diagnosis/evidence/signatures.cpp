@@ -7,7 +7,6 @@
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "model/kinematics.hpp"
 #include "model/limit_table.hpp"
 
 namespace joulepath {
@@ -42,7 +41,7 @@ constexpr int kFormCount = static_cast<int>(kFormVariables.size());
 
 /// A variable of kFormVariables, scaled to [-1, 1].
 double form_variable(const RunSignals& s, const Geometry& geometry, int form, Eigen::Index j) {
-  const BodyMotion<double> motion = s.rolled(geometry, j);
+  const BodyMotion<double> motion = s.rolled_motion(geometry, j);
   const auto scaled = [](double value, double usual) {
     return 2 * std::abs(value) / (std::abs(value) + usual) - 1;
   };

@@ -152,7 +152,7 @@ void drive(const Plant& plant, const RunSignals& signals, const Visit& visit) {
   const Geometry& geometry = plant.robot.geometry;
   EffectMemory memory{};
   for (Eigen::Index j = 0; j < signals.size(); ++j) {
-    const BodyMotion<double> rolled = signals.rolled(geometry, j);
+    const BodyMotion<double> rolled = signals.rolled_motion(geometry, j);
     const Site site = site_at(signals, j, geometry, {rolled.speed_m_s, rolled.yaw_rate_rad_s}, memory);
     const BodyMotion<double> motion = visit(j, site, rolled);
     advance_memory(plant,

@@ -58,7 +58,7 @@ struct RunSignals {
   Eigen::Index size() const { return time_s.size(); }
 
   /// Motion of the body at a sample as the wheels tell it, without creep.
-  [[nodiscard]] BodyMotion<double> rolled(const Geometry& geometry, Eigen::Index j) const {
+  [[nodiscard]] BodyMotion<double> rolled_motion(const Geometry& geometry, Eigen::Index j) const {
     const auto at = [j](const Sided<Eigen::VectorXd>& v) { return Sided<double>{v.left[j], v.right[j]}; };
     const Twist<double> twist = body_twist(geometry, at(wheel_speed_rad_s)),
                         rate = body_twist(geometry, at(wheel_acceleration_rad_s2));

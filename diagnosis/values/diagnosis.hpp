@@ -25,9 +25,7 @@ struct EnergyGap {
   double before_J{}, after_J{};
   double shrink_fraction{};
   Range95 shrink_interval_95{};
-  /// With no_gap: a gap of this size would have been seen in 90 % of cases; the measured one where it is
-  /// larger.
-  double detectable_percent{};
+  double detectable_percent{};  ///< with no_gap: a gap of this size would have been seen in 90 % of cases
 };
 
 /// Root mean squares over the validation runs.

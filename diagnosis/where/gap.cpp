@@ -11,7 +11,6 @@
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
-#include "model/kinematics.hpp"
 #include "model/normal_quantiles.hpp"
 
 namespace joulepath {
@@ -236,7 +235,7 @@ bool shrinks_a_signal(const std::vector<RunSignals>& before_signals, const Model
 }
 
 const char* phase_of(const RunSignals& run, const Geometry& geometry, Eigen::Index j) {
-  const BodyMotion<double> motion = run.rolled(geometry, j);
+  const BodyMotion<double> motion = run.rolled_motion(geometry, j);
   const double across_m_s = std::abs(motion.yaw_rate_rad_s) * geometry.half_track_m;
   const double along_m_s = std::abs(motion.speed_m_s);
   if (along_m_s < kStandstillAlong_m_s && across_m_s < kStandstillAcross_m_s) return "standstill";

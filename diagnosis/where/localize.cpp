@@ -9,7 +9,6 @@
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
-#include "model/kinematics.hpp"
 
 namespace joulepath {
 namespace {
@@ -94,7 +93,7 @@ class Localizer {
 
   void book_sample(const RunSignals& run, std::size_t r, std::optional<Side> side, Eigen::Index j,
                    const GapAmount& amount) {
-    const double speed_m_s = run.rolled(nominal_.robot.geometry, j).speed_m_s;
+    const double speed_m_s = run.rolled_motion(nominal_.robot.geometry, j).speed_m_s;
     ledger_.book("phase", phase_of(run, nominal_.robot.geometry, j), r, amount);
     if (side) ledger_.book("wheel", side_name(*side), r, amount);
     ledger_.book("speed", speed_cell(speed_m_s), r, amount);

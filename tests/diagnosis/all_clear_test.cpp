@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "diagnosis/signals/runs_by_use.hpp"
@@ -42,16 +43,19 @@ TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
   EXPECT_TRUE(d.causes.empty());
 }
 
-/// What calibration errors may explain is no all-clear where it is greater than what the runs would have
-/// shown.
-TEST(AllClear, IsNotGivenAboveTheGapThatItStates) {
+/// Calibration errors within their uncertainty take up a gap that is larger than what the runs would have
+/// shown of an effect: no smaller size may be stated.
+TEST(AllClear, StatesNoSizeBelowTheMeasuredGap) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset day = testing::blind_day(
       "--effect gear_efficiency --size 0.0273095 --protocol 12 --level 0 --seed 4495434890916876233 --label "
       "none");
   const Diagnosis d = diagnose(day, {.bootstrap = 20, .without = {"gear_efficiency"}});
-  EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
-  EXPECT_EQ(d.leftover_description, "goes with calibration errors within their uncertainty");
+  ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
+  ASSERT_GT(d.gap.energy.before_percent, d.gap.energy.detectable_percent);
+  char size[32];
+  std::snprintf(size, sizeof size, "no gap above %.2g %%", d.gap.energy.before_percent);
+  EXPECT_TRUE(std::ranges::any_of(d.notes, [&](const std::string& note) { return note.starts_with(size); }));
 }
 
 /// A resistance shows in the battery's power and is localized to driving phases, but to no wheel.

@@ -60,6 +60,10 @@ TEST(DiagnosisSentence, OfAnAllClearSaysAboveWhichSize) {
       << diagnosis_sentence(d);
   d.gap.energy.detectable_percent = 0.5;
   EXPECT_EQ(diagnosis_sentence(d).rfind("No gap: ", 0), 0u) << diagnosis_sentence(d);
+  d = with_gap(Verdict::no_gap, 5.85, 5.85);  // which calibration errors explain
+  d.gap.energy.detectable_percent = 3.65;
+  EXPECT_EQ(diagnosis_sentence(d).rfind("No gap above 5.85 % of the energy: ", 0), 0u)
+      << diagnosis_sentence(d);
 }
 
 TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {

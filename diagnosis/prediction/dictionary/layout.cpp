@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "diagnosis/prediction/dictionary.hpp"
-#include "model/kinematics.hpp"
 
 namespace joulepath {
 
@@ -27,7 +26,7 @@ DictionaryLayout lay_out(const std::vector<RunSignals>& runs, const Robot& robot
         grow(layout.greatest_current_A, run.motor_current_A[side].cwiseAbs().maxCoeff());
     }
     for (Eigen::Index j = 0; j < run.size(); ++j)
-      grow(layout.greatest_yaw_rate_rad_s, std::abs(run.rolled(robot.geometry, j).yaw_rate_rad_s));
+      grow(layout.greatest_yaw_rate_rad_s, std::abs(run.rolled_motion(robot.geometry, j).yaw_rate_rad_s));
     if (run.x_m.size() == 0) continue;
     layout.has_place = true;
     layout.x_min_m = std::min(layout.x_min_m, run.x_m.minCoeff());

@@ -10,7 +10,7 @@ struct Variables {
   const RunSignals* signals;
   const Robot* robot;
 
-  BodyMotion<double> body(Eigen::Index j) const { return signals->rolled(robot->geometry, j); }
+  BodyMotion<double> body(Eigen::Index j) const { return signals->rolled_motion(robot->geometry, j); }
   double day(Eigen::Index j) const { return day_share(layout, *signals, j); }
   double load(Eigen::Index j) const { return signals->payload_kg[j] / layout.greatest_payload_kg; }
   double speed(Eigen::Index j, Side side) const { return signals->wheel_speed_rad_s[side][j]; }

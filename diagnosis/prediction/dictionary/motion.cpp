@@ -4,7 +4,7 @@ namespace joulepath {
 
 void add_motion(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                 const Robot* robot) {
-  const auto body = [&](Eigen::Index j) { return s->rolled(robot->geometry, j); };
+  const auto body = [&](Eigen::Index j) { return s->rolled_motion(robot->geometry, j); };
   const auto none = [](Eigen::Index) { return 0.0; };
   const auto speed = [&](Eigen::Index j) { return body(j).speed_m_s; };
   const auto yaw = [&](Eigen::Index j) { return body(j).yaw_rate_rad_s; };

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "planner/nlp/transcription/affine_fit.hpp"
+#include "planner/nlp/transcription/chord_of_caps.hpp"
 
 namespace joulepath::nlp {
 namespace {
@@ -143,59 +143,53 @@ double log_slope(const RateCap& cap, double turn) {
   return cap.limit == "lateral_acceleration" ? -1 / turn : 0.0;
 }
 
-/// The cap of a node is that of lower_caps: the node's own, lowered in the ratio of a cap inside of a
-/// neighboring segment to the chord between the caps of its ends.
-void Slopes::add_cap(std::size_t k) {
-  const double y = solution_.cap_multiplier[k], cap = p_.cap[k].squared;
-  if (!(std::isfinite(cap) && y * cap > kActive * std::abs(solution_.objective))) return;
+/// The caps of a segment: at its ends, and at the places inside that may lower them.
+struct SegmentCaps {
   struct Place {
     double s{}, turn{};
     RateCap cap{};
   };
-  const auto place_at = [&](double s, const PathRates& rates) {
-    return Place{s, rates.turn, rate_cap(*p_.request, rates, s)};
-  };
-  std::vector<PlaceSlope> least;
-  double least_squared = kNoLimit;
-  const auto add = [&](std::vector<PlaceSlope>& to, const Place& place, double share) {
-    to.push_back({.s_m = place.s, .by_curvature = -y * cap * share * log_slope(place.cap, place.turn)});
-  };
-  for (const std::size_t segment : {k - 1, k}) {
-    const Segment& part = p_.segments[segment];
-    const bool first = segment == k;
-    Place at0 = place_at(part.s0, part.limit_points.front().rates),
-          at1 = place_at(part.s0 + part.ds, part.limit_points.back().rates);
-    const Place& own = first ? at0 : at1;
-    if (own.cap.squared < least_squared) {
-      least_squared = own.cap.squared;
-      least.clear();
-      add(least, own, 1.0);
-    }
-    const auto bound = [](Place& end, Place inside, double share) {
-      inside.cap.squared /= share;
-      if (inside.cap.squared < end.cap.squared) end = inside;
+  SegmentCaps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment) {
+    const auto place_at = [&](double s, const PathRates& rates) {
+      return Place{s, rates.turn, rate_cap(request, rates, s)};
     };
-    std::array<Place, std::size(kInsideSegment)> insides;
-    for (std::size_t i = 0; i < insides.size(); ++i) {
-      const double f = kInsideSegment[i], s = part.s0 + f * part.ds;
-      insides[i] = place_at(s, motion_.rates(s));
-      bound(at0, insides[i], 1 - f);
-      bound(at1, insides[i], f);
+    ends = {place_at(segment.s0, segment.limit_points.front().rates),
+            place_at(segment.s0 + segment.ds, segment.limit_points.back().rates)};
+    CapsInside squares;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const double s = segment.s0 + kInsideSegment[i] * segment.ds;
+      inside[i] = place_at(s, motion.rates(s));
+      squares[i] = inside[i].cap.squared;
     }
-    for (std::size_t i = 0; i < insides.size(); ++i) {
-      const double f = kInsideSegment[i], chord = (1 - f) * at0.cap.squared + f * at1.cap.squared;
-      const Place& inside = insides[i];
-      const double squared = own.cap.squared * inside.cap.squared / chord;
-      if (!(inside.cap.squared < chord) || squared >= least_squared) continue;
-      least_squared = squared;
-      least.clear();
-      add(least, inside, 1.0);
-      const double share0 = (1 - f) * at0.cap.squared / chord;
-      add(least, at0, (first ? 1.0 : 0.0) - share0);
-      add(least, at1, (first ? 0.0 : 1.0) - (1 - share0));
-    }
+    chord = chord_of_caps(ends[0].cap.squared, ends[1].cap.squared, squares);
   }
-  slopes_.places.insert(slopes_.places.end(), least.begin(), least.end());
+  /// The place whose cap bounds an end before the chord is lowered.
+  const Place& source(std::size_t end) const {
+    return chord.bound[end] ? inside[*chord.bound[end]] : ends[end];
+  }
+
+  std::array<Place, 2> ends{};
+  std::array<Place, kInsideSegment.size()> inside{};
+  ChordOfCaps chord{};
+};
+
+/// The cap of a node is that of lower_caps: the least that the chords of its two segments leave it.
+void Slopes::add_cap(std::size_t k) {
+  const double y = solution_.cap_multiplier[k], cap = p_.cap[k].squared;
+  if (!(std::isfinite(cap) && y * cap > kActive * std::abs(solution_.objective))) return;
+  const SegmentCaps before(*p_.request, motion_, p_.segments[k - 1]),
+      after(*p_.request, motion_, p_.segments[k]);
+  const std::size_t own = after.chord.squared[0] < before.chord.squared[1] ? 0 : 1;
+  const SegmentCaps& caps = own == 0 ? after : before;
+  const auto add = [&](const SegmentCaps::Place& place, double share) {
+    slopes_.places.push_back(
+        {.s_m = place.s, .by_curvature = -y * cap * share * log_slope(place.cap, place.turn)});
+  };
+  add(caps.source(own), 1.0);
+  if (!caps.chord.lowest) return;
+  add(caps.inside[*caps.chord.lowest], 1.0);
+  add(caps.source(0), -caps.chord.share0);
+  add(caps.source(1), caps.chord.share0 - 1);
 }
 
 /// A wheel reverses where curvature is 1 / half track. The place moves with the curvature, and both sides of

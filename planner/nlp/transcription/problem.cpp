@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/transcription/affine_fit.hpp"
+#include "planner/nlp/transcription/chord_of_caps.hpp"
 #include "planner/nlp/transcription/grid.hpp"
 #include "planner/nlp/transcription/row_selection.hpp"
 #include "planner/values/profile.hpp"
@@ -150,23 +150,19 @@ void lower_caps(const ProfileRequest& request, const PathMotion& motion, const S
   lower(cap0, at0);
   lower(cap1, at1);
   if (first.turn == last.turn && first.turn_slope == 0 && last.turn_slope == 0) return;
-  // No chord below the caps inside begins above end0 or ends above end1. The caps' ratio is kept from there:
-  // it lowers them by half at most.
-  RateCap end0 = at0, end1 = at1;
-  std::array<RateCap, std::size(kInsideSegment)> inside;
+  std::array<RateCap, kInsideSegment.size()> inside;
+  CapsInside squares;
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const double f = kInsideSegment[i];
-    inside[i] = capped(f);
-    lower(end0, {inside[i].squared / (1 - f), inside[i].limit});
-    lower(end1, {inside[i].squared / f, inside[i].limit});
+    inside[i] = capped(kInsideSegment[i]);
+    squares[i] = inside[i].squared;
   }
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const double f = kInsideSegment[i], chord = (1 - f) * end0.squared + f * end1.squared;
-    if (!(inside[i].squared < chord)) continue;
-    const double share = inside[i].squared / chord;
-    lower(cap0, {end0.squared * share, inside[i].limit});
-    lower(cap1, {end1.squared * share, inside[i].limit});
-  }
+  const ChordOfCaps chord = chord_of_caps(at0.squared, at1.squared, squares);
+  const auto lower_end = [&](RateCap& cap, std::size_t end) {
+    if (const auto place = chord.lowest ? chord.lowest : chord.bound[end])
+      lower(cap, {chord.squared[end], inside[*place].limit});
+  };
+  lower_end(cap0, 0);
+  lower_end(cap1, 1);
 }
 
 void set_objective(Problem& problem) {

@@ -67,11 +67,7 @@ struct Problem {
 [[nodiscard]] Segment make_segment(const ProfileRequest& request, const PathMotion& motion, double s0,
                                    double s1, const Profile* previous);
 
-/// Shares of a segment's length at which the cap inside is compared with the chord of the ends' caps.
-inline constexpr double kInsideSegment[] = {0.2, 0.4, 0.6, 0.8};
-
-/// Lowers the caps of a segment's two ends such that the chord between them stays below the caps inside. No
-/// end is lowered below half of the least of all these caps.
+/// Lowers the caps of a segment's two ends such that the chord between them stays below the caps inside.
 void lower_caps(const ProfileRequest& request, const PathMotion& motion, const Segment& segment,
                 const std::vector<Tightening>& tightenings, RateCap& cap0, RateCap& cap1);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "planner/nlp/transcription/chord_of_caps.hpp"
 #include "planner/nlp/transcription/problem.hpp"
 #include "planner/nlp/transcription/rate_cap.hpp"
 #include "tests/support/nomad.hpp"
@@ -147,7 +148,7 @@ bool lowers_dips(const ProfileRequest& request) {
       RateCap cap0, cap1;
       lower_caps(request, motion, make_segment(request, motion, s0, s1, nullptr), {}, cap0, cap1);
       double least = std::min(cap_at(s0), cap_at(s1));
-      for (const double f : {0.2, 0.4, 0.6, 0.8}) {
+      for (const double f : kInsideSegment) {
         const double inside = cap_at(s0 + f * ds);
         EXPECT_LE((1 - f) * cap0.squared + f * cap1.squared, inside * (1 + 1e-9)) << count << " " << k;
         dips = dips || inside < 0.9 * ((1 - f) * cap_at(s0) + f * cap_at(s1));
