@@ -168,6 +168,7 @@ TEST(Mission, DurationOfALegIsKeptShortOrLong) {
     const Plan plan = plan_of(mission);
     ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
     EXPECT_NEAR(plan.legs[0].duration_s, factor * free_s, 1e-4 * free_s) << factor;
+    EXPECT_LT(plan.legs[0].gap_percent, 0.1) << factor << ": standby while the robot waits is no gap";
   }
 }
 
