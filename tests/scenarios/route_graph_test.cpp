@@ -113,7 +113,6 @@ TEST(RouteGraph, AStraightEdgeCostsItsSteadyPower) {
     power_W += motor.resistance_ohm * i * i + motor.volts_per_speed_V_s_rad() * w * i;
   }
   EXPECT_NEAR(edge["energy_J"].get<double>(), power_W * 8 / v, 1e-4 * power_W * 8 / v);
-  EXPECT_NEAR(graph_costs(read_route_graph(file), robot, 0, 0).edges[0].time_s, 8 / v, 1e-6 * 8 / v);
 }
 
 /// Around a ring each corner belongs to one pair of edges: attribution leaves nothing over there.
