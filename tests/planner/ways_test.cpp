@@ -174,6 +174,11 @@ TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
   double sum_J = 0.0;
   for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J;
   EXPECT_NEAR(sum_J, plan.energy_sigma_J, 1e-9 * sum_J);
+  ASSERT_TRUE(plan.battery);
+  const double drawn_J = plan.energy.total_J() + plan.battery->loss_J;
+  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * plan.energy_sigma_J,
+              1e-4 * drawn_J)
+      << "nineteen in twenty missions take less";
 }
 
 TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {
