@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "model/plant.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/affine_fit.hpp"
 #include "planner/path/shape/spline_slopes.hpp"
 #include "planner/profile/draft_series.hpp"
 #include "tests/support/nomad.hpp"
@@ -95,6 +97,23 @@ TEST(CurveSlopes, AreTheDerivativesOfTheLeastCost) {
 TEST(CurveSlopes, CountThePlaceWhereAWheelReverses) {
   SplineCost cost(make_nominal_plant(testing::nomad()), 0.0);
   EXPECT_LT(error_of(cost, kSwinging), 2e-3);
+}
+
+/// Currents and voltages are linear in acceleration, rate and its square under laws that are linear in speed
+/// and force alone.
+TEST(AffineFit, HoldsForLinearLawsOnly) {
+  const auto is_affine = [](const EffectSetting& effect) {
+    const Plant plant = make_plant(testing::nomad(), {effect});
+    const PathPiece lane = straight_piece({}, 2.0);
+    const PathMotion motion(lane, plant, {});
+    Sided<nlp::AffineWheel> wheel;
+    return nlp::fit_affine(plant, motion.rates(1.0), motion.site(1.0, 0.0), wheel);
+  };
+  EXPECT_TRUE(is_affine({.name = "rolling_resistance", .parameters = {{"coefficient", 0.02}}}));
+  EXPECT_TRUE(is_affine({.name = "viscous_friction", .parameters = {{"coefficient_Nm_s_rad", 0.01}}}));
+  EXPECT_TRUE(is_affine({.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 20.0}}}));
+  EXPECT_FALSE(
+      is_affine({.name = "stribeck_friction", .parameters = {{"torque_Nm", 0.3}, {"speed_rad_s", 2.0}}}));
 }
 
 }  // namespace

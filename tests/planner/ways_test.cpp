@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/accounts/battery_account.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "tests/planner/path/grids.hpp"
@@ -163,6 +164,18 @@ TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   EXPECT_NEAR(charged.battery->end_fraction, balance, 0.02);
   mission.charging.reset();
   EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
+}
+
+/// What stands at it takes 10 W.
+TEST(Charging, AChargerOfLessThanStandbyChargesNothing) {
+  for (const double charger_W : {5.0, 50.0}) {
+    Plan plan;
+    plan.legs.resize(1);
+    plan.legs[0].charger_W = charger_W, plan.legs[0].dwell_s = 60;
+    const auto account = battery_account(plan, {.plant = make_plant(testing::nomad())}, 0.5, 0.9);
+    ASSERT_TRUE(account);
+    EXPECT_NEAR(account->charged_J, charger_W > 10 ? (charger_W - 10) * 60 : 0.0, 1e-9);
+  }
 }
 
 TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
