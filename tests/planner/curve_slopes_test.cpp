@@ -99,6 +99,16 @@ TEST(CurveSlopes, CountThePlaceWhereAWheelReverses) {
   EXPECT_LT(error_of(cost, kSwinging), 2e-3);
 }
 
+/// A hasty drive keeps the lateral acceleration or the yaw rate at its limit over much of the curve.
+TEST(CurveSlopes, CountWhatTheCurveAllowsOfSpeed) {
+  for (double Limits::*limit : {&Limits::lateral_acceleration_m_s2, &Limits::yaw_rate_rad_s}) {
+    Robot robot = testing::nomad();
+    (*robot.limits).*limit = 0.1;
+    SplineCost cost(make_nominal_plant(robot), 40.0);
+    EXPECT_LT(error_of(cost, kWide), 1e-2) << (limit == &Limits::yaw_rate_rad_s);
+  }
+}
+
 /// Currents and voltages are linear in acceleration, rate and its square under laws that are linear in speed
 /// and force alone.
 TEST(AffineFit, HoldsForLinearLawsOnly) {
