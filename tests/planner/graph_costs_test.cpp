@@ -33,14 +33,16 @@ TEST(CornerTable, HasWhatTheCornerAddsAlone) {
   }
 }
 
-/// Two edges of 8 m and 3 m that meet at a right angle, each at its own speed; the corner once more in the
-/// edges with turns.
+/// An edge of 8 m with inner points on its line and one of 3 m meet at a right angle, each at its own speed;
+/// the corner is once more in the edges with turns.
 TEST(GraphCosts, OfEdgesAreTheirLengthOverTheirSpeedAndTheCornersAreAttributed) {
   RouteGraph graph;
   graph.nodes = {{.id = 1}, {.id = 2, .x_m = 8}, {.id = 3, .x_m = 8, .y_m = 3}};
-  graph.edges = {{.id = 10, .start = 0, .end = 1}, {.id = 11, .start = 1, .end = 2, .speed_limit_m_s = 0.2}};
+  graph.edges = {{.id = 10, .start = 0, .end = 1, .via_m = {2.0, 0, 3.8, 0, 5.0, 0, 5.9, 0, 6.7, 0, 7.3, 0}},
+                 {.id = 11, .start = 1, .end = 2, .speed_limit_m_s = 0.2}};
   const GraphCosts costs = graph_costs(graph, testing::nomad(), 0, 0);
   ASSERT_EQ(costs.edges.size(), 2u);
+  EXPECT_NEAR(costs.typical_leg_m, 1.2, 1e-9) << "the median, of the middle two the longer";
   EXPECT_NEAR(costs.edges[0].time_s, 8 / costs.edges[0].speed_m_s, 1e-9);
   EXPECT_NEAR(costs.edges[1].time_s, 3 / 0.2, 1e-3);
   ASSERT_EQ(costs.corners.size(), 1u);
