@@ -33,6 +33,7 @@ TEST(AllClear, ReportsTheDetectableGap) {
   ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);
   EXPECT_GT(d.gap.energy.detectable_percent, 0.0);
   EXPECT_LT(d.gap.energy.detectable_percent, 10.0);
+  EXPECT_EQ(d.leftover_share, 0.0) << "no unknown cause has a part of no gap";
 }
 
 TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <random>
 
@@ -98,6 +99,13 @@ TEST(EnergyOnly, ResistanceThatGrowsWithTheLoadLeadsTheCandidatesAndIsNotNamed) 
   EXPECT_LT(d.gap.energy.bias_before_percent, -10);
   EXPECT_EQ(d.gap.energy.after_J, d.gap.energy.before_J);
   EXPECT_GE(d.ceiling_shrink_fraction, 0.5);
+  double before_percent = 0, after_percent = 0;
+  for (const std::string& note : d.notes)
+    std::sscanf(note.c_str(), "the best candidates turn a gap of %lf %% on held-out runs into one of %lf %%",
+                &before_percent, &after_percent);
+  EXPECT_NEAR(before_percent, d.gap.energy.before_percent, 0.01 * before_percent);
+  EXPECT_GT(after_percent, 0.3) << "the readings' scatter of 1 % stays";
+  EXPECT_LT(after_percent, 2.0);
 }
 
 TEST(EnergyOnly, SharesOfEachAxisAddUpToOneAndTheHeavyRunsHoldMost) {

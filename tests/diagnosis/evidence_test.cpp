@@ -1,6 +1,7 @@
 // Steps of the search for effects on small problems with known answers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
 
 namespace joulepath {
 namespace {
@@ -64,6 +66,34 @@ TEST(AmplitudeStep, ChangesOneAmplitudeAndAddsWhatIsAbsent) {
   const ModelState again = with_change(changed, candidate, amplitude_step(changed, candidate, 1), 1, 0.5);
   ASSERT_EQ(again.effects.size(), 1u) << "replaced, not added";
   EXPECT_EQ(again.effects[0].amplitude, (std::vector<double>{0.0, 0.75}));
+}
+
+/// With a payload of three usual ones the variable of the form is (3 - 1)/(3 + 1): a form is this part of
+/// what its effect alone adds, whatever else is there.
+TEST(Forms, AreTheirEffectsPartTimesTheirVariable) {
+  constexpr double kViscous_Nm_s_rad = 0.01, kTorque_Nm = 0.05, kVariable = 0.5;
+  constexpr int kPayload = 2;
+  ASSERT_EQ(kFormVariables[kPayload], "payload");
+  const Robot robot = testing::nomad();
+  const Candidate viscous = bare_candidate(*find_effect("viscous_friction"), robot),
+                  dry = bare_candidate(*find_effect("coulomb_friction"), robot);
+  const ModelState state{.effects = {{viscous, {kViscous_Nm_s_rad}}, {dry, {kTorque_Nm}}}};
+  const RunSignals run = make_run_signals(
+      testing::synthetic_run(robot, "lane", 10, 3 * kUsualPayload_kg, testing::swinging(0.5, 0.2, 1.1)), 0,
+      robot);
+  const std::vector<Column> columns = list_columns({}, state, {viscous, dry}, 0, Forms::active);
+  const std::vector<Eigen::MatrixXd> rows =
+      signatures(run, robot, {}, state, {viscous, dry}, columns, predict(run, model_point(robot, {}, state)));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].kind != Column::Kind::form || columns[k].part != kPayload) continue;
+    for (Eigen::Index j = 0; j < run.size(); ++j) {
+      const double torque_Nm =
+          columns[k].owner == 0 ? kViscous_Nm_s_rad * run.wheel_speed_rad_s.left[j] : kTorque_Nm;
+      EXPECT_NEAR(rows[k](j, kCurrentLeft), kVariable * torque_Nm / robot.motor.left.torque_per_ampere_Nm_A(),
+                  1e-9);
+    }
+  }
+  EXPECT_EQ(std::ranges::count(columns, Column::Kind::form, &Column::kind), 2 * std::ssize(kFormVariables));
 }
 
 TEST(UnstatedPayloadWidth, IsTheLimitOrAShareOfTheRobot) {

@@ -52,11 +52,15 @@ bool is_seen(const Isolability& design, const std::string& effect) {
   return found->probability_seen >= 0.9;
 }
 
-double told_apart(const Isolability& design, const std::string& a, const std::string& b) {
+Isolability::Pair pair_of(const Isolability& design, const std::string& a, const std::string& b) {
   for (const Isolability::Pair& pair : design.pairs)
-    if (std::set{pair.effect, pair.other} == std::set{a, b}) return pair.probability_told_apart;
+    if (std::set{pair.effect, pair.other} == std::set{a, b}) return pair;
   ADD_FAILURE() << a << " and " << b << " are no pair";
-  return 0;
+  return {};
+}
+
+double told_apart(const Isolability& design, const std::string& a, const std::string& b) {
+  return pair_of(design, a, b).probability_told_apart;
 }
 
 bool share_a_group(const Isolability& design, const std::string& a, const std::string& b) {
@@ -88,6 +92,8 @@ TEST(Isolability, ATurningRunShowsScrubAndTellsItFromOtherFriction) {
 TEST(Isolability, OnePayloadMakesLoadDependentAndConstantFrictionOneGroup) {
   const Isolability one = lanes({6, 6, 6}).design(), three = lanes({0, 6, 12}).design();
   EXPECT_LT(told_apart(one, "rolling_resistance", "coulomb_friction"), 0.1);
+  EXPECT_LT(pair_of(one, "rolling_resistance", "coulomb_friction").likelihood_ratio, 0.1)
+      << "data of the one are data of the other";
   EXPECT_TRUE(share_a_group(one, "rolling_resistance", "coulomb_friction"));
   EXPECT_GT(told_apart(three, "rolling_resistance", "coulomb_friction"), 0.7);
 }

@@ -1,12 +1,12 @@
 // Predictions of a model for measured motions, and their rows, against the laws that they state.
-#include "diagnosis/prediction/rows.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/prediction/candidates.hpp"
 #include "diagnosis/prediction/contact_creep.hpp"
+#include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/where/localize.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
@@ -94,6 +94,23 @@ TEST(Prediction, OfSlipKnowsTheLagOfTheBody) {
   }
 }
 
+/// Creeping wheels turn ahead of the body, which takes a current for their own inertia; V = R i + K q' holds.
+TEST(Prediction, OfCreepingWheelsKeepsTheWindingsEquation) {
+  const RunSignals run = weaving(nomad());
+  const Prediction rigid = predict(run, {.robot = nomad()}),
+                   creeping = predict(run, with_effect({.name = "wheel_slip",
+                                                        .parameters = {{"creep_stiffness_N_s_m", 400.0}}}));
+  EXPECT_GT((creeping.current_A.left - rigid.current_A.left).cwiseAbs().maxCoeff(), 1e-3);
+  for (Side side : kSides) {
+    const Motor motor = nomad().motor[side];
+    for (Eigen::Index j = 1; j < run.size(); ++j)  // the first sample's past is unknown
+      EXPECT_NEAR(creeping.voltage_V[side][j],
+                  motor.resistance_ohm * creeping.current_A[side][j] +
+                      motor.volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side][j],
+                  1e-9);
+  }
+}
+
 /// y' + y / lag = ramp / lag: behind a ramp by slope times lag once the start has decayed; at once without
 /// lag.
 TEST(Lagged, FollowsARampBehindItByTheLag) {
@@ -168,6 +185,33 @@ TEST(Localization, FindsTheWheelAndTheDirection) {
   EXPECT_GT(share["direction forward"], 0.98);
   EXPECT_GT(share["run weaving"], 0.98);
   EXPECT_GT(share["channel current"], 0.9);
+}
+
+/// Noise of A and of V in the power V i, of which the rest of the winding's equation holds V - R i; what it
+/// makes of a mean size is no gap.
+TEST(Localization, TakesTheSensorsNoiseOffTheGap) {
+  Robot worn = nomad();
+  for (Side side : kSides) worn.motor[side].friction_torque_Nm *= 1.5;
+  const RunSignals run = weaving(worn);
+  const Prediction p = predict(run, {.robot = nomad()});
+  const auto gap_J = [&](const NoiseModel& noise) {
+    for (const WhereCell& cell : localize_gap({run}, {{}}, {.robot = nomad()}, noise, 1))
+      if (cell.axis == "run") return cell.energy_J;
+    throw std::runtime_error("no cell of the run");
+  };
+  for (const auto& [sd_A, sd_V] : {std::pair{0.01, 0.02}, {0.0, 0.02}, {0.02, 0.05}}) {
+    NoiseModel noise{};
+    for (const Channel side : {kCurrentLeft, kCurrentRight}) noise.channel_sd[side] = sd_A;
+    const double ohm = nomad().motor.left.resistance_ohm;
+    for (const Channel side : {kWindingLeft, kWindingRight})
+      noise.channel_sd[side] = std::hypot(sd_V, ohm * sd_A);
+    double noise_J = 0;
+    for (Side side : kSides)
+      for (Eigen::Index j = 0; j < run.size(); ++j)
+        noise_J += run.period_s * std::sqrt(2 / std::numbers::pi) *
+                   std::hypot(p.voltage_V[side][j] * sd_A, p.current_A[side][j] * sd_V);
+    EXPECT_NEAR(gap_J({}) - gap_J(noise), noise_J, 1e-9 * noise_J) << sd_A << " A, " << sd_V << " V";
+  }
 }
 
 /// A driven wheel creeps: uphill the body travels less than its wheels roll.

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/evidence/boxed_fit.hpp"
+#include "tests/support/nomad.hpp"
 
 namespace joulepath {
 namespace {
@@ -105,16 +108,46 @@ TEST(Judgment, AConstantDisplacesAnExplanationThatIsWorse) {
   EXPECT_EQ(judged(stood_for, named_with(0.9)).named.at(0).candidate.label(), "quadratic_drag");
 }
 
+/// A named law whose strength varies by half with the speed: of what law and form explain, the form's part
+/// is unknown.
+TEST(InexactForm, HasItsShareOfWhatIsExplained) {
+  constexpr double kGram = 1e4, kStrength = 1.0, kVariation = 0.5;
+  Identification id;
+  id.equations =
+      equations_at({{Column::Kind::amplitude, 0, 0, 1.0, 0.0}, {Column::Kind::form, 0, 0, kFormSpread, 0.0}},
+                   kGram * Eigen::Matrix2d::Identity(), Eigen::Vector2d(kStrength, kVariation));
+  id.equations.prior_sd[1] = kFormSpread;
+  const Candidate friction{.shape = {.name = "coulomb_friction"}, .amplitude = {"torque_Nm"}, .step = {0.01}};
+  id.equations.candidates = {friction};
+  id.problem = without_calibration(id.equations, {0});
+  id.explanations = search_explanations(id.problem, id.equations, {});
+  id.state.effects = {{friction, {kStrength}}};
+  id.signals = {RunSignals{.motor_power_W = {Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1)}}};
+  id.signals[0].time_s = Eigen::VectorXd::Zero(1);
+  const Dataset dataset{.robot = testing::nomad()};
+  const RunsByUse runs;
+  const Names names = choose_names({.dataset = dataset, .runs = runs, .id = id});
+  ASSERT_EQ(names.unknowns.size(), 1u);
+  const auto explained = [](double place, double prior_sd) {
+    return std::pow(kGram * place, 2) / (kGram + 1 / (prior_sd * prior_sd));
+  };
+  const double form = explained(kVariation, kFormSpread), law = explained(kStrength, 1.0);
+  EXPECT_NEAR(names.unknowns[0].share, form / (form + law), 1e-9);
+}
+
 /// Held at 3 of 5 and of -10 standard deviations, the furthest first; the third one is fitted.
 TEST(BoxedFit, HoldsConstantsAtTheBorderOfTheirUncertainty) {
-  Identification id;
-  const Column constant{Column::Kind::nuisance, 0, 0, 1.0, 0.0};
-  id.equations = equations_at({constant, constant, constant}, 100 * Eigen::Matrix3d::Identity(),
-                              Eigen::Vector3d(5, 2, -10));
-  const BoxedFit fit = fit_within_calibration(id);
-  EXPECT_EQ(fit.held, (std::vector<int>{2, 0}));
-  const double fitted = 100 * 2 * 2 - 200.0 * 200.0 / 101;
-  EXPECT_NEAR(fit.loss, 100 * 7 * 7 + 100 * 2 * 2 + fitted + kNoiseSquare, 1e-9);
+  for (const double sd : {1.0, 0.03}) {
+    Identification id;
+    const Column constant{Column::Kind::nuisance, 0, 0, sd, 0.0};
+    id.equations = equations_at({constant, constant, constant}, 100 / (sd * sd) * Eigen::Matrix3d::Identity(),
+                                sd * Eigen::Vector3d(5, 2, -10));
+    id.equations.prior_sd.setConstant(sd);
+    const BoxedFit fit = fit_within_calibration(id);
+    EXPECT_EQ(fit.held, (std::vector<int>{2, 0}));
+    const double fitted = 100 * 2 * 2 - 200.0 * 200.0 / 101;
+    EXPECT_NEAR(fit.loss, 100 * 7 * 7 + 100 * 2 * 2 + fitted + kNoiseSquare, 1e-6) << sd;
+  }
 }
 
 TEST(EffectOfAConstant, HasTheSameSignatureUpToSign) {

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "model/plant.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/affine_fit.hpp"
 #include "planner/path/shape/spline_slopes.hpp"
 #include "planner/profile/draft_series.hpp"
 #include "tests/support/nomad.hpp"
@@ -105,6 +107,33 @@ TEST(CurveSlopes, FollowCapsThatFallSteeply) {
   robot.limits->speed_m_s = kNoLimit;
   SplineCost cost(make_nominal_plant(robot), 40.0, 8);
   EXPECT_LT(error_of(cost, kWide), 0.1);
+}
+
+/// A hasty drive keeps the lateral acceleration or the yaw rate at its limit over much of the curve.
+TEST(CurveSlopes, CountWhatTheCurveAllowsOfSpeed) {
+  for (double Limits::*limit : {&Limits::lateral_acceleration_m_s2, &Limits::yaw_rate_rad_s}) {
+    Robot robot = testing::nomad();
+    (*robot.limits).*limit = 0.1;
+    SplineCost cost(make_nominal_plant(robot), 40.0);
+    EXPECT_LT(error_of(cost, kWide), 1e-2) << (limit == &Limits::yaw_rate_rad_s);
+  }
+}
+
+/// Currents and voltages are linear in acceleration, rate and its square under laws that are linear in speed
+/// and force alone.
+TEST(AffineFit, HoldsForLinearLawsOnly) {
+  const auto is_affine = [](const EffectSetting& effect) {
+    const Plant plant = make_plant(testing::nomad(), {effect});
+    const PathPiece lane = straight_piece({}, 2.0);
+    const PathMotion motion(lane, plant, {});
+    Sided<nlp::AffineWheel> wheel;
+    return nlp::fit_affine(plant, motion.rates(1.0), motion.site(1.0, 0.0), wheel);
+  };
+  EXPECT_TRUE(is_affine({.name = "rolling_resistance", .parameters = {{"coefficient", 0.02}}}));
+  EXPECT_TRUE(is_affine({.name = "viscous_friction", .parameters = {{"coefficient_Nm_s_rad", 0.01}}}));
+  EXPECT_TRUE(is_affine({.name = "quadratic_drag", .parameters = {{"coefficient_N_s2_m2", 20.0}}}));
+  EXPECT_FALSE(
+      is_affine({.name = "stribeck_friction", .parameters = {{"torque_Nm", 0.3}, {"speed_rad_s", 2.0}}}));
 }
 
 }  // namespace

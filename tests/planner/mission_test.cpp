@@ -160,6 +160,20 @@ TEST(Mission, AnEarlyDeadlineOfOneLegBindsThatLegAlone) {
   EXPECT_EQ(plan.legs[1].price_of_time_W, 0.0);
 }
 
+TEST(Mission, BaselinesAddUpOverTheLegs) {
+  const Plan plan = plan_of(two_legs());
+  ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+  ASSERT_FALSE(plan.baselines.empty());
+  for (std::size_t b = 0; b < plan.baselines.size(); ++b) {
+    const BaselineTotal &first = plan.legs[0].baselines[b], &second = plan.legs[1].baselines[b],
+                        &total = plan.baselines[b];
+    EXPECT_GT(first.motion_energy_J, 0) << total.name;
+    EXPECT_NEAR(total.motion_energy_J, first.motion_energy_J + second.motion_energy_J, 1e-9) << total.name;
+    EXPECT_NEAR(total.energy_J, first.energy_J + second.energy_J, 1e-9) << total.name;
+    EXPECT_NEAR(total.duration_s, first.duration_s + second.duration_s + 5.0, 1e-9) << total.name;
+  }
+}
+
 TEST(Mission, DurationOfALegIsKeptShortOrLong) {
   const double free_s = plan_of(two_legs()).legs[0].duration_s;
   for (double factor : {0.9, 1.2, 5.0}) {
@@ -168,6 +182,7 @@ TEST(Mission, DurationOfALegIsKeptShortOrLong) {
     const Plan plan = plan_of(mission);
     ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
     EXPECT_NEAR(plan.legs[0].duration_s, factor * free_s, 1e-4 * free_s) << factor;
+    EXPECT_LT(plan.legs[0].gap_percent, 0.1) << factor << ": standby while the robot waits is no gap";
   }
 }
 

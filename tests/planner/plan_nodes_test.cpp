@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/accounts/edge_energy.hpp"
+#include "planner/accounts/plan_accounts.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/mission/mission.hpp"
@@ -116,6 +118,53 @@ TEST_P(PlanRows, EnergyIsExactAtEveryRow) {
   EXPECT_NEAR(nodes.rows.energy_J.back(), plan_.energy.total_J(), 1e-9 * plan_.energy.total_J());
   for (std::size_t k = 2; k + 1 < uniform.size(); ++k)
     EXPECT_NEAR(uniform.time_s[k] - uniform.time_s[k - 1], 0.02, 1e-9);
+}
+
+/// The rows of a plan by edges and stops follow each other without a gap, and add up to the plan. The first
+/// leg is cut in three named parts.
+TEST(EdgeEnergies, AddUpToThePlan) {
+  Plan plan = plan_with(kNoLimit, 0.6);
+  ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
+  const double length_m = plan.legs[0].distance_m;
+  plan.legs[0].parts = {{"first", 0, 0.2 * length_m},
+                        {"second", 0.2 * length_m, 0.7 * length_m},
+                        {"third", 0.7 * length_m, length_m}};
+  const std::vector<EdgeEnergy> edges = edge_energies(plan, plant_of(plan));
+  double now_s = 0, energy_J = 0, distance_m = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    EXPECT_NEAR(edges[k].start_s, now_s, 1e-9) << k;
+    now_s += edges[k].duration_s, energy_J += edges[k].energy.total_J(), distance_m += edges[k].distance_m;
+    if (k == 0) continue;
+    EXPECT_NEAR(edges[k].from.x_m, edges[k - 1].to.x_m, 1e-6) << k;
+    EXPECT_NEAR(edges[k].from.y_m, edges[k - 1].to.y_m, 1e-6) << k;
+  }
+  EXPECT_NEAR(now_s, plan.duration_s, 1e-6);
+  EXPECT_NEAR(energy_J, plan.energy.total_J(), 1e-6 * energy_J);
+  EXPECT_NEAR(distance_m, plan.distance_m, 1e-6);
+  ASSERT_GE(edges.size(), 4u);
+  EXPECT_EQ(edges[1].name, "second");
+  EXPECT_NEAR(edges[1].distance_m, 0.5 * length_m, 1e-9);
+  EXPECT_EQ(edges[3].kind, EdgeEnergy::Kind::dwell);
+}
+
+/// While the robot stands at a stop its motors take nothing; where it starts they accelerate it.
+TEST(PlanTrajectory, HasNoCurrentAtAStopAndOneAtTheStart) {
+  const Plan plan = plan_with(kNoLimit, 0.6);
+  ASSERT_EQ(plan.legs.size(), 3u) << plan.message;
+  const double standby_W = plant_of(plan).robot.power.standby_W, arrival_s = plan.legs[0].duration_s;
+  const Trajectory rows = plan_trajectory_at(plan, plant_of(plan), {0.0, arrival_s + 0.5, arrival_s + 4.5});
+  EXPECT_GT(rows.motor_current_A.left[0], 0.1);
+  for (const std::size_t stopped : {1u, 2u}) {
+    EXPECT_EQ(rows.motor_current_A.left[stopped], 0.0);
+    EXPECT_EQ(rows.motor_voltage_V.right[stopped], 0.0);
+    EXPECT_NEAR(rows.battery_power_W[stopped], standby_W, 1e-12);
+  }
+}
+
+TEST(Saving, IsTheShareOfTheBaseline) {
+  EXPECT_NEAR(saving_percent(180, 200), 10, 1e-12);
+  EXPECT_NEAR(saving_percent(250, 200), -25, 1e-12);
+  EXPECT_EQ(saving_percent(1, 0), 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(JerkAndRegeneration, PlanRows,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/accounts/battery_account.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "tests/planner/path/grids.hpp"
@@ -165,6 +166,18 @@ TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
 }
 
+/// What stands at it takes 10 W.
+TEST(Charging, AChargerOfLessThanStandbyChargesNothing) {
+  for (const double charger_W : {5.0, 50.0}) {
+    Plan plan;
+    plan.legs.resize(1);
+    plan.legs[0].charger_W = charger_W, plan.legs[0].dwell_s = 60;
+    const auto account = battery_account(plan, {.plant = make_plant(testing::nomad())}, 0.5, 0.9);
+    ASSERT_TRUE(account);
+    EXPECT_NEAR(account->charged_J, charger_W > 10 ? (charger_W - 10) * 60 : 0.0, 1e-9);
+  }
+}
+
 TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
   Robot robot = testing::nomad();
   EXPECT_EQ(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J, 0.0);
@@ -174,6 +187,11 @@ TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
   double sum_J = 0.0;
   for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J;
   EXPECT_NEAR(sum_J, plan.energy_sigma_J, 1e-9 * sum_J);
+  ASSERT_TRUE(plan.battery);
+  const double drawn_J = plan.energy.total_J() + plan.battery->loss_J;
+  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * plan.energy_sigma_J,
+              1e-4 * drawn_J)
+      << "nineteen in twenty missions take less";
 }
 
 TEST(Route, AGoalOutsideOfTheMapIsToldAsThat) {

@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "diagnosis/calibration/full_fit.hpp"
+#include "diagnosis/calibration/smoothed_run.hpp"
+#include "tests/support/nomad.hpp"
+#include "tests/support/synthetic_log.hpp"
 
 namespace joulepath::calibration {
 namespace {
@@ -53,6 +56,23 @@ TEST(FitWeights, WithoutVoltagesLeaveTheirEquationOut) {
   sums.voltage.setZero();
   sums.voltage_count = 0;
   EXPECT_EQ(weights_of(sums).voltage, 0.0);
+}
+
+/// Wheels that keep their speed accelerate in their noise only, whose squares both equations take off.
+TEST(FitSums, HoldNoSquaresOfTheSpeedsNoise) {
+  Dataset dataset{.robot = testing::nomad()};
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    dataset.runs.push_back(testing::synthetic_run(dataset.robot, "lane", 60, 0, testing::constant_speed(0.5),
+                                                  {.speed_rad_s = 0.05}, seed));
+  double torque = 0, voltage = 0, noise = 0;
+  for (const FitSums& sums : fit_sums(dataset.robot, smooth_runs(dataset), 1, 60)) {
+    torque += sums.torque(kTurningInertia, kTurningInertia) + sums.torque(kStraightInertia, kStraightInertia);
+    voltage +=
+        sums.voltage(kTurningInertia, kTurningInertia) + sums.voltage(kStraightInertia, kStraightInertia);
+    noise += sums.acceleration_noise;
+  }
+  EXPECT_NEAR(torque, 0.0, 0.3 * noise);
+  EXPECT_NEAR(voltage, 0.0, 0.3 * noise);
 }
 
 /// The current asks for K = 0.5, the voltage for K = 1: the fit is between them, and no neighbor is better.

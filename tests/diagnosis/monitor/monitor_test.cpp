@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "model/normal_quantiles.hpp"
 #include "model/operating_point.hpp"
 #include "tests/diagnosis/monitor/simulated_day.hpp"
 
@@ -143,6 +144,79 @@ TEST(CauseWatch, OtherCausesAreNotPayload) {
       EXPECT_NEAR(found[0].resistance.value, 0.15 / 0.36, 0.1);
     }
   }
+}
+
+/// What all blocks of a log say of the payload, without the tolerance: the robot file's errors are no noise.
+Estimate pooled_kg(const CauseWatch& watch) {
+  Estimate kg = watch.extra_kg().value();
+  kg.sigma = std::sqrt(kg.sigma * kg.sigma - std::pow(watch.tolerance_kg() / kNormal95OneSided, 2));
+  return kg;
+}
+
+/// The estimate at the end of a log, where `stated_kg(round)` is stated: a round ends with its second stop.
+template <class Stated>
+Estimate weighed_kg(const Trajectory& log, Stated&& stated_kg) {
+  CauseWatch watch(nomad(), 1e6);
+  int stops = 0;
+  bool stands = true;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    const bool stood = stands;
+    stands = std::abs(log.wheel_speed_rad_s.left[k]) < 0.05;
+    stops += stands && !stood;
+    const double kg = stated_kg(stops / 2);
+    (void)watch.add(row_of(log, k, kg), kg);
+  }
+  return pooled_kg(watch);
+}
+
+TEST(CauseWatch, APayloadThatIsStatedWrongIsKnownAsWellAsARightOne) {
+  const Day quiet = day(20);
+  const Trajectory log = drive(quiet, {}).log;
+  const Estimate right = weighed_kg(log, [](int) { return 4.0; }),
+                 wrong = weighed_kg(log, [](int) { return 1.0; });
+  EXPECT_NEAR(right.value, 0.0, 0.3);
+  EXPECT_NEAR(wrong.value, 3.0, 0.3);
+  EXPECT_NEAR(wrong.sigma / right.sigma, 1.0, 0.4);
+}
+
+/// The mean over rounds of which every other one is off by 1 kg to either side is known less well.
+TEST(CauseWatch, EstimatesThatScatterFromBlockToBlockAreKnownLessWell) {
+  const Day quiet = day(20);
+  const Trajectory log = drive(quiet, {}).log;
+  const Estimate steady = weighed_kg(log, [](int) { return 4.0; }),
+                 scattered = weighed_kg(log, [](int round) { return round % 2 == 0 ? 3.0 : 5.0; });
+  EXPECT_NEAR(scattered.value, 0.0, 0.3);
+  EXPECT_GT(scattered.sigma, 1.5 * steady.sigma);
+}
+
+/// One short block tells little of its own noise: what it weighs keeps within its sigma all the same.
+TEST(CauseWatch, TheFirstShortBlockIsNotSurerThanItsNoise) {
+  const Plant plant = make_nominal_plant(nomad());
+  const auto causes = static_cast<double>(Signatures(nomad()).names().size() + 3);
+  const double end_s = 0.3 * std::ceil((causes + 4) / 2) + 0.1;  // two rows a window, four more than causes
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  double squares = 0;
+  constexpr int kDays = 40;
+  for (int repeat = 0; repeat < kDays; ++repeat) {
+    CauseWatch watch(nomad(), 100);
+    for (double t = 0; t < end_s + 1; t += 0.02) {
+      const BodyMotion<double> motion{.speed_m_s = 0.5 + 0.3 * std::sin(2 * t),
+                                      .acceleration_m_s2 = 0.6 * std::cos(2 * t)};
+      const auto wheels =
+          operating_point(plant, motion, site_of(nomad().geometry, {}, 4, motion.speed_m_s, 0));
+      MonitorRow row{.time_s = t, .payload_kg = 4};
+      for (const Side side : kSides) {
+        row.wheel_speed_rad_s[side] = t < end_s ? wheels[side].speed_rad_s : 0.0;
+        row.motor_current_A[side] = wheels[side].current_A + 0.05 * normal(random);
+      }
+      (void)watch.add(row, 4);
+    }
+    ASSERT_EQ(watch.blocks(), 1u);
+    const Estimate kg = pooled_kg(watch);
+    squares += std::pow(kg.value / kg.sigma, 2) / kDays;
+  }
+  EXPECT_LT(squares, 2.0);
 }
 
 PlannedCourse course_of(const Day& planned) {

@@ -58,6 +58,14 @@ TEST(Bound, IsBelowEveryFineProfileThatKeepsTheLimits) {
   }
 }
 
+/// Of a gap of 10 J a tenth or more belongs to profiles that are not near the one found.
+TEST(Bound, IsLocalWhereALargeShareOfTheGapLiesElsewhere) {
+  for (const double elsewhere_J : {0.0, 0.5, 2.0, 20.0}) {
+    const DualGap gap{.of_segment = {6, 3}, .at_nodes = 1, .elsewhere = elsewhere_J};
+    EXPECT_EQ(gap.is_elsewhere(), elsewhere_J > 1) << elsewhere_J;
+  }
+}
+
 /// A discrete optimum on a grid with its multipliers.
 struct Optimum {
   ProfileRequest request;

@@ -270,5 +270,24 @@ TEST(Jerk, ALimitOfZeroIsAnsweredBelowAThousandth) {
   EXPECT_NEAR(result.infeasibility->relaxation.at("jerk_m_s3"), kEnough, 0.03 * kEnough);
 }
 
+/// Brakes of a third of the acceleration make the drive longer than the equal, strong ones would, and shorter
+/// than two weak ones: no deadline between is refused.
+TEST(Jerk, UnequalAccelerationAndBrakingArePlannedAndBounded) {
+  ProfileRequest request = straight(4, 2);
+  request.solver = SolverChoice::fast;
+  request.limits.acceleration_m_s2 = 0.9;
+  request.limits.deceleration_m_s2 = 0.3;
+  const double strong_s = s_curve_duration_s(4, request.limits.speed_m_s, 0.9, 2),
+               weak_s = s_curve_duration_s(4, request.limits.speed_m_s, 0.3, 2);
+  request.time = {TimeMode::minimum_time};
+  const ProfileResult fastest = solve_profile(request);
+  ASSERT_TRUE(fastest.profile.has_value()) << fastest.summary.message;
+  EXPECT_GT(fastest.profile->duration_s(), strong_s);
+  EXPECT_LT(fastest.profile->duration_s(), 0.95 * weak_s);
+  EXPECT_GE(fastest.summary.lower_bound_s, strong_s * (1 - 1e-6));
+  request.time = {TimeMode::time_budget, 0.97 * weak_s};
+  EXPECT_TRUE(solve_profile(request).profile.has_value());
+}
+
 }  // namespace
 }  // namespace joulepath

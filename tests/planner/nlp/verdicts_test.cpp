@@ -134,6 +134,33 @@ TEST(Verdicts, AJerkLimitTooLowForTheDeadlineNamesOneThatWouldDo) {
   EXPECT_FALSE(solve_profile(request).profile.has_value());
 }
 
+/// Without any jerk nothing moves. The limit that is offered is the least one, to 2 %.
+TEST(Verdicts, AJerkLimitOfZeroNamesTheLeastThatWouldDo) {
+  ProfileRequest request = within(straight_run(), TimeMode::time_budget, 1.3 * minimum_s(straight_run()));
+  request.limits.jerk_m_s3 = 0;
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.infeasibility.has_value());
+  const double offered = result.infeasibility->relaxation.at("jerk_m_s3");
+  request.limits.jerk_m_s3 = offered;
+  EXPECT_TRUE(solve_profile(request).profile.has_value());
+  request.limits.jerk_m_s3 = 0.97 * offered;
+  EXPECT_FALSE(solve_profile(request).profile.has_value()) << offered;
+}
+
+/// From v the robot stops within v^2/(2 d): the start speed that is offered is the greatest one, to 1e-5.
+TEST(Verdicts, TheStartSpeedOfferedIsTheGreatest) {
+  for (int i = 1; i <= 12; ++i) {
+    ProfileRequest request = straight_run(0.07 * i);
+    request.start_rate = 1.0;
+    const double greatest_m_s = std::sqrt(2 * request.limits.deceleration_m_s2 * 0.07 * i);
+    const ProfileResult result = solve_profile(request);
+    ASSERT_TRUE(result.infeasibility.has_value()) << i;
+    const double offered_m_s = result.infeasibility->relaxation.at("start_speed_m_s");
+    EXPECT_LE(offered_m_s, greatest_m_s * (1 + 1e-9)) << i;
+    EXPECT_GE(offered_m_s, greatest_m_s * (1 - 1e-5)) << i;
+  }
+}
+
 TEST(Verdicts, DegenerateButPossibleInputsArePlanned) {
   std::vector<HopelessRequest> cases;
   const auto add = [&](std::string name, ProfileRequest request) {

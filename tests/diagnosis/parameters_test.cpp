@@ -1,0 +1,48 @@
+// Intervals of found parameters, by the propagation of a known covariance.
+#include "diagnosis/correction/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/thresholds.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kStudent9 = 2.262157;  ///< 0.975 quantile of Student's t for ten runs
+
+/// A slope towards y whose components are known to `sd`, from ten runs.
+Refit slope_known_to(double grade, double sd) {
+  Refit fitted;
+  const Candidate slope = bare_candidate(*find_effect("floor_slope"), testing::nomad());
+  fitted.state.effects = {{slope, {0.0, grade}}};
+  fitted.equations.columns = {{Column::Kind::amplitude, 0, 0, 1.0, 0.0},
+                              {Column::Kind::amplitude, 0, 1, 1.0, 0.0}};
+  fitted.columns = {0, 1};
+  fitted.covariance = sd * sd * Eigen::Matrix2d::Identity();
+  fitted.run_covariance = Eigen::Matrix2d::Zero();
+  fitted.fit_runs = 10;
+  return fitted;
+}
+
+/// A direction is known to sd/size; the size in addition to what a law leaves out.
+TEST(FoundParameters, OfASlopeAreItsSizeAndItsDirection) {
+  constexpr double kGrade = 0.02, kSd = 1e-3;
+  const std::vector<FoundParameter> found =
+      found_parameters(slope_known_to(kGrade, kSd), 0, testing::nomad());
+  ASSERT_EQ(found.size(), 2u);
+  for (const FoundParameter& parameter : found) {
+    const bool direction = parameter.name == "uphill_direction_rad";
+    const double value = direction ? std::numbers::pi / 2 : kGrade,
+                 sd = direction ? kSd / kGrade : std::hypot(kSd, kLawInexactness * kGrade);
+    EXPECT_NEAR(parameter.value, value, 1e-12) << parameter.name;
+    EXPECT_NEAR(parameter.interval_95.first, value - kStudent9 * sd, 1e-6 * sd) << parameter.name;
+    EXPECT_NEAR(parameter.interval_95.second, value + kStudent9 * sd, 1e-6 * sd) << parameter.name;
+  }
+}
+
+}  // namespace
+}  // namespace joulepath
