@@ -24,6 +24,9 @@ namespace {
 using nlp::Problem;
 
 constexpr int kRounds = 12;  ///< of tightening and refinement
+/// From this round on a limit is tightened in the neighboring segments, too: where it determines a stretch of
+/// the profile, a tightened segment moves the violation into the next one.
+constexpr int kWidened = 5;
 /// Relative: a deadline within this distance of the minimum time determines the profile.
 constexpr double kSameTime = 2e-6;
 constexpr int kSharpenings = 16;      ///< cuts of the grid for a deadline that is missed slightly
@@ -69,7 +72,11 @@ class ProfileSolver {
         continue;
       }
       last_ratio_ = check.worst_ratio;
-      tightenings.insert(tightenings.end(), check.tighten.begin(), check.tighten.end());
+      for (nlp::Tightening limit : check.tighten) {
+        const double reach = round < kWidened ? 0.0 : limit.to - limit.from;
+        limit.from -= reach, limit.to += reach;
+        tightenings.push_back(limit);
+      }
       s = nlp::cut_segments(s, check.cut);
     }
     result_.summary.status = SolveStatus::failed;
