@@ -36,19 +36,15 @@ int constant_that_wins(const Examination& x, bool nothing_won) {
 
 /// A constant beyond its uncertainty is reported as the effect that changes the same number; the verdict is
 /// unexplained if the catalog has none, or if the race gives it no probability.
-void judge_constant(const Examination& x, const Names& names, int column, Judgment& judgment) {
-  judgment = {};
-  const int candidate = effect_of_constant(x.id, column);
-  const std::vector<Candidate>& candidates = x.id.equations.candidates;
-  if (candidate < 0 || probability_of(names, {candidates[static_cast<std::size_t>(candidate)], {0.0}}) <=
-                           kLeastProbabilityRanked) {
-    judgment.verdict = Verdict::unexplained;
-    judgment.depends_on =
-        "goes with " + calibration_name(x.id, column) + ", further from its value than calibration errors";
-    return;
+Judgment judge_constant(const Examination& x, const Names& names, int column) {
+  if (const int candidate = effect_of_constant(x.id, column); candidate >= 0) {
+    const ActiveEffect effect{x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}};
+    if (probability_of(names, effect) > kLeastProbabilityRanked)
+      return {.verdict = Verdict::explained, .named = {effect}};
   }
-  judgment.verdict = Verdict::explained;
-  judgment.named.push_back({candidates[static_cast<std::size_t>(candidate)], {0.0}});
+  return {.verdict = Verdict::unexplained,
+          .depends_on = "goes with " + calibration_name(x.id, column) +
+                        ", further from its value than calibration errors"};
 }
 
 }  // namespace
@@ -59,10 +55,8 @@ Judgment judge(const Examination& x, const Names& names) {
                       " runs: candidates only; add runs with two payloads, both directions and turns"}};
   Judgment judgment{.named = names.named, .unknowns = names.unknowns, .depends_on = in_words(names.unknowns)};
   const bool nothing_won = names.named.empty() && names.unknowns.empty();
-  if (const int column = constant_that_wins(x, nothing_won); column >= 0) {
-    judge_constant(x, names, column, judgment);
-    return judgment;
-  }
+  if (const int column = constant_that_wins(x, nothing_won); column >= 0)
+    return judge_constant(x, names, column);
   if (nothing_won) {
     judgment.verdict = Verdict::no_gap;
     if (names.small_unknowns.empty() && names.something > kSurest) {

@@ -90,7 +90,7 @@ class Answer:
 
     def lists_unknown(self):
         """An unknown term below the materiality floor."""
-        return any(entry["effect"].startswith("unknown, ") for entry in self.raw.get("below_materiality") or [])
+        return any(name.startswith("unknown, ") for name in self.small())
 
     def energy(self, key):
         return self.raw.get("gap", {}).get("energy", {}).get(key)

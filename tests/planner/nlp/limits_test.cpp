@@ -140,12 +140,10 @@ TEST(FastestDrive, SettlesWhereTheVoltageDeterminesALongStretch) {
                                                 {1.4152903618731953, 0},
                                                 {2.1432094426551087, 0.20763045459470675},
                                                 {2.2387475904868115, 0.9600326032132881}}})});
-  ProfileRequest request{.piece = bend,
-                         .plant = make_plant(robot),
-                         .limits = *robot.limits,
-                         .time = {TimeMode::minimum_time},
-                         .nodes = 200,
-                         .solver = SolverChoice::fast};
+  ProfileRequest request = fastest_drive(bend);
+  request.plant = make_plant(robot);
+  request.limits = *robot.limits;
+  request.nodes = 200;
   const ProfileResult result = solve_profile(request);
   ASSERT_TRUE(result.profile) << result.summary.message;
   EXPECT_LE(replay(request, *result.profile).worst_violation, 1e-6);
