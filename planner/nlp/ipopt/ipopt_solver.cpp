@@ -10,9 +10,19 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr double kColdMu = 0.1, kWarmMu = 1e-6;  ///< first barrier parameter
+/// First barrier parameter: of a cold start, near the solution, and with the multipliers of another solver.
+/// The last is that solver's own: a larger one leads away from the solution and back.
+constexpr double kColdMu = 0.1, kWarmMu = 1e-6, kNearMu = 1e-11;
 
-double first_mu(const IpoptOptions& options) { return options.warm ? kWarmMu : kColdMu; }
+/// On fine grids rounding ends the steps before the tolerance is met: from multipliers of a solution, this
+/// many iterations with at most this error are enough.
+constexpr double kRoundingError = 1e-8;
+constexpr int kRoundingIterations = 3;
+
+double first_mu(const IpoptOptions& options) {
+  if (options.near != nullptr) return kNearMu;
+  return options.warm ? kWarmMu : kColdMu;
+}
 
 void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
   ipopt.SetIntegerValue("print_level", 0);
@@ -35,6 +45,8 @@ void set_options(Ipopt::OptionsList& ipopt, const IpoptOptions& options) {
     if (options.near != nullptr) ipopt.SetNumericValue(std::string("warm_start_") + push, 1e-8);
   }
   if (options.near == nullptr) return;
+  ipopt.SetNumericValue("acceptable_tol", kRoundingError);
+  ipopt.SetIntegerValue("acceptable_iter", kRoundingIterations);
   ipopt.SetStringValue("warm_start_init_point", "yes");
   ipopt.SetNumericValue("warm_start_mult_bound_push", 1e-8);
 }

@@ -44,12 +44,11 @@ double slowest_parameter(const BezierPoints& p, double from_t, double to_t) {
 
 /// Turning points of a curve whose control points lie on a line: roots of the projected derivative.
 std::vector<double> turning_parameters_on_a_line(const BezierPoints& p) {
-  const double length_x = p[3][0] - p[0][0], length_y = p[3][1] - p[0][1];
-  const double norm = std::hypot(length_x, length_y);
-  // A closed curve on a line must turn back somewhere: project on its longest handle instead.
-  const bool closed = norm <= kVanishing * control_polygon_length_m(p);
-  const double ux = closed ? p[1][0] - p[0][0] + p[2][0] - p[0][0] : length_x;
-  const double uy = closed ? p[1][1] - p[0][1] + p[2][1] - p[0][1] : length_y;
+  const auto from_start_m = [&](std::size_t i) { return std::hypot(p[i][0] - p[0][0], p[i][1] - p[0][1]); };
+  // A closed curve on a line must turn back somewhere: project on its farther handle instead.
+  const bool closed = from_start_m(3) <= kVanishing * control_polygon_length_m(p);
+  const std::size_t end = !closed ? 3 : from_start_m(1) > from_start_m(2) ? 1 : 2;
+  const double ux = p[end][0] - p[0][0], uy = p[end][1] - p[0][1];
   const auto step = [&](std::size_t i) {
     return (p[i + 1][0] - p[i][0]) * ux + (p[i + 1][1] - p[i][1]) * uy;
   };

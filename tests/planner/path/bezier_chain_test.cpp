@@ -166,6 +166,7 @@ TEST(BezierChain, ReportsTurningBackOnALine) {
   ASSERT_EQ(defects.size(), 2u);
   EXPECT_EQ(defects[0].kind, Kind::cusp);
   EXPECT_EQ(bezier_defects({{{0, 0}, {1, 0}, {1, 0}, {0, 0}}}, 0).size(), 1u);
+  EXPECT_EQ(bezier_defects({{{1, 0}, {0, 0}, {2, 0}, {1, 0}}}, 0).size(), 2u);  // the handles cancel
 }
 
 TEST(BezierChain, ReportsOtherDefects) {
