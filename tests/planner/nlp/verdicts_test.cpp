@@ -27,6 +27,17 @@ using testing::straight_run;
 using testing::turn_run;
 using testing::within;
 
+/// 10 m at 0.5 m/s^2 and 1 m/s: 2 s up, 8 s at full speed, 2 s down.
+TEST(LeastTime, AVerdictNamesTheLimitThatHoldsLongestAndItsShare) {
+  ProfileRequest request = straight_run(10);
+  request.limits.acceleration_m_s2 = request.limits.deceleration_m_s2 = 0.5;
+  request.limits.speed_m_s = 1;
+  const std::string message = solve_profile(within(request, TimeMode::time_budget, 5)).summary.message;
+  EXPECT_NE(message.find("; speed limits the fastest drive for 67 % of its time"), std::string::npos)
+      << message;
+  EXPECT_NEAR(std::stod(message.substr(message.rfind("s = ") + 4)), 1.0, 0.01) << message;
+}
+
 /// The tangent of this curve nearly vanishes at t = 1/3: its curvature has no bound there, and no step of an
 /// integrator resolves it.
 TEST(Replay, EndsAtAKinkThatNoStepResolves) {
