@@ -114,7 +114,8 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
                          : 100 * (energy_J - plan.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
   if (plan.worst_violation > 1e-6) {
     plan.status = SolveStatus::failed;
-    plan.message = "the replay found " + plan.worst_limit + " exceeded";
+    plan.message = "the replay found " + plan.worst_limit + " exceeded by " +
+                   std::to_string(100 * plan.worst_violation) + " %";
   } else if (plan.status <= SolveStatus::feasible) {
     plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
   }

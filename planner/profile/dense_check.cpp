@@ -12,7 +12,8 @@
 namespace joulepath::nlp {
 namespace {
 
-constexpr std::size_t kLooks = 8;  ///< samples per segment
+/// Samples per segment, equal in time: where it begins or ends at rest, the rate is not smooth in s.
+constexpr std::size_t kLooks = 8;
 constexpr double kWorthALook =
     1 - 1e-3;  ///< the peak of a limit with a smaller use is below 1 between two samples
 constexpr double kTolerated = 3e-7;  ///< relative
@@ -26,8 +27,8 @@ class SegmentLook {
       : request_(request),
         motion_(motion),
         profile_(profile),
-        from_(profile.s[k]),
-        ds_(profile.s[k + 1] - profile.s[k]),
+        from_s_(profile.time_s[k]),
+        duration_s_(profile.time_s[k + 1] - profile.time_s[k]),
         jerk_(profile.jerk[k]) {}
 
   /// Worst use of each limit, by name.
@@ -50,9 +51,10 @@ class SegmentLook {
     std::string_view name{};
     std::array<double, kLooks + 1> ratio{};
   };
+  /// The limits at a share of the segment's time.
   template <class Use>
   void look(double share, Use&& use) const {
-    const ProfileState state = profile_.at_s(from_ + ds_ * std::clamp(share, 1e-7, 1 - 1e-7));
+    const ProfileState state = profile_.at_time(from_s_ + duration_s_ * std::clamp(share, 1e-7, 1 - 1e-7));
     for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, jerk_, use);
   }
 
@@ -78,7 +80,7 @@ class SegmentLook {
   const ProfileRequest& request_;
   const PathMotion& motion_;
   const Profile& profile_;
-  double from_{}, ds_{}, jerk_{};
+  double from_s_{}, duration_s_{}, jerk_{};
 };
 
 }  // namespace

@@ -24,8 +24,8 @@ namespace {
 using nlp::Problem;
 
 constexpr int kRounds = 12;  ///< of tightening and refinement
-/// From this round on a limit is tightened in the neighboring segments, too: where it determines a stretch of
-/// the profile, a tightened segment moves the violation into the next one.
+/// From this round on a limit is tightened in the neighboring segments, too, in twice as many each round:
+/// where it determines a stretch of the profile, a tightened segment moves the violation into the next one.
 constexpr int kWidened = 5;
 /// Relative: a deadline within this distance of the minimum time determines the profile.
 constexpr double kSameTime = 2e-6;
@@ -34,8 +34,12 @@ constexpr double kProven = 0.04;      ///< target of the gap, as a share of the 
 constexpr double kProvenTime = 0.01;  ///< the same for a profile of least time
 /// Share of the previous gap: a finer grid that closes less is the last one.
 constexpr double kWorthAProof = 0.7;
-/// A grid with more than this multiple of the requested nodes is not refined.
+/// A grid with more than this multiple of the requested nodes is not refined for its bound.
 constexpr std::size_t kMostNodes = 4;
+/// A grid with more nodes is not refined for the energy: along a stretch where a wheel's power stays at zero,
+/// the kink of its recovery, the error is of first order in h.
+constexpr std::size_t kManyNodes = 1000;
+constexpr int kHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
 constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
@@ -56,12 +60,17 @@ class ProfileSolver {
         --round;
         continue;
       }
-      if (!solve_on(problem)) return answer();
+      if (!solve_on(problem)) {
+        if (kept_ || result_.infeasibility || halvings_++ == kHalvings) return answer();
+        given_over_ = false;
+        s = nlp::cut_segments(s, std::vector<bool>(problem.segment_count(), true));
+        continue;
+      }
       if (request_.draft) return sketch();
-      const nlp::DenseCheck check = nlp::check_densely(
-          problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), request_.accuracy);
-      const bool accurate =
-          check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
+      const double accuracy = problem.node_count() > kManyNodes ? kNoLimit : request_.accuracy;
+      const nlp::DenseCheck check =
+          nlp::check_densely(problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), accuracy);
+      const bool accurate = check.energy_error_J <= accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool last = round + 1 == kRounds;
       if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
         std::vector<double> finer = prove(problem);
@@ -73,7 +82,7 @@ class ProfileSolver {
       }
       last_ratio_ = check.worst_ratio;
       for (nlp::Tightening limit : check.tighten) {
-        const double reach = round < kWidened ? 0.0 : limit.to - limit.from;
+        const double reach = round < kWidened ? 0.0 : (limit.to - limit.from) * (1 << (round - kWidened));
         limit.from -= reach, limit.to += reach;
         tightenings.push_back(limit);
       }
@@ -255,6 +264,7 @@ class ProfileSolver {
   double last_ratio_{};
   double least_gap_{kNoLimit};
   int sharpened_{};
+  int halvings_{};
 };
 
 }  // namespace
