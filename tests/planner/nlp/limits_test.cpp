@@ -110,45 +110,6 @@ TEST(EveryLimitOfTheTable, IsTightenedAbove) {
   }
 }
 
-/// The voltage determines the whole bend: tightened in one segment, its violation moves into the next one.
-TEST(FastestDrive, SettlesWhereTheVoltageDeterminesALongStretch) {
-  Robot robot = testing::nomad();
-  robot.geometry = {.wheel_radius_m = {0.3061263877923659, 0.3061263877923659},
-                    .half_track_m = 0.7077612923060222,
-                    .center_of_mass_offset_m = 0.21232838769180667};
-  robot.inertia = {.chassis_mass_kg = 87.25223572779916,
-                   .wheel_mass_kg = 4.362611786389958,
-                   .chassis_yaw_inertia_kg_m2 = 14.568972508384036,
-                   .wheel_axle_inertia_kg_m2 = 0.20441751600613584,
-                   .wheel_diameter_inertia_kg_m2 = 0.10220875800306792};
-  for (const Side side : kSides)
-    robot.motor[side] = {.gear_ratio = 8.084979624371755,
-                         .resistance_ohm = 0.015088993328845075,
-                         .torque_constant_Nm_A = 0.5471985098906688,
-                         .voltage_constant_V_s_rad = 0.5471985098906688,
-                         .viscous_friction_Nm_s_rad = 0.4555085194738136,
-                         .friction_torque_Nm = 7.905842208714503,
-                         .max_voltage_V = 6,
-                         .max_current_A = 16.28430249994672};
-  robot.limits = Limits{.speed_m_s = 0.27056347020484994,
-                        .acceleration_m_s2 = 1.5163196413514697,
-                        .deceleration_m_s2 = 1.662242167229992,
-                        .lateral_acceleration_m_s2 = 0.4379000565788323,
-                        .yaw_rate_rad_s = 1.4172220634400725,
-                        .yaw_acceleration_rad_s2 = 2.34468722623539};
-  const PathPiece bend = Curve({BezierSegment({{{0, 0},
-                                                {1.4152903618731953, 0},
-                                                {2.1432094426551087, 0.20763045459470675},
-                                                {2.2387475904868115, 0.9600326032132881}}})});
-  ProfileRequest request = fastest_drive(bend);
-  request.plant = make_plant(robot);
-  request.limits = *robot.limits;
-  request.nodes = 200;
-  const ProfileResult result = solve_profile(request);
-  ASSERT_TRUE(result.profile) << result.summary.message;
-  EXPECT_LE(replay(request, *result.profile).worst_violation, 1e-6);
-}
-
 /// Nothing bounds the speed at the straight start of the bend; a coarse grid must not bound it either.
 TEST(NoLimitOfSpeed, CostsACoarseGridLittle) {
   const auto cost_J = [](int nodes) {
