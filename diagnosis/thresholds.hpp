@@ -381,6 +381,8 @@ inline constexpr std::size_t kMostOpenEffects = 3;
 inline constexpr int kRunRefinements = 2;
 /// Of standing still. Declared.
 inline constexpr double kLongestStand_s = 60.0;
+/// Of the standstill at which the payload changes. Declared.
+inline constexpr double kLoading_s = 10.0;
 
 // An all-clear.
 

@@ -22,13 +22,25 @@ struct Ramp {
   throw ConfigError({.mark = {}, .key = "motion." + key, .found = found, .accepted = accepted, .hint = {}});
 }
 
+/// Payload during a motion.
+inline double payload_kg_of(const TimingOptions& options, std::size_t motion) {
+  return options.payload_of_motion_kg.empty() ? options.payload_kg : options.payload_of_motion_kg.at(motion);
+}
+
 /// Converts ramps to samples.
 class Timeline {
  public:
   Timeline(const Robot& robot, const TimingOptions& options)
-      : robot_(robot), options_(options), pose_(options.start), time_s_(options.start_time_s) {
+      : robot_(robot),
+        options_(options),
+        payload_kg_(payload_kg_of(options, 0)),
+        pose_(options.start),
+        time_s_(options.start_time_s) {
     append(0, 0, 0, 0);
   }
+
+  /// The payload from here on.
+  void load(double payload_kg) { payload_kg_ = payload_kg; }
 
   /// speed = rate * linear_share, yaw rate = rate * angular_share.
   void add(const Ramp& ramp, double linear_share, double angular_share) {
@@ -120,11 +132,12 @@ class Timeline {
     t.position_y_m.push_back(pose_.y_m);
     t.heading_rad.push_back(pose_.heading_rad);
     t.arc_length_m.push_back(arc_length_m_);
-    t.payload_kg.push_back(options_.payload_kg);
+    t.payload_kg.push_back(payload_kg_);
   }
 
   const Robot& robot_;
   const TimingOptions& options_;
+  double payload_kg_{};
   TimedMotion motion_{};
   Twist<double> twist_{};
   Pose pose_{};

@@ -144,8 +144,11 @@ TimedMotion timed_motion(const Robot& robot, const std::vector<PrescribedMotion>
                          const TimingOptions& options) {
   const Plant plant = make_plant(robot);
   Timeline timeline(robot, options);
-  for (const PrescribedMotion& motion : motions)
-    for (int k = 0; k < motion.repeat; ++k) add_motion(robot, plant, motion, options.payload_kg, timeline);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const double payload_kg = payload_kg_of(options, i);
+    timeline.load(payload_kg);
+    for (int k = 0; k < motions[i].repeat; ++k) add_motion(robot, plant, motions[i], payload_kg, timeline);
+  }
   return std::move(timeline.result());
 }
 

@@ -24,6 +24,7 @@ struct TimingOptions {
   Pose start{};
   double start_time_s{};
   double payload_kg{};
+  std::vector<double> payload_of_motion_kg{};  ///< of each motion; empty: payload_kg of all
   double sample_period_s{0.02};
 };
 

@@ -135,7 +135,9 @@ Json next_json(const NextExperiment& next) {
   if (next.motions.size() == 1) motion = motion_json(next.motions.front());
   if (!next.motions.empty()) {
     motion["legs"] = each_json(next.motions, motion_json);
-    motion["payload_kg"] = six_digits(next.payload_kg);
+    for (std::size_t k = 0; k < next.motions.size(); ++k)
+      motion["legs"][k]["payload_kg"] = six_digits(next.payload_kg[k]);
+    motion["payload_kg"] = six_digits(next.payload_kg.front());
     motion["why"] = next.why;
   }
   return {{"separates", next.separates},
@@ -210,9 +212,9 @@ std::string experiment_mission_text(const NextExperiment& next, const std::strin
   std::string text = "schema: joulepath/mission/1\n";
   text += "# Separates: " + text_of_list(next.separates) + "\n# " + next.why + "\nrobot: " + robot_file +
           "\nstart: {x_m: 0, y_m: 0, heading_rad: 0}\nlegs:\n";
-  for (const PrescribedMotion& motion : next.motions)
-    text +=
-        "  - {motion: " + motion_text(motion) + ", payload_kg: " + significant_text(next.payload_kg) + "}\n";
+  for (std::size_t k = 0; k < next.motions.size(); ++k)
+    text += "  - {motion: " + motion_text(next.motions[k]) +
+            ", payload_kg: " + significant_text(next.payload_kg[k]) + "}\n";
   return text;
 }
 

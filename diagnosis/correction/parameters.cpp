@@ -1,6 +1,8 @@
 #include "diagnosis/correction/parameters.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -58,6 +60,8 @@ double form_sd(const ActiveEffect& active, const std::string& name) {
   return kLawInexactness * std::sqrt(square);
 }
 
+double degrees_of(const Refit& fitted) { return std::max(1.0, static_cast<double>(fitted.fit_runs) - 1); }
+
 /// Half a 95 % interval, for the number of runs that it rests on.
 double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
   const ActiveEffect& active = fitted.state.effects[effect];
@@ -67,9 +71,8 @@ double half_interval(const Refit& fitted, std::size_t effect, const std::string&
                                            ? polar_gradient(active, name != effect_of.strength().name)
                                            : std::vector<double>{1.0};
   const double sd = rows.size() < gradient.size() ? 0.5 * kRegionStep_m : sd_along(fitted, rows, gradient);
-  const double degrees = std::max(1.0, static_cast<double>(fitted.fit_runs) - 1);
   return std::hypot(sd, form_sd(active, name)) *
-         boost::math::quantile(boost::math::students_t(degrees), 0.975);
+         boost::math::quantile(boost::math::students_t(degrees_of(fitted)), 0.975);
 }
 
 const Column& column_of(const Refit& fitted, Eigen::Index row) {
@@ -124,11 +127,23 @@ std::vector<ParameterCorrelation> parameter_correlations(const Refit& fitted,
   return found;
 }
 
+/// Wald's test of all amplitudes together: of a vector one component may be known and the other not.
 bool is_told_from_zero(const Refit& fitted, std::size_t effect) {
   const ActiveEffect& active = fitted.state.effects[effect];
-  double square = 0;
-  for (double amplitude : active.amplitude) square += amplitude * amplitude;
-  return std::sqrt(square) > half_interval(fitted, effect, active.candidate.effect().strength().name);
+  const std::string& name = active.candidate.effect().strength().name;
+  const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
+  const auto size = static_cast<Eigen::Index>(active.amplitude.size());
+  const Eigen::VectorXd amplitude = Eigen::VectorXd::Map(active.amplitude.data(), size);
+  const double least =
+      static_cast<double>(size) *
+      boost::math::quantile(boost::math::fisher_f(static_cast<double>(size), degrees_of(fitted)), 0.95);
+  for (const Eigen::MatrixXd* all : {&fitted.covariance, &fitted.run_covariance}) {
+    const Eigen::MatrixXd own = (*all)(rows, rows);
+    const double form = form_sd(active, name);
+    const Eigen::MatrixXd covariance = own + form * form * Eigen::MatrixXd::Identity(size, size);
+    if (!(amplitude.dot(covariance.ldlt().solve(amplitude)) > least)) return false;
+  }
+  return true;
 }
 
 bool is_inside_range(const Refit& fitted, std::size_t effect, const Robot& robot) {

@@ -14,7 +14,7 @@ namespace joulepath {
 [[nodiscard]] std::vector<ParameterCorrelation> parameter_correlations(
     const Refit& fitted, const std::vector<Nuisance>& nuisances);
 
-/// Whether the 95 % interval of an effect's strength leaves out 0 (no effect).
+/// Whether the 95 % region of an effect's amplitudes leaves out 0 (no effect).
 [[nodiscard]] bool is_told_from_zero(const Refit& fitted, std::size_t effect);
 
 /// Whether an effect's strength is one that the catalog accepts.

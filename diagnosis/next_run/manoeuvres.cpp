@@ -55,8 +55,20 @@ void scale(std::optional<double>& value, double factor) {
 }
 
 Manoeuvre with_load(Manoeuvre manoeuvre, double load) {
-  manoeuvre.load = load;
+  manoeuvre.loads.assign(manoeuvre.motions.size(), load);
   return manoeuvre;
+}
+
+/// The manoeuvre empty, and once more with the greatest payload, which it takes on at a standstill.
+Manoeuvre loaded_between(const Manoeuvre& manoeuvre) {
+  Manoeuvre both = with_load(manoeuvre, 0.0);
+  both.motions.push_back(stand(kLoading_s));
+  both.loads.push_back(1.0);
+  for (const PrescribedMotion& motion : manoeuvre.motions) {
+    both.motions.push_back(motion);
+    both.loads.push_back(1.0);
+  }
+  return both;
 }
 
 /// Whether no motion goes against another one's direction.
@@ -88,8 +100,11 @@ std::vector<Manoeuvre> manoeuvre_library(const Robot& robot) {
       {"hard starts and stops show effects of acceleration",
        {straight(v, 1.5, 0.5, false), straight(v, 1.5, 0.5, true), straight(v, 1.5, 0.5, false)}},
   };
-  const std::size_t empty = library.size();
-  for (std::size_t k = 0; k < empty; ++k) library.push_back(with_load(library[k], 1.0));
+  const std::vector<Manoeuvre> plain = std::move(library);
+  library.clear();
+  for (const double load : {0.0, 1.0})
+    for (const Manoeuvre& manoeuvre : plain) library.push_back(with_load(manoeuvre, load));
+  for (const Manoeuvre& manoeuvre : plain) library.push_back(loaded_between(manoeuvre));
   return library;
 }
 
@@ -113,23 +128,23 @@ std::vector<Manoeuvre> variants_of(const Manoeuvre& manoeuvre) {
       if (motion.profile == MotionProfile::trapezoid) motion.reverse = !motion.reverse;
       scale(motion.angle_rad, -1);
     });
+  const bool one_load =
+      std::ranges::count(manoeuvre.loads, manoeuvre.loads.front()) == std::ssize(manoeuvre.loads);
   for (double load : {0.0, 0.5, 1.0})
-    if (load != manoeuvre.load) variants.push_back(with_load(manoeuvre, load));
+    if (one_load && load != manoeuvre.loads.front()) variants.push_back(with_load(manoeuvre, load));
   return variants;
 }
 
-std::vector<PrescribedMotion> within(const Limits& limits, std::vector<PrescribedMotion> motions) {
-  for (PrescribedMotion& motion : motions) {
-    cap(motion.speed_m_s, limits.speed_m_s);
-    cap(motion.acceleration_m_s2, std::min(limits.acceleration_m_s2, limits.deceleration_m_s2));
-    cap(motion.yaw_rate_rad_s, limits.yaw_rate_rad_s);
-    cap(motion.yaw_acceleration_rad_s2, limits.yaw_acceleration_rad_s2);
-    if (!motion.radius_m) continue;
-    cap(motion.speed_m_s, std::min(limits.yaw_rate_rad_s * *motion.radius_m,
-                                   std::sqrt(limits.lateral_acceleration_m_s2 * *motion.radius_m)));
-    cap(motion.acceleration_m_s2, limits.yaw_acceleration_rad_s2 * *motion.radius_m);
-  }
-  return motions;
+PrescribedMotion within(const Limits& limits, PrescribedMotion motion) {
+  cap(motion.speed_m_s, limits.speed_m_s);
+  cap(motion.acceleration_m_s2, std::min(limits.acceleration_m_s2, limits.deceleration_m_s2));
+  cap(motion.yaw_rate_rad_s, limits.yaw_rate_rad_s);
+  cap(motion.yaw_acceleration_rad_s2, limits.yaw_acceleration_rad_s2);
+  if (!motion.radius_m) return motion;
+  cap(motion.speed_m_s, std::min(limits.yaw_rate_rad_s * *motion.radius_m,
+                                 std::sqrt(limits.lateral_acceleration_m_s2 * *motion.radius_m)));
+  cap(motion.acceleration_m_s2, limits.yaw_acceleration_rad_s2 * *motion.radius_m);
+  return motion;
 }
 
 }  // namespace joulepath

@@ -36,14 +36,13 @@ Circumstances circumstances_of(const Identification& id, const Robot& robot) {
   return c;
 }
 
-RunSignals driven_signals(const std::vector<PrescribedMotion>& motions, const Robot& robot, double payload_kg,
-                          const Circumstances& circumstances) {
-  const TimedMotion timed = timed_motion(robot, motions, {.payload_kg = payload_kg});
+RunSignals driven_signals(const std::vector<PrescribedMotion>& motions, const Robot& robot,
+                          const std::vector<double>& payload_kg, const Circumstances& circumstances) {
+  const TimedMotion timed = timed_motion(robot, motions, {.payload_of_motion_kg = payload_kg});
   Run run{.name = "proposed",
           .log = timed.trajectory,
           .payload_known = true,
           .start_time_s = circumstances.time_of_day_s};
-  run.log.payload_kg.assign(run.log.size(), payload_kg);
   return make_run_signals(run, 0, robot, circumstances.sampling);
 }
 
@@ -51,16 +50,20 @@ RunSignals driven_signals(const std::vector<PrescribedMotion>& motions, const Ro
 struct Trial {
   Manoeuvre manoeuvre{};
   std::vector<PrescribedMotion> motions{};
-  double payload_kg{};
+  std::vector<double> payload_kg{};  ///< of each motion
   double least_ratio{-1.0};  ///< expected 2 ln LR between the closest pair; negative: it cannot be driven
   double probability_settled{};
 };
 
 Trial tried(const Identification& id, const Robot& robot, const std::vector<Rival>& rivals,
             const Circumstances& circumstances, const Manoeuvre& manoeuvre) {
-  Trial trial{.manoeuvre = manoeuvre, .payload_kg = manoeuvre.load * circumstances.heaviest_kg};
+  Trial trial{.manoeuvre = manoeuvre};
   try {
-    trial.motions = within(limits_for_payload(robot, trial.payload_kg), manoeuvre.motions);
+    for (std::size_t k = 0; k < manoeuvre.motions.size(); ++k) {
+      trial.payload_kg.push_back(manoeuvre.loads[k] * circumstances.heaviest_kg);
+      trial.motions.push_back(
+          within(limits_for_payload(robot, trial.payload_kg.back()), manoeuvre.motions[k]));
+    }
     const RunSignals motion = driven_signals(trial.motions, robot, trial.payload_kg, circumstances);
     double least = 1e300, settled = 0;
     for (const Rival& truth : rivals) {
@@ -86,7 +89,7 @@ Trial tried(const Identification& id, const Robot& robot, const std::vector<Riva
 Trial best_of(const Identification& id, const Robot& robot, const std::vector<Rival>& rivals,
               const Circumstances& circumstances, std::vector<Manoeuvre> manoeuvres) {
   if (circumstances.heaviest_kg == 0)
-    std::erase_if(manoeuvres, [](const Manoeuvre& manoeuvre) { return manoeuvre.load > 0; });
+    std::erase_if(manoeuvres, [](const Manoeuvre& manoeuvre) { return manoeuvre.loads.back() > 0; });
   std::vector<Trial> trials(manoeuvres.size());
   parallel_for(trials.size(),
                [&](std::size_t k) { trials[k] = tried(id, robot, rivals, circumstances, manoeuvres[k]); });
@@ -128,7 +131,11 @@ NextExperiment propose_run(const Identification& id, const Robot& robot, const s
   if (best.least_ratio <= 0) return next;
   next.motions = best.motions;
   next.payload_kg = best.payload_kg;
-  next.why = best.manoeuvre.why + (best.payload_kg > 0 ? "; payload shows what grows with the load" : "");
+  next.why = best.manoeuvre.why;
+  if (best.payload_kg.front() != best.payload_kg.back())
+    next.why += "; payload, taken on at the standstill between, shows what grows with the load";
+  else if (best.payload_kg.front() > 0)
+    next.why += "; payload shows what grows with the load";
   next.expected_evidence = 0.5 * best.least_ratio;
   next.probability_settled = best.probability_settled;
   return next;

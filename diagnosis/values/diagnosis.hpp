@@ -94,7 +94,7 @@ struct RankedEffect {
 struct NextExperiment {
   std::vector<std::string> separates{};
   std::vector<PrescribedMotion> motions{};  ///< one after the other; empty = nothing to separate
-  double payload_kg{};
+  std::vector<double> payload_kg{};  ///< of each motion
   std::string why{};
   double expected_evidence{};    ///< log-likelihood between the closest pair
   double probability_settled{};  ///< that the run tells the true one from each other one

@@ -22,14 +22,24 @@ Manoeuvre manoeuvre_for(const std::string& word) {
   return *found;
 }
 
-TEST(Manoeuvres, EachIsDrivenEmptyAndWithTheGreatestPayload) {
+TEST(Manoeuvres, EachIsDrivenEmptyAndWithTheGreatestPayloadAndWithBoth) {
   const std::vector<Manoeuvre> library = manoeuvre_library(testing::nomad());
-  const std::size_t half = library.size() / 2;
-  ASSERT_EQ(library.size(), 2 * half);
-  for (std::size_t k = 0; k < half; ++k) {
-    EXPECT_EQ(library[k].load, 0.0);
-    EXPECT_EQ(library[half + k].load, 1.0);
-    EXPECT_EQ(library[half + k].why, library[k].why);
+  const std::size_t third = library.size() / 3;
+  ASSERT_EQ(library.size(), 3 * third);
+  for (std::size_t k = 0; k < third; ++k) {
+    const Manoeuvre &empty = library[k], &full = library[third + k], &both = library[2 * third + k];
+    const std::size_t n = empty.motions.size();
+    EXPECT_EQ(empty.loads, std::vector<double>(n, 0.0));
+    EXPECT_EQ(full.loads, std::vector<double>(n, 1.0));
+    EXPECT_EQ(full.why, empty.why);
+    ASSERT_EQ(both.motions.size(), 2 * n + 1);
+    ASSERT_EQ(both.loads.size(), 2 * n + 1);
+    EXPECT_EQ(both.motions[n].profile, MotionProfile::stand) << "a payload changes at a standstill";
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_EQ(both.motions[i].speed_m_s, both.motions[n + 1 + i].speed_m_s);
+      EXPECT_EQ(both.loads[i], 0.0);
+      EXPECT_EQ(both.loads[n + 1 + i], 1.0);
+    }
   }
 }
 
@@ -78,8 +88,9 @@ TEST(Manoeuvres, VariantsChangeOneThing) {
   EXPECT_NEAR(*variants[1].motions[0].speed_m_s, 1.5 * *own.speed_m_s, 1e-12);
   EXPECT_NEAR(*variants[2].motions[0].distance_m, 2 * *own.distance_m, 1e-12);
   EXPECT_NE(variants[3].motions[0].reverse, own.reverse);
-  EXPECT_EQ(variants[4].load, 0.5);
-  EXPECT_EQ(variants[5].load, 1.0);
+  EXPECT_EQ(variants[4].loads, (std::vector<double>{0.5}));
+  EXPECT_EQ(variants[5].loads, (std::vector<double>{1.0}));
+  EXPECT_EQ(variants_of(manoeuvre_library(testing::nomad()).back()).size(), 3u) << "it has both loads";
   EXPECT_EQ(variants_of(manoeuvre_for("lane")).size(), 5u) << "it goes both ways already";
   EXPECT_NEAR(*variants_of(manoeuvre_for("standstill"))[2].motions[0].duration_s, 40, 1e-12);
 }
@@ -88,7 +99,7 @@ TEST(Manoeuvres, VariantsChangeOneThing) {
 TEST(Manoeuvres, AnArcIsWithinEachLimitOfTurning) {
   const std::vector<PrescribedMotion> arcs = manoeuvre_for("arcs").motions;
   const double r = *arcs[0].radius_m;
-  const auto with = [&](Limits limits) { return within(limits, arcs)[0]; };
+  const auto with = [&](Limits limits) { return within(limits, arcs[0]); };
   EXPECT_NEAR(*with({.lateral_acceleration_m_s2 = 0.1}).speed_m_s, std::sqrt(0.1 * r), 1e-12);
   EXPECT_NEAR(*with({.yaw_rate_rad_s = 0.2}).speed_m_s, 0.2 * r, 1e-12);
   EXPECT_NEAR(*with({.yaw_acceleration_rad_s2 = 0.05}).acceleration_m_s2, 0.05 * r, 1e-12);

@@ -99,10 +99,11 @@ TEST_P(ProposedRun, KeepsTheRobotsLimitsWithItsPayload) {
   for (const Robot& robot : {testing::nomad(), slow_robot()}) {
     const NextExperiment next = proposal(robot, GetParam().effect, GetParam().rival);
     ASSERT_FALSE(next.motions.empty());
-    EXPECT_LE(next.payload_kg, payload_limit_kg(robot));
-    const Limits limits = limits_for_payload(robot, next.payload_kg);
-    const Trajectory drive = timed_motion(robot, next.motions, {.payload_kg = next.payload_kg}).trajectory;
+    EXPECT_LE(std::ranges::max(next.payload_kg), payload_limit_kg(robot));
+    const Trajectory drive =
+        timed_motion(robot, next.motions, {.payload_of_motion_kg = next.payload_kg}).trajectory;
     for (std::size_t k = 0; k + 1 < drive.size(); ++k) {
+      const Limits limits = limits_for_payload(robot, drive.payload_kg[k + 1]);
       const double step_s = drive.time_s[k + 1] - drive.time_s[k];
       const double v = drive.linear_speed_m_s[k], omega = drive.angular_speed_rad_s[k];
       constexpr double kOne = 1 + 1e-6;

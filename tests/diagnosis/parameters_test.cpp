@@ -44,5 +44,17 @@ TEST(FoundParameters, OfASlopeAreItsSizeAndItsDirection) {
   }
 }
 
+/// The component along the lanes is known well, the one across them not at all: the slope is there.
+TEST(IsToldFromZero, AVectorOfWhichOneComponentIsKnown) {
+  Refit fitted = slope_known_to(0.009, 1e-5);
+  fitted.covariance(1, 1) = fitted.run_covariance(1, 1) = 1e-4;
+  EXPECT_FALSE(is_told_from_zero(fitted, 0));
+  fitted.state.effects[0].amplitude[0] = 0.008;
+  EXPECT_TRUE(is_told_from_zero(fitted, 0));
+  EXPECT_FALSE(is_told_from_zero(slope_known_to(0.01, 0.004), 0))
+      << "2 F(2, 9) = 8.5: less than 2.9 standard deviations";
+  EXPECT_TRUE(is_told_from_zero(slope_known_to(0.01, 0.003), 0));
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -68,6 +68,14 @@ TEST(Motions, BezierEndsAtItsLastControlPoint) {
   EXPECT_NEAR(t.heading_rad.back(), std::numbers::pi / 2, 2e-5);
 }
 
+TEST(Motions, EachMayHaveItsOwnPayload) {
+  const PrescribedMotion stand{.profile = MotionProfile::stand, .duration_s = 2};
+  const Trajectory t =
+      timed_motion(nomad(), {stand, stand}, {.payload_kg = 9, .payload_of_motion_kg = {1, 4}}).trajectory;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    EXPECT_EQ(t.payload_kg[k], t.time_s[k] < 2 + 1e-9 ? 1.0 : 4.0) << t.time_s[k];
+}
+
 TEST(Motions, RepeatedRampsAndStandsAreChained) {
   const PrescribedMotion ramp{.profile = MotionProfile::constant_ramp,
                               .acceleration_m_s2 = 0.2,

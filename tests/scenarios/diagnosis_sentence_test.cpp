@@ -112,6 +112,7 @@ TEST(NextStep, OfAGroupIsTheProposedRunWhereThereIsOne) {
   Diagnosis d{.verdict = Verdict::ambiguous};
   EXPECT_EQ(next_step(d), next_step({.verdict = Verdict::too_little_data}));
   d.next.motions = {PrescribedMotion{}};
+  d.next.payload_kg = {0.0};
   EXPECT_EQ(next_step(d), "Drive the proposed run.");
 }
 

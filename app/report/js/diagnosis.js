@@ -164,7 +164,7 @@ jp.next_section = function (d) {
   if (!legs && !motion) return step && jp.section("What next", step);
   const chance = is_number(next.probability_settled) ? ` It settles the question with a probability of ${fraction(next.probability_settled)} by the model; this number is not calibrated.` : "";
   return jp.section("What next: one more run", step, separates.length ? h("p", {}, "Separates: " + separates.map((one) => (Array.isArray(one) ? one.map(words).join(" from ") : words(one))).join(", ") + "." + chance) : null,
-    why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), legs && is_number(circumstances.payload_kg) ? `with ${short(circumstances.payload_kg)} kg on board` : "", motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair). joulepath experiment writes the run as a mission.`) : null);
+    why ? h("p", {}, why) : null, h("div", {}, h("b", {}, "Drive: "), motion), is_number(next.expected_evidence) ? h("p", {class: "soft"}, `Expected evidence ${number(next.expected_evidence, 3)} (log-likelihood between the closest pair). joulepath experiment writes the run as a mission.`) : null);
 };
 
 jp.caveats_section = function (d) {

@@ -17,20 +17,26 @@ Plant::Plant(const Machine& truth, const Machine& nominal, const World& world, c
              const Discretization& d)
     : m_(truth), nominal_(nominal), w_(world), run_(run), d_(d) {
   heading_rad_ = run.heading_rad;
-  payload_kg_ = run.payload_kg * truth.payload_factor;
-  mass_kg_ = truth.chassis_mass_kg + 2 * truth.wheel_mass_kg + payload_kg_;
-  const double solid = truth.chassis_mass_kg + payload_kg_ * (1 - w_.slosh_fraction);
-  body_mass_kg_ = solid + 2 * truth.wheel_mass_kg;
-  moment_kg_m_ = (truth.chassis_mass_kg + payload_kg_) * truth.center_of_mass_offset_m;
-  const double d0 = truth.center_of_mass_offset_m, l = truth.half_track_m;
-  yaw_inertia_ = truth.chassis_yaw_inertia_kg_m2 + truth.payload_yaw_inertia_m2 * payload_kg_ +
-                 (truth.chassis_mass_kg + payload_kg_) * d0 * d0 + 2 * truth.wheel_mass_kg * l * l +
-                 2 * truth.wheel_diameter_inertia_kg_m2;
-  normal_N_ = mass_kg_ * kGravity_m_s2 / 2;
+  load(run.payload_kg);
   battery_V_ = truth.open_circuit_voltage_V;
 }
 
+void Plant::load(double weighed_kg) {
+  payload_kg_ = weighed_kg * m_.payload_factor;
+  mass_kg_ = m_.chassis_mass_kg + 2 * m_.wheel_mass_kg + payload_kg_;
+  const double solid = m_.chassis_mass_kg + payload_kg_ * (1 - w_.slosh_fraction);
+  body_mass_kg_ = solid + 2 * m_.wheel_mass_kg;
+  moment_kg_m_ = (m_.chassis_mass_kg + payload_kg_) * m_.center_of_mass_offset_m;
+  const double d0 = m_.center_of_mass_offset_m, l = m_.half_track_m;
+  yaw_inertia_ = m_.chassis_yaw_inertia_kg_m2 + m_.payload_yaw_inertia_m2 * payload_kg_ +
+                 (m_.chassis_mass_kg + payload_kg_) * d0 * d0 + 2 * m_.wheel_mass_kg * l * l +
+                 2 * m_.wheel_diameter_inertia_kg_m2;
+  normal_N_ = mass_kg_ * kGravity_m_s2 / 2;
+}
+
 void Plant::control(std::size_t tick) {
+  for (const Loading& reloading : run_.reloadings)
+    if (reloading.tick == tick) load(reloading.payload_kg);
   const double v = run_.speed_m_s[tick], yaw = run_.yaw_rate_rad_s[tick];
   for (std::size_t k = 0; k < 2; ++k) {
     Wheel& wheel = wheel_[k];

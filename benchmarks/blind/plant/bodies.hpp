@@ -60,6 +60,7 @@ class Plant {
     double forward_N{}, sideways_N{}, yaw_Nm{};
   };
   BodyForces outer_forces(double day_s);
+  void load(double weighed_kg);
   double caster_moment();
   double slosh_force();
   void advance_bodies(double day_s);

@@ -102,6 +102,21 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
+/// The payload of a run as the dataset file states it: a number, or steps.
+std::string payload_text(const Run& run) {
+  std::ostringstream text;
+  if (run.reloadings.empty()) {
+    text << run.payload_kg;
+    return text.str();
+  }
+  text << "[{from_s: 0, kg: " << run.payload_kg << "}";
+  for (const Loading& reloading : run.reloadings)
+    text << ", {from_s: " << static_cast<double>(reloading.tick) * kControlPeriod_s
+         << ", kg: " << reloading.payload_kg << "}";
+  text << "]";
+  return text.str();
+}
+
 }  // namespace
 
 Case draw_case(const CaseRequest& request) {
@@ -155,7 +170,7 @@ void write_case(const Case& c, const std::string& folder) {
   for (std::size_t k = 0; k < c.runs.size(); ++k) {
     char name[32];
     std::snprintf(name, sizeof name, "run_%02d.csv", static_cast<int>(k) + 1);
-    dataset << "  - {file: " << name << ", payload_kg: " << c.runs[k].payload_kg
+    dataset << "  - {file: " << name << ", payload_kg: " << payload_text(c.runs[k])
             << ", start_time_s: " << c.runs[k].start_time_s << "}\n";
     std::vector<Sample> log =
         noise_free_run(machine_in_run(c, c.truth, k), c.nominal, c.world, c.runs[k], Discretization{});

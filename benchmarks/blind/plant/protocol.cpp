@@ -242,6 +242,9 @@ Run described_run(const std::string& description, const Machine& m) {
     const Description given = description_of(leg);
     if (run.kind.empty())
       run = begin("described", number(given, "payload_kg", 0), number(given, "heading_rad", 0));
+    const double before_kg = run.reloadings.empty() ? run.payload_kg : run.reloadings.back().payload_kg;
+    const double payload_kg = number(given, "payload_kg", before_kg);
+    if (payload_kg != before_kg) run.reloadings.push_back({run.speed_m_s.size(), payload_kg});
     append_leg(run, given, m);
   }
   if (run.kind.empty()) throw std::invalid_argument("a described run needs a leg");

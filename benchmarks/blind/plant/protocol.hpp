@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,19 @@ namespace blind {
 inline constexpr double kControlPeriod_s = 0.01;
 inline constexpr double kSamplePeriod_s = 0.02;
 
+/// A payload from a control tick on, as weighed.
+struct Loading {
+  std::size_t tick{};
+  double payload_kg{};
+};
+
 /// The command of one run: body speed and yaw rate at every control tick.
 struct Run {
   std::string kind{};
-  double payload_kg{};    ///< as weighed
-  double start_time_s{};  ///< time of day
-  double heading_rad{};   ///< at the start; the start itself is the map's origin
+  double payload_kg{};                ///< at the start, as weighed
+  std::vector<Loading> reloadings{};  ///< at standstills, later
+  double start_time_s{};              ///< time of day
+  double heading_rad{};               ///< at the start; the start itself is the map's origin
   std::vector<double> speed_m_s{};
   std::vector<double> yaw_rate_rad_s{};
   double duration_s() const { return static_cast<double>(speed_m_s.size()) * kControlPeriod_s; }
@@ -32,8 +40,8 @@ struct Run {
 /// One more run from a description such as a diagnosis proposes: legs from rest to rest joined by `+`, each
 /// `profile:trapezoid,speed_m_s:0.5,...` with the keys of a prescribed motion (profile, speed_m_s,
 /// acceleration_m_s2, distance_m, duration_s, ramp_s, radius_m, angle_rad, yaw_rate_rad_s,
-/// yaw_acceleration_rad_s2, direction); the first leg's payload_kg and heading_rad are the run's. Throws
-/// std::invalid_argument.
+/// yaw_acceleration_rad_s2, direction, payload_kg); the first leg's heading_rad is the run's. A payload that
+/// a leg leaves out is the one before. Throws std::invalid_argument.
 [[nodiscard]] Run described_run(const std::string& description, const Machine& nominal);
 
 }  // namespace blind

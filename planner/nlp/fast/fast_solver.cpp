@@ -105,7 +105,7 @@ void FastSolver::measure() {
     gap += pair.s * pair.y;
     ++pairs_;
   });
-  mu_ = pairs_ > 0 ? gap / static_cast<double>(pairs_) : 0.0;
+  mu_ = gap / static_cast<double>(pairs_);  // of every unknown's lower bound at least
   double primal = 0;
   for (RowSide& side : state_.sides) {
     side.residual = side.sign * (side.bound - model_.row(side.row).value) - side.pair.s;
@@ -153,7 +153,7 @@ bool FastSolver::iterate() {
   state_.for_each_pair([&](const Pair& pair) {
     after += (pair.s + affine.primal * pair.ds) * (pair.y + affine.dual * pair.dy);
   });
-  const double ratio = pairs_ > 0 ? after / static_cast<double>(pairs_) / mu_ : 0.0;
+  const double ratio = after / static_cast<double>(pairs_) / mu_;
   const double least = 0.1 * tolerance_ * std::max(1e-9, std::abs(total_)) / static_cast<double>(pairs_ + 1);
   const double target = std::max(least, mu_ * std::max(1e-4, ratio * ratio));
   const double trust = std::min(affine.primal, affine.dual);

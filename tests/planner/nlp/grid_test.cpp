@@ -165,6 +165,32 @@ TEST(LowerCaps, KeepTheChordBelowTheCapsInside) {
   EXPECT_TRUE(lowers_dips(request));
 }
 
+/// Caps inside at fifths of the length, any of which may be far below the ends'.
+TEST(ChordOfCaps, IsBelowEveryCapInside) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(0.05, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const CapsInside inside{any(random), any(random), any(random), any(random)};
+    const ChordOfCaps chord = chord_of_caps(any(random), any(random), inside);
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      const double share = 0.2 * static_cast<double>(k + 1);
+      EXPECT_LE((1 - share) * chord.squared[0] + share * chord.squared[1], inside[k] * (1 + 1e-12)) << i;
+    }
+  }
+}
+
+/// Limits hold at both ends of a segment and in its middle.
+TEST(Segments, HaveTheirLimitsAtEndsAndMiddle) {
+  const ProfileRequest request = bent_drive();
+  const PathMotion motion = path_motion(request);
+  const Problem problem = transcribe(request, motion, make_grid(motion, request, 20), {}, nullptr);
+  for (const Segment& segment : problem.segments) {
+    EXPECT_EQ(segment.limit_points[0].fraction, 0.0);
+    EXPECT_EQ(segment.limit_points[1].fraction, 0.5);
+    EXPECT_EQ(segment.limit_points[2].fraction, 1.0);
+  }
+}
+
 /// No limit of speed: nothing bounds the rate at the straight start.
 TEST(LowerCaps, BoundASegmentThatBeginsWithoutABound) {
   ProfileRequest request = bent_drive();

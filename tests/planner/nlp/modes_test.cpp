@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "planner/motion/path_motion.hpp"
 #include "planner/motion/replay.hpp"
@@ -170,6 +171,20 @@ TEST(Modes, ProgramAndReplayAgreeToTheAccuracyAsked) {
     }
   }
   EXPECT_GT(coarse, 1e-4) << "a grid this coarse has to be refined";
+}
+
+/// Downhill the battery takes energy up: the accuracy is relative to its size.
+TEST(Modes, AGridIsNotRefinedBecauseTheEnergyIsNegative) {
+  ProfileRequest request = request_for({.mode = TimeMode::time_budget, .duration_s = 40});
+  request.plant.robot.power.regeneration_efficiency = 1;
+  request.piece = straight_piece({}, 8);
+  request.plant = make_plant(
+      request.plant.robot,
+      {{.name = "floor_slope", .parameters = {{"grade", 0.3}, {"uphill_direction_rad", std::numbers::pi}}}});
+  const ProfileResult result = solve_profile(request);
+  ASSERT_TRUE(result.profile) << result.summary.message;
+  EXPECT_LT(replay(request, *result.profile).energy_J, -1.0);
+  EXPECT_LT(result.summary.nodes, 2 * request.nodes);
 }
 
 }  // namespace

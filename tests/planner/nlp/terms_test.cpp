@@ -156,6 +156,13 @@ void expect_same(const Jet& x, const Jet& y) {
   near(x.dd[2], y.dd[2], 100);
 }
 
+TEST(JetOf, ANumberMinusAJetTurnsItsSigns) {
+  const Jet x = Jet::variable(0, 3.0), difference = 5.0 - x * x;
+  EXPECT_EQ(difference.value, -4.0);
+  EXPECT_EQ(difference.d[0], -6.0);
+  EXPECT_EQ(difference.dd[0], -2.0);
+}
+
 TEST(SegmentJets, WrittenOutEqualForwardMode) {
   for (PowerSharing sharing : {PowerSharing::wheel, PowerSharing::bus}) {
     ProfileRequest request = corner(false);
