@@ -18,6 +18,7 @@
 #include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/profile.hpp"
 // Design: docs/decisions/0001-path-domain.md
+// Design: docs/decisions/0581-a-grid-ends-at-a-thousand-nodes.md
 namespace joulepath {
 namespace {
 
