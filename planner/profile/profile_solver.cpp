@@ -40,6 +40,8 @@ constexpr std::size_t kMostNodes = 4;
 /// A grid with more nodes is not refined for the energy: along a stretch where a wheel's power stays at zero,
 /// the kink of its recovery, the error is of first order in h.
 constexpr std::size_t kManyNodes = 1000;
+/// Of Ipopt from the fast solver's solution: it takes a few, or hundreds that change nothing.
+constexpr int kSettlingIterations = 30;
 constexpr int kHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
 constexpr const char* kFastestSolver = "forward_backward";
 
@@ -177,15 +179,15 @@ class ProfileSolver {
     return take(problem, solution_.b, solver);
   }
 
-  /// Solves with Ipopt, from the fast solver's solution where there is one on this grid, else from a guess.
+  /// Solves with Ipopt: from the fast solver's solution, which stays the answer where that takes long, else
+  /// from a guess.
   nlp::Solution settle(const Problem& problem, const std::vector<double>& guess) {
     const bool near = settling_ && solution_.b.size() == problem.node_count() &&
                       solution_.row_multiplier.size() == problem.rows.size();
-    nlp::Solution found;
-    if (near) found = nlp::solve_with_ipopt(problem, solution_.b, {.warm = true, .near = &solution_});
-    result_.summary.iterations += found.iterations;
-    if (found.converged) return found;
-    found = nlp::solve_with_ipopt(problem, guess);
+    const nlp::IpoptOptions from_near{
+        .max_iterations = kSettlingIterations, .warm = true, .near = &solution_};
+    nlp::Solution found =
+        near ? nlp::solve_with_ipopt(problem, solution_.b, from_near) : nlp::solve_with_ipopt(problem, guess);
     result_.summary.iterations += found.iterations;
     return found;
   }
