@@ -42,7 +42,7 @@ constexpr std::size_t kMostNodes = 4;
 constexpr std::size_t kManyNodes = 1000;
 /// Of Ipopt from the fast solver's solution: it takes a few, or hundreds that change nothing.
 constexpr int kSettlingIterations = 30;
-constexpr int kHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
+constexpr int kGridHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
 constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
@@ -64,7 +64,7 @@ class ProfileSolver {
         continue;
       }
       if (!solve_on(problem)) {
-        if (kept_ || result_.infeasibility || halvings_++ == kHalvings) return answer();
+        if (kept_ || result_.infeasibility || halvings_++ == kGridHalvings) return answer();
         given_over_ = false;
         s = nlp::cut_segments(s, std::vector<bool>(problem.segment_count(), true));
         continue;
