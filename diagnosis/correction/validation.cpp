@@ -37,10 +37,17 @@ double gap_percent(const Examination& x, const JudgedModel& model) {
   return energy_gap_percent(judged_energies(x, model));
 }
 
+/// With the unknown terms of the best explanation; alone where such a term can stand for a name.
 Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
+  const auto fit = [&](const std::set<std::string>& unknowns) {
+    return fit_effects(x.runs.diagnosis, x.id, named, 2, unknowns);
+  };
   const std::set<std::string> unknowns =
       named.empty() ? std::set<std::string>{} : unknown_labels(x.id.equations, x.best());
-  return fit_effects(x.runs.diagnosis, x.id, named, 2, unknowns);
+  Refit fitted = fit(unknowns);
+  for (std::size_t e = 0; e < named.size() && !unknowns.empty(); ++e)
+    if (!is_told_from_zero(fitted, e)) return fit({});
+  return fitted;
 }
 
 /// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range. The

@@ -61,6 +61,24 @@ TEST(SmallEffect, IsNamedBelowTheMaterialityFloorWithStrongEvidence) {
   EXPECT_EQ(d.causes.front().effect.name, "regeneration_error");
 }
 
+/// An unknown term beside a name can stand for it. Then the name's size is found without the term.
+TEST(SmallEffect, HasASizeWhereAnUnknownTermCouldStandForIt) {
+  if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  struct Day {
+    double size;
+    int runs, seed;
+  };
+  for (const Day& day : {Day{-0.3, 6, 1}, Day{-0.3, 12, 4}, Day{0.3, 12, 1}}) {
+    const Diagnosis d =
+        diagnose(blind_day("yaw_inertia_error", day.size, 0, day.runs, day.seed), {.bootstrap = 0});
+    ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+    EXPECT_EQ(d.causes.front().effect.name, "yaw_inertia_error");
+    const auto& [least, most] = d.causes.front().parameters.front().interval_95;
+    EXPECT_LT(least, day.size);
+    EXPECT_GT(most, day.size);
+  }
+}
+
 TEST(ForeignCause, IsNeverCalledExplainedWhenItsGapStays) {
   if (!have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   for (const Injection& foreign : {Injection{"air_draft", 3.0}, Injection{"eddy_brake", 0.2}}) {
