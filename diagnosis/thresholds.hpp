@@ -428,6 +428,9 @@ inline constexpr double kNegligibleShare = 0.01;
 inline constexpr double kSpeedCell_m_s = 0.2;
 /// Width. Declared.
 inline constexpr double kTimeCell_s = 60.0;
+/// The gap is averaged over this time before and after a sample. Chosen (0590): noise hides small gaps that
+/// last.
+inline constexpr double kGapWindow_s = 0.2;
 /// Width of a square. Declared.
 inline constexpr double kFloorCell_m = 1.0;
 /// Of a full turn. Declared.

@@ -1,14 +1,17 @@
 #include "diagnosis/where/localize.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
+// Design: docs/decisions/0590-the-gap-is-a-mean-before-it-is-a-size.md
 
 namespace joulepath {
 namespace {
@@ -33,6 +36,43 @@ std::string floor_cell(double x_m, double y_m) {
   return text;
 }
 
+/// Standard deviations of means over 0, 1, 2, ... samples of a noise, relative to that of one sample.
+std::vector<double> noise_of_means(const Autoregression& noise, Eigen::Index most) {
+  const auto& [first, second] = noise.coefficient;
+  double before = 1.0,
+         here = first / (1 - second);  // correlations with the sample before, and the one before
+  double sum = 0.0, weighted = 0.0;    // of the correlations at lags k, and of k times them
+  std::vector<double> sd{0.0};
+  for (Eigen::Index n = 1; n <= most; ++n) {
+    const auto count = static_cast<double>(n);
+    sd.push_back(std::sqrt(std::max(0.0, count + 2 * (count * sum - weighted))) / count);
+    sum += here;
+    weighted += count * here;
+    before = std::exchange(here, first * here + second * before);
+  }
+  return sd;
+}
+
+/// Means over up to `half` samples on either side.
+class MovingMean {
+ public:
+  MovingMean(const Eigen::VectorXd& values, Eigen::Index half) : half_(half), sums_(values.size() + 1) {
+    sums_[0] = 0;
+    for (Eigen::Index j = 0; j < values.size(); ++j) sums_[j + 1] = sums_[j] + values[j];
+  }
+  Eigen::Index count(Eigen::Index j) const { return end(j) - begin(j); }
+  double at(Eigen::Index j) const {
+    return (sums_[end(j)] - sums_[begin(j)]) / static_cast<double>(count(j));
+  }
+
+ private:
+  Eigen::Index begin(Eigen::Index j) const { return std::max<Eigen::Index>(0, j - half_); }
+  Eigen::Index end(Eigen::Index j) const { return std::min(sums_.size() - 1, j + half_ + 1); }
+
+  Eigen::Index half_;
+  Eigen::VectorXd sums_;
+};
+
 class Localizer {
  public:
   Localizer(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
@@ -43,34 +83,43 @@ class Localizer {
   const GapLedger& ledger() const { return ledger_; }
 
  private:
-  /// Mean absolute error of the power caused by sensor noise. Without a voltage channel, V is computed from
-  /// the measured current, whose error then enters there, too.
-  double noise_W(double voltage_V, double current_A, Side side, bool voltage_measured) const {
+  /// Mean absolute error, caused by sensor noise, of a mean of the power over `count` samples. Without a
+  /// voltage channel, V is computed from the measured current, whose error then enters there, too.
+  double noise_W(double voltage_V, double current_A, Side side, bool voltage_measured,
+                 Eigen::Index count) const {
     const std::size_t s = side == Side::left ? 0 : 1;
-    const double sd_A = noise_.channel_sd[kCurrentLeft + s], ohm = nominal_.robot.motor[side].resistance_ohm;
+    const double sd_A = sd_of_mean(kCurrentLeft + s, count), ohm = nominal_.robot.motor[side].resistance_ohm;
     if (!voltage_measured)
       return std::sqrt(2 / std::numbers::pi) * std::abs(voltage_V + ohm * current_A) * sd_A;
-    const double winding_V = noise_.channel_sd[kWindingLeft + s];
+    const double winding_V = sd_of_mean(kWindingLeft + s, count);
     const double sd_V2 =
         std::max(winding_V * winding_V - ohm * ohm * sd_A * sd_A, kLeastVoltageNoise * winding_V * winding_V);
     return std::sqrt(2 / std::numbers::pi *
                      (voltage_V * voltage_V * sd_A * sd_A + current_A * current_A * sd_V2));
   }
 
+  double sd_of_mean(std::size_t channel, Eigen::Index count) const {
+    return noise_.channel_sd[channel] * means_[channel][static_cast<std::size_t>(count)];
+  }
+
   void add_run(const RunSignals& run, const OtherPrediction& other, std::size_t r) {
     const Prediction p = in_place_of(predict(run, nominal_), other);
     const ResidualRows rows = residual_rows(run, nominal_, p);
-    if (!measures_motors(run) && measures_energy(run)) add_battery(run, p, rows, r);
+    const auto half = std::lround(kGapWindow_s / run.period_s);
+    for (std::size_t c : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight, kDriverPower})
+      means_[c] = noise_of_means(noise_.memory[c], 2 * half + 1);
+    if (!measures_motors(run) && measures_energy(run)) add_battery(run, p, rows, r, half);
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(run, side);
+      if (measured.size() == 0) continue;
+      const MovingMean gap_W(p.power_W[side] - measured, half);
       for (Eigen::Index j = 0; j < measured.size(); ++j) {
-        const double gap_W = p.power_W[side][j] - measured[j];
-        const double noise =
-            noise_W(p.voltage_V[side][j], p.current_A[side][j], side, run.motor_voltage_V[side].size() > 0);
+        const double noise = noise_W(p.voltage_V[side][j], p.current_A[side][j], side,
+                                     run.motor_voltage_V[side].size() > 0, gap_W.count(j));
         book_sample(run, r, side, j,
-                    {.gap_J = std::abs(gap_W) * run.period_s,
+                    {.gap_J = std::abs(gap_W.at(j)) * run.period_s,
                      .noise_J = noise * run.period_s,
-                     .signed_J = gap_W * run.period_s,
+                     .signed_J = (p.power_W[side][j] - measured[j]) * run.period_s,
                      .measured_J = std::abs(measured[j]) * run.period_s});
         book_channels(rows, p, r, side, j, run.period_s);
       }
@@ -78,14 +127,15 @@ class Localizer {
   }
 
   /// Adds the power at the battery's terminals where the motors are not measured; no wheel is attributed.
-  void add_battery(const RunSignals& run, const Prediction& p, const ResidualRows& rows, std::size_t r) {
-    const double noise_J = std::sqrt(2 / std::numbers::pi) * noise_.channel_sd[kDriverPower] * run.period_s;
+  void add_battery(const RunSignals& run, const Prediction& p, const ResidualRows& rows, std::size_t r,
+                   Eigen::Index half) {
+    const MovingMean gap_W(p.battery_power_W - run.battery_power_W, half);
     for (Eigen::Index j = 0; j < run.size(); ++j) {
-      const double gap_J = (p.battery_power_W[j] - run.battery_power_W[j]) * run.period_s;
+      const double noise_W = std::sqrt(2 / std::numbers::pi) * sd_of_mean(kDriverPower, gap_W.count(j));
       book_sample(run, r, std::nullopt, j,
-                  {.gap_J = std::abs(gap_J),
-                   .noise_J = noise_J,
-                   .signed_J = gap_J,
+                  {.gap_J = std::abs(gap_W.at(j)) * run.period_s,
+                   .noise_J = noise_W * run.period_s,
+                   .signed_J = (p.battery_power_W[j] - run.battery_power_W[j]) * run.period_s,
                    .measured_J = std::abs(run.battery_power_W[j]) * run.period_s});
       book_channels(rows, p, r, Side::left, j, run.period_s);
     }
@@ -133,6 +183,7 @@ class Localizer {
 
   const ModelPoint& nominal_;
   const NoiseModel& noise_;
+  std::array<std::vector<double>, kChannelCount> means_{};  ///< noise_of_means() at the run's period
   GapLedger ledger_;
 };
 

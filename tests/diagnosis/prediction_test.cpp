@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <random>
 
 #include "diagnosis/prediction/candidates.hpp"
 #include "diagnosis/prediction/contact_creep.hpp"
@@ -205,13 +207,62 @@ TEST(Localization, TakesTheSensorsNoiseOffTheGap) {
     const double ohm = nomad().motor.left.resistance_ohm;
     for (const Channel side : {kWindingLeft, kWindingRight})
       noise.channel_sd[side] = std::hypot(sd_V, ohm * sd_A);
+    const auto half = std::lround(kGapWindow_s / run.period_s);
     double noise_J = 0;
     for (Side side : kSides)
-      for (Eigen::Index j = 0; j < run.size(); ++j)
-        noise_J += run.period_s * std::sqrt(2 / std::numbers::pi) *
+      for (Eigen::Index j = 0; j < run.size(); ++j) {
+        const auto samples =
+            std::min<Eigen::Index>(run.size() - 1, j + half) - std::max<Eigen::Index>(0, j - half) + 1;
+        noise_J += run.period_s * std::sqrt(2 / std::numbers::pi / static_cast<double>(samples)) *
                    std::hypot(p.voltage_V[side][j] * sd_A, p.current_A[side][j] * sd_V);
+      }
     EXPECT_NEAR(gap_J({}) - gap_J(noise), noise_J, 1e-9 * noise_J) << sd_A << " A, " << sd_V << " V";
   }
+}
+
+/// A gap below the noise of a sample, for long, and a large one, shortly: their shares are those without
+/// noise, also where the noise has a memory.
+TEST(Localization, KeepsSmallGapsThatLast) {
+  constexpr double kSd_A = 0.025, kMemory = 0.5;
+  Robot heavy = nomad();
+  heavy.inertia.chassis_mass_kg *= 1.25;
+  for (Side side : kSides) heavy.motor[side].friction_torque_Nm *= 1.1;
+  const auto ramps = [](double t) {
+    const double acceleration_m_s2 = t < 1 ? 0.5 : t < 13 ? 0.0 : t < 14 ? -0.5 : 0.0;
+    const double speed_m_s = std::clamp(std::min(0.5 * t, 0.5 * (14 - t)), 0.0, 0.5);
+    return BodyMotion<double>{.speed_m_s = speed_m_s, .acceleration_m_s2 = acceleration_m_s2};
+  };
+  std::vector<RunSignals> clean, noisy;
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 6; ++i) {
+    clean.push_back(make_run_signals(testing::synthetic_run(heavy, "ramps", 15, 0.0, ramps), 0, nomad()));
+    noisy.push_back(clean.back());
+    const Prediction p = predict(clean.back(), {.robot = nomad()});
+    std::normal_distribution<double> fresh_A(0.0, kSd_A * std::sqrt(1 - kMemory * kMemory));
+    for (Side side : kSides) {
+      double error_A = 0;
+      for (Eigen::Index j = 0; j < noisy.back().size(); ++j) {
+        error_A = kMemory * error_A + fresh_A(random);
+        noisy.back().motor_power_W[side][j] += p.voltage_V[side][j] * error_A;
+      }
+    }
+  }
+  NoiseModel noise{};
+  for (const Channel side : {kCurrentLeft, kCurrentRight}) {
+    noise.channel_sd[side] = kSd_A;
+    noise.memory[side] = {.coefficient = {kMemory, 0.0}};
+  }
+  const auto shares = [](const std::vector<RunSignals>& runs, const NoiseModel& of) {
+    std::map<std::string, double> share;
+    for (const WhereCell& cell :
+         localize_gap(runs, std::vector<OtherPrediction>(runs.size()), {.robot = nomad()}, of, 1))
+      if (cell.axis == "phase") share[cell.value] = cell.share_of_gap;
+    return share;
+  };
+  auto truth = shares(clean, NoiseModel{}), found = shares(noisy, noise);
+  EXPECT_GT(truth["cruise"], 1.25 * truth["accelerate"]);
+  for (const char* phase : {"cruise", "accelerate", "brake"})
+    EXPECT_NEAR(found[phase], truth[phase], 0.15) << phase;
 }
 
 /// A driven wheel creeps: uphill the body travels less than its wheels roll.
