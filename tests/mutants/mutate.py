@@ -186,7 +186,7 @@ def alone(site, suites, longest_s):
 def needs_own_build(site, surveyed):
     """Not compiled with the others, or evaluated by the compiler."""
     reached = any(site["id"] in suite["reaches"] for suite in surveyed)
-    return site["alone"] or ("constexpr" in site["source"] and not reached)
+    return site["alone"] or (site["in_constant"] and not reached)
 
 
 def asked_about(site, reaching, longest_s):

@@ -46,6 +46,12 @@ def code_lines(text):
             yield number, bare
 
 
+def in_constant(text, line, column):
+    """Whether the statement that goes on at this place began with constexpr."""
+    begun = "".join(text.splitlines(keepends=True)[:line - 1]) + text.splitlines()[line - 1][:column]
+    return "constexpr" in re.split(r"[;{}][ ]*(?://.*)?\n", begun)[-1]
+
+
 def sites_of(file):
     with open(os.path.join(ROOT, file)) as stream:
         text = stream.read()
@@ -57,6 +63,7 @@ def sites_of(file):
                     continue
                 other = new if new is not None else repr(float(old) * 2) if float(old) != 0 else "1.0"
                 yield {"file": file, "line": number, "column": found.start(1), "kind": kind, "source": text.split("\n")[number - 1].strip(),
+                       "in_constant": in_constant(text, number, found.start(1)),
                        "old": old, "new": other, "code": code}
 
 
