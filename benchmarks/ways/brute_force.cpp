@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostSpans = 4;
 constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are evaluated on a fine grid
+constexpr double kLongestReaches = 10, kLongestMore_m = 30;  ///< of a spline worth a look
 constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
 
 /// Variables: logarithms of the handles, a free goal heading, coordinates of the knots in units of the reach.
@@ -101,6 +102,8 @@ class Search {
     ++evaluations_;
     const std::optional<Path> path = free_spline_path(spline_at(x));
     if (!path) return kNoCurve_J;
+    // Where no spline is free, nothing else keeps the handles from growing to thousands of kilometers.
+    if (path->distance_m() > kLongestReaches * problem_.reach_m() + kLongestMore_m) return kNoCurve_J;
     const double slack_m = world_.space.checker().least_slack_m(*path);
     if (slack_m < 0) return kInTheWay_J * (1 - slack_m);
     const PathScore score =
