@@ -254,38 +254,5 @@ TEST(SplineSearch, EndsEarlyWhereItCannotBeatTheBestCost) {
   EXPECT_DOUBLE_EQ(minimize(search)->cost, whole->cost);
 }
 
-// A shorter handle makes this curve shorter and its first bend tighter. The search ends at the tightest bend
-// that it aims for instead of in front of curves that are refused.
-TEST(SplineSearch, GoesAsFarAsTheTightestBend) {
-  const MissionWorld world = empty_floor();
-  const RouteSpace space(*world.map, nullptr, world.robot.footprint, 0.05);
-  SplineSearch search{.checker = &space.checker(),
-                      .first = {{.points_m = {{10, 10}, {14, 10}},
-                                 .start_heading_rad = std::numbers::pi / 2,
-                                 .start_handle_m = 0.5,
-                                 .goal_heading_rad = 0,
-                                 .goal_handle_m = 3}},
-                      .variables = {{{{SplineMember::Kind::start_handle, 0}}}}};
-  search.cost = [](const std::vector<Path>& paths) { return paths.front().distance_m() - 4; };  // the detour
-  search.slopes = [](const std::vector<FreeSpline>& at) {
-    constexpr double kStep_m = 1e-6;
-    FreeSpline low = at.front(), high = at.front();
-    low.start_handle_m -= kStep_m;
-    high.start_handle_m += kStep_m;
-    return std::vector<SplineSlopes>{
-        {.by_point_m = std::vector<Point2>(2),
-         .by_start_handle_m =
-             (free_spline_path(high)->distance_m() - free_spline_path(low)->distance_m()) / (2 * kStep_m)}};
-  };
-  const std::optional<SplineSearchResult> found = minimize(search);
-  ASSERT_TRUE(found);
-  const Curve& curve = std::get<Curve>(found->paths.front().pieces.front());
-  double tightest_per_m = 0;
-  for (int i = 0; i <= 10000; ++i)
-    tightest_per_m = std::max(tightest_per_m, std::abs(curve.at(curve.length_m() * i / 10000).curvature_per_m));
-  EXPECT_LE(tightest_per_m, kTightest_per_m);
-  EXPECT_GE(tightest_per_m, 0.97 * kTightest_per_m);
-}
-
 }  // namespace
 }  // namespace joulepath
