@@ -97,7 +97,9 @@ bool wheel_may_reverse(const Curve& curve, double half_track_m) {
   return std::any_of(curve.segments().begin(), curve.segments().end(), [&](const CurveSegment& segment) {
     return std::visit(
         [&](const auto& part) {
-          const bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+          constexpr bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+          if constexpr (!linear)
+            if (part.curvature_bound_per_m() * half_track_m <= kSafeShare) return false;
           const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
           double most_per_m = 0;
           for (int i = 0; i <= looks; ++i)
