@@ -234,7 +234,7 @@ Search::Nearest Search::nearest_on(const Part& part, const Curve& curve) const {
   const double end_m = s0_m + part.to * length_m;
   Nearest nearest{.slack_m = kNoLimit};
   for (double s_m = s0_m + part.from * length_m;;) {
-    const double slack_m = search_.checker->near_slack_m(curve.at(s_m).pose);
+    const double slack_m = search_.checker->near_slack_m(search_.checker->pose_on(curve, s_m));
     if (slack_m < nearest.slack_m) nearest = {slack_m, s_m};
     if (s_m >= end_m) return nearest;
     s_m = std::min(end_m, s_m + std::max(kSlackStep_m, kTrust * (slack_m - nearest.slack_m)));
