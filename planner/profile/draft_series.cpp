@@ -69,6 +69,8 @@ std::optional<DraftSeries::Cost> DraftSeries::solve(const ProfileRequest& reques
   return Cost{solution_.objective, duration_of(problem_, solution_.b)};
 }
 
-PathSlopes DraftSeries::slopes() const { return nlp::lagrangian_slopes(problem_, *motion_, solution_); }
+PathSlopes DraftSeries::slopes() const {
+  return nlp::lagrangian_slopes(problem_, *motion_, solution_, nlp::mandatory_nodes(*motion_, *request_));
+}
 
 }  // namespace joulepath
