@@ -20,7 +20,8 @@ constexpr double kSlower = 1.5;  ///< first guess of the duration, of the least 
 
 /// Places of the nodes on this curve, anew where the number of mandatory nodes has changed.
 std::vector<double> DraftSeries::grid(const PathMotion& motion, const ProfileRequest& request) {
-  const std::vector<double> mandatory = nlp::mandatory_nodes(motion, request);
+  mandatory_ = nlp::mandatory_nodes(motion, request);
+  const std::vector<double>& mandatory = mandatory_;
   if (mandatory.size() != parts_ + 1) {
     const std::vector<double> s = nlp::make_grid(motion, request, request.nodes);
     parts_ = mandatory.size() - 1;
@@ -70,7 +71,7 @@ std::optional<DraftSeries::Cost> DraftSeries::solve(const ProfileRequest& reques
 }
 
 PathSlopes DraftSeries::slopes() const {
-  return nlp::lagrangian_slopes(problem_, *motion_, solution_, nlp::mandatory_nodes(*motion_, *request_));
+  return nlp::lagrangian_slopes(problem_, *motion_, solution_, mandatory_);
 }
 
 }  // namespace joulepath
