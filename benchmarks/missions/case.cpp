@@ -10,7 +10,6 @@
 namespace joulepath::bench {
 namespace {
 
-constexpr double kDwell_s = 5.0;
 constexpr double kEulerStep_s = 0.5;
 constexpr double kRoom = 1.05;  ///< over the fastest drive of the leg that a split by length gives least
 constexpr WaySteps kPlain{.corners = false, .routes = false, .stops = false, .refinement = false};
@@ -38,32 +37,18 @@ double simple_fleet_model_J(const Trajectory& motion, const Robot& robot) {
 /// Plans one mission in several ways.
 class CasePlanner {
  public:
-  CasePlanner(const Floor& floor, std::mt19937& random) : floor_(floor), without_standby_(floor.world) {
+  CasePlanner(const Floor& floor, std::mt19937& random)
+      : floor_(floor), drawn_(random_mission(floor, random)), without_standby_(floor.world) {
     without_standby_.robot.power.standby_W = 0.0;
-    base_.name = "random";
-    base_.stations["dock"] = random_place(floor, random, nullptr);
-    const Station& dock = base_.stations["dock"];
-    base_.start = {.station = "dock", .pose = {dock.x_m, dock.y_m, 0.0}, .heading_given = false};
-    std::uniform_int_distribution<int> payload_kg(1, 4);
-    for (int k = 1; k <= 3; ++k) {
-      const std::string name = "stop_" + std::to_string(k);
-      base_.stations[name] = random_place(floor, random, &dock);
-      visit_.push_back({.kind = VisitRequest::Kind::pick,
-                        .station = name,
-                        .payload_kg = static_cast<double>(payload_kg(random)),
-                        .payload_given = true,
-                        .dwell_s = kDwell_s});
-    }
-    visit_.push_back({.kind = VisitRequest::Kind::drop, .station = "dock"});
   }
 
   std::optional<Case> run() {
-    const std::vector<LegRequest> given = legs_in({0, 1, 2, 3});
-    MissionRequest visits = base_;
-    visits.visit = visit_;
+    const std::vector<LegRequest> given = drawn_.legs_in({0, 1, 2, 3});
+    MissionRequest visits = drawn_.base;
+    visits.visit = drawn_.visit;
     const std::optional<Plan> ordered = plan(visits, kPlain, floor_.world);
     if (!ordered) return std::nullopt;
-    const std::vector<LegRequest> better = legs_in(ordered->visit->order);
+    const std::vector<LegRequest> better = drawn_.legs_in(ordered->visit->order);
     const std::optional<Plan> plain = split_by_length(given);
     if (!plain) return std::nullopt;
     total_s_ = plain->duration_s;
@@ -72,37 +57,22 @@ class CasePlanner {
     result_.joules = {{"plain", *trapezoid}, {"profile", joules(*plain)}};
 
     const double begin_s = cpu_s();
-    const std::optional<Plan> together = in_time(with(better), {});
+    const std::optional<Plan> together = in_time(drawn_.with(better), {});
     if (!together) return std::nullopt;
     result_.together_cpu_s = cpu_s() - begin_s;
     result_.joules["together"] = joules(*together);
     result_.order_changed = ordered->visit->order != std::vector<std::size_t>{0, 1, 2, 3};
     compare_fleet_model(*together);
 
-    const bool all = add("time", with(given), kPlain) &&
-                     add("arcs", with(given), {.routes = false, .refinement = false}) &&
-                     add("routes", with(given), {.corners = false, .stops = false, .refinement = false}) &&
-                     add("refinement", with(given), {.routes = false}) && add("order", with(better), kPlain);
+    const bool all =
+        add("time", drawn_.with(given), kPlain) &&
+        add("arcs", drawn_.with(given), {.routes = false, .refinement = false}) &&
+        add("routes", drawn_.with(given), {.corners = false, .stops = false, .refinement = false}) &&
+        add("refinement", drawn_.with(given), {.routes = false}) && add("order", drawn_.with(better), kPlain);
     return all ? std::optional(result_) : std::nullopt;
   }
 
  private:
-  /// The visits as legs in an order, payload growing from pick to pick.
-  std::vector<LegRequest> legs_in(const std::vector<std::size_t>& order) const {
-    std::vector<LegRequest> legs;
-    double payload_kg = 0.0;
-    for (const std::size_t k : order) {
-      legs.push_back(
-          {.to = visit_[k].station, .payload = {payload_kg, payload_kg}, .dwell_s = visit_[k].dwell_s});
-      payload_kg += visit_[k].payload_kg;
-    }
-    return legs;
-  }
-  MissionRequest with(const std::vector<LegRequest>& legs) const {
-    MissionRequest mission = base_;
-    mission.legs = legs;
-    return mission;
-  }
   std::optional<Plan> plan(const MissionRequest& mission, const WaySteps& steps,
                            const MissionWorld& world) const {
     const PlanOptions options{.solver = SolverChoice::fast, .steps = steps, .baselines = false};
@@ -122,11 +92,11 @@ class CasePlanner {
   /// The plain mission with its time split over the legs by length: its own optimal time, more if a leg needs
   /// it.
   std::optional<Plan> split_by_length(std::vector<LegRequest> legs) const {
-    const std::optional<Plan> free = plan(with(legs), kPlain, floor_.world);
+    const std::optional<Plan> free = plan(drawn_.with(legs), kPlain, floor_.world);
     if (!free) return std::nullopt;
     double driving_s = 0.0;
     for (const LegPlan& leg : free->legs) driving_s += leg.duration_s;
-    MissionRequest hurried = with(legs);
+    MissionRequest hurried = drawn_.with(legs);
     hurried.objective.minimize = Objective::Minimize::time;
     const std::optional<Plan> fastest = plan(hurried, kPlain, without_standby_);
     if (!fastest) return std::nullopt;
@@ -136,7 +106,7 @@ class CasePlanner {
       factor = std::max(factor, kRoom * fastest->legs[k].duration_s / *legs[k].duration_s);
     }
     for (LegRequest& leg : legs) *leg.duration_s *= factor;
-    return plan(with(legs), kPlain, without_standby_);
+    return plan(drawn_.with(legs), kPlain, without_standby_);
   }
 
   Joules joules(const Plan& plan) const { return in_total(plan.energy.motion_J()); }
@@ -163,9 +133,8 @@ class CasePlanner {
   }
 
   const Floor& floor_;
+  DrawnMission drawn_;
   MissionWorld without_standby_;  ///< in a given total time standby is the same for every plan
-  MissionRequest base_{};
-  std::vector<VisitRequest> visit_{};
   double total_s_{};
   Case result_{};
 };
@@ -176,20 +145,6 @@ double cpu_s() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-Station random_place(const Floor& floor, std::mt19937& random, const Station* other) {
-  std::uniform_real_distribution<double> x(floor.box.x_min_m, floor.box.x_max_m),
-      y(floor.box.y_min_m, floor.box.y_max_m);
-  for (;;) {
-    const Station place{.x_m = x(random), .y_m = y(random)};
-    RouteRequest request;
-    request.start = {place.x_m, place.y_m, 0.0};
-    request.start_heading_free = true;
-    request.goal_x_m = other ? other->x_m : place.x_m;
-    request.goal_y_m = other ? other->y_m : place.y_m;
-    if (!no_way(floor.space, request)) return place;
-  }
 }
 
 std::optional<Case> random_case(const Floor& floor, std::mt19937& random) {

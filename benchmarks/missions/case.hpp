@@ -1,20 +1,11 @@
 #pragma once
 
 #include <map>
-#include <random>
 #include <string>
 
-#include "planner/mission/mission.hpp"
+#include "benchmarks/missions/draw.hpp"
 
 namespace joulepath::bench {
-
-/// A floor that missions are drawn on, prepared once.
-struct Floor {
-  std::string name{};
-  MissionWorld world{};
-  RouteSpace space;
-  ObstacleField::Extent box{};  ///< that stations are drawn from
-};
 
 /// Joules of one plan in the case's total time; waiting at the end counts as standby.
 struct Joules {
@@ -32,9 +23,6 @@ struct Case {
 };
 
 [[nodiscard]] double cpu_s();
-
-/// A free place on the floor from which `other` can be reached.
-[[nodiscard]] Station random_place(const Floor& floor, std::mt19937& random, const Station* other);
 
 /// Three picks and a drop at random places; nothing if one of its plans cannot be driven.
 [[nodiscard]] std::optional<Case> random_case(const Floor& floor, std::mt19937& random);

@@ -8,31 +8,12 @@
 
 #include "benchmarks/missions/speeds.hpp"
 #include "scenarios/robot_file.hpp"
-#include "tests/planner/path/grids.hpp"
 #include "tests/support/locations.hpp"
 
 namespace {
 
 using namespace joulepath;
 using namespace joulepath::bench;
-
-constexpr double kClearance_m = 0.05;
-
-std::vector<Floor> floors(const Robot& robot) {
-  std::vector<Floor> all;
-  const auto add = [&](const char* name, const std::optional<OccupancyGrid>& map,
-                       const std::optional<OccupancyGrid>& keepout, const ObstacleField::Extent& box) {
-    if (!map) return;
-    all.push_back({name,
-                   {.robot = robot, .map = *map},
-                   RouteSpace(*map, keepout ? &*keepout : nullptr, robot.footprint, kClearance_m),
-                   box});
-  };
-  add("Nav2 warehouse", nav2_warehouse(), nav2_warehouse_keepout(), {-14.0, 14.0, -24.0, 24.0});
-  add("Nav2 depot", nav2_depot(), std::nullopt, {1.0, 29.0, 1.0, 14.0});
-  add("generated warehouse", warehouse_grid(1), std::nullopt, {1.5, 58.5, 1.5, 38.5});
-  return all;
-}
 
 void print_spread(std::vector<double> values, int digits) {
   std::sort(values.begin(), values.end());

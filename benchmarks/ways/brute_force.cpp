@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSpans = 4;
 constexpr std::size_t kDrivenWell = 4;  ///< ends of descents that are evaluated on a fine grid
+/// First steps of a descent's two methods: from a sample, and from a known spline.
+constexpr struct Steps { double cma{}, simplex{}; } kFar{0.2, 0.03}, kNear[] = {{0.02, 0.03}, {0.005, 0.005}};
 constexpr double kLongestReaches = 10, kLongestMore_m = 30;  ///< of a spline worth a look
 constexpr double kNoCurve_J = 1e7, kInTheWay_J = 1e6, kNoProfile_J = 1e5;
 
@@ -26,7 +28,9 @@ class Search {
         plant_(make_plant(world.world.robot)),
         mission_(mission_of(problem)) {}
 
-  BestSpline run() {
+  BestSpline run(const std::vector<FreeSpline>& known) {
+    for (const FreeSpline& spline : known)
+      for (const Steps& first : kNear) descend({.x = variables_of(spline)}, first);
     for (std::size_t spans = 1; spans <= kMostSpans; ++spans) try_spans(spans);
     std::stable_sort(found_.begin(), found_.end(), cheaper);
     BestSpline best{.energy_J = kNoLimit, .evaluations = evaluations_};
@@ -51,8 +55,14 @@ class Search {
     return from + (to - from) * (static_cast<double>(random_()) / 4294967296.0);
   }
 
-  void try_spans(std::size_t spans) {
+  void descend(Point point, const Steps& first) {
     const Objective objective = [this](const std::vector<double>& x) { return cost(x); };
+    minimize_by_cma(point.x, first.cma, size_.evaluations, random_, objective);
+    point.value = minimize_by_simplex(point.x, first.simplex, size_.refinements, objective);
+    if (point.value < kNoProfile_J) found_.push_back(std::move(point));
+  }
+
+  void try_spans(std::size_t spans) {
     std::vector<Point> points;
     for (int k = 0; k < size_.samples; ++k) {
       Point point{.x = sample(spans)};
@@ -61,11 +71,7 @@ class Search {
     }
     std::stable_sort(points.begin(), points.end(), cheaper);
     points.resize(std::min(points.size(), static_cast<std::size_t>(size_.descents)));
-    for (Point& point : points) {
-      minimize_by_cma(point.x, 0.2, size_.evaluations, random_, objective);
-      point.value = minimize_by_simplex(point.x, 0.03, size_.refinements, objective);
-      if (point.value < kNoProfile_J) found_.push_back(point);
-    }
+    for (const Point& point : points) descend(point, kFar);
   }
 
   std::vector<double> sample(std::size_t spans) {
@@ -98,6 +104,19 @@ class Search {
     return spline;
   }
 
+  /// The inverse of spline_at.
+  std::vector<double> variables_of(const FreeSpline& spline) const {
+    const double reach_m = problem_.reach_m();
+    std::vector<double> x{std::log(spline.start_handle_m / reach_m),
+                          std::log(spline.goal_handle_m / reach_m)};
+    if (!problem_.goal_heading_rad) x.push_back(spline.goal_heading_rad);
+    for (std::size_t k = 1; k + 1 < spline.points_m.size(); ++k) {
+      x.push_back((spline.points_m[k][0] - problem_.start.x_m) / reach_m);
+      x.push_back((spline.points_m[k][1] - problem_.start.y_m) / reach_m);
+    }
+    return x;
+  }
+
   double cost(const std::vector<double>& x) {
     ++evaluations_;
     const std::optional<Path> path = free_spline_path(spline_at(x));
@@ -125,8 +144,8 @@ class Search {
 }  // namespace
 
 BestSpline brute_force(const World& world, const Problem& problem, std::mt19937& random,
-                       const SearchSize& size) {
-  return Search(world, problem, random, size).run();
+                       const SearchSize& size, const std::vector<FreeSpline>& known) {
+  return Search(world, problem, random, size).run(known);
 }
 
 std::string spline_text(const FreeSpline& spline) {

@@ -26,9 +26,9 @@ struct BestSpline {
 /// Independent search for the cheapest path without a turn in place: C2 cubic splines of one to four spans
 /// with random knots, handles and goal headings; CMA-ES from the best, then Nelder-Mead. It shares the
 /// spline, the collision check and the profile solver (the evaluator) with the planner, but none of its
-/// guesses.
+/// guesses. `known`: splines that descents start from too.
 [[nodiscard]] BestSpline brute_force(const World& world, const Problem& problem, std::mt19937& random,
-                                     const SearchSize& size);
+                                     const SearchSize& size, const std::vector<FreeSpline>& known = {});
 
 /// "start handle, goal handle, goal heading, x, y of each knot" as one field of a CSV file, and back.
 [[nodiscard]] std::string spline_text(const FreeSpline& spline);

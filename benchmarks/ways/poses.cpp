@@ -39,7 +39,7 @@ World make_world(const std::string& name) {
   MissionWorld world{.robot = read_robot("scenarios/robots/nomad_super_scout.yaml")};
   world.map = name == "empty" ? free_grid(600, 600, 0.05) : read_map("scenarios/maps/" + name + ".yaml");
   RouteSpace space(*world.map, nullptr, world.robot.footprint, kClearance_m);
-  return {name, std::move(world), std::move(space)};
+  return {name, std::move(world), std::move(space), {}};
 }
 
 Problem random_problem(const World& world, unsigned seed, unsigned index) {
@@ -72,7 +72,7 @@ MissionRequest mission_of(const Problem& problem) {
   mission.stations["goal"] = {
       .x_m = problem.goal_m[0], .y_m = problem.goal_m[1], .heading_rad = problem.goal_heading_rad};
   mission.start.pose = problem.start;
-  mission.legs = {{.to = "goal"}};
+  mission.legs = {{.to = "goal", .payload = {problem.payload_kg, problem.payload_kg}}};
   return mission;
 }
 
@@ -80,7 +80,7 @@ Answer planned(const World& world, const Problem& problem) { return answer_of(wo
 
 double driven_J(const World& world, const Problem& problem, const Path& path) {
   MissionRequest mission = mission_of(problem);
-  mission.legs = {{.to = "goal", .path = PathRequest{.ready = path}}};
+  mission.legs.front().path = PathRequest{.ready = path};
   return answer_of(world, mission).energy_J;
 }
 

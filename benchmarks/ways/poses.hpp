@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/mission/mission.hpp"
+#include "benchmarks/missions/draw.hpp"
 
 namespace joulepath::ways {
 
@@ -13,16 +13,13 @@ struct Problem {
   Pose start{};
   Point2 goal_m{};
   std::optional<double> goal_heading_rad{};
+  double payload_kg{};
 
   double reach_m() const;
 };
 
 /// A floor with the robot of this benchmark.
-struct World {
-  std::string name{};
-  MissionWorld world{};
-  RouteSpace space;
-};
+using World = bench::Floor;
 
 /// `empty` (30 x 30 m) or a map of scenarios/maps.
 [[nodiscard]] World make_world(const std::string& name);

@@ -20,7 +20,8 @@ constexpr double kSlower = 1.5;  ///< first guess of the duration, of the least 
 
 /// Places of the nodes on this curve, anew where the number of mandatory nodes has changed.
 std::vector<double> DraftSeries::grid(const PathMotion& motion, const ProfileRequest& request) {
-  const std::vector<double> mandatory = nlp::mandatory_nodes(motion, request);
+  mandatory_ = nlp::mandatory_nodes(motion, request);
+  const std::vector<double>& mandatory = mandatory_;
   if (mandatory.size() != parts_ + 1) {
     const std::vector<double> s = nlp::make_grid(motion, request, request.nodes);
     parts_ = mandatory.size() - 1;
@@ -69,6 +70,8 @@ std::optional<DraftSeries::Cost> DraftSeries::solve(const ProfileRequest& reques
   return Cost{solution_.objective, duration_of(problem_, solution_.b)};
 }
 
-PathSlopes DraftSeries::slopes() const { return nlp::lagrangian_slopes(problem_, *motion_, solution_); }
+PathSlopes DraftSeries::slopes() const {
+  return nlp::lagrangian_slopes(problem_, *motion_, solution_, mandatory_);
+}
 
 }  // namespace joulepath

@@ -41,6 +41,7 @@ class DraftSeries {
   nlp::Problem problem_{};
   nlp::Solution solution_{};
   nlp::FastSolver solver_{};
+  std::vector<double> mandatory_{};
   std::vector<Place> places_{};
   std::size_t parts_{};
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/path/shape/nlopt_run.hpp"
+#include "planner/ways/spline_constraints.hpp"
 
 namespace joulepath {
 namespace {
@@ -13,16 +14,8 @@ namespace {
 using MemberKind = SplineMember::Kind;
 
 constexpr double kLeastHandle_m = 0.01, kMostHandle_m = 20;
-constexpr double kReach_m = 3;         ///< how far a knot may move
-constexpr double kPart_m = 0.8;        ///< length of the parts that each have a constraint of clearance
-constexpr std::size_t kMostParts = 6;  ///< per span
-constexpr double kSlackStep_m = 0.03;
-constexpr double kTrust = 0.7;        ///< share of the excess of slack that a step may take
-constexpr double kStep_m = 1e-4;      ///< of differences of the clearance
-constexpr double kTightShare = 0.98;  ///< of the tightest curvature that a search aims for
-constexpr double kWide = -3;          ///< least logarithm of a bend that counts
-constexpr int kLooks = 16;            ///< places of a span that are looked at
-constexpr int kRefusedToo = 3;        ///< trials per evaluation at most: splines that are no curves cost little
+constexpr double kReach_m = 3;  ///< how far a knot may move
+constexpr int kRefusedToo = 3;  ///< trials per evaluation at most: splines that are no curves cost little
 constexpr double kNotDrivable = 100;  ///< in units of the first cost
 /// A search ends that after so many evaluations is dearer than the cost to beat by more than this share.
 constexpr struct {
@@ -66,18 +59,6 @@ bool is_handle(MemberKind kind) {
   return kind == MemberKind::start_handle || kind == MemberKind::goal_handle;
 }
 
-double curvature_of(const BezierPoints& span, double t) {
-  const BezierDerivatives b = bezier_derivatives(span, t);
-  const double speed = std::max(std::hypot(b.first_m[0], b.first_m[1]), 1e-9);
-  return (b.first_m[0] * b.second_m[1] - b.first_m[1] * b.second_m[0]) / (speed * speed * speed);
-}
-
-/// A part of a span that has a constraint of its own.
-struct Part {
-  std::size_t spline{}, span{};
-  double from{}, to{};  ///< shares of the span's length
-};
-
 class Search {
  public:
   explicit Search(const SplineSearch& search) : search_(search) {}
@@ -97,24 +78,16 @@ class Search {
   void take_first();
   const Trial& trial(const std::vector<double>& x);
   double objective(const std::vector<double>& x, std::vector<double>& gradient);
-  struct Nearest {
-    double slack_m{}, s_m{};
-  };
-  Nearest nearest_on(const Part& part, const Curve& curve) const;
-  PointSlope slack_slope(const Part& part, const Curve& curve, double s_m) const;
-  void bends(double* result, const Trial& here, double* gradient) const;
   void constraints(double* result, const std::vector<double>& x, double* gradient);
   void keep(const Trial& here);
   [[nodiscard]] bool hopeless() const;
   std::vector<double> gradient_of(const std::vector<FreeSpline>& at, const std::vector<SplineSlopes>& slopes,
                                   std::size_t only) const;
-  void make_parts(const Trial& here);
 
   const SplineSearch& search_;
   std::vector<Column> columns_{};
   std::vector<double> x_{}, lower_{}, upper_{};
-  std::vector<Part> parts_{};
-  std::size_t spans_{};  ///< of all splines
+  std::optional<SplineConstraints> constraints_{};
   Trial last_{};
   double scale_{1};
   int evaluations_{};
@@ -212,105 +185,27 @@ void Search::keep(const Trial& here) {
   best_ = {.splines = here.splines, .paths = here.paths, .cost = here.cost};
 }
 
-void Search::make_parts(const Trial& here) {
-  for (std::size_t spline = 0; spline < here.paths.size(); ++spline) {
-    const std::vector<double>& ends_m = std::get<Curve>(here.paths[spline].pieces.front()).breakpoints_m();
-    spans_ += ends_m.size() - 1;
-    for (std::size_t span = 0; span + 1 < ends_m.size(); ++span) {
-      const double length_m = ends_m[span + 1] - ends_m[span];
-      const auto count =
-          std::clamp(static_cast<std::size_t>(std::ceil(length_m / kPart_m)), std::size_t{1}, kMostParts);
-      for (std::size_t i = 0; i < count; ++i)
-        parts_.push_back({spline, span, static_cast<double>(i) / static_cast<double>(count),
-                          static_cast<double>(i + 1) / static_cast<double>(count)});
-    }
-  }
-}
-
-/// The place with the least slack on a part of a path.
-Search::Nearest Search::nearest_on(const Part& part, const Curve& curve) const {
-  const double s0_m = curve.breakpoints_m()[part.span],
-               length_m = curve.breakpoints_m()[part.span + 1] - s0_m;
-  const double end_m = s0_m + part.to * length_m;
-  Nearest nearest{.slack_m = kNoLimit};
-  for (double s_m = s0_m + part.from * length_m;;) {
-    const double slack_m = search_.checker->near_slack_m(search_.checker->pose_on(curve, s_m));
-    if (slack_m < nearest.slack_m) nearest = {slack_m, s_m};
-    if (s_m >= end_m) return nearest;
-    s_m = std::min(end_m, s_m + std::max(kSlackStep_m, kTrust * (slack_m - nearest.slack_m)));
-  }
-}
-
-/// Derivatives of the slack at a place.
-PointSlope Search::slack_slope(const Part& part, const Curve& curve, double s_m) const {
-  const Pose pose = curve.at(s_m).pose;
-  const auto by = [&](double dx_m, double dy_m, double turn_rad) {
-    const auto slack_at = [&](double step_m) {
-      return search_.checker->near_slack_m(
-          {pose.x_m + step_m * dx_m, pose.y_m + step_m * dy_m, pose.heading_rad + step_m * turn_rad});
-    };
-    return (slack_at(kStep_m) - slack_at(-kStep_m)) / (2 * kStep_m);
-  };
-  const auto& segment = std::get<BezierSegment>(curve.segments()[part.span]);
-  const double along_m = std::clamp(s_m - curve.breakpoints_m()[part.span], 0.0, segment.length_m());
-  return {.span = part.span,
-          .t = segment.parameter(along_m),
-          .by_x_m = by(1, 0, 0),
-          .by_y_m = by(0, 1, 0),
-          .by_heading_rad = search_.checker->is_disc() ? 0.0 : by(0, 0, 1)};
-}
-
-/// Per span: how far its curvature is above the tightest one, in logarithms; spans that bend much less count as
-/// kWide. Steps that know of the bound do not end in splines that are none (free_spline.hpp).
-void Search::bends(double* result, const Trial& here, double* gradient) const {
-  for (std::size_t k = 0; k < here.splines.size(); ++k) {
-    const std::vector<BezierPoints> spans = spline_spans(here.splines[k]);
-    for (std::size_t span = 0; span < spans.size(); ++span, ++result) {
-      double tightest = 0, at = 0;
-      for (int i = 0; i <= kLooks; ++i) {
-        const double t = static_cast<double>(i) / kLooks;
-        const double curvature = curvature_of(spans[span], t);
-        if (std::abs(curvature) > std::abs(tightest)) tightest = curvature, at = t;
-      }
-      *result = std::max(kWide, std::log(std::abs(tightest) / (kTightShare * kTightest_per_m)));
-      if (!gradient) continue;
-      if (*result > kWide) {
-        const PointSlope slope{.span = span, .t = at, .by_curvature = 1 / tightest};
-        const std::vector<double> by =
-            gradient_of(here.splines, {spline_slopes(here.splines[k], slope)}, k);
-        std::copy(by.begin(), by.end(), gradient);
-      }
-      gradient += columns_.size();
-    }
-  }
-}
-
-/// Per part of a path: margin less the least slack on it <= 0, in metres. Per span: its bend.
 void Search::constraints(double* result, const std::vector<double>& x, double* gradient) {
   const Trial& here = trial(x);
-  const std::size_t rows = parts_.size() + spans_;
-  if (gradient) std::fill(gradient, gradient + rows * x.size(), 0.0);
+  const std::size_t rows = constraints_->rows();
   std::fill(result, result + rows, 0.0);
+  if (gradient) std::fill(gradient, gradient + rows * x.size(), 0.0);
   if (here.paths.empty()) return;
-  bends(result + parts_.size(), here, gradient ? gradient + parts_.size() * x.size() : nullptr);
-  for (std::size_t j = 0; j < parts_.size(); ++j) {
-    const Part& part = parts_[j];
-    const Curve& curve = std::get<Curve>(here.paths[part.spline].pieces.front());
-    const Nearest nearest = nearest_on(part, curve);
-    result[j] = kClearanceMargin_m - nearest.slack_m;
-    if (!gradient) continue;
-    const PointSlope slope = slack_slope(part, curve, nearest.s_m);
-    if (slope.by_x_m == 0 && slope.by_y_m == 0 && slope.by_heading_rad == 0) continue;
+  const std::vector<ConstraintRow> at = constraints_->at(here.splines, here.paths, gradient != nullptr);
+  for (std::size_t row = 0; row < rows; ++row) {
+    result[row] = at[row].value;
+    if (!gradient || !at[row].slope) continue;
+    const std::size_t spline = at[row].spline;
     const std::vector<double> by =
-        gradient_of(here.splines, {spline_slopes(here.splines[part.spline], slope)}, part.spline);
-    for (std::size_t i = 0; i < x.size(); ++i) gradient[j * x.size() + i] = -by[i];
+        gradient_of(here.splines, {spline_slopes(here.splines[spline], *at[row].slope)}, spline);
+    std::copy(by.begin(), by.end(), gradient + row * x.size());
   }
 }
 
 std::optional<SplineSearchResult> Search::run() {
   take_first();
   if (trial(x_).paths.empty()) return std::nullopt;
-  make_parts(last_);
+  constraints_.emplace(*search_.checker, last_.paths);
   nlopt::opt optimizer(nlopt::LD_SLSQP, static_cast<unsigned>(x_.size()));
   optimizer.set_lower_bounds(lower_);
   optimizer.set_upper_bounds(upper_);
@@ -321,7 +216,7 @@ std::optional<SplineSearchResult> Search::run() {
       [](unsigned, double* result, unsigned n, const double* x, double* gradient, void* self) {
         static_cast<Search*>(self)->constraints(result, std::vector<double>(x, x + n), gradient);
       },
-      this, std::vector<double>(parts_.size() + spans_, 1e-5));
+      this, std::vector<double>(constraints_->rows(), 1e-5));
   optimizer.set_ftol_rel(1e-5);
   optimizer.set_xtol_rel(1e-6);
   optimizer.set_maxeval(kRefusedToo * search_.most_evaluations);

@@ -13,8 +13,6 @@
 // docs/decisions/0600-a-tight-bend-is-an-inequality.md
 namespace joulepath {
 
-inline constexpr double kClearanceMargin_m = 0.002;
-
 /// A member of one of the splines.
 struct SplineMember {
   enum class Kind { start_heading, start_handle, goal_heading, goal_handle, knot };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/ways/spline_constraints.hpp"
 #include "planner/ways/spline_search.hpp"
 #include "planner/ways/swing_guesses.hpp"
 

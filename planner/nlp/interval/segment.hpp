@@ -51,6 +51,9 @@ struct SegmentPoint {
   Sided<AffineWheel> wheel{};
 };
 
+/// Share of a segment's length inside of it at which its ends are evaluated: the law may change at the node
+/// itself.
+inline constexpr double kInset = 1e-7;
 inline constexpr std::size_t kLimitPoints = 3;   ///< both ends, evaluated inside the segment, and the middle
 inline constexpr std::size_t kEnergyPoints = 2;  ///< Gauss-Legendre in time
 inline constexpr std::array<double, kEnergyPoints> kEnergyTimes{0.21132486540518712, 0.78867513459481288};

@@ -15,9 +15,6 @@
 namespace joulepath::nlp {
 namespace {
 
-/// Distance inside of a segment at which its ends are evaluated: the law may change at the node itself.
-constexpr double kInset = 1e-7;
-
 template <class Function, std::size_t... I>
 void for_term(std::size_t index, Rows& terms, Function&& function, std::index_sequence<I...>) {
   ((I == index ? (function(std::get<I>(terms)), 0) : 0), ...);
