@@ -24,6 +24,7 @@ namespace joulepath {
 namespace {
 
 constexpr unsigned kSeed = 20261122;
+constexpr std::size_t kPlainNodes = 200;
 constexpr TimeMode kModes[] = {TimeMode::free_time, TimeMode::time_budget, TimeMode::fixed_time,
                                TimeMode::time_price};
 
@@ -52,9 +53,15 @@ struct Sample {
   }
 };
 
+/// Single programs, without refinement and check.
+struct Programs {
+  int unsolved{};
+  Sample fast_ms{}, ipopt_ms{}, difference{};
+};
+
 struct Group {
-  int problems{}, unsolved{}, handed_over{}, grid_unsolved{}, broken{}, baselines{}, compared{};
-  Sample grid_fast_ms{}, grid_ipopt_ms{}, grid_difference{};
+  int problems{}, unsolved{}, handed_over{}, broken{}, baselines{}, compared{};
+  Programs plain{}, refined{};
   Sample fast_ms{}, ipopt_ms{}, difference{}, violation{};
   Sample energy_price{}, time_price{}, tuned{}, s_curve{};
 };
@@ -91,7 +98,7 @@ double value_J(const ProfileRequest& request, const Profile& profile) {
 }
 
 /// One program on the grid of the profile without the limit, from that profile averaged over time.
-void look_at_grid(const ProfileRequest& request, const Profile& free, Group& group) {
+void look_at_grid(const ProfileRequest& request, const Profile& free, Programs& programs) {
   const PathMotion motion = path_motion(request);
   const nlp::Problem problem = nlp::transcribe(request, motion, free.s, {}, &free);
   double most = 0;
@@ -99,13 +106,13 @@ void look_at_grid(const ProfileRequest& request, const Profile& free, Group& gro
   const double window_s = std::min(most / request.limits.jerk_m_s3, 0.5 * free.duration_s());
   const nlp::JerkProgram program(problem, {}, nlp::averaged_motion(free, window_s));
   nlp::JerkSolution fast, ipopt;
-  group.grid_fast_ms.add(timed_ms([&] { fast = nlp::solve_fast(program); }));
-  group.grid_ipopt_ms.add(timed_ms([&] { ipopt = nlp::solve_with_ipopt(program); }));
+  programs.fast_ms.add(timed_ms([&] { fast = nlp::solve_fast(program); }));
+  programs.ipopt_ms.add(timed_ms([&] { ipopt = nlp::solve_with_ipopt(program); }));
   if (!fast.converged || !ipopt.converged) {
-    group.grid_unsolved += !fast.converged;
+    programs.unsolved += !fast.converged;
     return;
   }
-  group.grid_difference.add(std::abs(fast.objective / ipopt.objective - 1));
+  programs.difference.add(std::abs(fast.objective / ipopt.objective - 1));
 }
 
 /// Largest |change of acceleration over time| and the worst use of any limit at 64 places of each segment.
@@ -166,7 +173,12 @@ void look(ProfileRequest request, TimeGoal goal, double slower, Group& group) {
   group.energy_price.add(replay(request, *fast.profile).energy_J / replay(same_time, *free.profile).energy_J -
                          1);
   request.time.duration_s = std::max(request.time.duration_s, free.profile->duration_s());
-  look_at_grid(request, *free.profile, group);
+  look_at_grid(request, *free.profile, group.refined);
+  same_time.time.duration_s = request.time.duration_s;
+  same_time.nodes = kPlainNodes;
+  same_time.draft = true;  // one grid
+  const ProfileResult plain = solve_profile(same_time);
+  if (plain.profile) look_at_grid(request, *plain.profile, group.plain);
   look_at_baselines(request, *fast.profile, group);
 }
 
@@ -176,16 +188,34 @@ std::string format(const char* pattern, auto... values) {
   return text;
 }
 
-void write(std::ofstream& out, std::map<std::string, Group>& groups) {
-  out << "## One program (on the refined grid of the profile without the limit: 200 to some 800 nodes)\n\n"
+void write_programs(std::ofstream& out, const char* title, Programs Group::*which,
+                    std::map<std::string, Group>& groups) {
+  out << "## One program (" << title
+      << ")\n\n"
          "| robot, path | problems | not solved | fast: median, p95 ms | Ipopt: median, p95 ms | relative "
          "difference of the objective: max |\n|---|---|---|---|---|---|\n";
-  for (auto& [name, g] : groups)
+  Programs all;
+  const auto row = [&](const std::string& name, Programs& p) {
     out << format("| %s | %zu | %d | %.1f, %.1f | %.0f, %.0f | %.0e |\n", name.c_str(),
-                  g.grid_fast_ms.values.size(), g.grid_unsolved, g.grid_fast_ms.share(0.5),
-                  g.grid_fast_ms.share(0.95), g.grid_ipopt_ms.share(0.5), g.grid_ipopt_ms.share(0.95),
-                  g.grid_difference.share(1));
-  out << "\n## Whole profiles (grid, limits between nodes, bound)\n\n"
+                  p.fast_ms.values.size(), p.unsolved, p.fast_ms.share(0.5), p.fast_ms.share(0.95),
+                  p.ipopt_ms.share(0.5), p.ipopt_ms.share(0.95), p.difference.share(1));
+  };
+  for (auto& [name, group] : groups) {
+    Programs& own = group.*which;
+    row(name, own);
+    all.unsolved += own.unsolved;
+    for (Sample Programs::*sample : {&Programs::fast_ms, &Programs::ipopt_ms, &Programs::difference})
+      for (double value : (own.*sample).values) (all.*sample).add(value);
+  }
+  row("all", all);
+  out << '\n';
+}
+
+void write(std::ofstream& out, std::map<std::string, Group>& groups) {
+  write_programs(out, "200 nodes", &Group::plain, groups);
+  write_programs(out, "on the refined grid of the profile without the limit: 200 to some 800 nodes",
+                 &Group::refined, groups);
+  out << "## Whole profiles (grid, limits between nodes, bound)\n\n"
          "| robot, path | problems | none found | handed over | limit exceeded between nodes | `--solver "
          "fast`: "
          "median, p95 ms | default: median, p95 ms | relative difference of the value: median, max |\n"

@@ -28,6 +28,12 @@ double most_deceleration(const ProfileRequest& request) {
 
 TrapezoidFamily::TrapezoidFamily(const ProfileRequest& request) : request_(&request), local_(request) {}
 
+const LocalLimits::Grid& TrapezoidFamily::grid(double curve_share) const {
+  if (grid_share_ != curve_share) grid_ = local_.grid(curve_share);
+  grid_share_ = curve_share;
+  return grid_;
+}
+
 std::vector<double> TrapezoidFamily::squares_on(const LocalLimits::Grid& grid,
                                                 const TrapezoidSettings& settings) const {
   const nlp::Problem& problem = local_.problem();
@@ -41,7 +47,7 @@ std::vector<double> TrapezoidFamily::squares_on(const LocalLimits::Grid& grid,
 }
 
 std::optional<std::vector<double>> TrapezoidFamily::squares(const TrapezoidSettings& settings) const {
-  std::vector<double> b = squares_on(local_.grid(settings.curve_share), settings);
+  std::vector<double> b = squares_on(grid(settings.curve_share), settings);
   if (!local_.passes(b)) return std::nullopt;
   return b;
 }
@@ -74,8 +80,8 @@ double TrapezoidFamily::least_duration_s() const {
 }
 
 std::optional<double> TrapezoidFamily::rate_for(double acceleration, double deceleration, double curve_share,
-                                                double duration_s) const {
-  const LocalLimits::Grid grid = local_.grid(curve_share);
+                                                double duration_s, double tolerance) const {
+  const LocalLimits::Grid& grid = this->grid(curve_share);
   const nlp::Problem& problem = local_.problem();
   const auto excess_s = [&](double rate) {
     return this->duration_s(squares_on(grid, {rate, acceleration, deceleration, curve_share})) - duration_s;
@@ -88,18 +94,18 @@ std::optional<double> TrapezoidFamily::rate_for(double acceleration, double dece
   if (!fastest) return std::nullopt;
   const double least_s = this->duration_s(*fastest);
   if (least_s > duration_s * (1 + 1e-9)) return std::nullopt;
-  if (!(excess_s(high) <= 0)) return high;
+  if (least_s > duration_s) return high;
   constexpr int kTries = 12;
   double low = std::min(high, problem.s.back() / duration_s);
   for (int i = 0; i < kTries && !(excess_s(low) > 0); ++i) low *= 0.1;
-  return excess_s(low) > 0 ? least_rate(excess_s, low, high) : low;
+  return excess_s(low) > 0 ? least_rate(excess_s, low, high, tolerance) : low;
 }
 
 Profile TrapezoidFamily::profile(const TrapezoidSettings& settings) const {
   const nlp::Problem& problem = local_.problem();
   const double up = 2 * settings.acceleration, down = 2 * settings.deceleration;
   const double cruise = settings.rate * settings.rate, length = problem.s.back();
-  LocalLimits::Grid fine = local_.grid(settings.curve_share);
+  LocalLimits::Grid fine = grid(settings.curve_share);
   for (double corner : {(cruise - problem.b_start) / up, length - (cruise - problem.b_end) / down,
                         (problem.b_end - problem.b_start + down * length) / (up + down)})
     fine.insert(corner);

@@ -36,9 +36,10 @@ class TrapezoidFamily {
   double duration_s(const std::vector<double>& b) const;
   /// Energy without standby by the transcription; infinite if a row is violated.
   double energy_J(const std::vector<double>& b) const;
-  /// The cruise rate for which the whole takes `duration_s`; nothing if no rate is fast enough.
+  /// The cruise rate for which the whole takes `duration_s`, to `tolerance` of it; nothing if no rate is fast
+  /// enough.
   std::optional<double> rate_for(double acceleration, double deceleration, double curve_share,
-                                 double duration_s) const;
+                                 double duration_s, double tolerance = 1e-13) const;
   /// The least time of any profile on this grid; infinite if there is no profile.
   double least_duration_s() const;
   /// The executable profile, with nodes where acceleration, cruise and deceleration meet.
@@ -46,10 +47,14 @@ class TrapezoidFamily {
   std::map<std::string, double> parameters(const TrapezoidSettings& settings) const;
 
  private:
+  const LocalLimits::Grid& grid(double curve_share) const;
   std::vector<double> squares_on(const LocalLimits::Grid& grid, const TrapezoidSettings& settings) const;
 
   const ProfileRequest* request_{};
   LocalLimits local_;
+  /// Of the last curve share: a search has one.
+  mutable double grid_share_{-1};
+  mutable LocalLimits::Grid grid_{};
 };
 
 }  // namespace joulepath

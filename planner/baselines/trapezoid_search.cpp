@@ -35,9 +35,10 @@ BaselineResult no_trapezoid(const char* name, const TrapezoidFamily& family, dou
 std::optional<TrapezoidSettings> tuned(const ProfileRequest& request, const TrapezoidFamily& family,
                                        double share, double duration_s) {
   const double most_up = most_acceleration(request), most_down = most_deceleration(request);
+  constexpr double kRough = 1e-7;  // finish_trapezoid() makes the time exact
   const auto settings_at = [&](double up, double down) -> std::optional<TrapezoidSettings> {
     const double acceleration = most_up * std::exp(up), deceleration = most_down * std::exp(down);
-    const auto rate = family.rate_for(acceleration, deceleration, share, duration_s);
+    const auto rate = family.rate_for(acceleration, deceleration, share, duration_s, kRough);
     if (!rate) return std::nullopt;
     return TrapezoidSettings{*rate, acceleration, deceleration, share};
   };

@@ -16,7 +16,7 @@ constexpr double kBorder_m = 1e-9;
 void for_each_limit_use(const PathMotion& motion, const Limits& limits, const std::vector<SpeedCap>& caps,
                         const ProfileState& state, double jerk,
                         const std::function<void(std::string_view, double)>& use) {
-  const PathMotion::Place place = motion.place(state.s, state.time_s);
+  const PathMotion::Place place = motion.laws(state.s, state.time_s);
   const BodyMotion<double> body = PathMotion::body_motion(place.rates, state.rate, state.acceleration);
   const bool travels = place.rates.along != 0;
   if (travels)

@@ -3,7 +3,7 @@
 namespace joulepath {
 
 MotionInstant motion_instant(const PathMotion& motion, const ProfileState& state) {
-  const PathMotion::Place place = motion.place(state.s, state.time_s);
+  const PathMotion::Place place = motion.laws(state.s, state.time_s);
   return {.motion = PathMotion::body_motion(place.rates, state.rate, state.acceleration), .site = place.site};
 }
 

@@ -18,7 +18,7 @@ namespace odeint = boost::numeric::odeint;
 using State = std::array<double, 3>;  // position, rate, energy
 
 double supply_at(const PathMotion& motion, const ProfileState& state) {
-  const PathMotion::Place place = motion.place(state.s, state.time_s);
+  const PathMotion::Place place = motion.laws(state.s, state.time_s);
   const Sided<WheelState<double>> wheels = operating_point(
       motion.plant(), PathMotion::body_motion(place.rates, state.rate, state.acceleration), place.site);
   const PowerSupply& supply = motion.plant().robot.power;

@@ -51,7 +51,7 @@ bool same(const AffineWheel& x, const AffineWheel& y) {
 bool laws_at(const Plant& plant, const SegmentPoint& point, double extra_kg, Sided<AffineWheel>& wheel) {
   Site site = point.site;
   site.payload_kg += extra_kg;
-  return nlp::fit_affine(plant, point.rates, site, wheel);
+  return nlp::AffineFit(plant).at(point.rates, site, wheel);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ double bound_without_price_J(const nlp::Problem& problem, const PathMotion& moti
 }  // namespace
 
 DualGap certify_energy(const nlp::Problem& problem, const PathMotion& motion, const nlp::Solution& solution,
-                       const Profile& profile, SolveSummary& summary) {
-  const double value_J = energy_J(motion, profile);
+                       const Profile& profile, double driving_J, SolveSummary& summary) {
+  const double value_J = driving_J + motion.plant().robot.power.standby_W * profile.duration_s();
   const CostModel model(*problem.request, motion, problem.time_weight_W + solution.price_W);
   DualGap gap = dual_gap(model, costate_of(problem, solution, profile, model), profile);
   if (gap.is_elsewhere()) {

@@ -7,7 +7,6 @@
 #include "model/kinematics.hpp"
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
-#include "planner/nlp/transcription/affine_fit.hpp"
 #include "planner/nlp/transcription/rate_cap.hpp"
 
 namespace joulepath {
@@ -131,7 +130,7 @@ void bend(WheelPower& wheel, const Plant& plant, Side side, const Site& site, co
 }  // namespace
 
 CostModel::CostModel(const ProfileRequest& asked, const PathMotion& along, double seconds_W)
-    : request(asked), motion(along), time_W(seconds_W), unbent(along.plant()) {
+    : request(asked), motion(along), time_W(seconds_W), unbent(along.plant()), affine_fit(unbent) {
   bent = unbent.torque_loss_fraction != 0 || unbent.driver_voltage_drop_V != 0;
   unbent.torque_loss_fraction = unbent.driver_voltage_drop_V = 0;
   const double start_s = motion.time_of_day_start_s(), end_s = start_s + kLongAfter_s;
@@ -141,11 +140,11 @@ CostModel::CostModel(const ProfileRequest& asked, const PathMotion& along, doubl
 }
 
 PlaceCost::PlaceCost(const CostModel& model, double s, double time_s) : model_(&model) {
-  const PathMotion::Place place = model.motion.place(s, time_s);
+  const PathMotion::Place place = model.motion.laws(s, time_s);
   rates_ = place.rates;
   planned_ = site_ = place.site;
   site_.time_of_day_s = model.least_resistance;
-  affine_ = !model.bent && nlp::fit_affine(model.unbent, rates_, site_, wheel_);
+  affine_ = !model.bent && model.affine_fit.at(rates_, site_, wheel_);
   const ProfileRequest& request = model.request;
   const Limits& limits = request.limits;
   const bool along = rates_.along != 0;

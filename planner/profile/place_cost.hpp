@@ -3,7 +3,7 @@
 #include "model/plant.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/interval/range.hpp"
-#include "planner/nlp/interval/segment.hpp"
+#include "planner/nlp/transcription/affine_fit.hpp"
 #include "planner/profile/wheel_power.hpp"
 #include "planner/values/profile_request.hpp"
 
@@ -12,14 +12,17 @@ namespace joulepath {
 /// Data for all places of a path: the request, and the plant without its nonlinear parts.
 struct CostModel {
   CostModel(const ProfileRequest& request, const PathMotion& motion, double time_W = 0.0);
+  CostModel(const CostModel&) = delete;  // affine_fit refers to unbent
+  CostModel& operator=(const CostModel&) = delete;
 
   const ProfileRequest& request;
   const PathMotion& motion;
   double time_W{};
-  Plant unbent{};             ///< without gear loss and driver drop
-  bool bent{};                ///< the plant has one of them
-  bool warms_up{};            ///< winding resistance depends on the time
-  double least_resistance{};  ///< time of the day (s) of the lowest winding resistance
+  Plant unbent{};                     ///< without gear loss and driver drop
+  mutable nlp::AffineFit affine_fit;  ///< of that plant; remembers the last wheel directions
+  bool bent{};                        ///< the plant has one of them
+  bool warms_up{};                    ///< winding resistance depends on the time
+  double least_resistance{};          ///< time of the day (s) of the lowest winding resistance
 };
 
 /// The cost per second and the limits at one place of a path, for any rate u and acceleration a:

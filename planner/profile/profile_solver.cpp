@@ -76,7 +76,7 @@ class ProfileSolver {
       const bool accurate = check.energy_error_J <= accuracy * std::max(1e-9, std::abs(check.energy_J));
       const bool last = round + 1 == kRounds;
       if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
-        std::vector<double> finer = prove(problem);
+        std::vector<double> finer = prove(problem, check.energy_J);
         keep();
         if (finer.empty() && !to_settle()) return answer();
         settling_ = finer.empty();
@@ -221,7 +221,7 @@ class ProfileSolver {
   }
 
   /// Computes the bound and returns a grid with a tighter one; empty where refinement is not worth its cost.
-  std::vector<double> prove(const Problem& problem) {
+  std::vector<double> prove(const Problem& problem, double driving_J) {
     SolveSummary& summary = result_.summary;
     const bool fastest = summary.solver == kFastestSolver;
     LeastTime least{};
@@ -229,7 +229,7 @@ class ProfileSolver {
     if (fastest)
       least = certify_time(problem, motion_, *best_, summary);
     else
-      gap = certify_energy(problem, motion_, solution_, *best_, summary);
+      gap = certify_energy(problem, motion_, solution_, *best_, driving_J, summary);
     const double share = 0.01 * summary.gap_percent;
     const double aim = (fastest ? kProvenTime : kProven) * request_.accuracy;
     const bool better = share < kWorthAProof * least_gap_;

@@ -19,6 +19,10 @@ constexpr std::size_t kMostParts = 6;  ///< per span
 constexpr double kSlackStep_m = 0.03;
 constexpr double kTrust = 0.7;        ///< share of the excess of slack that a step may take
 constexpr double kStep_m = 1e-4;      ///< of differences of the clearance
+constexpr double kTightShare = 0.98;  ///< of the tightest curvature that a search aims for
+constexpr double kWide = -3;          ///< least logarithm of a bend that counts
+constexpr int kLooks = 16;            ///< places of a span that are looked at
+constexpr int kRefusedToo = 3;        ///< trials per evaluation at most: splines that are no curves cost little
 constexpr double kNotDrivable = 100;  ///< in units of the first cost
 /// A search ends that after so many evaluations is dearer than the cost to beat by more than this share.
 constexpr struct {
@@ -62,6 +66,12 @@ bool is_handle(MemberKind kind) {
   return kind == MemberKind::start_handle || kind == MemberKind::goal_handle;
 }
 
+double curvature_of(const BezierPoints& span, double t) {
+  const BezierDerivatives b = bezier_derivatives(span, t);
+  const double speed = std::max(std::hypot(b.first_m[0], b.first_m[1]), 1e-9);
+  return (b.first_m[0] * b.second_m[1] - b.first_m[1] * b.second_m[0]) / (speed * speed * speed);
+}
+
 /// A part of a span that has a constraint of its own.
 struct Part {
   std::size_t spline{}, span{};
@@ -92,6 +102,7 @@ class Search {
   };
   Nearest nearest_on(const Part& part, const Curve& curve) const;
   PointSlope slack_slope(const Part& part, const Curve& curve, double s_m) const;
+  void bends(double* result, const Trial& here, double* gradient) const;
   void constraints(double* result, const std::vector<double>& x, double* gradient);
   void keep(const Trial& here);
   [[nodiscard]] bool hopeless() const;
@@ -103,6 +114,7 @@ class Search {
   std::vector<Column> columns_{};
   std::vector<double> x_{}, lower_{}, upper_{};
   std::vector<Part> parts_{};
+  std::size_t spans_{};  ///< of all splines
   Trial last_{};
   double scale_{1};
   int evaluations_{};
@@ -166,7 +178,7 @@ std::vector<double> Search::gradient_of(const std::vector<FreeSpline>& at,
 double Search::objective(const std::vector<double>& x, std::vector<double>& gradient) {
   const Trial& here = trial(x);
   if (!gradient.empty()) std::fill(gradient.begin(), gradient.end(), 0.0);
-  if (here.paths.empty()) return kNotDrivable;
+  if (here.paths.empty()) return std::isfinite(least_) ? 1.1 * least_ / scale_ : kNotDrivable;
   if (std::isnan(here.cost)) {
     ++evaluations_;
     last_.cost = search_.cost(here.paths);
@@ -175,7 +187,7 @@ double Search::objective(const std::vector<double>& x, std::vector<double>& grad
       keep(here);
       least_ = std::min(least_, here.cost);
     }
-    if (hopeless()) throw nlopt::forced_stop();
+    if (hopeless() || evaluations_ >= search_.most_evaluations) throw nlopt::forced_stop();
   }
   if (!std::isfinite(here.cost)) return kNotDrivable;
   if (!gradient.empty()) {
@@ -203,6 +215,7 @@ void Search::keep(const Trial& here) {
 void Search::make_parts(const Trial& here) {
   for (std::size_t spline = 0; spline < here.paths.size(); ++spline) {
     const std::vector<double>& ends_m = std::get<Curve>(here.paths[spline].pieces.front()).breakpoints_m();
+    spans_ += ends_m.size() - 1;
     for (std::size_t span = 0; span + 1 < ends_m.size(); ++span) {
       const double length_m = ends_m[span + 1] - ends_m[span];
       const auto count =
@@ -221,7 +234,7 @@ Search::Nearest Search::nearest_on(const Part& part, const Curve& curve) const {
   const double end_m = s0_m + part.to * length_m;
   Nearest nearest{.slack_m = kNoLimit};
   for (double s_m = s0_m + part.from * length_m;;) {
-    const double slack_m = search_.checker->near_slack_m(curve.at(s_m).pose);
+    const double slack_m = search_.checker->near_slack_m(search_.checker->pose_on(curve, s_m));
     if (slack_m < nearest.slack_m) nearest = {slack_m, s_m};
     if (s_m >= end_m) return nearest;
     s_m = std::min(end_m, s_m + std::max(kSlackStep_m, kTrust * (slack_m - nearest.slack_m)));
@@ -247,12 +260,39 @@ PointSlope Search::slack_slope(const Part& part, const Curve& curve, double s_m)
           .by_heading_rad = search_.checker->is_disc() ? 0.0 : by(0, 0, 1)};
 }
 
-/// Per part of a path: margin less the least slack on it <= 0, in metres.
+/// Per span: how far its curvature is above the tightest one, in logarithms; spans that bend much less count as
+/// kWide. Steps that know of the bound do not end in splines that are none (free_spline.hpp).
+void Search::bends(double* result, const Trial& here, double* gradient) const {
+  for (std::size_t k = 0; k < here.splines.size(); ++k) {
+    const std::vector<BezierPoints> spans = spline_spans(here.splines[k]);
+    for (std::size_t span = 0; span < spans.size(); ++span, ++result) {
+      double tightest = 0, at = 0;
+      for (int i = 0; i <= kLooks; ++i) {
+        const double t = static_cast<double>(i) / kLooks;
+        const double curvature = curvature_of(spans[span], t);
+        if (std::abs(curvature) > std::abs(tightest)) tightest = curvature, at = t;
+      }
+      *result = std::max(kWide, std::log(std::abs(tightest) / (kTightShare * kTightest_per_m)));
+      if (!gradient) continue;
+      if (*result > kWide) {
+        const PointSlope slope{.span = span, .t = at, .by_curvature = 1 / tightest};
+        const std::vector<double> by =
+            gradient_of(here.splines, {spline_slopes(here.splines[k], slope)}, k);
+        std::copy(by.begin(), by.end(), gradient);
+      }
+      gradient += columns_.size();
+    }
+  }
+}
+
+/// Per part of a path: margin less the least slack on it <= 0, in metres. Per span: its bend.
 void Search::constraints(double* result, const std::vector<double>& x, double* gradient) {
   const Trial& here = trial(x);
-  if (gradient) std::fill(gradient, gradient + parts_.size() * x.size(), 0.0);
-  std::fill(result, result + parts_.size(), 0.0);
+  const std::size_t rows = parts_.size() + spans_;
+  if (gradient) std::fill(gradient, gradient + rows * x.size(), 0.0);
+  std::fill(result, result + rows, 0.0);
   if (here.paths.empty()) return;
+  bends(result + parts_.size(), here, gradient ? gradient + parts_.size() * x.size() : nullptr);
   for (std::size_t j = 0; j < parts_.size(); ++j) {
     const Part& part = parts_[j];
     const Curve& curve = std::get<Curve>(here.paths[part.spline].pieces.front());
@@ -281,10 +321,10 @@ std::optional<SplineSearchResult> Search::run() {
       [](unsigned, double* result, unsigned n, const double* x, double* gradient, void* self) {
         static_cast<Search*>(self)->constraints(result, std::vector<double>(x, x + n), gradient);
       },
-      this, std::vector<double>(parts_.size(), 1e-5));
+      this, std::vector<double>(parts_.size() + spans_, 1e-5));
   optimizer.set_ftol_rel(1e-5);
   optimizer.set_xtol_rel(1e-6);
-  optimizer.set_maxeval(search_.most_evaluations);
+  optimizer.set_maxeval(kRefusedToo * search_.most_evaluations);
   optimize_as_far_as_possible(optimizer, x_);
   if (best_) best_->evaluations = evaluations_;
   return std::move(best_);

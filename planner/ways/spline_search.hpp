@@ -9,7 +9,8 @@
 #include "planner/path/shape/spline_slopes.hpp"
 
 // Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md,
-// docs/decisions/0561-hopeless-searches-end-early.md
+// docs/decisions/0561-hopeless-searches-end-early.md,
+// docs/decisions/0600-a-tight-bend-is-an-inequality.md
 namespace joulepath {
 
 inline constexpr double kClearanceMargin_m = 0.002;

@@ -60,7 +60,8 @@ double Swing::blocked(const Path& path) const {
   const int looks = 1 + static_cast<int>(curve.length_m() / kLook_m);
   int in_the_way = 0;
   for (int i = 0; i <= looks; ++i)
-    in_the_way += checker_.slack_m(curve.at(curve.length_m() * i / looks).pose) < kClearanceMargin_m;
+    in_the_way +=
+        checker_.slack_m(checker_.pose_on(curve, curve.length_m() * i / looks)) < kClearanceMargin_m;
   return in_the_way / (1.0 + looks);
 }
 

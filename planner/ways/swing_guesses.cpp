@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/ways/swing_arc.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -16,7 +18,10 @@ constexpr double kFirstKnot_m[] = {0.5, 1.2};
 constexpr double kBetweenKnots_m = 1.2;
 constexpr double kHalfway_m[] = {0.15, 0.35};  ///< to a knot in the middle of a swing
 constexpr double kBack_rad = 2.4;              ///< from this turn on, swings to both sides are guessed
-constexpr double kAligned_rad = 0.3;           ///< headings this close need no swing
+constexpr double kRadius_m[] = {0.1, 0.25, 0.6};  ///< of arcs
+constexpr double kMostArc_rad = 5.5;
+constexpr double kShortestLine_m = 0.02;               ///< between two arcs
+constexpr double kAligned_rad = SwingArc::kLeast_rad;  ///< headings this close need no swing
 
 Point2 beside(const Point2& at, double bearing, double reach_m) {
   return {at[0] + reach_m * std::cos(bearing), at[1] + reach_m * std::sin(bearing)};
@@ -37,6 +42,11 @@ struct End {
   Point2 halfway(double share_m, double by_rad) const {
     return beside(place, bearing_rad - turn_rad + 0.5 * by_rad, share_m);
   }
+  /// The turn, and the one the other way round where both are long.
+  std::vector<double> turns_rad() const {
+    if (std::abs(turn_rad) <= kBack_rad) return {turn_rad};
+    return {turn_rad, turn_rad - 2 * sign(turn_rad) * std::numbers::pi};
+  }
   /// A point behind the robot, opposite to its heading: the curve then nearly turns in place.
   Point2 behind(double share_m) const {
     return beside(place, bearing_rad - turn_rad + std::numbers::pi, share_m);
@@ -55,6 +65,7 @@ class Guesses {
   void face(double leave_rad, double arrive_rad);
   void guess_spans();
   void guess_swings();
+  void guess_arcs();
   void guess_joined();
   void guess_along();
   struct Leaving {
@@ -89,6 +100,14 @@ void Guesses::add(double start_handle_m, double goal_handle_m, const std::vector
 /// One span: handles from centimetres to the whole distance.
 void Guesses::guess_spans() {
   const double reach_m = from_.reach_m;
+  for (const double by_rad : from_.turns_rad())
+    for (const double away_m : {0.3, 0.8})
+      for (const double handle_m : {0.08, 0.2}) {
+        const Point2 control = from_.halfway(away_m, by_rad);
+        const double goal_m = distance_m(control, request_.goal_m);
+        if (!request_.goal_heading_rad && away_m < 0.8 * reach_m)
+          add(handle_m, goal_m, {}, bearing_rad(control, request_.goal_m));
+      }
   for (const double start_m : {0.05, 0.15, 0.4, 1.0, 0.35 * reach_m})
     for (const double goal_m : {0.1, 0.4, 0.35 * reach_m})
       if (std::max(start_m, goal_m) < 0.8 * reach_m) add(start_m, goal_m, {});
@@ -132,6 +151,29 @@ void Guesses::guess_swings() {
         add(0.1, handle_m, {from_.knot(0.45, 0.5), to_.behind(away_m)});
       }
     }
+}
+
+/// An arc, a straight line and, where the goal names a heading, another arc: every sense of rotation at both
+/// ends. A swing keeps the whole turns of its first guess, as no curve without a cusp lies between two of them.
+void Guesses::guess_arcs() {
+  const std::optional<double>& goal_rad = request_.goal_heading_rad;
+  for (const double radius_m : kRadius_m)
+    for (const int first : {-1, 1})
+      for (const int last : goal_rad ? std::vector<int>{-1, 1} : std::vector<int>{0}) {
+        const SwingArc from{start_m(), request_.start.heading_rad, first * radius_m},
+            to{request_.goal_m, goal_rad.value_or(0.0), last * radius_m};
+        const Point2 a = from.center_m(), b = to.center_m();
+        const double aside_m = (last - first) * radius_m, apart_m = distance_m(a, b);
+        if (apart_m <= std::abs(aside_m) + kShortestLine_m) continue;
+        const double line_m = std::sqrt(apart_m * apart_m - aside_m * aside_m);
+        const double line_rad = bearing_rad(a, b) - std::atan2(aside_m, line_m);
+        const double turned_rad = positive_rad(first * (line_rad - from.heading_rad)),
+                     turning_rad = goal_rad ? positive_rad(last * (*goal_rad - line_rad)) : 0.0;
+        if (std::max(turned_rad, turning_rad) > kMostArc_rad) continue;
+        std::vector<Point2> knots = from.knots(first * turned_rad), ending = to.knots(-last * turning_rad);
+        knots.insert(knots.end(), ending.rbegin(), ending.rend());
+        add(from.handle_m(turned_rad, line_m), to.handle_m(turning_rad, line_m), knots, line_rad);
+      }
 }
 
 /// Keeps the middle of the given curve and replaces its ends by swings.
@@ -225,6 +267,7 @@ std::vector<SwingGuess> Guesses::all() {
   face(straight_rad, straight_rad);
   guess_spans();
   guess_swings();
+  guess_arcs();
   if (request_.along && request_.along->segments().size() > 1) {
     face(request_.along->at(0).pose.heading_rad,
          request_.along->at(request_.along->length_m()).pose.heading_rad);

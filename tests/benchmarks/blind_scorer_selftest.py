@@ -102,6 +102,24 @@ class Scorer(unittest.TestCase):
         self.assertEqual(self.value(cases, "foreign effect: says none fits"), 0.5)
         self.assertEqual(self.value(cases, "true effect removed"), 1)
 
+    def test_what_the_observer_tells_apart_is_to_be_named_or_listed(self):
+        day = lambda separable: {**label("single", "a"), "oracle": {"detectable": True, "separable": separable}}
+        small = judge.Answer({"verdict": "no_gap", "below_materiality": [{"effect": "a"}]})
+        cases = [(day(True), said("explained", "a")), (day(True), small), (day(True), said("no_gap")), (day(False), said("no_gap")),
+                 (label("single", "a"), said("no_gap"))]  # the last: nobody asked the observer
+        self.assertAlmostEqual(self.value(cases, "top-1 or below_materiality, single separable"), 2 / 3)
+        self.assertAlmostEqual(self.value(cases, "the same by the observer"), 3 / 4)
+
+    def test_a_pair_with_a_small_member_is_no_pair_of_material_effects(self):
+        def day(small):
+            changes = {"a": {"effect_percent": 5}, "b": {"effect_percent": small, "effect_pose_rms": 0.001}}
+            return {**label("pair", "a", "b"), "oracle": {"detectable": True, "effect_percent": 5, "each_change": changes}}
+        listed = judge.Answer({"verdict": "explained", "causes": said("explained", "a").causes, "below_materiality": [{"effect": "b"}]})
+        cases = [(day(0.3), said("explained", "a")), (day(0.3), listed), (day(3), said("explained", "a", "b")), (day(3), said("explained", "a"))]
+        self.assertEqual(self.value(cases, "pairs: both, each detectable"), 1 / 2)
+        self.assertEqual(self.value(cases, "pairs: both named or listed"), 1 / 2)
+        self.assertEqual(self.value(cases, "pairs: both, detectable and material"), 1 / 4)
+
     def test_a_spoilt_channel_is_named_by_its_kind_its_column_and_its_scope(self):
         day = {**label("spoilt", "a"), "spoil": {"way": "currents inverted", "all_runs": True}}
         suspect = lambda **check: judge.Answer({"verdict": "data_suspect", "data_checks": [{"kind": "inverted", "channel": "motor_current_left_A", "run": "all", **check}]})

@@ -138,6 +138,47 @@ class Plant(unittest.TestCase):
         self.assertGreater(ratios[2], 25)
         self.assertAlmostEqual(ratios[2] / ratios[1], 100, delta=20)  # quadratic in the size
 
+    def observed(self, *arguments):
+        label = self.folder / "label.json"
+        subprocess.run([PLANT, "--seed", "3", "--label", str(label), "--observer", *arguments], check=True)
+        return json.loads(label.read_text())["oracle"]
+
+    def test_the_observer_does_not_separate_an_effect_from_its_twin(self):
+        """At one payload rolling resistance is Coulomb friction; at several it is not."""
+        rolling = ("--effect", "rolling_resistance", "--size", "0.002", "--protocol", "12")
+        twin, clear = self.observed(*rolling, "--one-log"), self.observed(*rolling)
+        self.assertTrue(twin["detectable"])
+        self.assertFalse(twin["separable"])
+        self.assertLess(twin["single_separation"], 0.05 * twin["likelihood_ratio"])
+        self.assertTrue(clear["separable"])
+
+    def test_the_observer_separates_a_clear_effect(self):
+        clear = self.observed("--effect", "supply_sag", "--size", "0.3", "--protocol", "6")
+        self.assertTrue(clear["separable"])
+        self.assertGreater(clear["separation"], 1000)
+
+    def test_more_noise_separates_no_better_and_nothing_beats_detection(self):
+        before, ratios = float("inf"), []
+        for noise in ("0.5", "1", "2", "4"):
+            oracle = self.observed("--effect", "dragging_wheel", "--size", "0.06", "--level", "1", "--protocol", "12", "--noise", noise)
+            if "separation" not in oracle:
+                self.assertFalse(oracle["detectable"])
+                continue
+            self.assertLessEqual(oracle["separation"], 1.001 * before)
+            self.assertLessEqual(oracle["separation"], oracle["likelihood_ratio"])
+            self.assertLessEqual(oracle["separation"], oracle["single_separation"])
+            before = oracle["separation"]
+            ratios.append(before)
+        self.assertGreater(len(ratios), 1)
+        self.assertLess(ratios[-1], ratios[0])
+
+    def test_a_member_of_a_pair_changes_what_it_would_change_alone(self):
+        pair = self.observed("--effect", "standby_power_error,wheel_radius_mismatch", "--size", "2,0.02", "--protocol", "6")["each_change"]
+        alone = self.observed("--effect", "wheel_radius_mismatch", "--size", "0.02", "--protocol", "6")
+        self.assertAlmostEqual(pair["wheel_radius_mismatch"]["effect_pose_rms"] / alone["effect_pose_rms"], 1, delta=1e-3)
+        self.assertLess(pair["standby_power_error"]["effect_pose_rms"], 1e-6)
+        self.assertGreater(pair["standby_power_error"]["battery_percent"], 1)
+
     def test_a_label_for_a_blind_run_stays_out_of_the_folder(self):
         data = generate(self.folder / "a", "--seed", "5", "--protocol", "6", "--label", "none", "--effect", "floor_slope")
         self.assertEqual(len(list(data.iterdir())), 8)

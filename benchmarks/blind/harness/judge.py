@@ -17,10 +17,25 @@ def detectable(label):
     return bool(label["effects"]) and label["oracle"]["detectable"]
 
 
+def is_material(change):
+    """The motors' or the battery's energy changes by at least 1 %, or the pose by 0.02 (m and rad, rms)."""
+    return change.get("effect_percent", 0) >= 1 or change.get("effect_pose_rms", 0) >= 0.02
+
+
 def material(label):
-    """The effects change the motors' or the battery's energy by at least 1 %, or the pose by 0.02 (m and rad, rms)."""
-    oracle = label["oracle"]
-    return detectable(label) and (oracle.get("effect_percent", 0) >= 1 or oracle.get("effect_pose_rms", 0) >= 0.02)
+    """The effects together are."""
+    return detectable(label) and is_material(label["oracle"])
+
+
+def each_material(label):
+    """Each of several effects is by itself, the others being there."""
+    changes = label["oracle"].get("each_change") or {}
+    return detectable(label) and bool(changes) and all(map(is_material, changes.values()))
+
+
+def separable(label):
+    """An observer of the same logs tells the single effect from every other effect and pair; None: nobody asked."""
+    return label["oracle"].get("separable")
 
 
 LEAST_BATTERY_percent = 5  # of the battery's energy: a gap that a log of odometry and battery has to show
@@ -87,6 +102,10 @@ class Answer:
     def small(self):
         """The effects that are stated as below the materiality floor."""
         return {effect_of(entry["effect"]) for entry in self.raw.get("below_materiality") or []}
+
+    def named_or_small(self):
+        """The effects of the named groups, and those below the materiality floor."""
+        return self.small() | (set() if self.silent else self.group)
 
     def lists_unknown(self):
         """An unknown term below the materiality floor."""

@@ -80,6 +80,9 @@ def rates(cases):
     first = lambda l, a: a.first in judge.truth_of(l)
     exact = lambda l, a: set(a.names) == set(judge.truth_of(l)) and not a.silent
     every = lambda l, a: set(judge.truth_of(l)) <= a.group and not a.silent
+    told = lambda l, a: first(l, a) or bool(set(judge.truth_of(l)) & a.small())
+    weighed = [(l, a) for l, a in singles if judge.separable(l) is not None]
+    each_large = [(l, a) for l, a in pairs if judge.each_material(l)]
     any_of = lambda l, a: bool(set(judge.truth_of(l)) & a.group) and not a.silent
     rate = lambda name, hit, entries, aim=None, fails=None, up=True: Rate(name, (hit(l, a) for l, a in entries), aim, fails, up)
     return [
@@ -88,7 +91,9 @@ def rates(cases):
         rate("exactly the true set, single material, 24 and 12 runs", exact, many, 0.96, 0.92),
         rate("exactly the true set, single material, 6 runs", exact, few, 0.90, 0.85),
         rate("top-1, single detectable effect", first, singles),
-        rate("top-1 or below_materiality, single detectable effect", lambda l, a: first(l, a) or bool(set(judge.truth_of(l)) & a.small()), singles),
+        rate("top-1 or below_materiality, single separable effect", told, [(l, a) for l, a in weighed if judge.separable(l)], 0.95, 0.90),
+        rate("top-1 or below_materiality, single detectable effect", told, singles),
+        rate("the same by the observer: single detectable effect is separable", lambda l, a: judge.separable(l), weighed),
         rate("top-3, single detectable effect", lambda l, a: judge.truth_of(l)[0] in a.top(3), singles),
         rate("true effect inside the named group", any_of, singles),
         rate("exactly the true set, single detectable", exact, singles),
@@ -100,6 +105,8 @@ def rates(cases):
         rate("false alarm on null sets (a failure counts as one)", lambda l, a: a.failed or not a.silent, of("null"), 0.01, 0.025, False),
         rate("pairs: both", every, pairs),
         rate("pairs: both, detectable and material", every, large(pairs), 0.88, 0.78),
+        rate("pairs: both, each detectable and material by itself", every, each_large, 0.88, 0.78),
+        rate("pairs: both named or listed below_materiality", lambda l, a: set(judge.truth_of(l)) <= a.named_or_small(), pairs),
         rate("pairs: at least one", any_of, pairs, 0.98, 0.95),
         rate("triples: all three", every, triples),
         rate("triples: at least one", any_of, triples),

@@ -29,6 +29,12 @@ void draw_calibration_error(Case& c) {
   }
 }
 
+void scale_noise(SensorNoise& n, double factor) {
+  for (double* deviation : {&n.wheel_speed_rad_s, &n.voltage_V, &n.current_A, &n.battery_voltage_V,
+                            &n.battery_current_A, &n.gyro_rad_s, &n.position_m, &n.heading_rad})
+    *deviation *= factor;
+}
+
 /// Sensors are scaled to the machine; those of the Nomad equal the sensors of the practice sets.
 void draw_noise(Case& c) {
   Random random = stream(c, 2);
@@ -125,6 +131,7 @@ Case draw_case(const CaseRequest& request) {
   c.nominal = nominal_machine(request.robot);
   draw_calibration_error(c);
   draw_noise(c);
+  scale_noise(c.noise, request.noise);
   draw_roughness(c);
   Random days = day_stream(c, 4);
   c.runs = test_day(c.nominal, request.runs, days);
@@ -181,9 +188,9 @@ void write_case(const Case& c, const std::string& folder) {
   write_file(where / "dataset.yaml", dataset.str());
 }
 
-void write_label(const Case& c, const std::string& path, bool with_oracle) {
+void write_label(const Case& c, const std::string& path, bool with_oracle, bool with_observer) {
   OracleResult oracle;
-  if (with_oracle) oracle = consult_oracle(c);
+  if (with_oracle) oracle = consult_oracle(c, with_observer);
   const OracleResult* known = with_oracle ? &oracle : nullptr;
   write_file(path, path.ends_with(".json") ? label_json(c, known) : label_text(c, known));
 }

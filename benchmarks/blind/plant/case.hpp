@@ -21,6 +21,7 @@ struct CaseRequest {
   int level{0};  ///< 0 = white noise and textbook forms, 1 = rough
   std::uint64_t seed{1};
   std::uint64_t day{0};                 ///< another day of the same machine: other runs, scatter and noise
+  double noise{1.0};                    ///< factor on the deviation of every channel's noise
   bool one_log{};                       ///< the day's motions in one long log
   std::vector<std::string> appended{};  ///< descriptions of runs after the test day, see described_run
 };
@@ -53,7 +54,9 @@ struct Case {
 /// Write robot.yaml, dataset.yaml and run_XX.csv into `folder` (made if needed).
 void write_case(const Case& c, const std::string& folder);
 
-/// Write the label, as JSON where the path ends so, else as YAML; with what the oracle says if asked.
-void write_label(const Case& c, const std::string& path, bool with_oracle);
+/// Write the label, as JSON where the path ends so, else as YAML; with what the oracle says if asked,
+/// and the observer.
+void write_label(const Case& c, const std::string& path, bool with_oracle,
+                 bool with_observer);
 
 }  // namespace blind

@@ -18,7 +18,8 @@ constexpr const char* kUsage =
     "usage: blind_plant --effect NAME[,NAME] [--size X[,X] | --share X[,X]] [--robot "
     "nomad|warehouse|small|tug]\n"
     "                   [--protocol 24|12|6] [--one-log]\n"
-    "                   [--level 0|1] [--seed S] [--day D] [--out DIR] [--label FILE|none] [--oracle]\n"
+    "                   [--level 0|1] [--seed S] [--day D] [--noise F] [--out DIR] [--label FILE|none]\n"
+    "                   [--oracle] [--observer]\n"
     "       blind_plant --list\n"
     "  --effect   none, a catalog name, a foreign kind, or up to three of them\n"
     "  --size     the effect's first parameter in its own unit (0 or absent: drawn log-uniform)\n"
@@ -26,11 +27,13 @@ constexpr const char* kUsage =
     "  --out      folder of the data set; absent: the label alone is written\n"
     "  --label    where the label goes, YAML or (*.json) JSON (default: DIR/truth.yaml; `none`: nowhere)\n"
     "  --day      another day of the same machine (default 0): other runs, scatter and noise\n"
+    "  --noise    factor on the noise of every channel (default 1)\n"
     "  --append   more runs after the test day: legs key:value,... joined by + (keys of a mission's "
     "`motion:`),\n"
     "             runs by ;\n"
     "  --one-log  the day's motions in one long log, with the payload of the first\n"
-    "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n";
+    "  --oracle   adds to the label what an all-knowing observer could detect (slower)\n"
+    "  --observer the same, and what a single effect could be told apart from (four times as slow)\n";
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
@@ -65,6 +68,7 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
   request.level = std::stoi(get("--level", "0"));
   request.seed = std::stoull(get("--seed", "1"));
   request.day = std::stoull(get("--day", "0"));
+  request.noise = std::stod(get("--noise", "1"));
   std::istringstream appended(get("--append", ""));
   for (std::string one; std::getline(appended, one, ';');) request.appended.push_back(one);
   if (request.runs < 1 || request.runs > 24 || request.level < 0 || request.level > 1 ||
@@ -75,12 +79,14 @@ blind::CaseRequest request_of(const std::map<std::string, std::string>& given) {
 
 int run(int argc, char** argv) {
   std::map<std::string, std::string> given;
-  bool oracle = false, one_log = false;
+  bool oracle = false, observer = false, one_log = false;
   for (int k = 1; k < argc; ++k) {
     const std::string key = argv[k];
     if (key == "--list") return list_names();
     if (key == "--oracle")
       oracle = true;
+    else if (key == "--observer")
+      oracle = observer = true;
     else if (key == "--one-log")
       one_log = true;
     else if (key.rfind("--", 0) == 0 && k + 1 < argc)
@@ -90,7 +96,8 @@ int run(int argc, char** argv) {
   }
   for (const auto& [key, value] : given)
     if (std::string(
-            " --effect --size --share --robot --protocol --level --seed --day --out --label --append ")
+            " --effect --size --share --robot --protocol --level --seed --day --noise --out --label "
+            "--append ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
   const std::string out = given["--out"];
@@ -102,7 +109,7 @@ int run(int argc, char** argv) {
   request.one_log = one_log;
   const blind::Case c = blind::draw_case(request);
   if (!out.empty()) blind::write_case(c, out);
-  if (label != "none") blind::write_label(c, label, oracle);
+  if (label != "none") blind::write_label(c, label, oracle, observer);
   return 0;
 }
 

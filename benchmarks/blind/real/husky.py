@@ -60,11 +60,18 @@ def is_straight(piece):
     return left > 0.1 and abs(left - right) < STRAIGHT_m_s
 
 
+def without_repeats(stretches):
+    """Two recordings of SNOW hold the same samples in part: a stretch counts once."""
+    readings = lambda piece: tuple(tuple(row[key] for key in ("velL", "velR", "curL", "curR")) for row in piece)
+    return list({readings(piece): piece for piece in stretches}.values())
+
+
 def load(data, terrain):
     """{kind: stretches}, at most MOST_RUNS of each kind, spread over all recordings; and how many recordings there are."""
     logs = [recordings.rows_of(path) for path in sorted((data / FOLDER / terrain).glob("pro_*.csv"))]
     found = {kind: [piece for log in logs for piece in pieces(log, kind)] for kind in ("straight", "spin")}
     found["straight"] = [piece for piece in found["straight"] if is_straight(piece)]
+    found = {kind: without_repeats(every) for kind, every in found.items()}
     return {kind: every[::-(-len(every) // MOST_RUNS) or 1] for kind, every in found.items()}, len(logs)
 
 

@@ -101,8 +101,10 @@ struct Interval {
   }
 };
 
+/// Inlined, so that a term computes nothing but the part of the load that it uses.
 template <class Real>
-WheelLoad<Real> affine_load(const AffineWheel& wheel, const Motion<Real>& motion) {
+[[gnu::always_inline]] inline WheelLoad<Real> affine_load(const AffineWheel& wheel,
+                                                          const Motion<Real>& motion) {
   const Real current_A = wheel.current_A(motion.a, motion.b, motion.u);
   const Real voltage_V = wheel.voltage_V(motion.a, motion.b, motion.u);
   return {current_A, voltage_V, wheel.force_N(motion.a, motion.b, motion.u), voltage_V * current_A};
@@ -129,7 +131,8 @@ Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& p
 
 /// Wheel load at one of the limit points.
 template <class AnyInterval, class Real = typename AnyInterval::Real>
-WheelLoad<Real> load_at(const AnyInterval& interval, std::size_t point, Side side) {
+[[gnu::always_inline]] inline WheelLoad<Real> load_at(const AnyInterval& interval, std::size_t point,
+                                                      Side side) {
   const SegmentPoint& place = interval.segment.limit_points[point];
   const Motion<Real> motion = interval.at_limit_point(point);
   if (place.affine) return affine_load(place.wheel[side], motion);

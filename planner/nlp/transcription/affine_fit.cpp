@@ -24,26 +24,62 @@ Affine fit(const Samples& samples, Side side, Member member) {
           .of_u = 0.5 * (fast - back)};
 }
 
+/// A quantity of a wheel along a path, from what it is by the body's motion:
+///   v = along u,   v' = along a,   omega = turn u,   omega' = turn a + turn_slope u^2.
+template <class ByBody>
+Affine along_path(const ByBody& x, const PathRates& rates) {
+  return {.constant = x.constant,
+          .of_a = x.acceleration * rates.along + x.yaw_acceleration * rates.turn,
+          .of_b = x.yaw_acceleration * rates.turn_slope,
+          .of_u = x.speed * rates.along + x.yaw_rate * rates.turn};
+}
+
 bool agrees(double fitted, double exact, double scale) {
   return std::abs(fitted - exact) <= 1e-9 * (scale + std::abs(exact));
 }
 
 }  // namespace
 
-bool fit_affine(const Plant& plant, const PathRates& rates, const Site& site, Sided<AffineWheel>& wheel) {
-  const auto at = [&](double u, double a) {
+void AffineFit::take_directions(const Site& site) {
+  wheel_direction_ = site.wheel_direction;
+  payload_kg_ = site.payload_kg;
+  const auto at = [&](const BodyMotion<double>& motion) { return operating_point(*plant_, motion, site); };
+  const States rest = at({}), speed = at({.speed_m_s = 1}), acceleration = at({.acceleration_m_s2 = 1}),
+               yaw_rate = at({.yaw_rate_rad_s = 1}), yaw_acceleration = at({.yaw_acceleration_rad_s2 = 1});
+  const auto by_body = [&](Side side, double WheelState<double>::*member) {
+    const double none = rest[side].*member;
+    return ByBody{.constant = none,
+                  .speed = speed[side].*member - none,
+                  .acceleration = acceleration[side].*member - none,
+                  .yaw_rate = yaw_rate[side].*member - none,
+                  .yaw_acceleration = yaw_acceleration[side].*member - none};
+  };
+  for (Side side : kSides)
+    by_body_[side] = {by_body(side, &WheelState<double>::current_A),
+                      by_body(side, &WheelState<double>::voltage_V),
+                      by_body(side, &WheelState<double>::contact_force_N)};
+}
+
+bool AffineFit::at(const PathRates& rates, const Site& site, Sided<AffineWheel>& wheel) {
+  const Plant& plant = *plant_;
+  if (plant.torque_loss_fraction != 0 || plant.driver_voltage_drop_V != 0) return false;
+  if (plant.effects.empty()) {  // the model without effects is linear in the body's motion
+    if (wheel_direction_ != site.wheel_direction || payload_kg_ != site.payload_kg) take_directions(site);
+    for (Side side : kSides)
+      wheel[side] = {along_path(by_body_[side].current_A, rates),
+                     along_path(by_body_[side].voltage_V, rates), along_path(by_body_[side].force_N, rates)};
+    return true;
+  }
+  const auto motion_at = [&](double u, double a) {
     return operating_point(plant, PathMotion::body_motion(rates, u, a), site);
   };
-  const Samples samples{at(0, 0), at(1, 0), at(-1, 0), at(0, 1)};
-  const bool bent = plant.torque_loss_fraction != 0 || plant.driver_voltage_drop_V != 0;
-  if (bent) return false;
+  const Samples samples{motion_at(0, 0), motion_at(1, 0), motion_at(-1, 0), motion_at(0, 1)};
   for (Side side : kSides)
     wheel[side] = {fit(samples, side, &WheelState<double>::current_A),
                    fit(samples, side, &WheelState<double>::voltage_V),
                    fit(samples, side, &WheelState<double>::contact_force_N)};
-  if (plant.effects.empty()) return true;  // the model without effects is affine
   constexpr double u = 0.37, a = -0.83;
-  const States probe = at(u, a);
+  const States probe = motion_at(u, a);
   for (Side side : kSides) {
     const AffineWheel& fitted = wheel[side];
     if (!agrees(fitted.current_A(a, u * u, u), probe[side].current_A, 1.0) ||

@@ -13,14 +13,44 @@ namespace {
 
 constexpr std::size_t kScan = 1000;
 
+constexpr int kLooksPerSegment = 24;
+/// Share of the curvature at which a wheel stands; used where the curvature is only sampled or bounded.
+constexpr double kSafeShare = 0.7;
+
+/// Whether a wheel may stand or run backwards somewhere on a segment: |curvature| >= 1 / half track.
+bool wheel_may_reverse(const CurveSegment& segment, double half_track_m) {
+  return std::visit(
+      [&](const auto& part) {
+        constexpr bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+        if constexpr (!linear)
+          if (part.curvature_bound_per_m() * half_track_m <= kSafeShare) return false;
+        const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
+        double most_per_m = 0;
+        for (int i = 0; i <= looks; ++i)
+          most_per_m = std::max(most_per_m, std::abs(part.bend(part.length_m() * i / looks).curvature_per_m));
+        return most_per_m * half_track_m > (linear ? 1 - 1e-9 : kSafeShare);
+      },
+      segment);
+}
+
 /// Torques of the wheels at negligible speed. Without effects they depend on the wheels' directions alone and
-/// are computed only where a direction changes.
+/// are computed only where a direction changes, which is looked for where a wheel may reverse.
 class RestTorque {
  public:
-  explicit RestTorque(const PathMotion& motion) : motion_(motion) {}
+  explicit RestTorque(const PathMotion& motion) : motion_(motion) {
+    curve_ = motion.plant().effects.empty() ? std::get_if<Curve>(&motion.piece()) : nullptr;
+    if (!curve_) return;
+    for (const CurveSegment& segment : curve_->segments())
+      reverses_.push_back(wheel_may_reverse(segment, motion.plant().robot.geometry.half_track_m));
+  }
 
   const PathMotion& motion() const { return motion_; }
   Sided<double> at_Nm(double s) {
+    if (curve_) {
+      const std::size_t segment = curve_->segment_at(s);
+      if (direction_ && segment == segment_ && !reverses_[segment]) return torque_Nm_;
+      segment_ = segment;
+    }
     const PathMotion::Place place = motion_.laws(s, 0.0);
     const bool known = motion_.plant().effects.empty() && direction_ == place.site.wheel_direction;
     if (!known) {
@@ -34,7 +64,10 @@ class RestTorque {
 
  private:
   const PathMotion& motion_;
-  std::optional<Sided<double>> direction_{};  ///< of the last torque
+  const Curve* curve_{};          ///< null with effects and for turns
+  std::vector<bool> reverses_{};  ///< by segment: a wheel may reverse there
+  std::size_t segment_{};         ///< of the last torque, as its direction
+  std::optional<Sided<double>> direction_{};
   Sided<double> torque_Nm_{};
 };
 
@@ -88,32 +121,14 @@ bool torque_is_the_same_everywhere(const ProfileRequest& request) {
   });
 }
 
-constexpr int kLooksPerSegment = 24;
-/// Share of the curvature at which a wheel stands; used where the curvature is only sampled.
-constexpr double kSafeShare = 0.7;
-
-/// Whether a wheel may stand or run backwards somewhere on the curve: |curvature| >= 1 / half track.
-bool wheel_may_reverse(const Curve& curve, double half_track_m) {
-  return std::any_of(curve.segments().begin(), curve.segments().end(), [&](const CurveSegment& segment) {
-    return std::visit(
-        [&](const auto& part) {
-          const bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
-          const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
-          double most_per_m = 0;
-          for (int i = 0; i <= looks; ++i)
-            most_per_m =
-                std::max(most_per_m, std::abs(part.bend(part.length_m() * i / looks).curvature_per_m));
-          return most_per_m * half_track_m > (linear ? 1 - 1e-9 : kSafeShare);
-        },
-        segment);
-  });
-}
-
 /// Without effects only the sign of a wheel's friction jumps.
 bool torque_may_jump(const ProfileRequest& request) {
   if (torque_is_the_same_everywhere(request)) return false;
-  return !request.plant.effects.empty() ||
-         wheel_may_reverse(std::get<Curve>(request.piece), request.plant.robot.geometry.half_track_m);
+  if (!request.plant.effects.empty()) return true;
+  const std::vector<CurveSegment>& segments = std::get<Curve>(request.piece).segments();
+  return std::any_of(segments.begin(), segments.end(), [&](const CurveSegment& segment) {
+    return wheel_may_reverse(segment, request.plant.robot.geometry.half_track_m);
+  });
 }
 
 /// Drops nodes that are closer together than rounding allows; both ends stay.

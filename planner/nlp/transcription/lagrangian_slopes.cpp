@@ -17,7 +17,11 @@ constexpr double kStep = 1e-4;  ///< of differences: costs are low polynomials o
 class Slopes {
  public:
   Slopes(const Problem& problem, const PathMotion& motion, const Solution& solution)
-      : p_(problem), motion_(motion), solution_(solution), posed_(!motion.plant().effects.empty()) {}
+      : p_(problem),
+        motion_(motion),
+        solution_(solution),
+        posed_(!motion.plant().effects.empty()),
+        affine_fit_(motion.plant()) {}
 
   PathSlopes all() {
     for (std::size_t k = 0; k < p_.segment_count(); ++k) add_segment(k);
@@ -65,6 +69,7 @@ class Slopes {
   const PathMotion& motion_;
   const Solution& solution_;
   bool posed_;  ///< laws depend on the pose
+  AffineFit affine_fit_;
   PathSlopes slopes_{};
   // Of the present segment:
   std::size_t k_{};
@@ -97,7 +102,7 @@ PlaceSlope Slopes::at_point(SegmentPoint& point, const Share& share) {
       move(point, side == 0 ? -step : step);
       if (posed_)
         point.site.course = course_of(motion_.plant().robot.geometry, point.rates.along, point.rates.turn);
-      if (point.affine) (void)fit_affine(motion_.plant(), point.rates, point.site, point.wheel);
+      if (point.affine) (void)affine_fit_.at(point.rates, point.site, point.wheel);
       value[side] = share();
     }
     point = original;

@@ -46,10 +46,10 @@ double time_share(double u0, double u1, double share) {
 class Transcriber {
  public:
   Transcriber(const ProfileRequest& request, const PathMotion& motion, const Profile* previous)
-      : request_(request), motion_(motion), previous_(previous) {}
+      : request_(request), motion_(motion), previous_(previous), affine_fit_(request.plant) {}
 
   /// The segments of a grid.
-  std::vector<Segment> segments(const std::vector<double>& s) const {
+  std::vector<Segment> segments(const std::vector<double>& s) {
     std::vector<Segment> all;
     all.reserve(s.size());
     double before = rate(s.front());
@@ -61,10 +61,10 @@ class Transcriber {
     return all;
   }
   /// One of them.
-  Segment segment(double s0, double s1) const { return segment(s0, s1, rate(s0), rate(s1)); }
+  Segment segment(double s0, double s1) { return segment(s0, s1, rate(s0), rate(s1)); }
 
  private:
-  Segment segment(double s0, double s1, double u0, double u1) const {
+  Segment segment(double s0, double s1, double u0, double u1) {
     Segment segment{.s0 = s0, .ds = s1 - s0, .plant = &request_.plant};
     constexpr std::array<double, kLimitPoints> fractions{0.0, 0.5, 1.0};
     for (std::size_t i = 0; i < kLimitPoints; ++i)
@@ -99,19 +99,20 @@ class Transcriber {
     return {previous_->at_s(segment.s0).time_s, previous_->at_s(segment.s0 + segment.ds).time_s};
   }
 
-  SegmentPoint point(const Segment& segment, double fraction, double time_share) const {
+  SegmentPoint point(const Segment& segment, double fraction, double time_share) {
     const double s = segment.s0 + segment.ds * std::clamp(fraction, kInset, 1 - kInset);
     const double time_s = previous_ ? previous_->at_s(s).time_s : 0.0;
     const PathMotion::Place place = motion_.laws(s, time_s);
     SegmentPoint result{
         .fraction = fraction, .time_share = time_share, .rates = place.rates, .site = place.site};
-    result.affine = fit_affine(request_.plant, result.rates, result.site, result.wheel);
+    result.affine = affine_fit_.at(result.rates, result.site, result.wheel);
     return result;
   }
 
   const ProfileRequest& request_;
   const PathMotion& motion_;
   const Profile* previous_{};
+  AffineFit affine_fit_;
 };
 
 }  // namespace
@@ -192,7 +193,7 @@ Problem transcribe(const ProfileRequest& request, const PathMotion& motion, cons
                   .b_start = request.start_rate * request.start_rate,
                   .b_end = request.end_rate * request.end_rate,
                   .terms = rows_for(request.limits)};
-  const Transcriber transcriber(request, motion, previous);
+  Transcriber transcriber(request, motion, previous);
   problem.segments = transcriber.segments(s);
   for (std::size_t k = 0; k + 1 < s.size(); ++k)
     lower_caps(request, motion, problem.segments[k], tightenings, problem.cap[k], problem.cap[k + 1]);

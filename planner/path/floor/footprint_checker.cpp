@@ -98,6 +98,11 @@ Collision FootprintChecker::collision_at(double s, const Pose& pose, double slac
   return {s, pose, -slack, field_->nearest(pose.x_m, pose.y_m)};
 }
 
+Pose FootprintChecker::pose_on(const PathPiece& piece, double s) const {
+  const auto* curve = std::get_if<Curve>(&piece);
+  return curve ? pose_on(*curve, s) : piece_point(piece, s).pose;
+}
+
 double FootprintChecker::least_slack_m(const Path& path) const {
   double least_m = std::numeric_limits<double>::infinity();
   // In a turn, the outline of a polygon moves farther than its center.
@@ -105,7 +110,7 @@ double FootprintChecker::least_slack_m(const Path& path) const {
   for (const PathPiece& piece : path.pieces) {
     const double length = piece_length(piece);
     for (double s = 0;;) {
-      const double here_m = slack_m(piece_point(piece, s).pose);
+      const double here_m = slack_m(pose_on(piece, s));
       least_m = std::min(least_m, here_m);
       if (s >= length) break;
       s = std::min(length, s + std::max(kSlackStep_m, trust * (here_m - least_m)));
@@ -157,9 +162,11 @@ double FootprintChecker::reach_per_s(const PathPiece& piece) const {
 }
 
 std::optional<Collision> FootprintChecker::first_collision(const PathPiece& piece) const {
-  const auto place = [&piece](double s) { return piece_point(piece, s).pose; };
+  const auto place = [this, &piece](double s) { return pose_on(piece, s); };
   if (is_turn(piece) && is_disc()) return pose_collision(place(0));
-  return first_on(piece_length(piece), reach_per_s(piece), place);
+  std::optional<Collision> first = first_on(piece_length(piece), reach_per_s(piece), place);
+  if (first) first->pose = piece_point(piece, first->s).pose;
+  return first;
 }
 
 std::optional<Collision> FootprintChecker::first_collision(const Path& path) const {
@@ -172,7 +179,7 @@ bool FootprintChecker::segment_free(const CurveSegment& segment) const {
   const double reach = is_disc() ? 1 : 1 + outer_m_ * largest_curvature_per_m(segment);
   const double length_m = std::visit([](const auto& s) { return s.length_m(); }, segment);
   const auto place = [&](double s_m) {
-    return std::visit([s_m](const auto& s) { return s.at(s_m).pose; }, segment);
+    return std::visit([this, s_m](const auto& s) { return pose_on(s, s_m); }, segment);
   };
   return !first_on(length_m, reach, place).has_value();
 }

@@ -61,11 +61,15 @@ std::vector<std::uint32_t> shortest_parents(const OccupancyGrid& grid, Cell star
 }  // namespace
 
 FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
-    : field_(&field), grid_(field.map()), radius_m_(radius_m) {
+    : field_(&field),
+      grid_(field.map()),
+      radius_m_(radius_m),
+      cosine_(std::cos(grid_.origin.heading_rad)),
+      sine_(std::sin(grid_.origin.heading_rad)) {
   constexpr std::int32_t kUnlabelled = -2, kBlocked = -1;
   const std::size_t count = grid_.cell_count();
   component_.assign(count, kBlocked);
-  clear_.assign(count, 0);
+  rings_.assign(count, 0);
   const double clear_m = radius_m + kSpare_m + 0.5 * std::sqrt(2.0) * grid_.resolution_m;
   for (int row = 0; row < grid_.height; ++row)
     for (int column = 0; column < grid_.width; ++column) {
@@ -73,8 +77,9 @@ FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
       const double lower_m = field.distance_bounds_m(center[0], center[1]).lower_m;
       if (lower_m < radius_m) continue;
       component_[index({column, row})] = kUnlabelled;
-      clear_[index({column, row})] = lower_m >= clear_m ? 1 : 0;
+      rings_[index({column, row})] = lower_m >= clear_m ? 1 : 0;
     }
+  count_rings();
   std::int32_t label = 0;
   std::vector<Cell> open;
   for (int row = 0; row < grid_.height; ++row)
@@ -94,6 +99,26 @@ FreeSpace::FreeSpace(const ObstacleField& field, double radius_m)
       }
       ++label;
     }
+}
+
+/// Rings from those of the neighbors: one pass down the rows and one up. Outside of the grid nothing is
+/// clear.
+void FreeSpace::count_rings() {
+  constexpr int kMost = std::numeric_limits<std::uint8_t>::max();
+  const auto pass = [&](Cell cell, int back) {
+    std::uint8_t& here = rings_[index(cell)];
+    if (here == 0) return;
+    int least = kMost - 1;
+    for (const Cell& step : {Cell{-1, -1}, Cell{0, -1}, Cell{1, -1}, Cell{-1, 0}}) {
+      const Cell next{cell.column + back * step.column, cell.row + back * step.row};
+      least = std::min<int>(least, grid_.contains(next) ? rings_[index(next)] : 0);
+    }
+    here = static_cast<std::uint8_t>(back > 0 ? least + 1 : std::min<int>(here, least + 1));
+  };
+  for (int row = 0; row < grid_.height; ++row)
+    for (int column = 0; column < grid_.width; ++column) pass({column, row}, 1);
+  for (int row = grid_.height; row-- > 0;)
+    for (int column = grid_.width; column-- > 0;) pass({column, row}, -1);
 }
 
 std::optional<Cell> FreeSpace::free_cell_near(const Point2& point_m) const {
@@ -143,7 +168,7 @@ std::vector<Point2> FreeSpace::cell_route(const Point2& start_m, const Point2& g
   const double near_cells = kNearEnds_m / grid_.resolution_m;
   const auto usable = [&](Cell cell) {
     if (component_[index(cell)] < 0) return false;
-    if (cells == Cells::free || clear_[index(cell)] != 0) return true;
+    if (cells == Cells::free || rings_[index(cell)] != 0) return true;
     for (const Cell& end : {*start, *goal})
       if (std::hypot(cell.column - end.column, cell.row - end.row) <= near_cells) return true;
     return false;
@@ -170,7 +195,7 @@ DiscLineCheck::DiscLineCheck(const FreeSpace& space, const Point2& start_m, cons
 
 bool DiscLineCheck::near_ends(const Point2& p) const {
   for (const Point2& end : {start_m_, goal_m_})
-    if (std::hypot(p[0] - end[0], p[1] - end[1]) <= FreeSpace::kNearEnds_m) return true;
+    if (distance_m(p, end) <= FreeSpace::kNearEnds_m) return true;
   return false;
 }
 
@@ -183,8 +208,7 @@ bool DiscLineCheck::point_free(const Point2& p) const {
 bool DiscLineCheck::operator()(const Point2& a, const Point2& b) const {
   const OccupancyGrid& grid = space_->field().map();
   bool all_clear = true;
-  const bool possible = space_->for_cells_on_line(a, b, [&](bool clear, Cell cell) {
-    if (clear) return true;
+  const bool possible = space_->for_unclear_cells_on_line(a, b, [&](Cell cell) {
     all_clear = false;
     return cells_ == FreeSpace::Cells::free || near_ends(grid.center_of(cell));
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "planner/path/floor/obstacle_field.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
+// Design: docs/decisions/0620-less-work-per-place.md
 
 namespace joulepath {
 
@@ -37,12 +39,12 @@ class FreeSpace {
                                                Cells cells) const;
   [[nodiscard]] bool clear(double x_m, double y_m) const {
     const auto cell = grid_.cell_of(x_m, y_m);
-    return grid_.contains(cell) && clear_[index(cell)] != 0;
+    return grid_.contains(cell) && rings_[index(cell)] != 0;
   }
   [[nodiscard]] bool free_cell(OccupancyGrid::CellIndex cell) const { return component_[index(cell)] >= 0; }
-  /// Calls visit(cell is clear, cell center) for the cells that a line crosses until it returns false.
+  /// Calls visit(cell) for the cells on a line that are not clear until it returns false.
   template <class Visit>
-  bool for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;
+  bool for_unclear_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const;
 
   static constexpr double kNearEnds_m = 0.8;
   static constexpr double kSpare_m = 0.005;
@@ -50,12 +52,15 @@ class FreeSpace {
  private:
   std::optional<OccupancyGrid::CellIndex> free_cell_near(const Point2& point_m) const;
   std::size_t index(OccupancyGrid::CellIndex cell) const { return grid_.index_of(cell); }
+  void count_rings();
 
   const ObstacleField* field_{};
   OccupancyGrid grid_{};  ///< geometry only
   double radius_m_{};
   std::vector<std::int32_t> component_{};  ///< -1: not free
-  std::vector<std::uint8_t> clear_{};
+  /// 0: not clear; else the cells of so many rings about the cell, less one, are clear as well (at most 254).
+  std::vector<std::uint8_t> rings_{};
+  double cosine_{}, sine_{};  ///< of the grid's heading
 };
 
 /// Whether a disc may move along lines between two ends. Either quick and slightly conservative (clear cells
@@ -78,9 +83,10 @@ class DiscLineCheck {
 };
 
 template <class Visit>
-bool FreeSpace::for_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const {
-  // Traversal of a grid from cell side to cell side, in the grid's own frame.
-  const double c = std::cos(grid_.origin.heading_rad), s = std::sin(grid_.origin.heading_rad);
+bool FreeSpace::for_unclear_cells_on_line(const Point2& a_m, const Point2& b_m, const Visit& visit) const {
+  // Traversal of a grid from cell side to cell side, in the grid's own frame. `next`, `stride` and `at` are
+  // shares of the line.
+  const double c = cosine_, s = sine_;
   const auto local = [&](const Point2& p) -> Point2 {
     const double dx = (p[0] - grid_.origin.x_m) / grid_.resolution_m,
                  dy = (p[1] - grid_.origin.y_m) / grid_.resolution_m;
@@ -97,12 +103,31 @@ bool FreeSpace::for_cells_on_line(const Point2& a_m, const Point2& b_m, const Vi
     stride[i] = d != 0 ? std::abs(1 / d) : std::numeric_limits<double>::infinity();
     next[i] = d != 0 ? (d > 0 ? cell[i] + 1 - from[i] : from[i] - cell[i]) * stride[i] : stride[i];
   }
-  for (int left = std::abs(last[0] - cell[0]) + std::abs(last[1] - cell[1]); left >= 0; --left) {
+  const double most = std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
+  double at = 0;
+  int left = std::abs(last[0] - cell[0]) + std::abs(last[1] - cell[1]);
+  while (left >= 0) {
     const OccupancyGrid::CellIndex here{cell[0], cell[1]};
-    if (!visit(grid_.contains(here) && clear_[index(here)] != 0, here)) return false;
-    const std::size_t axis = next[0] < next[1] ? 0 : 1;
-    cell[axis] += step[axis];
-    next[axis] += stride[axis];
+    const int rings = grid_.contains(here) ? rings_[index(here)] : 0;
+    if (rings == 0 && !visit(here)) return false;
+    if (rings < 3) {
+      const std::size_t axis = next[0] < next[1] ? 0 : 1;
+      at = next[axis];
+      cell[axis] += step[axis];
+      next[axis] += stride[axis];
+      --left;
+      continue;
+    }
+    // A cell that the line crosses within rings - 2 cells of this place is in the clear rings.
+    at += (rings - 2) / most;
+    if (at >= 1) return true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!(next[i] <= at)) continue;
+      const double crossed = std::floor((at - next[i]) / stride[i]) + 1;
+      cell[i] += static_cast<int>(crossed) * step[i];
+      next[i] += crossed * stride[i];
+      left -= static_cast<int>(crossed);
+    }
   }
   return true;
 }

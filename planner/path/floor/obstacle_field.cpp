@@ -10,6 +10,13 @@
 namespace joulepath {
 namespace {
 constexpr double kRounding = 1e-4;  // cells; distances are stored as float
+
+/// Without the call of a function that std::floor is on processors without SSE 4.1.
+int floor_of(double x) {
+  const int towards_0 = static_cast<int>(x);
+  return towards_0 - (x < towards_0 ? 1 : 0);
+}
+
 }
 ObstacleField::ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout) {
   layers_.push_back(layer_of(map, Layer::map));
@@ -48,7 +55,7 @@ ObstacleField::LayerField::Local ObstacleField::LayerField::local(double x_m, do
 ObstacleField::Bounds ObstacleField::LayerField::bounds(double x_m, double y_m) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto [u, v] = local(x_m, y_m);
-  const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
+  const int column = floor_of(u), row = floor_of(v);
   if (!grid.contains({column, row})) return outside_blocked ? Bounds{0, 0} : Bounds{0, kInfinity};
   const std::size_t index = grid.index_of({column, row});
   const double center_distance = distance_cells[index];

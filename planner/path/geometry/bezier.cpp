@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/assert.hpp"
+#include "planner/path/geometry/hodograph.hpp"
 
 namespace joulepath {
 namespace {
@@ -59,6 +61,17 @@ BezierSegment::BezierSegment(const BezierPoints& points_m) : points_m_(points_m)
     velocity_coefficients_m_[axis] = {3 * d0, 6 * (d1 - d0), 3 * (d0 - 2 * d1 + d2)};
   }
   tabulate();
+}
+
+double BezierSegment::curvature_bound_per_m() const {
+  constexpr int kParts = 4;
+  if (rational_) return std::numeric_limits<double>::infinity();
+  double most_per_m = 0;
+  for (int i = 0; i < kParts; ++i)
+    most_per_m = std::max(most_per_m, Hodograph(points_m_, static_cast<double>(i) / kParts,
+                                                static_cast<double>(i + 1) / kParts)
+                                          .curvature_bound_per_m());
+  return most_per_m;
 }
 
 BezierSegment BezierSegment::rational(const RationalBezier& curve) {

@@ -29,6 +29,9 @@ class BezierSegment {
   double length_m() const { return length_m_; }
   PathPoint at(double s_m) const;
   PathBend bend(double s_m) const;  ///< the same without the pose, in less time
+  std::array<double, 2> position_m(double s_m) const { return derivatives(parameter(s_m)).position_m; }
+  /// Upper bound of |kappa|, from the hulls of B' on parts of the curve; infinite where it cannot tell.
+  double curvature_bound_per_m() const;
   /// Curve parameter at an arc length.
   double parameter(double s_m) const;
   const BezierPoints& points_m() const { return points_m_; }                   ///< of a cubic

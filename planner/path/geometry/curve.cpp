@@ -55,6 +55,13 @@ PathBend Curve::bend(double s_m) const {
                     segments_[index]);
 }
 
+std::array<double, 2> Curve::position_m(double s_m) const {
+  const double s = std::clamp(s_m, 0.0, length_m());
+  const std::size_t index = segment_at(s);
+  return std::visit([&](const auto& segment) { return segment.position_m(s - breakpoints_m_[index]); },
+                    segments_[index]);
+}
+
 PathPoint Curve::at(double s_m) const {
   const double s = std::clamp(s_m, 0.0, length_m());
   const std::size_t index = segment_at(s);

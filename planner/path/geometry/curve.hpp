@@ -33,6 +33,7 @@ class Curve {
   /// s outside of [0, length] is taken as the nearer end.
   PathPoint at(double s_m) const;
   PathBend bend(double s_m) const;  ///< the same without the pose, in less time
+  std::array<double, 2> position_m(double s_m) const;
   /// Where the segments meet, both ends included, ascending: kappa' may jump there, kappa does not.
   const std::vector<double>& breakpoints_m() const { return breakpoints_m_; }
   const std::vector<CurveSegment>& segments() const { return segments_; }

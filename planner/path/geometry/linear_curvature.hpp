@@ -20,6 +20,10 @@ class LinearCurvature {
 
   double length_m() const { return length_m_; }
   PathPoint at(double s_m) const;
+  std::array<double, 2> position_m(double s_m) const {
+    const Pose pose = at(s_m).pose;
+    return {pose.x_m, pose.y_m};
+  }
   PathBend bend(double s_m) const { return {curvature_ + slope_ * s_m, slope_}; }
   const Pose& start() const { return start_; }
   double curvature_per_m() const { return curvature_; }  ///< at the start

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/path/geometry/hodograph.hpp"
+
 namespace joulepath {
 namespace {
 
 constexpr double kShortestChord_m = 1e-3;
 constexpr double kShortestHandle_m = 1e-3;
-constexpr double kStandstill_m = 1e-9;  ///< shorter tangents have no direction
 constexpr double kSlowest = 0.1;  ///< least |B'|, as a share of what a span has at its ends and of its chord
 constexpr int kDeepest = 16;
 
@@ -41,48 +42,17 @@ std::vector<Point2> derivatives(const FreeSpline& spline, const std::vector<doub
   return m;
 }
 
-double dot(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }
-double cross(const Point2& a, const Point2& b) { return a[0] * b[1] - a[1] * b[0]; }
-
-/// A span's derivative between two parameters as a quadratic Bezier curve with control points h: its hull
-/// bounds the derivative's size and direction from below and above.
-struct Hodograph {
-  Point2 h[3];
-  double step{};  ///< between the parameters
-
-  Hodograph(const BezierPoints& span, double from_t, double to_t) : step(to_t - from_t) {
-    const BezierDerivatives from = bezier_derivatives(span, from_t), to = bezier_derivatives(span, to_t);
-    for (std::size_t k = 0; k < 2; ++k) {
-      h[0][k] = from.first_m[k];
-      h[1][k] = from.first_m[k] + 0.5 * step * from.second_m[k];
-      h[2][k] = to.first_m[k];
-    }
-  }
-  /// Lower bound of |B'|; negative where the hull surrounds the origin.
-  double least_m() const {
-    const Point2 sum{h[0][0] + h[2][0], h[0][1] + h[2][1]};
-    const double size = std::max(norm(sum), kStandstill_m);
-    return std::min({dot(h[0], sum), dot(h[1], sum), dot(h[2], sum)}) / size;
-  }
-  /// Upper bound of |B' x B''|: the largest of its Bernstein coefficients.
-  double most_bend_m2() const {
-    return 2 / step *
-           std::max(
-               {std::abs(cross(h[0], h[1])), 0.5 * std::abs(cross(h[0], h[2])), std::abs(cross(h[1], h[2]))});
-  }
-};
-
 /// Whether a span bends more tightly than allowed or nearly stands still in its parameter, which bends it at
 /// one place. Parts are halved until the hull of the derivative proves that they do not, or a place does.
 ///   kappa = |B' x B''| / |B'|^3
 bool too_tight(const BezierPoints& span, double least_m, double from_t, double to_t, int depth) {
   const Hodograph part(span, from_t, to_t);
-  const double hull_m = part.least_m();
-  if (hull_m >= least_m && part.most_bend_m2() <= kTightest_per_m * hull_m * hull_m * hull_m) return false;
+  if (part.least_m() >= least_m && part.curvature_bound_per_m() <= kTightest_per_m) return false;
   const BezierDerivatives end = bezier_derivatives(span, to_t);
   const double end_m = norm(end.first_m);
   if (depth == 0 || end_m < least_m ||
-      std::abs(cross(end.first_m, end.second_m)) > kTightest_per_m * end_m * end_m * end_m)
+      std::abs(end.first_m[0] * end.second_m[1] - end.first_m[1] * end.second_m[0]) >
+          kTightest_per_m * end_m * end_m * end_m)
     return true;
   const double middle_t = 0.5 * (from_t + to_t);
   return too_tight(span, least_m, from_t, middle_t, depth - 1) ||

@@ -198,7 +198,10 @@ SplineSlopes spline_slopes(const FreeSpline& spline, const Curve& curve, const P
 SplineSlopes spline_slopes(const FreeSpline& spline, const PointSlope& slope) {
   ControlSlopes control(spline);
   control.add(slope.span, slope.t,
-              {.by_x_m = slope.by_x_m, .by_y_m = slope.by_y_m, .by_heading_rad = slope.by_heading_rad});
+              {.by_curvature = slope.by_curvature,
+               .by_x_m = slope.by_x_m,
+               .by_y_m = slope.by_y_m,
+               .by_heading_rad = slope.by_heading_rad});
   return control.by_variables();
 }
 

@@ -19,11 +19,12 @@ struct SplineSlopes {
 [[nodiscard]] SplineSlopes spline_slopes(const FreeSpline& spline, const Curve& curve,
                                          const PathSlopes& slopes);
 
-/// One place of a span instead: of the derivatives by position.
+/// One place of a span instead: derivatives by its pose and curvature.
 struct PointSlope {
   std::size_t span{};
   double t{};
   double by_x_m{}, by_y_m{}, by_heading_rad{};
+  double by_curvature{};
 };
 [[nodiscard]] SplineSlopes spline_slopes(const FreeSpline& spline, const PointSlope& slope);
 

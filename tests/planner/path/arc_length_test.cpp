@@ -128,5 +128,25 @@ TEST(ArcLength, OfARationalCurveIsExactToo) {
   }
 }
 
+TEST(BezierCurvature, IsBelowItsBound) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  int near = 0, told = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double dx = coordinate(random), dy = coordinate(random);
+    const BezierSegment curve({{{0, 0}, {1, 0}, {2 + dx, dy}, {3, coordinate(random)}}});
+    const double bound = curve.curvature_bound_per_m();
+    if (std::isinf(bound)) continue;
+    ++told;
+    double most = 0;
+    for (int k = 0; k <= 200; ++k)
+      most = std::max(most, std::abs(curve.bend(curve.length_m() * k / 200).curvature_per_m));
+    EXPECT_LE(most, bound * (1 + 1e-9));
+    near += most > 0.3 * bound;
+  }
+  EXPECT_GT(told, 250);
+  EXPECT_GT(near, 150);
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "planner/path/floor/distance_transform.hpp"
 #include "planner/path/floor/footprint_checker.hpp"
+#include "planner/path/floor/free_space.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
 #include "tests/planner/path/grids.hpp"
 
@@ -96,6 +98,40 @@ TEST(ObstacleField, UnknownAndOutsideAreObstacles) {
   EXPECT_EQ(field.distance_m(2.05, 2.05), 0.0);
   EXPECT_EQ(field.distance_m(-1.0, 2.0), 0.0);
   EXPECT_NEAR(field.distance_m(0.3, 2.0), 0.3, 1e-12);
+}
+
+/// A walk along a line leaps over clear cells: it must stop at every other cell that points of the line are
+/// in.
+TEST(FreeSpace, ALineLeapsOverNoCellThatIsNotClear) {
+  OccupancyGrid grid = random_grid(300, 200, 0.05, 0.001, 8);
+  grid.origin = {1.0, -2.0, 0.4};
+  const ObstacleField field(grid);
+  const FreeSpace space(field, 0.2);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u_m(-0.5, 15.5), v_m(-0.5, 10.5);
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  const auto place = [&]() -> Point2 {
+    const double u = u_m(random), v = v_m(random);
+    return {1.0 + c * u - s * v, -2.0 + s * u + c * v};
+  };
+  int lines_with_none = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Point2 a = place(), b = i % 2 == 0 ? place() : Point2{a[0] + 0.3 * c, a[1] + 0.3 * s};
+    std::set<std::pair<int, int>> visited;
+    EXPECT_TRUE(space.for_unclear_cells_on_line(a, b, [&](OccupancyGrid::CellIndex cell) {
+      visited.emplace(cell.column, cell.row);
+      return true;
+    }));
+    lines_with_none += visited.empty();
+    for (int k = 0; k <= 5000; ++k) {
+      const double share = k / 5000.0;
+      const Point2 p{a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+      if (space.clear(p[0], p[1])) continue;
+      const OccupancyGrid::CellIndex cell = grid.cell_of(p[0], p[1]);
+      ASSERT_TRUE(visited.contains({cell.column, cell.row})) << i << ", " << share;
+    }
+  }
+  EXPECT_GT(lines_with_none, 50);
 }
 
 TEST(PolygonDistance, SquareAgainstSquare) {
