@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0554-a-law-of-no-size-has-no-shape.md
 namespace joulepath {
 namespace {
 
