@@ -29,6 +29,7 @@ void make_closed_form(Problem& problem) {
   ProfileRequest& request = problem.request;
   Robot robot = request.plant.robot;
   robot.power.regeneration_efficiency = 1;
+  robot.effects.clear();
   for (Motor* motor : {&robot.motor.left, &robot.motor.right})
     motor->max_current_A = motor->max_voltage_V = kNoLimit;
   const double duration_s = 2 * piece_length(request.piece) / request.limits.speed_m_s + 4;
