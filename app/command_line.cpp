@@ -1,6 +1,8 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <type_traits>
 
 #include "scenarios/document.hpp"
 
@@ -55,6 +57,8 @@ std::string unknown_argument(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands())
     for (const std::string& flag : flags_of(*command)) names.push_back(flag);
+  if (std::find(names.begin(), names.end(), argument) != names.end())
+    return "found " + argument + " before the command, accepted: options after the command's name";
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 
@@ -63,6 +67,14 @@ CLI::Validator number_check(const std::string& accepted, bool (*fits)(double)) {
   const auto check = [accepted, fits](const std::string& text) {
     const std::optional<double> value = parse_number(text);
     return value && fits(*value) ? std::string() : "found " + text + ", accepted: " + accepted;
+  };
+  return {check, ""};
+}
+
+/// A script's variable that is not set gives an empty text.
+CLI::Validator text_check() {
+  const auto check = [](const std::string& text) {
+    return std::string(text.empty() ? "found an empty text, accepted: a value" : "");
   };
   return {check, ""};
 }
@@ -110,15 +122,6 @@ OptionRules& OptionRules::existing_path() {
   return *this;
 }
 
-/// A script's variable that is not set gives an empty text.
-OptionRules& OptionRules::not_empty() {
-  const auto check = [](const std::string& text) {
-    return std::string(text.empty() ? "found an empty text, accepted: a value" : "");
-  };
-  option_->check(CLI::Validator(check, ""));
-  return *this;
-}
-
 OptionRules& OptionRules::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
   return *this;
@@ -136,7 +139,13 @@ OptionRules& OptionRules::repeatable() {
 
 template <class Value>
 OptionRules CommandLine::option(const std::string& name, Value& value, const std::string& says) {
-  return OptionRules(*app_->add_option(name, value, says));
+  CLI::Option& option = *app_->add_option(name, value, says);
+  // No range refuses a NaN by itself.
+  if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>)
+    option.check(number_check("a finite number", [](double number) { return std::isfinite(number); }));
+  else if constexpr (!std::is_integral_v<Value>)
+    option.check(text_check());
+  return OptionRules(option);
 }
 
 template OptionRules CommandLine::option(const std::string&, std::string&, const std::string&);

@@ -26,7 +26,6 @@ class OptionRules {
   OptionRules& not_negative();
   OptionRules& positive();
   OptionRules& existing_path();
-  OptionRules& not_empty();
   OptionRules& one_of(const std::vector<std::string>& words);
   OptionRules& comma_separated();  ///< of a list: values by comma, or the option again
   OptionRules& repeatable();       ///< of a list: one value each time that the option is given

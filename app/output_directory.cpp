@@ -11,6 +11,7 @@
 #include "app/command.hpp"
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
+#include "scenarios/document.hpp"
 // Design: docs/decisions/0012-results-are-renamed-into-place.md
 namespace joulepath {
 namespace {
@@ -23,6 +24,11 @@ namespace fs = std::filesystem;
 
 void refuse_existing(const fs::path& path) {
   throw ConfigError({{path.string(), 0, 0}, "", "a file that exists", "a new name", "--force overwrites it"});
+}
+
+void refuse_input(const fs::path& path) {
+  if (is_input(path.string()))
+    throw ConfigError({{path.string(), 0, 0}, "--out", "an input of this command", "a name of its own", ""});
 }
 
 /// Writes and syncs a whole file.
@@ -109,6 +115,7 @@ void OutputDirectory::write(const std::string& name, std::string content) {
 
 void OutputDirectory::commit() {
   const fs::path target = directory_;
+  for (const auto& name : names_) refuse_input(target / name);
   const TemporaryDirectory temporary(target);
   for (const auto& [name, content] : content_) write_whole(temporary.path() / name, content);
   std::error_code error;
@@ -128,6 +135,21 @@ void write_output_file(const std::string& file, const std::string& content, bool
   if (fs::is_directory(target, error))
     throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
   if (!force && fs::exists(target, error)) refuse_existing(target);
+  refuse_input(target);
+  replace_file(file, content);
+}
+
+bool remove_output_file(const std::string& file) {
+  refuse_input(file);
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
+  const bool removed = fs::remove(file, error);
+  if (error) fail(file, "remove", error.message());
+  return removed;
+}
+
+void replace_file(const std::string& file, const std::string& content) {
+  const fs::path target = file;
   const TemporaryDirectory temporary(target);
   write_whole(temporary.path() / target.filename(), content);
   rename_over(temporary.path() / target.filename(), target);

@@ -17,7 +17,8 @@ class OutputDirectory {
   /// Adds one file; its name must be one of `names`.
   void write(const std::string& name, std::string content);
 
-  /// Writes all. Throws EnvironmentError (disk full, no permission); the directory is then unchanged.
+  /// Writes all. Throws EnvironmentError (disk full, no permission), or ConfigError where a file is an input
+  /// of the command; the directory is then unchanged.
   void commit();
 
   [[nodiscard]] const std::string& path() const { return directory_; }
@@ -29,7 +30,13 @@ class OutputDirectory {
 };
 
 /// Writes one file under a temporary name and renames it. Throws ConfigError if it exists and `force` is not
-/// given, EnvironmentError if it cannot be written.
+/// given, or if it is an input of the command; EnvironmentError if it cannot be written.
 void write_output_file(const std::string& file, const std::string& content, bool force);
+
+/// Removes a result of an earlier run, where there is one; whether there was. Throws as write_output_file() does.
+bool remove_output_file(const std::string& file);
+
+/// The same as write_output_file() for a file that the user edits, an input or not.
+void replace_file(const std::string& file, const std::string& content);
 
 }  // namespace joulepath

@@ -28,6 +28,7 @@ int tell(const std::string& message, int code, const std::string& hint = {}) {
 /// Runs a command; every error ends in one message and its exit code.
 int guarded(Command& command) {
   try {
+    forget_inputs();
     const int code = command.run();
     std::cout.flush();
     if (!std::cout) return tell("cannot write to the standard output", kEnvironment);

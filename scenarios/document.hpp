@@ -132,6 +132,10 @@ class Document {
 /// A file's whole content. Throws ConfigError when it cannot be read.
 [[nodiscard]] std::string read_text_file(const std::string& file, const NamedBy& named_by = {});
 
+/// Whether read_text_file() has read the file since the last forget_inputs(): a result must not replace it.
+[[nodiscard]] bool is_input(const std::string& file);
+void forget_inputs();
+
 /// The file that a node names, relative to the file that holds the node.
 [[nodiscard]] std::string resolve_file(const Node& node, const ReadOptions& options);
 

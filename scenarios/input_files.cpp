@@ -4,6 +4,8 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 #include "scenarios/document.hpp"
@@ -12,6 +14,22 @@ namespace joulepath {
 namespace {
 
 constexpr std::string_view kDataDirectory = "${JOULEPATH_DATA_DIR}";
+
+struct Inputs {
+  std::mutex mutex{};
+  std::set<std::string> files{};
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
+std::string one_name(const std::string& file) {
+  std::error_code error;
+  const std::string name = std::filesystem::weakly_canonical(file, error).string();
+  return error ? file : name;
+}
 
 /// The text of a node, with ${JOULEPATH_DATA_DIR} at its beginning replaced by the environment variable.
 std::string with_data_directory(const Node& node, const ReadOptions& options) {
@@ -47,9 +65,25 @@ std::string read_text_file(const std::string& file, const NamedBy& named_by) {
     throw named_by.error(
         file, std::string("no readable file (") + std::strerror(errno) + ")", "a file that can be read",
         named_by.mark.file.empty() ? "" : "relative paths are relative to the file that names them");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw named_by.error(file, "a file that cannot be read to its end", "a readable file");
+  std::string text;
+  try {
+    text.assign(std::istreambuf_iterator<char>(stream), {});
+  } catch (const std::ios_base::failure&) {
+    throw named_by.error(file, "a file that cannot be read to its end", "a readable file");
+  }
+  const std::lock_guard lock(inputs().mutex);
+  inputs().files.insert(one_name(file));
   return text;
+}
+
+bool is_input(const std::string& file) {
+  const std::lock_guard lock(inputs().mutex);
+  return inputs().files.contains(one_name(file));
+}
+
+void forget_inputs() {
+  const std::lock_guard lock(inputs().mutex);
+  inputs().files.clear();
 }
 
 std::string resolve_file(const Node& node, const ReadOptions& options) {

@@ -33,8 +33,10 @@ class Experiment : public Command {
         robot_);
     const Diagnosis diagnosis = diagnose(dataset);
     if (diagnosis.next.motions.empty()) {
+      const bool stale = common_.force && remove_output_file(out_);
       if (!common_.quiet)
-        std::cout << "no candidates to separate: the verdict is " << verdict_name(diagnosis.verdict) << '\n';
+        std::cout << "no candidates to separate: the verdict is " << verdict_name(diagnosis.verdict)
+                  << (stale ? "; " + out_ + " of an earlier run is removed" : "") << '\n';
       return kDone;
     }
     const std::filesystem::path folder = std::filesystem::absolute(out_).parent_path();

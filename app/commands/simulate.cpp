@@ -123,7 +123,8 @@ class SimulateCommand : public Command {
         .between(1, 1000);
     line.option("--seed", seed_, "seed of the sensors' noise").shows_default();
     line.option("--time-of-day-s", time_of_day_s_,
-                "operating time of the robot before the first run (heating)");
+                "operating time of the robot before the first run (heating)")
+        .between(0.0, 1e9);
     line.option("--sample-rate-Hz", sensors_.sample_rate_Hz, "rows per second of the log")
         .between(1.0, 1000.0)
         .shows_default();

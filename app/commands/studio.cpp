@@ -43,7 +43,7 @@ class StudioCommand : public Command {
 
   int run() override {
     studio::MissionFiles files(mission_, [](const std::string& file, const std::string& content) {
-      write_output_file(file, content, true);
+      replace_file(file, content);
     });
     if (!dataset_.empty())
       server_.diagnosis =

@@ -14,11 +14,9 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   line.option("--out", options.out, "directory for " + files).required();
   line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
   line.option("--shard", options.shard,
-              "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories")
-      .not_empty();
+              "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
   line.option("--quarantine", options.quarantine,
-              "file of JSON lines {index, reason}: jobs to skip, because they ended their process")
-      .not_empty();
+              "file of JSON lines {index, reason}: jobs to skip, because they ended their process");
   line.flag("--resume", options.resume,
             "continue an interrupted run; finished plans with unchanged inputs are not repeated");
   add_cache_options(line, options.cache);

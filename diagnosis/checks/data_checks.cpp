@@ -54,12 +54,13 @@ class DataCheckSearch {
     });
   }
 
-  /// Order of the search: sides, signs and units, then dead channels, then other factors, then one run
-  /// against the others. A swapped or tiny channel follows its quantity as little as a dead one, and a factor
-  /// could imitate a dead channel.
+  /// Order of the search: channels of one value, then sides, signs and units, then other dead channels, then
+  /// other factors, then one run against the others. A swapped or tiny channel follows its quantity as little
+  /// as a dead one, but has more than one value, and a factor could imitate a dead channel.
   std::vector<DataCheck> find() {
+    find_dead(true);
     find_faults(false);
-    find_dead();
+    find_dead(false);
     find_faults(true);
     find_odd_runs();
     return std::move(checks_);
@@ -106,13 +107,17 @@ class DataCheckSearch {
       if (!find_fault(with_factors)) break;
   }
 
-  void find_dead() {
+  /// Of one value throughout, or all.
+  void find_dead(bool of_one_value) {
     std::vector<std::vector<FollowedChannel>> channels(runs_.size());
     parallel_for(runs_.size(),
                  [&](std::size_t r) { channels[r] = followed_channels(runs_[r].signals(), dataset_.robot); });
     std::map<std::vector<std::string>, std::map<std::size_t, FollowedChannel>> found;
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      for (const FollowedChannel& channel : channels[r]) found[channel.columns].emplace(r, channel);
+      for (FollowedChannel& channel : channels[r]) {
+        channel.is_dead = channel.is_dead && (channel.is_constant || !of_one_value);
+        found[channel.columns].emplace(r, channel);
+      }
     for (const auto& [columns, runs] : found)
       if (const std::vector<std::size_t> dead = dead_runs(runs); !dead.empty()) report_dead(runs, dead);
   }
@@ -125,10 +130,14 @@ class DataCheckSearch {
       if (!first.needed) check.columns.push_back({.column = column, .absent = true});
     }
     const std::string& run = dataset_.runs[runs_[dead.front()].index()].name;
-    check.evidence = first.is_dead
-                         ? "shows " + percent(std::abs(first.followed)) +
-                               " of the change that the other channels ask for (" + run + ")"
-                         : "reads one value throughout, and varies in runs with less motion (" + run + ")";
+    if (first.is_constant)
+      check.evidence = std::string("reads one value throughout, ") +
+                       (first.is_dead ? "where the other channels ask for a change"
+                                      : "and varies in runs with less motion");
+    else
+      check.evidence =
+          "shows " + percent(std::abs(first.followed)) + " of the change that the other channels ask for";
+    check.evidence += " (" + run + ")";
     for (std::size_t r : dead) {
       if (first.needed)
         runs_[r].lost = true;

@@ -44,16 +44,19 @@ class Search {
     return sum;
   }
 
-  /// A channel with a large change of another shape is not dead.
+  /// A channel with a large change of another shape is not dead; one value throughout is, where the expected
+  /// value changes, whatever the value.
   void compare(const VectorXd& channel, const VectorXd& expected, double least_rms,
                std::vector<std::string> columns, bool needed = false) {
     if (channel.size() != expected.size() || channel.size() == 0) return;
     FollowedChannel found{.columns = std::move(columns), .expected = rms(expected), .needed = needed};
     found.is_constant = channel.maxCoeff() - channel.minCoeff() <= kLeastSensorNoise;
     if (found.expected > 0) found.followed = channel.dot(expected) / expected.squaredNorm();
-    if (found.expected >= least_rms) {
+    if (found.is_constant && rms(centered(expected)) >= least_rms) {
+      found.is_dead = true;
+    } else if (found.expected >= least_rms) {
       found.is_dead = std::abs(found.followed) < kDeadShare && rms(channel) < kDeadSize * found.expected;
-      found.is_alive = !found.is_dead;
+      found.is_alive = !found.is_dead && !found.is_constant;
     }
     channels_.push_back(std::move(found));
   }

@@ -185,10 +185,22 @@ std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const
   const double least = measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
                most = measured ? kMostMeasuredFactor : kMostPredictedPower;
   const double standby_W = robot.power.standby_W > 0 ? kMostStandby * robot.power.standby_W : kInfinity;
-  return relation("battery power = motor power + standby", kBattery, run.battery_power_W,
+  return relation("battery power = motor power + standby",
+                  measured ? kBattery : Bounds{kSoundBattery, kSoundBattery}, run.battery_power_W,
                   {factor(drive, least, most, freedom),
                    {brake, -kGreatestBrakeDraw, kGreatestBrakeFactor * most},
                    {VectorXd::Ones(run.size()), 0.0, standby_W}});
+}
+
+/// The battery's voltage is of the order of the file's: the power alone does not tell its unit from the
+/// current's.
+std::optional<Relation> supply(const RunSignals& run, const Robot& robot, double freedom) {
+  const double open_V = robot.battery.open_circuit_voltage_V;
+  if (!has(run, run.battery_voltage_V) || !std::isfinite(open_V)) return {};
+  return relation("battery voltage = open-circuit voltage", {kSoundBattery, kSoundBattery},
+                  run.battery_voltage_V,
+                  {factor(VectorXd::Constant(run.size(), open_V), kLeastPredictedFactor,
+                          1 / kLeastPredictedFactor, freedom)});
 }
 
 }  // namespace
@@ -228,7 +240,8 @@ Relations relations_of(const RunSignals& run, const Robot& robot, double freedom
           heading_and_wheels(run, geometry, freedom),
           heading_and_gyro(run, freedom),
           position_and_wheels(run, geometry, freedom),
-          battery(run, robot, expected, freedom)};
+          battery(run, robot, expected, freedom),
+          supply(run, robot, freedom)};
 }
 
 }  // namespace joulepath

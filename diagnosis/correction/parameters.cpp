@@ -2,51 +2,68 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/thresholds.hpp"
-
+// Design: docs/decisions/0554-a-law-of-no-size-has-no-shape.md
 namespace joulepath {
 namespace {
 
-/// Rows of the refit's covariance that belong to a parameter of an effect.
-std::vector<Eigen::Index> covariance_rows(const Refit& fitted, std::size_t effect, const std::string& name) {
+const Column& column_of(const Refit& fitted, Eigen::Index row) {
+  return fitted.equations.columns[static_cast<std::size_t>(fitted.columns[static_cast<std::size_t>(row)])];
+}
+
+/// Rows of the refit's covariance that belong to shapes of an effect's law: edges of a region alone, or all.
+std::vector<Eigen::Index> shape_rows(const Refit& fitted, std::size_t effect,
+                                     const std::function<bool(const ParameterDescription&)>& chosen) {
+  const Candidate& candidate = fitted.state.effects[effect].candidate;
+  const std::vector<std::string> shapes = shape_parameters(candidate.shape.name);
   std::vector<Eigen::Index> rows;
-  const std::vector<std::string> shapes = shape_parameters(fitted.state.effects[effect].candidate.shape.name);
-  for (std::size_t i = 0; i < fitted.columns.size(); ++i) {
-    const Column& column = fitted.equations.columns[static_cast<std::size_t>(fitted.columns[i])];
-    if (column.kind == Column::Kind::nuisance || column.owner != static_cast<int>(effect)) continue;
-    const bool shape =
-        column.kind == Column::Kind::shape && shapes[static_cast<std::size_t>(column.part)] == name;
-    const bool amplitude = column.kind == Column::Kind::amplitude &&
-                           std::find(shapes.begin(), shapes.end(), name) == shapes.end();
-    if (shape || amplitude) rows.push_back(static_cast<Eigen::Index>(i));
+  for (Eigen::Index i = 0; i < std::ssize(fitted.columns); ++i) {
+    const Column& column = column_of(fitted, i);
+    if (column.kind == Column::Kind::shape && column.owner == static_cast<int>(effect) &&
+        chosen(*candidate.effect().find(shapes[static_cast<std::size_t>(column.part)])))
+      rows.push_back(i);
   }
   return rows;
 }
 
-/// Standard deviation along a gradient over some parameters: the greater of what the noise model and the
-/// runs' differences say.
-double sd_along(const Refit& fitted, const std::vector<Eigen::Index>& rows,
-                const std::vector<double>& gradient) {
-  double greatest = 0;
-  for (const Eigen::MatrixXd* covariance : {&fitted.covariance, &fitted.run_covariance}) {
-    double variance = 0;
-    for (std::size_t i = 0; i < gradient.size(); ++i)
-      for (std::size_t j = 0; j < gradient.size(); ++j)
-        variance += gradient[i] * gradient[j] * (*covariance)(rows[i], rows[j]);
-    greatest = std::max(greatest, variance);
+/// Covariances of an effect's amplitudes where some rows of the fit are held: what the noise model says, and
+/// what the runs' differences say.
+std::array<Eigen::MatrixXd, 2> amplitude_covariances(const Refit& fitted, std::size_t effect,
+                                                     const std::vector<Eigen::Index>& held) {
+  std::vector<Eigen::Index> kept, own;
+  for (Eigen::Index i = 0; i < std::ssize(fitted.columns); ++i) {
+    if (std::ranges::count(held, i) > 0) continue;
+    const Column& column = column_of(fitted, i);
+    if (column.kind == Column::Kind::amplitude && column.owner == static_cast<int>(effect))
+      own.push_back(std::ssize(kept));
+    kept.push_back(i);
   }
+  const Eigen::MatrixXd precision = fitted.covariance.inverse();
+  const Eigen::MatrixXd free = Eigen::MatrixXd(precision(kept, kept)).inverse();
+  const Eigen::MatrixXd scores = precision * fitted.run_covariance * precision;
+  const Eigen::MatrixXd by_runs = free * scores(kept, kept) * free;
+  return {free(own, own), by_runs(own, own)};
+}
+
+/// Standard deviation along a gradient: the greater of what the noise model and the runs' differences say.
+double sd_along(const std::array<Eigen::MatrixXd, 2>& covariances, const Eigen::VectorXd& gradient) {
+  double greatest = 0;
+  for (const Eigen::MatrixXd& covariance : covariances)
+    greatest = std::max(greatest, gradient.dot(covariance * gradient));
   return std::sqrt(greatest);
 }
 
 /// Size or direction of a vector, as a gradient over its components.
-std::vector<double> polar_gradient(const ActiveEffect& vector, bool direction) {
+Eigen::VectorXd polar_gradient(const ActiveEffect& vector, bool direction) {
   const double x = vector.amplitude[0], y = vector.amplitude[1], size = std::max(1e-9, std::hypot(x, y));
-  if (direction) return {-y / (size * size), x / (size * size)};
-  return {x / size, y / size};
+  if (direction) return Eigen::Vector2d{-y / (size * size), x / (size * size)};
+  return Eigen::Vector2d{x / size, y / size};
 }
 
 /// A law's strength averages over what its form leaves out; a constant or an instrument has no form.
@@ -62,21 +79,30 @@ double form_sd(const ActiveEffect& active, const std::string& name) {
 
 double degrees_of(const Refit& fitted) { return std::max(1.0, static_cast<double>(fitted.fit_runs) - 1); }
 
-/// Half a 95 % interval, for the number of runs that it rests on.
-double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
-  const ActiveEffect& active = fitted.state.effects[effect];
-  const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
-  const EffectDescription& effect_of = active.candidate.effect();
-  const std::vector<double> gradient = effect_of.find(ParameterRole::direction)
-                                           ? polar_gradient(active, name != effect_of.strength().name)
-                                           : std::vector<double>{1.0};
-  const double sd = rows.size() < gradient.size() ? 0.5 * kRegionStep_m : sd_along(fitted, rows, gradient);
-  return std::hypot(sd, form_sd(active, name)) *
-         boost::math::quantile(boost::math::students_t(degrees_of(fitted)), 0.975);
+/// Standard deviation of a parameter. An edge moves in steps past a path along it, and takes a law away or
+/// leaves it whole: no strength makes up for that, so a strength is as well known as the held edges leave it.
+double parameter_sd(const Refit& fitted, std::size_t effect, const std::string& name) {
+  const EffectDescription& effect_of = fitted.state.effects[effect].candidate.effect();
+  const ParameterRole role = effect_of.find(name)->role;
+  if (role == ParameterRole::shape || role == ParameterRole::edge) {
+    const std::vector<Eigen::Index> rows =
+        shape_rows(fitted, effect, [&](const ParameterDescription& shape) { return shape.name == name; });
+    if (rows.empty()) return 0.5 * kRegionStep_m;
+    return sd_along({fitted.covariance(rows, rows), fitted.run_covariance(rows, rows)},
+                    Eigen::VectorXd::Ones(1));
+  }
+  const std::vector<Eigen::Index> edges = shape_rows(
+      fitted, effect, [](const ParameterDescription& shape) { return shape.role == ParameterRole::edge; });
+  return sd_along(amplitude_covariances(fitted, effect, edges),
+                  effect_of.find(ParameterRole::direction)
+                      ? polar_gradient(fitted.state.effects[effect], name != effect_of.strength().name)
+                      : Eigen::VectorXd::Ones(1));
 }
 
-const Column& column_of(const Refit& fitted, Eigen::Index row) {
-  return fitted.equations.columns[static_cast<std::size_t>(fitted.columns[static_cast<std::size_t>(row)])];
+/// Half a 95 % interval, for the number of runs that it rests on.
+double half_interval(const Refit& fitted, std::size_t effect, const std::string& name) {
+  return std::hypot(parameter_sd(fitted, effect, name), form_sd(fitted.state.effects[effect], name)) *
+         boost::math::quantile(boost::math::students_t(degrees_of(fitted)), 0.975);
 }
 
 /// An effect and its parameter, or "friction_torque_Nm (left)".
@@ -127,20 +153,20 @@ std::vector<ParameterCorrelation> parameter_correlations(const Refit& fitted,
   return found;
 }
 
-/// Wald's test of all amplitudes together: of a vector one component may be known and the other not.
+/// Wald's test of all amplitudes together: of a vector one component may be known and the other not. A law
+/// of no size has no shape: its shapes are held, and each, chosen for its fit, counts as one more amplitude.
 bool is_told_from_zero(const Refit& fitted, std::size_t effect) {
   const ActiveEffect& active = fitted.state.effects[effect];
-  const std::string& name = active.candidate.effect().strength().name;
-  const std::vector<Eigen::Index> rows = covariance_rows(fitted, effect, name);
   const auto size = static_cast<Eigen::Index>(active.amplitude.size());
   const Eigen::VectorXd amplitude = Eigen::VectorXd::Map(active.amplitude.data(), size);
+  const std::vector<Eigen::Index> shapes =
+      shape_rows(fitted, effect, [](const ParameterDescription&) { return true; });
+  const auto chosen = static_cast<double>(size + std::ssize(shapes));
   const double least =
-      static_cast<double>(size) *
-      boost::math::quantile(boost::math::fisher_f(static_cast<double>(size), degrees_of(fitted)), 0.95);
-  for (const Eigen::MatrixXd* all : {&fitted.covariance, &fitted.run_covariance}) {
-    const Eigen::MatrixXd own = (*all)(rows, rows);
-    const double form = form_sd(active, name);
-    const Eigen::MatrixXd covariance = own + form * form * Eigen::MatrixXd::Identity(size, size);
+      chosen * boost::math::quantile(boost::math::fisher_f(chosen, degrees_of(fitted)), 0.95);
+  const double form = form_sd(active, active.candidate.effect().strength().name);
+  for (Eigen::MatrixXd covariance : amplitude_covariances(fitted, effect, shapes)) {
+    covariance.diagonal().array() += form * form;
     if (!(amplitude.dot(covariance.ldlt().solve(amplitude)) > least)) return false;
   }
   return true;

@@ -47,7 +47,7 @@ void fill_supply(const RunSignals& signals, const ModelPoint& point, const Predi
                  ResidualRows& rows) {
   const Eigen::Index n = signals.size();
   const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
-                      signals.motor_current_A.left.size() == n;
+                      signals.motor_current_A.left.size() == n && signals.motor_current_A.right.size() == n;
   const bool battery = signals.battery_power_W.size() == n && n > 0;
   if (battery && !measures_motors(signals))
     fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W, rows);

@@ -120,6 +120,15 @@ double form_sigmas(const Posterior& posterior, Eigen::Index at) {
   return found > 0 ? std::abs(posterior.mean[at]) / std::sqrt(found) : 0.0;
 }
 
+/// Whether the form's variable differs within these runs: a payload that all of them carry is the law's size.
+bool form_is_told(const Examination& x, int form) {
+  const Column& column = x.id.equations.columns[static_cast<std::size_t>(form)];
+  const auto part = static_cast<std::size_t>(column.part) / kFormVariables.size();
+  const int law = x.id.equations.columns_of_candidate(column.owner, false)[part];
+  const auto& gram = x.id.problem.gram;
+  return std::abs(gram(law, form)) < kSameSignature * std::sqrt(gram(law, law) * gram(form, form));
+}
+
 /// A named law whose strength varies with a variable by more than inexact forms do is not the whole cause.
 /// At the battery alone forms take up the power's curvature and say nothing.
 void name_inexact_forms(const Examination& x, Names& names) {
@@ -133,7 +142,8 @@ void name_inexact_forms(const Examination& x, Names& names) {
     const std::string law = equations.candidates[static_cast<std::size_t>(column.owner)].label();
     const bool named = std::ranges::any_of(
         names.named, [&](const ActiveEffect& effect) { return effect.candidate.label() == law; });
-    if (!named || form_sigmas(posterior, static_cast<Eigen::Index>(k)) < kInexactForm) continue;
+    if (!named || !form_is_told(x, columns[k])) continue;
+    if (form_sigmas(posterior, static_cast<Eigen::Index>(k)) < kInexactForm) continue;
     const auto variable = static_cast<std::size_t>(column.part) % kFormVariables.size();
     names.unknowns.push_back({.depends_on = std::string(kFormVariables[variable]) + " (" + law + ")",
                               .probability = names.surest,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planner/motion/limit_check.hpp"
@@ -16,11 +17,21 @@ namespace {
 constexpr std::size_t kLooks = 8;
 constexpr double kWorthALook =
     1 - 1e-3;  ///< the peak of a limit with a smaller use is below 1 between two samples
+constexpr std::size_t kPeakLooks = 3;
+constexpr double kSamePeak = 1e-7;   ///< a peak that is higher by less ends the search for it
 constexpr double kTolerated = 3e-7;  ///< relative
 constexpr double kCoarse = 5e-3;     ///< a larger violation needs a node, not only tightening
 
+/// Where a parabola through three points has its peak; no number where it has none.
+double peak_of(const std::array<double, 3>& at, const std::array<double, 3>& value) {
+  const double left = (at[1] - at[0]) * (value[1] - value[2]), right = (at[2] - at[1]) * (value[1] - value[0]);
+  if (left + right <= 0) return std::numeric_limits<double>::quiet_NaN();
+  return at[1] - 0.5 * ((at[1] - at[0]) * left - (at[2] - at[1]) * right) / (left + right);
+}
+
 /// Samples the limits of one segment; between the samples it checks the peak of a parabola through three of
-/// them.
+/// them, then of the parabola through that peak and its neighbors: on a long segment the first one is beside
+/// the limit's peak.
 class SegmentLook {
  public:
   SegmentLook(const ProfileRequest& request, const PathMotion& motion, const Profile& profile, std::size_t k)
@@ -62,18 +73,31 @@ class SegmentLook {
     double most = *std::max_element(ratios.begin(), ratios.end());
     if (most < kWorthALook || !std::isfinite(most)) return most;
     for (std::size_t i = 1; i < kLooks; ++i) {
-      const double before = ratios[i] - ratios[i - 1], after = ratios[i + 1] - ratios[i];
-      if (before - after <= 0) continue;
       const auto own = static_cast<double>(i);
-      const double top = own + 0.5 * (before + after) / (before - after);
+      std::array<double, 3> at{own - 1, own, own + 1}, value{ratios[i - 1], ratios[i], ratios[i + 1]};
       // The parabola beside an end of the segment holds up to that end.
       const double first = i == 1 ? 0.0 : own - 0.5, last = i + 1 == kLooks ? own + 1.0 : own + 0.5;
-      if (top < first || top > last || ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
-        continue;
-      look(top / kLooks, [&](std::string_view limit, double ratio) {
-        if (limit == name) most = std::max(most, ratio);
-      });
+      for (std::size_t k = 0; k < kPeakLooks; ++k) {
+        const double top = peak_of(at, value);
+        if (!(top >= first && top <= last) || ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
+          break;
+        const double found = use_of(name, top / kLooks), higher = found - value[1];
+        most = std::max(most, found);
+        if (higher < kSamePeak) break;
+        const std::size_t side = top > at[1] ? 0 : 2;  // the old middle is the new neighbor there
+        at[side] = at[1], value[side] = value[1];
+        at[1] = top, value[1] = found;
+      }
     }
+    return most;
+  }
+
+  /// The largest use of one limit at a share of the segment's time.
+  double use_of(std::string_view name, double share) const {
+    double most = 0;
+    look(share, [&](std::string_view limit, double ratio) {
+      if (limit == name) most = std::max(most, ratio);
+    });
     return most;
   }
 

@@ -37,6 +37,50 @@ TEST(CommandLine, UsageErrorsEndWithTwoAndOneHint) {
   EXPECT_NE(run_program(scratch, "schema robt").err.find("did you mean robot?"), std::string::npos);
 }
 
+TEST(CommandLine, ANumberOfAnOptionIsFinite) {
+  const ScratchDirectory scratch;
+  for (const std::string value : {"nan", "-nan", "inf", "-inf"})
+    for (const char* option : {"simulate m.yaml --sample-rate-Hz=", "simulate m.yaml --time-of-day-s=",
+                               "export m.yaml --to nav2_path --rate=", "plan m.yaml --accuracy=",
+                               "plan m.yaml --time=", "monitor x --robot r --false-alarm-hours="}) {
+      const auto result = run_program(scratch, option + value + " --out " + scratch.at("out"));
+      EXPECT_EQ(result.code, 2) << option << value;
+      EXPECT_NE(result.err.find("found " + value + ", accepted: a finite number"), std::string::npos)
+          << option << value << result.err;
+    }
+}
+
+TEST(CommandLine, AnEmptyTextIsNoValue) {
+  const ScratchDirectory scratch;
+  for (const char* option : {"--robot", "--map", "--out", "--cache"}) {
+    const auto result = run_program(scratch, std::string("plan m.yaml ") + option + " ''");
+    EXPECT_EQ(result.code, 2) << option;
+    EXPECT_NE(result.err.find("found an empty text"), std::string::npos) << option << result.err;
+  }
+}
+
+TEST(CommandLine, AnOptionBeforeTheCommandIsReportedAsSuch) {
+  const ScratchDirectory scratch;
+  const auto result = run_program(scratch, "--out x plan m.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("--out before the command"), std::string::npos) << result.err;
+}
+
+TEST(CommandLine, ForceDoesNotReplaceAnInput) {
+  const ScratchDirectory scratch;
+  ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
+  const std::string mission = scratch.at("start/mission.yaml"), text = text_of(mission);
+  for (const std::string out : {"mission.yaml", "../start/mission.yaml"}) {
+    const auto result = run_program(scratch, "studio " + mission + " --force --out " + scratch.at("start/" + out));
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.err.find("found an input of this command"), std::string::npos) << result.err;
+  }
+  const auto folder = run_program(scratch, "simulate " + mission + " --force --out " + scratch.at("start"));
+  EXPECT_EQ(folder.code, 2) << "its robot.yaml is an input";
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("start/dataset.yaml")));
+  EXPECT_EQ(text_of(mission), text);
+}
+
 TEST(CommandLine, AnUnknownEffectOfWithoutIsReportedWithSimilarNames) {
   const ScratchDirectory scratch;
   const auto slip =

@@ -85,6 +85,14 @@ std::vector<Case> cases() {
        [](Trajectory& t) { scale(t.battery_current_A, -1); }},
       {"CurrentStuck", "dead", "motor_current_left_A",
        [](Trajectory& t) { std::ranges::fill(t.motor_current_A.left, 0.7); }},
+      {"CurrentStuckAtZero", "dead", "motor_current_left_A",
+       [](Trajectory& t) { std::ranges::fill(t.motor_current_A.left, 0.0); }},
+      {"VoltageStuck", "dead", "motor_voltage_left_V",
+       [](Trajectory& t) { std::ranges::fill(t.motor_voltage_V.left, 7.0); }},
+      {"BatteryCurrentInMilliamperes", "unit", "battery_current_A",
+       [](Trajectory& t) { scale(t.battery_current_A, 1e3); }},
+      {"BatteryVoltageInMillivolts", "unit", "battery_voltage_V",
+       [](Trajectory& t) { scale(t.battery_voltage_V, 1e3); }},
       {"GyroDead", "dead", "gyro_yaw_rate_rad_s", [](Trajectory& t) { scale(t.gyro_yaw_rate_rad_s, 0); }},
       {"CurrentsTimesThree", "scaled", "motor_current_left_A",
        [](Trajectory& t) { scale(t.motor_current_A.left, 3), scale(t.motor_current_A.right, 3); }},
@@ -243,6 +251,67 @@ TEST(SoundData, WithEffectsOfFullSizeAreNotSuspect) {
     for (const DataCheck& check : check_data(dataset, sort_runs(dataset)))
       ADD_FAILURE() << effect << ": " << check.run << " " << check.kind << " " << check.channel << ", "
                     << check.evidence;
+  }
+}
+
+/// The battery's power does not tell the unit of its current from that of its voltage; the robot file does.
+TEST(SpoiltBattery, TellsTheUnitOfItsVoltageFromThatOfItsCurrent) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const int seed : {1, 2, 3}) {
+    const Dataset sound = twelve_runs("--effect none --seed " + std::to_string(seed));
+    for (const char* column : {"battery_current_A", "battery_voltage_V"}) {
+      Dataset dataset = sound;
+      for (auto& run : dataset.runs) scale(find_log_column(column)->channel(run.log), 1e3);
+      const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+      ASSERT_EQ(found.size(), 1u) << column << " of day " << seed;
+      EXPECT_EQ(found[0].channel, column) << "day " << seed;
+    }
+  }
+}
+
+/// A current of one value is dead in every run, and swapped with the other side's in none.
+TEST(SpoiltCurrent, OfOneValueIsDeadInAllRuns) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset dataset = testing::blind_day("--effect none --seed 12 --protocol 24 --label none");
+  for (auto& run : dataset.runs) std::ranges::fill(run.log.motor_current_A.left, 0.0);
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, "dead");
+  EXPECT_EQ(found[0].channel, "motor_current_left_A");
+  EXPECT_EQ(found[0].run, "");
+}
+
+/// Wheel speeds and the battery: with predicted motor power the battery's law holds only as well as the
+/// model does, and a few hundredths of a percent say nothing about a wheel's unit.
+TEST(SoundData, OfOdometryAndBatteryAloneAreNotSuspect) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const char* day :
+       {"none --seed 5", "none --seed 6 --level 1", "rolling_resistance --size 0.02 --seed 5",
+        "turning_scrub --share 1 --seed 7", "viscous_friction --share 1 --seed 2 --robot small"}) {
+    Dataset dataset = twelve_runs(std::string("--effect ") + day);
+    for (auto& run : dataset.runs) {
+      Trajectory& t = run.log;
+      for (std::vector<double>* channel :
+           {&t.motor_current_A.left, &t.motor_current_A.right, &t.motor_voltage_V.left,
+            &t.motor_voltage_V.right, &t.gyro_yaw_rate_rad_s, &t.heading_rad, &t.position_x_m,
+            &t.position_y_m})
+        channel->clear();
+    }
+    for (const DataCheck& check : check_data(dataset, sort_runs(dataset)))
+      ADD_FAILURE() << day << ": " << check.run << " " << check.kind << " " << check.channel << ", "
+                    << check.evidence;
+  }
+}
+
+/// What a repair of a dead channel leaves: voltages of both motors, the current of one.
+TEST(DiagnosisOfOneCurrent, ReadsNoChannelThatIsAbsent) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  for (const Side absent : kSides) {
+    Dataset dataset = twelve_runs("--effect rolling_resistance --size 0.01 --seed 71");
+    for (auto& run : dataset.runs) run.log.motor_current_A[absent].clear();
+    const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
+    ASSERT_FALSE(d.causes.empty()) << side_name(absent);
+    EXPECT_EQ(d.causes[0].effect.name, "rolling_resistance");
   }
 }
 

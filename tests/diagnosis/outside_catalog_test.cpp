@@ -5,6 +5,7 @@
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "scenarios/standstill_cuts.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {
@@ -119,6 +120,18 @@ TEST(ShrinkInterval, FromSixRunsIsNotAPoint) {
   EXPECT_LT(energy.shrink_interval_95.first, energy.shrink_fraction - 0.005);
   EXPECT_LE(energy.shrink_interval_95.second, 1.0);
   EXPECT_GE(energy.shrink_interval_95.second, energy.shrink_fraction);
+}
+
+/// One payload all day: a strength that varies with it is the law's size, and no unknown cause.
+TEST(InexactForm, OfAVariableThatNeverVariesIsNotTold) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  Dataset day =
+      testing::blind_day("--effect viscous_friction --size 0.2 --seed 1 --level 1 --one-log --label none");
+  day.runs = cut_at_standstill(std::move(day.runs), day.artifacts);
+  const Diagnosis d = diagnose(day, {.bootstrap = 20});
+  ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);
+  EXPECT_EQ(d.causes[0].effect.name, "viscous_friction");
+  EXPECT_TRUE(d.unknowns.empty()) << d.leftover_description;
 }
 
 }  // namespace

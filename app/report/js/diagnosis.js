@@ -36,7 +36,7 @@ jp.diagnosis_tiles = function (d) {
   return h("div", {class: "tiles"}, [
     jp.tile("Energy gap before", percent(energy.before_percent), is_number(energy.bias_before_percent) ? `bias ${percent(energy.bias_before_percent)} (negative: the model predicts too little)` : with_unit(energy.before_J, "J")),
     !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : is_number(energy.after_percent) ? jp.tile("After the correction", percent(energy.after_percent), with_unit(energy.after_J, "J")) : null,
-    is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", percent(energy.noise_floor_percent), "no model gets below it") : null,
+    is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", percent(energy.noise_floor_percent), "scatter of the runs: a model need not get below it") : null,
     (d.causes || []).length && is_number(energy.shrink_fraction) ? jp.tile("Gap closed", fraction(energy.shrink_fraction), interval ? `95 %: ${fraction(interval[0])} to ${fraction(interval[1])}` : null) : null].filter(Boolean));
 };
 
