@@ -59,20 +59,20 @@ TEST(Swing, IsNoDearerThanOneHandSetBezierCurve) {
 }
 
 // Where the goal lies behind the robot, points between its heading and the goal lie on one line: every curve
-// through them has a cusp. The curve has to swing aside. The hand-set ones bend at up to 39 per metre, the search's
-// own at 25 at most: over 5 m this costs up to 0.25 %.
+// through them has a cusp. The curve has to swing aside. The hand-set ones bend at up to 39 per metre, the
+// search's own at 25 at most: over 5 m this costs up to 0.25 %.
 TEST(Swing, SwingsRoundToAGoalBehindTheRobot) {
   for (const double turn_deg : {172.0, -176.0, 179.0})
     for (const double reach_m : {1.5, 2.0, 5.0}) {
       const double heading_rad = turn_deg * std::numbers::pi / 180, side = turn_deg < 0 ? 1 : -1;
       const Pose start{20, 20, heading_rad};
       const MissionRequest behind = to_goal(start, {20 + reach_m, 20});
-      const Path hand_set =
-          one_bezier(start, {{{0, 0},
-                              {0.14 * std::cos(heading_rad), 0.14 * std::sin(heading_rad)},
-                              {0.0, -side * 0.7},
-                              {reach_m, 0}}});
-      EXPECT_LE(planned_J(behind), (reach_m > 2 ? 1.004 : 1.002) * along_J(behind, hand_set)) << turn_deg << ", " << reach_m;
+      const Path hand_set = one_bezier(start, {{{0, 0},
+                                                {0.14 * std::cos(heading_rad), 0.14 * std::sin(heading_rad)},
+                                                {0.0, -side * 0.7},
+                                                {reach_m, 0}}});
+      EXPECT_LE(planned_J(behind), (reach_m > 2 ? 1.004 : 1.002) * along_J(behind, hand_set))
+          << turn_deg << ", " << reach_m;
     }
 }
 
