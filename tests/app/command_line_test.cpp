@@ -77,7 +77,7 @@ TEST(CommandLine, ForceDoesNotReplaceAnInput) {
   }
   const auto folder = run_program(scratch, "simulate " + mission + " --force --out " + scratch.at("start"));
   EXPECT_EQ(folder.code, 2) << "its robot.yaml is an input";
-  EXPECT_FALSE(std::filesystem::exists(scratch.at("start/dataset.yaml")));
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("start/simulation.json")));
   EXPECT_EQ(text_of(mission), text);
 }
 

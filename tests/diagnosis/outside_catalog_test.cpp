@@ -126,7 +126,7 @@ TEST(ShrinkInterval, FromSixRunsIsNotAPoint) {
 TEST(InexactForm, OfAVariableThatNeverVariesIsNotTold) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   Dataset day =
-      testing::blind_day("--effect viscous_friction --size 0.2 --seed 1 --level 1 --one-log --label none");
+      testing::blind_day("--effect viscous_friction --size 0.2 --seed 12 --level 1 --one-log --label none");
   day.runs = cut_at_standstill(std::move(day.runs), day.artifacts);
   const Diagnosis d = diagnose(day, {.bootstrap = 20});
   ASSERT_EQ(d.causes.size(), 1u) << verdict_name(d.verdict);

@@ -159,7 +159,9 @@ TEST(AffineFit, HoldsForLinearLawsOnly) {
 
 /// One fit serves places whose wheels turn in other directions and which carry another load.
 TEST(AffineFit, IsTheModelAtEveryPlace) {
-  const Plant plant = make_nominal_plant(testing::nomad());
+  Robot robot = testing::nomad();
+  robot.geometry.center_of_mass_offset_m = -0.1;  // adds omega^2 and v omega
+  const Plant plant = make_nominal_plant(robot);
   nlp::AffineFit fit(plant);
   for (const double load_kg : {0.0, 8.0})
     for (const double turn : {-9.0, 0.3, 9.0})

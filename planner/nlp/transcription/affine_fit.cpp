@@ -26,11 +26,13 @@ Affine fit(const Samples& samples, Side side, Member member) {
 
 /// A quantity of a wheel along a path, from what it is by the body's motion:
 ///   v = along u,   v' = along a,   omega = turn u,   omega' = turn a + turn_slope u^2.
+/// A center of mass beside the axle adds omega^2 and v omega.
 template <class ByBody>
 Affine along_path(const ByBody& x, const PathRates& rates) {
   return {.constant = x.constant,
           .of_a = x.acceleration * rates.along + x.yaw_acceleration * rates.turn,
-          .of_b = x.yaw_acceleration * rates.turn_slope,
+          .of_b = x.yaw_acceleration * rates.turn_slope +
+                  (x.yaw_rate_squared * rates.turn + x.speed_by_yaw_rate * rates.along) * rates.turn,
           .of_u = x.speed * rates.along + x.yaw_rate * rates.turn};
 }
 
@@ -45,13 +47,17 @@ void AffineFit::take_directions(const Site& site) {
   payload_kg_ = site.payload_kg;
   const auto at = [&](const BodyMotion<double>& motion) { return operating_point(*plant_, motion, site); };
   const States rest = at({}), speed = at({.speed_m_s = 1}), acceleration = at({.acceleration_m_s2 = 1}),
-               yaw_rate = at({.yaw_rate_rad_s = 1}), yaw_acceleration = at({.yaw_acceleration_rad_s2 = 1});
+               yaw_rate = at({.yaw_rate_rad_s = 1}), back = at({.yaw_rate_rad_s = -1}),
+               both = at({.speed_m_s = 1, .yaw_rate_rad_s = 1}),
+               yaw_acceleration = at({.yaw_acceleration_rad_s2 = 1});
   const auto by_body = [&](Side side, double WheelState<double>::*member) {
     const double none = rest[side].*member;
     return ByBody{.constant = none,
                   .speed = speed[side].*member - none,
                   .acceleration = acceleration[side].*member - none,
-                  .yaw_rate = yaw_rate[side].*member - none,
+                  .yaw_rate = 0.5 * (yaw_rate[side].*member - back[side].*member),
+                  .yaw_rate_squared = 0.5 * (yaw_rate[side].*member + back[side].*member) - none,
+                  .speed_by_yaw_rate = both[side].*member - speed[side].*member - yaw_rate[side].*member + none,
                   .yaw_acceleration = yaw_acceleration[side].*member - none};
   };
   for (Side side : kSides)
@@ -63,7 +69,7 @@ void AffineFit::take_directions(const Site& site) {
 bool AffineFit::at(const PathRates& rates, const Site& site, Sided<AffineWheel>& wheel) {
   const Plant& plant = *plant_;
   if (plant.torque_loss_fraction != 0 || plant.driver_voltage_drop_V != 0) return false;
-  if (plant.effects.empty()) {  // the model without effects is linear in the body's motion
+  if (plant.effects.empty()) {
     if (wheel_direction_ != site.wheel_direction || payload_kg_ != site.payload_kg) take_directions(site);
     for (Side side : kSides)
       wheel[side] = {along_path(by_body_[side].current_A, rates),
