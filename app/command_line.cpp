@@ -62,11 +62,12 @@ std::string unknown_argument(const CLI::App& app) {
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 
-/// A check whose message says what was found and what is accepted.
+/// A check of a finite number whose message says what was found and what is accepted.
 CLI::Validator number_check(const std::string& accepted, bool (*fits)(double)) {
   const auto check = [accepted, fits](const std::string& text) {
     const std::optional<double> value = parse_number(text);
-    return value && fits(*value) ? std::string() : "found " + text + ", accepted: " + accepted;
+    return value && std::isfinite(*value) && fits(*value) ? std::string()
+                                                          : "found " + text + ", accepted: " + accepted;
   };
   return {check, ""};
 }
@@ -108,12 +109,12 @@ OptionRules& OptionRules::between(double least, double most) {
 }
 
 OptionRules& OptionRules::not_negative() {
-  option_->check(number_check("a number of at least 0", [](double value) { return value >= 0; }));
+  *option_->get_validator() = number_check("a number of at least 0", [](double value) { return value >= 0; });
   return *this;
 }
 
 OptionRules& OptionRules::positive() {
-  option_->check(number_check("a number above 0", [](double value) { return value > 0; }));
+  *option_->get_validator() = number_check("a number above 0", [](double value) { return value > 0; });
   return *this;
 }
 
@@ -140,9 +141,9 @@ OptionRules& OptionRules::repeatable() {
 template <class Value>
 OptionRules CommandLine::option(const std::string& name, Value& value, const std::string& says) {
   CLI::Option& option = *app_->add_option(name, value, says);
-  // No range refuses a NaN by itself.
+  // No range refuses a NaN by itself; a rule with words of its own takes the place of this check.
   if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>)
-    option.check(number_check("a finite number", [](double number) { return std::isfinite(number); }));
+    option.check(number_check("a finite number", [](double) { return true; }));
   else if constexpr (!std::is_integral_v<Value>)
     option.check(text_check());
   return OptionRules(option);

@@ -142,7 +142,8 @@ void write_output_file(const std::string& file, const std::string& content, bool
 bool remove_output_file(const std::string& file) {
   refuse_input(file);
   std::error_code error;
-  if (fs::is_directory(file, error)) throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
+  if (fs::is_directory(file, error))
+    throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
   const bool removed = fs::remove(file, error);
   if (error) fail(file, "remove", error.message());
   return removed;

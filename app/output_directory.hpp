@@ -33,7 +33,8 @@ class OutputDirectory {
 /// given, or if it is an input of the command; EnvironmentError if it cannot be written.
 void write_output_file(const std::string& file, const std::string& content, bool force);
 
-/// Removes a result of an earlier run, where there is one; whether there was. Throws as write_output_file() does.
+/// Removes a result of an earlier run, where there is one; whether there was. Throws as write_output_file()
+/// does.
 bool remove_output_file(const std::string& file);
 
 /// The same as write_output_file() for a file that the user edits, an input or not.

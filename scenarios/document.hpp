@@ -134,6 +134,7 @@ class Document {
 
 /// Whether read_text_file() has read the file since the last forget_inputs(): a result must not replace it.
 [[nodiscard]] bool is_input(const std::string& file);
+void forget_input(const std::string& file);  ///< of a command's own result, read to continue a run
 void forget_inputs();
 
 /// The file that a node names, relative to the file that holds the node.

@@ -81,6 +81,11 @@ bool is_input(const std::string& file) {
   return inputs().files.contains(one_name(file));
 }
 
+void forget_input(const std::string& file) {
+  const std::lock_guard lock(inputs().mutex);
+  inputs().files.erase(one_name(file));
+}
+
 void forget_inputs() {
   const std::lock_guard lock(inputs().mutex);
   inputs().files.clear();

@@ -42,9 +42,8 @@ class StudioCommand : public Command {
   }
 
   int run() override {
-    studio::MissionFiles files(mission_, [](const std::string& file, const std::string& content) {
-      replace_file(file, content);
-    });
+    studio::MissionFiles files(
+        mission_, [](const std::string& file, const std::string& content) { replace_file(file, content); });
     if (!dataset_.empty())
       server_.diagnosis =
           diagnosis_results(read_dataset(dataset_, {.cut_long_logs = true, .accept_implausible = true}), {})

@@ -14,6 +14,7 @@
 #include "model/printable.hpp"
 #include "model/workers.hpp"
 #include "scenarios/counted.hpp"
+#include "scenarios/document.hpp"
 
 namespace joulepath {
 namespace {
@@ -90,6 +91,7 @@ void check_same_run(const std::string& file, const JobJournal& journal, const Jo
 void check_finished_shard(const JobList& jobs, const JobRun& run) {
   if (run.shard.is_whole() || !has_manifest(run.directory)) return;
   const ShardManifest finished = read_manifest(run.directory);
+  forget_input(run.directory + "/shard.json");  // this run replaces it
   if (finished.command == run.command && finished.shard.text() == run.shard.text() &&
       finished.list_digest == jobs.digest())
     return;

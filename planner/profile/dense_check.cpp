@@ -24,7 +24,8 @@ constexpr double kCoarse = 5e-3;     ///< a larger violation needs a node, not o
 
 /// Where a parabola through three points has its peak; no number where it has none.
 double peak_of(const std::array<double, 3>& at, const std::array<double, 3>& value) {
-  const double left = (at[1] - at[0]) * (value[1] - value[2]), right = (at[2] - at[1]) * (value[1] - value[0]);
+  const double left = (at[1] - at[0]) * (value[1] - value[2]),
+               right = (at[2] - at[1]) * (value[1] - value[0]);
   if (left + right <= 0) return std::numeric_limits<double>::quiet_NaN();
   return at[1] - 0.5 * ((at[1] - at[0]) * left - (at[2] - at[1]) * right) / (left + right);
 }
@@ -79,7 +80,8 @@ class SegmentLook {
       const double first = i == 1 ? 0.0 : own - 0.5, last = i + 1 == kLooks ? own + 1.0 : own + 0.5;
       for (std::size_t k = 0; k < kPeakLooks; ++k) {
         const double top = peak_of(at, value);
-        if (!(top >= first && top <= last) || ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
+        if (!(top >= first && top <= last) ||
+            ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
           break;
         const double found = use_of(name, top / kLooks), higher = found - value[1];
         most = std::max(most, found);

@@ -16,8 +16,8 @@ constexpr double kJoinAfter_m[] = {0.6, 1.5, 3.0};
 /// Knots of a guess along the whole of a given curve: from its ends, and between them at most.
 constexpr double kFirstKnot_m[] = {0.5, 1.2};
 constexpr double kBetweenKnots_m = 1.2;
-constexpr double kHalfway_m[] = {0.15, 0.35};  ///< to a knot in the middle of a swing
-constexpr double kBack_rad = 2.4;              ///< from this turn on, swings to both sides are guessed
+constexpr double kHalfway_m[] = {0.15, 0.35};     ///< to a knot in the middle of a swing
+constexpr double kBack_rad = 2.4;                 ///< from this turn on, swings to both sides are guessed
 constexpr double kRadius_m[] = {0.1, 0.25, 0.6};  ///< of arcs
 constexpr double kMostArc_rad = 5.5;
 constexpr double kShortestLine_m = 0.02;               ///< between two arcs
@@ -154,7 +154,8 @@ void Guesses::guess_swings() {
 }
 
 /// An arc, a straight line and, where the goal names a heading, another arc: every sense of rotation at both
-/// ends. A swing keeps the whole turns of its first guess, as no curve without a cusp lies between two of them.
+/// ends. A swing keeps the whole turns of its first guess, as no curve without a cusp lies between two of
+/// them.
 void Guesses::guess_arcs() {
   const std::optional<double>& goal_rad = request_.goal_heading_rad;
   for (const double radius_m : kRadius_m)

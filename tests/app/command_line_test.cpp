@@ -71,7 +71,8 @@ TEST(CommandLine, ForceDoesNotReplaceAnInput) {
   ASSERT_EQ(run_program(scratch, "init -q " + scratch.at("start")).code, 0);
   const std::string mission = scratch.at("start/mission.yaml"), text = text_of(mission);
   for (const std::string out : {"mission.yaml", "../start/mission.yaml"}) {
-    const auto result = run_program(scratch, "studio " + mission + " --force --out " + scratch.at("start/" + out));
+    const auto result =
+        run_program(scratch, "studio " + mission + " --force --out " + scratch.at("start/" + out));
     EXPECT_EQ(result.code, 2);
     EXPECT_NE(result.err.find("found an input of this command"), std::string::npos) << result.err;
   }
@@ -223,7 +224,7 @@ TEST(CommandLine, OptionsThatAPathOrAMissionDoesNotTakeAreReportedInOneLine) {
 
 TEST(CommandLine, ANumberThatIsNoneOrNegativeIsNamedWithWhatIsAccepted) {
   const ScratchDirectory scratch;
-  for (const std::string bad : {"abc", "-1", "nan", "1e"}) {
+  for (const std::string bad : {"abc", "-1", "nan", "inf", "1e"}) {
     const auto result = run_program(scratch, "compare " + kRobot + " --payload=" + bad);
     EXPECT_EQ(result.code, 2) << bad;
     EXPECT_NE(result.err.find("--payload: found " + bad + ", accepted: a number of at least 0"),

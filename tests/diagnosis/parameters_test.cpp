@@ -55,9 +55,8 @@ Refit patch_beside_its_lane(double coefficient, double sd) {
   fitted.equations.columns = {{Column::Kind::amplitude, 0, 0, 1.0, 0.0},
                               {Column::Kind::shape, 0, 3, kEdgeSd_m, 0.0}};
   fitted.columns = {0, 1};
-  fitted.covariance = Eigen::Matrix2d{
-      {sd * sd + coefficient * coefficient, -coefficient * kEdgeSd_m},
-      {-coefficient * kEdgeSd_m, kEdgeSd_m * kEdgeSd_m}};
+  fitted.covariance = Eigen::Matrix2d{{sd * sd + coefficient * coefficient, -coefficient * kEdgeSd_m},
+                                      {-coefficient * kEdgeSd_m, kEdgeSd_m * kEdgeSd_m}};
   fitted.run_covariance = fitted.covariance;
   fitted.fit_runs = 10;
   return fitted;

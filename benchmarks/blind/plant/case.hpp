@@ -56,7 +56,6 @@ void write_case(const Case& c, const std::string& folder);
 
 /// Write the label, as JSON where the path ends so, else as YAML; with what the oracle says if asked,
 /// and the observer.
-void write_label(const Case& c, const std::string& path, bool with_oracle,
-                 bool with_observer);
+void write_label(const Case& c, const std::string& path, bool with_oracle, bool with_observer);
 
 }  // namespace blind

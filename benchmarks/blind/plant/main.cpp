@@ -95,9 +95,8 @@ int run(int argc, char** argv) {
       throw std::invalid_argument("unexpected argument '" + key + "'");
   }
   for (const auto& [key, value] : given)
-    if (std::string(
-            " --effect --size --share --robot --protocol --level --seed --day --noise --out --label "
-            "--append ")
+    if (std::string(" --effect --size --share --robot --protocol --level --seed --day --noise --out --label "
+                    "--append ")
             .find(" " + key + " ") == std::string::npos)
       throw std::invalid_argument("unknown option " + key);
   const std::string out = given["--out"];

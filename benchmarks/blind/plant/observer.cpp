@@ -24,7 +24,7 @@ struct Candidate {
     for (std::size_t k = 1; k < rivals.size(); ++k) text += "+" + rivals[k]->effect.name;
     return text;
   }
-  Vector bounds(Vector Rival::* which) const {
+  Vector bounds(Vector Rival::*which) const {
     Vector all;
     for (const Rival* rival : rivals) all.insert(all.end(), (rival->*which).begin(), (rival->*which).end());
     return all;

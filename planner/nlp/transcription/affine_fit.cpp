@@ -52,13 +52,14 @@ void AffineFit::take_directions(const Site& site) {
                yaw_acceleration = at({.yaw_acceleration_rad_s2 = 1});
   const auto by_body = [&](Side side, double WheelState<double>::*member) {
     const double none = rest[side].*member;
-    return ByBody{.constant = none,
-                  .speed = speed[side].*member - none,
-                  .acceleration = acceleration[side].*member - none,
-                  .yaw_rate = 0.5 * (yaw_rate[side].*member - back[side].*member),
-                  .yaw_rate_squared = 0.5 * (yaw_rate[side].*member + back[side].*member) - none,
-                  .speed_by_yaw_rate = both[side].*member - speed[side].*member - yaw_rate[side].*member + none,
-                  .yaw_acceleration = yaw_acceleration[side].*member - none};
+    return ByBody{
+        .constant = none,
+        .speed = speed[side].*member - none,
+        .acceleration = acceleration[side].*member - none,
+        .yaw_rate = 0.5 * (yaw_rate[side].*member - back[side].*member),
+        .yaw_rate_squared = 0.5 * (yaw_rate[side].*member + back[side].*member) - none,
+        .speed_by_yaw_rate = both[side].*member - speed[side].*member - yaw_rate[side].*member + none,
+        .yaw_acceleration = yaw_acceleration[side].*member - none};
   };
   for (Side side : kSides)
     by_body_[side] = {by_body(side, &WheelState<double>::current_A),
@@ -72,8 +73,8 @@ bool AffineFit::at(const PathRates& rates, const Site& site, Sided<AffineWheel>&
   if (plant.effects.empty()) {
     if (wheel_direction_ != site.wheel_direction || payload_kg_ != site.payload_kg) take_directions(site);
     for (Side side : kSides)
-      wheel[side] = {along_path(by_body_[side].current_A, rates),
-                     along_path(by_body_[side].voltage_V, rates), along_path(by_body_[side].force_N, rates)};
+      wheel[side] = {along_path(by_body_[side].current_A, rates), along_path(by_body_[side].voltage_V, rates),
+                     along_path(by_body_[side].force_N, rates)};
     return true;
   }
   const auto motion_at = [&](double u, double a) {

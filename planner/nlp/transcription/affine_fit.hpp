@@ -21,7 +21,8 @@ class AffineFit {
  private:
   /// A quantity of a wheel per unit of each component of the body's motion.
   struct ByBody {
-    double constant{}, speed{}, acceleration{}, yaw_rate{}, yaw_rate_squared{}, speed_by_yaw_rate{}, yaw_acceleration{};
+    double constant{}, speed{}, acceleration{}, yaw_rate{}, yaw_rate_squared{}, speed_by_yaw_rate{},
+        yaw_acceleration{};
   };
   struct WheelByBody {
     ByBody current_A{}, voltage_V{}, force_N{};

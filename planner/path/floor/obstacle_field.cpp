@@ -17,7 +17,7 @@ int floor_of(double x) {
   return towards_0 - (x < towards_0 ? 1 : 0);
 }
 
-}
+}  // namespace
 ObstacleField::ObstacleField(const OccupancyGrid& map, const OccupancyGrid* keepout) {
   layers_.push_back(layer_of(map, Layer::map));
   if (keepout != nullptr) layers_.push_back(layer_of(*keepout, Layer::keepout));

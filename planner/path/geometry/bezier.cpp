@@ -68,9 +68,9 @@ double BezierSegment::curvature_bound_per_m() const {
   if (rational_) return std::numeric_limits<double>::infinity();
   double most_per_m = 0;
   for (int i = 0; i < kParts; ++i)
-    most_per_m = std::max(most_per_m, Hodograph(points_m_, static_cast<double>(i) / kParts,
-                                                static_cast<double>(i + 1) / kParts)
-                                          .curvature_bound_per_m());
+    most_per_m = std::max(
+        most_per_m, Hodograph(points_m_, static_cast<double>(i) / kParts, static_cast<double>(i + 1) / kParts)
+                        .curvature_bound_per_m());
   return most_per_m;
 }
 
