@@ -109,12 +109,13 @@ OptionRules& OptionRules::between(double least, double most) {
 }
 
 OptionRules& OptionRules::not_negative() {
-  *option_->get_validator() = number_check("a number of at least 0", [](double value) { return value >= 0; });
+  *option_->get_validator() =
+      number_check("a finite number of at least 0", [](double value) { return value >= 0; });
   return *this;
 }
 
 OptionRules& OptionRules::positive() {
-  *option_->get_validator() = number_check("a number above 0", [](double value) { return value > 0; });
+  *option_->get_validator() = number_check("a finite number above 0", [](double value) { return value > 0; });
   return *this;
 }
 

@@ -227,7 +227,7 @@ TEST(CommandLine, ANumberThatIsNoneOrNegativeIsNamedWithWhatIsAccepted) {
   for (const std::string bad : {"abc", "-1", "nan", "inf", "1e"}) {
     const auto result = run_program(scratch, "compare " + kRobot + " --payload=" + bad);
     EXPECT_EQ(result.code, 2) << bad;
-    EXPECT_NE(result.err.find("--payload: found " + bad + ", accepted: a number of at least 0"),
+    EXPECT_NE(result.err.find("--payload: found " + bad + ", accepted: a finite number of at least 0"),
               std::string::npos)
         << result.err;
   }
