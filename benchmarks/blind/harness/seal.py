@@ -24,7 +24,7 @@ def plant_command(case):
 def label_of(case):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "label.json")
-        subprocess.run(plant_command(case) + ["--label", path, "--observer" if case["bin"] == "single" else "--oracle"], check=True)
+        subprocess.run(plant_command(case) + ["--label", path, "--observer" if case["bin"] in ("single", "removed") else "--oracle"], check=True)
         with open(path) as file:
             text = file.read()
     try:
