@@ -292,6 +292,9 @@ inline constexpr double kFormSpread = 0.12;
 /// A law's form further out, in its sigmas, is part of an unknown cause. Derived: 0.3 % of normal errors
 /// (0521).
 inline constexpr double kInexactForm = 3.0;
+/// A law's form whose 95 % interval lies beyond this share of its strength is part of an unknown cause, too.
+/// Chosen (0521).
+inline constexpr double kSureForm = 0.2;
 /// Speed in the middle of a form variable's scale. Physical scale.
 inline constexpr double kUsualSpeed_m_s = 0.3;
 /// The same of yaw rates. Physical scale.
@@ -362,7 +365,9 @@ inline constexpr double kFreeAmplitude = 30.0;
 /// A less likely effect, group or unknown term is not named; a group without a member as likely is ambiguous.
 /// Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
 inline constexpr double kLeastProbabilityNamed = 0.7;
-/// A less likely effect is not listed, nor named for a calibration constant. Declared.
+/// A less likely effect is not named for a calibration constant beyond its uncertainty. Chosen (0630).
+inline constexpr double kLeastProbabilityOfConstant = 0.05;
+/// A less likely effect is not listed. Declared.
 inline constexpr double kLeastProbabilityRanked = 1e-4;
 /// Effects listed. Declared.
 inline constexpr std::size_t kLongestRanking = 12;

@@ -9,6 +9,7 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
+#include "model/normal_quantiles.hpp"
 // Design: docs/decisions/0230-unknown-terms-compete.md,
 // docs/decisions/0521-a-form-beyond-its-doubt.md,
 // docs/decisions/0530-kept-runs-do-not-stand-for-all.md
@@ -120,6 +121,12 @@ double form_sigmas(const Posterior& posterior, Eigen::Index at) {
   return found > 0 ? std::abs(posterior.mean[at]) / std::sqrt(found) : 0.0;
 }
 
+/// Whether the law's strength varies with the variable by more than laws do, or surely by more than a fifth.
+bool is_inexact_form(const Posterior& posterior, Eigen::Index at) {
+  return form_sigmas(posterior, at) >= kInexactForm ||
+         std::abs(posterior.mean[at]) - kNormal95 * std::sqrt(posterior.covariance(at, at)) >= kSureForm;
+}
+
 /// Whether the form's variable differs within these runs: a payload that all of them carry is the law's size.
 bool form_is_told(const Examination& x, int form) {
   const Column& column = x.id.equations.columns[static_cast<std::size_t>(form)];
@@ -143,7 +150,7 @@ void name_inexact_forms(const Examination& x, Names& names) {
     const bool named = std::ranges::any_of(
         names.named, [&](const ActiveEffect& effect) { return effect.candidate.label() == law; });
     if (!named || !form_is_told(x, columns[k])) continue;
-    if (form_sigmas(posterior, static_cast<Eigen::Index>(k)) < kInexactForm) continue;
+    if (!is_inexact_form(posterior, static_cast<Eigen::Index>(k))) continue;
     const auto variable = static_cast<std::size_t>(column.part) % kFormVariables.size();
     names.unknowns.push_back({.depends_on = std::string(kFormVariables[variable]) + " (" + law + ")",
                               .probability = names.surest,

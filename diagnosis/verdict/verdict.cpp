@@ -35,11 +35,11 @@ int constant_that_wins(const Examination& x, bool nothing_won) {
 }
 
 /// A constant beyond its uncertainty is reported as the effect that changes the same number; the verdict is
-/// unexplained if the catalog has none, or if the race gives it no probability.
+/// unexplained if the catalog has none, or if the race gives it hardly any probability.
 Judgment judge_constant(const Examination& x, const Names& names, int column) {
   if (const int candidate = effect_of_constant(x.id, column); candidate >= 0) {
     const ActiveEffect effect{x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}};
-    if (probability_of(names, effect) > kLeastProbabilityRanked)
+    if (probability_of(names, effect) >= kLeastProbabilityOfConstant)
       return {.verdict = Verdict::explained, .named = {effect}};
   }
   return {.verdict = Verdict::unexplained,

@@ -210,6 +210,12 @@ class Sealing(unittest.TestCase):
         self.assertAlmostEqual(share(full[:280]), share(full), delta=0.02)
         self.assertEqual(len(plan.plan("commit", *names, plan.SHORT)), 60)
 
+    def test_mujoco_drives_cases_of_its_own(self):
+        cases = plan.campaign("mujoco", "commit")
+        self.assertEqual({(c["level"], c["physics"]) for c in cases}, {(0, "blind_mujoco")})
+        self.assertEqual({tuple(c["effects"]) for c in cases}, {()} | {(name,) for name in plan.MUJOCO_EFFECTS})
+        self.assertFalse({c["seed"] for c in cases} & {c["seed"] for c in plan.plan("commit", plan.MUJOCO_EFFECTS, (), plan.MUJOCO)})
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -49,7 +49,7 @@ TEST(AllClear, ALogWithoutPowerMeasurementsIsTooLittleData) {
 TEST(AllClear, StatesNoSizeBelowTheMeasuredGap) {
   if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
   const Dataset day = testing::blind_day(
-      "--effect gear_efficiency --size 0.0273095 --protocol 12 --level 0 --seed 4495434890916876233 --label "
+      "--effect gear_efficiency --size 0.02 --protocol 12 --level 0 --seed 4495434890916876233 --label "
       "none");
   const Diagnosis d = diagnose(day, {.bootstrap = 20, .without = {"gear_efficiency"}});
   ASSERT_EQ(d.verdict, Verdict::no_gap) << verdict_name(d.verdict);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "diagnosis/signals/friction_direction.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 
@@ -63,6 +64,31 @@ TEST_P(DictionaryEntries, VoltageOfAWindingIsOddInSpeed) {
     const double q = run.wheel_speed_rad_s.left[j];
     EXPECT_NEAR(speed[0][j], q, 1e-12);
     EXPECT_NEAR(speed[2][j], std::copysign(q * q, q), 1e-12);
+  }
+}
+
+/// A sensor that reads 1 A too much: the winding's equation lacks R times that, the motors' logged power has
+/// V times that too much.
+TEST_P(DictionaryEntries, ReadingOfACurrentShowsWhereverTheCurrentIsUsed) {
+  const RunSignals run = there_or_back(GetParam());
+  const Robot robot = testing::nomad();
+  const Prediction p = predict(run, {.robot = robot});
+  const auto of = [&](const char* family, Channel channel) {
+    return entries_of(run, family, "current reading", channel);
+  };
+  const auto current = of("constant", kCurrentLeft), winding = of("constant", kWindingLeft),
+             driver = of("constant", kDriverPower), right = of("constant", kCurrentRight),
+             scaled = of("current", kDriverPower),
+             torque = entries_of(run, "motor torque", "current", kCurrentRight);
+  ASSERT_TRUE(current.size() == 2 && scaled.size() == 2 && torque.size() == 1);
+  for (Eigen::Index j = 0; j < run.size(); ++j) {
+    EXPECT_EQ(current[0][j], 1.0);
+    EXPECT_EQ(right[0][j], 0.0);
+    EXPECT_NEAR(winding[0][j], -robot.motor.left.resistance_ohm, 1e-12);
+    EXPECT_NEAR(driver[0][j], -p.voltage_V.left[j], 1e-12);
+    EXPECT_NEAR(scaled[1][j], -p.power_W.right[j], 1e-12);
+    EXPECT_NEAR(torque[0][j],
+                std::abs(p.current_A.right[j]) * friction_direction(run.wheel_speed_rad_s.right[j]), 1e-12);
   }
 }
 

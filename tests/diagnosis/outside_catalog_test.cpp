@@ -66,6 +66,10 @@ TEST_P(EffectTakenOut, IsCalledUnexplainedAndTellsWhatItGoesWith) {
 INSTANTIATE_TEST_SUITE_P(Catalog, EffectTakenOut,
                          ::testing::Values(TakenOut{"standby_power_error", 1.5, "depends on"},
                                            TakenOut{"supply_sag", 0.5, "battery voltage"},
+                                           TakenOut{"current_sensor_offset", -0.01,
+                                                    "constant (current reading)"},
+                                           TakenOut{"current_sensor_gain", 0.1, "current (current reading)"},
+                                           TakenOut{"gear_efficiency", 0.1, "motor torque (current)"},
                                            TakenOut{"wheel_radius_error", 0.05, "goes with wheel_radius_m"}),
                          [](const auto& taken) { return taken.param.effect; });
 
@@ -96,6 +100,19 @@ TEST(ForeignEffectWithMemory, OfASwingingLoadIsNoAllClear) {
   EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
   EXPECT_TRUE(d.causes.empty());
   EXPECT_NE(d.leftover_description.find("past acceleration"), std::string::npos) << d.leftover_description;
+}
+
+/// Rolling resistance that no law describes is taken for Coulomb friction, whose strength no payload changes
+/// so.
+TEST(InexactForm, OfAFrictionThatGrowsWithThePayloadIsUnknown) {
+  if (!testing::have_blind_plant()) GTEST_SKIP() << "blind_plant is not built (JOULEPATH_BUILD_BENCHMARKS)";
+  const Diagnosis d = diagnose(testing::blind_day("rolling_resistance", 0.005, 0, 24, 31),
+                               {.bootstrap = 20, .without = {"rolling_resistance"}});
+  EXPECT_EQ(d.verdict, Verdict::partly_explained) << verdict_name(d.verdict);
+  ASSERT_EQ(d.causes.size(), 1u);
+  EXPECT_EQ(d.causes.front().effect.name, "coulomb_friction");
+  EXPECT_NE(d.leftover_description.find("payload (coulomb_friction)"), std::string::npos)
+      << d.leftover_description;
 }
 
 /// A draft that grows all day pulls like a slope, whose strength no floor changes with the time.

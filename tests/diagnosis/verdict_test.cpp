@@ -87,9 +87,12 @@ TEST(Judgment, NamesAConstantFarOutsideItsUncertaintyOnly) {
     EXPECT_EQ(law.verdict, Verdict::explained) << "the law that changes the same number";
     ASSERT_EQ(law.named.size(), 1u);
     EXPECT_EQ(law.named[0].candidate.label(), "coulomb_friction");
-    const Judgment unlikely = judged(constant_at(sigmas, 0.995));
-    EXPECT_EQ(unlikely.verdict, Verdict::unexplained) << "a law that the race gives no probability";
-    EXPECT_TRUE(unlikely.named.empty());
+    for (const double probability : {0.0, 0.01}) {
+      const Judgment unlikely =
+          judged(constant_at(sigmas, 0.995), {.probabilities = {{"coulomb_friction", probability}}});
+      EXPECT_EQ(unlikely.verdict, Verdict::unexplained) << "a law that the race gives hardly any probability";
+      EXPECT_TRUE(unlikely.named.empty());
+    }
   }
 }
 

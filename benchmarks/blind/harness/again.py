@@ -34,7 +34,7 @@ def refuse_other_logs(results, hashes):
 
 def again(count, jobs):
     name, frozen, hashes = published()
-    cases = [case for case in plan.plan(frozen, *workspace.effect_names(), plan.FULL)[: count or None] if case["id"] in hashes]
+    cases = [case for case in plan.campaign(name, frozen)[: count or None] if case["id"] in hashes]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         answers = list(pool.map(asked, cases))
     labels, results = {label["id"]: label for label, _ in answers}, {result["id"]: result for _, result in answers}

@@ -12,7 +12,6 @@ import tempfile
 
 import again
 import campaign
-import plan
 import report
 import seal
 import workspace
@@ -41,8 +40,8 @@ def short(jobs):
     workspace.dirty = lambda against="HEAD": []
     try:
         frozen = workspace.head()
-        seal.seal("short", plan.SHORT, 60, jobs)
-        left = campaign.diagnose_all(frozen, "short", plan.SHORT, 3600, jobs)
+        seal.seal("short", 60, jobs)
+        left = campaign.diagnose_all(frozen, "short", 3600, jobs)
         output = results.parents[1] / "build" / "blind_short"
         missing, failed = report.score(frozen, "short", output, False, "blind", True)
         return 1 if left or missing or failed else 0
@@ -54,7 +53,7 @@ def main():
     parser = argparse.ArgumentParser(prog="benchmarks/blind/run")
     parser.add_argument("stage", nargs="?", default="all", choices=["all", "seal", "diagnose", "score", "again"])
     parser.add_argument("--short", action="store_true", help="60 cases, mechanics only, nothing is sealed")
-    parser.add_argument("--name", default="full", help="campaign's name")
+    parser.add_argument("--name", default="full", help="campaign's name; mujoco: cases that MuJoCo drives")
     parser.add_argument("--cases", type=int, default=0, help="seal, or ask again, the first N cases only (any prefix keeps the bins' proportions)")
     parser.add_argument("--minutes", type=float, default=55, help="stop diagnosing after this long; call again to go on")
     parser.add_argument("--partial", action="store_true", help="score although cases are not diagnosed yet")
@@ -66,7 +65,7 @@ def main():
         return again.again(arguments.cases, arguments.jobs)
     name, frozen = arguments.name, sealed_commit(arguments.name)
     if arguments.stage in ("all", "seal") and not frozen:
-        frozen = seal.seal(name, plan.FULL, arguments.cases, arguments.jobs)
+        frozen = seal.seal(name, arguments.cases, arguments.jobs)
         if arguments.stage == "all":
             print("no campaign was sealed at this commit: commit the manifest, then call this again", file=sys.stderr)
             return 0
@@ -76,12 +75,12 @@ def main():
     if not committed and arguments.stage != "seal":
         sys.exit("the manifest is not committed: commit it before diagnosing")
     if arguments.stage in ("all", "diagnose"):
-        left = campaign.diagnose_all(frozen, name, plan.FULL, 60 * arguments.minutes, arguments.jobs)
+        left = campaign.diagnose_all(frozen, name, 60 * arguments.minutes, arguments.jobs)
         print(f"{left} cases left", file=sys.stderr)
         if left and arguments.stage == "all":
             return 0
     if arguments.stage in ("all", "score"):
-        report.score(frozen, name, workspace.RESULTS, True, "blind", arguments.partial)
+        report.score(frozen, name, workspace.RESULTS, True, "blind_mujoco" if name == "mujoco" else "blind", arguments.partial)
     return 0
 
 

@@ -31,9 +31,9 @@ def done_cases(log):
     return found
 
 
-def planned_cases(frozen, name, counts):
+def planned_cases(frozen, name):
     manifest = json.loads(workspace.manifest_path(frozen, name).read_text())
-    return plan.plan(frozen, *workspace.effect_names(), counts)[: manifest["cases"]]
+    return plan.campaign(name, frozen)[: manifest["cases"]]
 
 
 def refuse_what_cannot_count(frozen):
@@ -45,10 +45,10 @@ def refuse_what_cannot_count(frozen):
         sys.exit("this joulepath cannot `diagnose --without NAME`: build the frozen commit first")
 
 
-def diagnose_all(frozen, name, counts, limit_s, jobs):
+def diagnose_all(frozen, name, limit_s, jobs):
     """Diagnose what is not done yet, for about `limit_s` seconds. Returns how many cases are left."""
     refuse_what_cannot_count(frozen)
-    cases = planned_cases(frozen, name, counts)
+    cases = planned_cases(frozen, name)
     log = workspace.sealed_folder(frozen, name) / "diagnosed.jsonl"
     done = done_cases(log)
     waiting = [case for case in cases if case["id"] not in done]

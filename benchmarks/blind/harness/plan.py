@@ -11,6 +11,10 @@ FULL = {"single": 24, "null": 320, "pair": 300, "triple": 50, "foreign": 20, "re
         "spoilt": 150, "battery": 100, "long": 50}
 SHORT = {"single": 1, "null": 11, "pair": 3, "triple": 1, "foreign": 1, "removed": 2, "spoilt": 2, "battery": 1, "long": 1}
 MIXED = {"pair": 2, "triple": 3, "removed": 1, "battery": 1, "long": 1}  # bins whose effects are drawn: how many
+# What MuJoCo has forms of its own for (../mujoco/mjcf.hpp): white noise, textbook laws.
+MUJOCO, MUJOCO_EFFECTS = {"single": 6, "null": 40}, (
+    "coulomb_friction", "current_sensor_offset", "dragging_wheel", "floor_slope", "payload_mass_error", "rolling_resistance", "track_width_error",
+    "viscous_friction", "wheel_radius_error", "winding_resistance_error")
 SMALL_MEMBER = 1 / 3  # share of the pairs with a small second effect
 
 
@@ -63,3 +67,13 @@ def plan(frozen, catalog, foreign, counts):
     for index, entry in enumerate(cases):
         entry["id"] = f"case_{index + 1:04d}"
     return cases
+
+
+def mujoco(frozen):
+    """Cases that MuJoCo drives; the oracle's word on them is the plant's, which draws the same machine and noise."""
+    return [{**entry, "level": 0, "physics": "blind_mujoco"} for entry in plan(f"mujoco:{frozen}", MUJOCO_EFFECTS, (), MUJOCO)]
+
+
+def campaign(name, frozen):
+    """The cases of a campaign by its name."""
+    return mujoco(frozen) if name == "mujoco" else plan(frozen, *workspace.effect_names(), SHORT if name == "short" else FULL)

@@ -153,7 +153,7 @@ def head_lines(frozen, name, sealed, labels, results, prefix):
     status = ("Sealed: labels' hashes were committed before the first diagnosis, seeds derive from the frozen commit" if sealed
               else "REHEARSAL: not sealed (tree or manifest not committed); it shows mechanics, it is no evidence")
     return ["# Blind benchmark of the diagnosis", "",
-            f"Command `./dev bench blind`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
+            f"Command `./dev bench blind{'' if name == 'full' else ' --name ' + name}`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
             f"{status}. Seeds: SHA-256 of the frozen commit and the case's key (`benchmarks/blind/harness/plan.py`).",
             f"{len(results)} cases scored of {len(labels)} sealed ({len(labels) - len(results)} not diagnosed); {failed} diagnoses gave no answer: "
             "a miss where something was to be said, an alarm on null sets. Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",

@@ -13,8 +13,8 @@ import plan
 import workspace
 
 
-def plant_command(case):
-    command = [workspace.program("blind_plant"), "--effect", ",".join(case["effects"]) or "none", "--robot", case["robot"],
+def plant_command(case, program="blind_plant"):
+    command = [workspace.program(program), "--effect", ",".join(case["effects"]) or "none", "--robot", case["robot"],
                "--protocol", str(case["protocol"]), "--level", str(case["level"]), "--seed", str(case["seed"])]
     if "shares" in case:
         command += ["--share", ",".join(map(str, case["shares"]))]
@@ -38,7 +38,7 @@ def commitment(salt, label):
     return hashlib.sha256((salt + json.dumps(label, sort_keys=True)).encode()).hexdigest()
 
 
-def seal(name, counts, limit, jobs):
+def seal(name, limit, jobs):
     frozen = workspace.head()
     if workspace.dirty():
         sys.exit("the tree has changes: commit them first, the seeds derive from the commit")
@@ -46,7 +46,7 @@ def seal(name, counts, limit, jobs):
     manifest = workspace.manifest_path(frozen, name)
     if manifest.exists():
         sys.exit(f"{manifest.name} exists: this commit is sealed already")
-    cases = plan.plan(frozen, *workspace.effect_names(), counts)[: limit or None]
+    cases = plan.campaign(name, frozen)[: limit or None]
     folder.mkdir(parents=True, mode=0o700, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         labels = list(pool.map(label_of, cases))

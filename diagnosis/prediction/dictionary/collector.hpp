@@ -69,6 +69,16 @@ class DictionaryCollector {
                                                     robot_->motor[side].torque_per_ampere_Nm_A();
     });
   }
+  /// What a motor's current reads beyond the true one, at that voltage of the motor.
+  template <class Function>
+  void reading(const std::string& family, Side side, Function&& size_A, const Prediction* prediction) {
+    entry(family, "current reading", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      const double current_A = size_A(j);
+      entry_rows(j, column(kCurrentLeft, side)) = current_A;
+      entry_rows(j, column(kWindingLeft, side)) = -robot_->motor[side].resistance_ohm * current_A;
+      entry_rows(j, kDriverPower) = -prediction->voltage_V[side][j] * current_A;
+    });
+  }
   /// A voltage in the winding's equation.
   template <class Function>
   void voltage(const std::string& family, bool apart, Function&& size_V) {
@@ -135,6 +145,8 @@ class DictionaryCollector {
 /// are null where only names are collected.
 void add_mechanics(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                    const Robot* robot);
+/// The motor's own torque and what its current reads.
+void add_motors(DictionaryCollector& out, const Robot* robot, const Prediction* p);
 /// Variables of a winding's voltage.
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                   const Prediction* p);

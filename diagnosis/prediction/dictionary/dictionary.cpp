@@ -5,6 +5,7 @@ namespace joulepath {
 std::vector<DictionaryEntry> dictionary_entries(const DictionaryLayout& layout) {
   DictionaryCollector collector(nullptr, nullptr);
   add_mechanics(collector, layout, nullptr, nullptr);
+  add_motors(collector, nullptr, nullptr);
   add_windings(collector, layout, nullptr, nullptr);
   add_supply(collector, layout, nullptr, nullptr);
   add_motion(collector, layout, nullptr, nullptr);
@@ -15,6 +16,7 @@ std::vector<Eigen::MatrixXd> dictionary_rows(const DictionaryLayout& layout, con
                                              const Robot& robot, const Prediction& prediction) {
   DictionaryCollector collector(&signals, &robot);
   add_mechanics(collector, layout, &signals, &robot);
+  add_motors(collector, &robot, &prediction);
   add_windings(collector, layout, &signals, &prediction);
   add_supply(collector, layout, &signals, &prediction);
   add_motion(collector, layout, &signals, &robot);

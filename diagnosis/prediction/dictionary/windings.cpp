@@ -3,6 +3,19 @@
 
 namespace joulepath {
 
+void add_motors(DictionaryCollector& out, const Robot* robot, const Prediction* p) {
+  const auto current_A = [&](Eigen::Index j, Side side) { return p->current_A[side][j]; };
+  out.friction("motor torque", false, [&](Eigen::Index j, Side side) {
+    return robot->motor[side].torque_per_ampere_Nm_A() * std::abs(current_A(j, side));
+  });
+  for (Side side : kSides)
+    out.reading(
+        "constant", side, [](Eigen::Index) { return 1.0; }, p);
+  for (Side side : kSides)
+    out.reading(
+        "current", side, [&, side](Eigen::Index j) { return current_A(j, side); }, p);
+}
+
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
                   const Prediction* p) {
   const auto current = [&](Eigen::Index j, Side side) { return p->current_A[side][j]; };
