@@ -13,7 +13,7 @@ namespace joulepath {
 /// it depends.
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
-  std::string channel{};  ///< "current", "current reading", "voltage", "battery power" or "voltage", "motion"
+  std::string channel{};  ///< "current", "current reading", "voltage", "motion" or one of the battery's
 };
 
 /// Ranges of the variables over a whole dataset, for the grids of the hats.

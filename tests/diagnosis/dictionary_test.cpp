@@ -92,6 +92,18 @@ TEST_P(DictionaryEntries, ReadingOfACurrentShowsWhereverTheCurrentIsUsed) {
   }
 }
 
+TEST(DictionaryEntry, OfAReadingNeedsASensor) {
+  RunSignals run = there_or_back(0.5);
+  run.motor_current_A.right.resize(0);
+  run.motor_power_W = {};
+  for (const Channel channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight, kDriverPower}) {
+    const auto entries = entries_of(run, "constant", "current reading", channel);
+    ASSERT_EQ(entries.size(), 2u);
+    EXPECT_EQ(entries[0].isZero(), channel != kCurrentLeft && channel != kWindingLeft) << channel;
+    EXPECT_TRUE(entries[1].isZero()) << channel;
+  }
+}
+
 /// A force F along the heading asks r F/2 of each wheel; a moment M asks -/+ r M/(2 l). Both are over Kt n.
 TEST_P(DictionaryEntries, ForceAndMomentAreSharedByTheWheels) {
   const RunSignals run = there_or_back(GetParam());

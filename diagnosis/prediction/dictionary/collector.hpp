@@ -69,14 +69,17 @@ class DictionaryCollector {
                                                     robot_->motor[side].torque_per_ampere_Nm_A();
     });
   }
-  /// What a motor's current reads beyond the true one, at that voltage of the motor.
+  /// What a motor's current reads beyond the true one, at that voltage of the motor; nothing where no sensor
+  /// reads it.
   template <class Function>
   void reading(const std::string& family, Side side, Function&& size_A, const Prediction* prediction) {
     entry(family, "current reading", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
+      if (signals_->motor_current_A[side].size() == 0) return;
       const double current_A = size_A(j);
       entry_rows(j, column(kCurrentLeft, side)) = current_A;
       entry_rows(j, column(kWindingLeft, side)) = -robot_->motor[side].resistance_ohm * current_A;
-      entry_rows(j, kDriverPower) = -prediction->voltage_V[side][j] * current_A;
+      if (measures_motors(*signals_))
+        entry_rows(j, kDriverPower) = -prediction->voltage_V[side][j] * current_A;
     });
   }
   /// A voltage in the winding's equation.
