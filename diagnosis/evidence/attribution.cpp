@@ -184,8 +184,11 @@ double ghost_share(const LinearProblem& problem, const Equations& equations, con
   const EffectInfo& info = equations.candidates[static_cast<std::size_t>(candidate)].effect().info;
   if (info.pliability == Pliability::anywhere) return 1.0;
   std::vector<int> others;
-  for (int k : explanation.columns)
-    if (equations.columns[static_cast<std::size_t>(k)].owner != candidate) others.push_back(k);
+  for (int k : explanation.columns) {
+    const Column& column = equations.columns[static_cast<std::size_t>(k)];
+    const bool of_a_law = column.kind != Column::Kind::nuisance && column.kind != Column::Kind::dictionary;
+    if (!of_a_law || column.owner != candidate) others.push_back(k);
+  }
   if (others.empty()) return 0.0;
   const auto n = static_cast<Eigen::Index>(others.size());
   Eigen::MatrixXd gram(n, n);

@@ -54,15 +54,21 @@ std::vector<std::size_t> chosen_entries(const std::vector<DictionaryEntry>& entr
 /// Errors of time stamps or of a winding's inductance correlate voltage with acceleration: no finding.
 constexpr const char* kOfTheLogger = "acceleration (voltage)";
 
-/// Entries of one family and channel are one unknown term. A curve over one payload is a constant.
+/// Entries of one family and channel are one unknown term, without those that a candidate's law is. A curve
+/// over one payload is a constant.
 std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
-                                       const std::vector<DictionaryEntry>& dictionary, bool two_payloads) {
+                                       const std::vector<DictionaryEntry>& dictionary,
+                                       const std::vector<Candidate>& candidates, bool two_payloads) {
   std::vector<UnknownTerm> terms;
+  const auto is_known = [&](const std::string& law) {
+    return std::ranges::any_of(candidates, [&](const Candidate& known) { return known.shape.name == law; });
+  };
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].kind != Column::Kind::dictionary) continue;
     const DictionaryEntry& entry = dictionary[static_cast<std::size_t>(columns[k].owner)];
     const std::string label = label_of(entry);
-    if (label == kOfTheLogger || (!two_payloads && entry.family == "payload")) continue;
+    if (label == kOfTheLogger || is_known(entry.law) || (!two_payloads && entry.family == "payload"))
+      continue;
     const auto known = std::ranges::find(terms, label, &UnknownTerm::label);
     if (known == terms.end())
       terms.push_back({label, {static_cast<int>(k)}});
@@ -259,7 +265,8 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
   for (std::size_t k : chosen) equations.dictionary.push_back(entries[k]);
   equations.columns =
       list_columns(nuisances, state, equations.candidates, equations.dictionary.size(), options.forms);
-  equations.unknowns = unknown_terms(equations.columns, equations.dictionary, has_two_payloads(signals));
+  equations.unknowns =
+      unknown_terms(equations.columns, equations.dictionary, equations.candidates, has_two_payloads(signals));
 
   std::vector<RunRows> rows(signals.size());
   const bool payload_column = has_payload_column(signals, options, robot);

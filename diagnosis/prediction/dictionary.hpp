@@ -8,12 +8,13 @@
 
 namespace joulepath {
 
-/// One entry of the dictionary: hats and harmonics of all measured quantities, without physics. The
+/// One entry of the dictionary: hats and harmonics of all measured quantities, without laws. The
 /// dictionary tells how much of a gap any function of these quantities could explain, and on which quantity
 /// it depends.
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
   std::string channel{};  ///< "current", "current reading", "voltage", "motion" or one of the battery's
+  std::string law{};      ///< the catalog's effect with these rows: beside it the entry is no unknown
 };
 
 /// Ranges of the variables over a whole dataset, for the grids of the hats.

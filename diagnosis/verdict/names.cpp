@@ -60,9 +60,13 @@ double share_lost(const Examination& x, const BoxedFit& nothing, const std::vect
   return std::clamp((kept - x.best().loss) / all, 0.0, 1.0);
 }
 
-/// Unknown terms of one channel: that there is an unknown cause is often surer than what it depends on.
+/// Unknown terms of one channel: that there is an unknown cause is often surer than what it depends on. A
+/// current and its reading count as one: without the motor's voltage they look alike.
 std::set<std::string> of_same_channel(const Equations& equations, const std::string& label) {
-  const auto channel = [](const std::string& text) { return text.substr(text.rfind('(')); };
+  const auto channel = [](const std::string& text) {
+    const std::string name = text.substr(text.rfind('('));
+    return name == "(current reading)" ? "(current)" : name;
+  };
   std::set<std::string> labels;
   for (const UnknownTerm& term : equations.unknowns)
     if (channel(term.label) == channel(label)) labels.insert(term.label);

@@ -6,6 +6,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "blind" / "harness"))
 
@@ -214,6 +215,9 @@ class Sealing(unittest.TestCase):
         cases = plan.campaign("mujoco", "commit")
         self.assertEqual({(c["level"], c["physics"]) for c in cases}, {(0, "blind_mujoco")})
         self.assertEqual({tuple(c["effects"]) for c in cases}, {()} | {(name,) for name in plan.MUJOCO_EFFECTS})
+        with unittest.mock.patch.object(seal.workspace, "program", lambda name: name), unittest.mock.patch.object(examine.subprocess, "run") as run:
+            examine.Examination(cases[0], pathlib.Path("scratch")).generate("data")
+        self.assertEqual(run.call_args.args[0][0], "blind_mujoco")
         self.assertFalse({c["seed"] for c in cases} & {c["seed"] for c in plan.plan("commit", plan.MUJOCO_EFFECTS, (), plan.MUJOCO)})
 
 

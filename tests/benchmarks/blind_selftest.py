@@ -211,6 +211,14 @@ class MuJoCo(unittest.TestCase):
                 self.assertGreater(extra, 0.01 * mass * 9.80665 / 2 * radius - 0.012)
                 self.assertLess(extra, 0.01 * (mass + 10.7) * 9.80665 / 2 * radius + 0.012)
 
+    def test_every_robot_and_day_of_the_campaign_is_driven(self):
+        program = str(pathlib.Path(PLANT).with_name("blind_mujoco"))
+        with tempfile.TemporaryDirectory() as folder:
+            for robot, more in (("tug", ["--day", "1"]), ("warehouse", ["--append", "profile:spin,angle_rad:4,payload_kg:0"]), ("small", [])):
+                data = pathlib.Path(folder) / robot
+                subprocess.run([program, "--effect", "none", "--robot", robot, "--protocol", "2", "--out", str(data), "--label", "none", *more], check=True)
+                self.assertEqual(len(list(data.glob("run_*.csv"))), 3 if "--append" in more else 2)
+
     def test_what_mujoco_has_no_form_for_is_refused(self):
         program = str(pathlib.Path(PLANT).with_name("blind_mujoco"))
         with tempfile.TemporaryDirectory() as folder:

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/signals/friction_direction.hpp"
@@ -67,36 +68,75 @@ TEST_P(DictionaryEntries, VoltageOfAWindingIsOddInSpeed) {
   }
 }
 
-/// A sensor that reads 1 A too much: the winding's equation lacks R times that, the motors' logged power has
-/// V times that too much.
-TEST_P(DictionaryEntries, ReadingOfACurrentShowsWhereverTheCurrentIsUsed) {
-  const RunSignals run = there_or_back(GetParam());
-  const Robot robot = testing::nomad();
-  const Prediction p = predict(run, {.robot = robot});
-  const auto of = [&](const char* family, Channel channel) {
-    return entries_of(run, family, "current reading", channel);
+/// What becomes of the power of a wheel that brakes.
+struct Supply {
+  double regeneration{};
+  PowerSharing sharing{};
+};
+
+class ReadingOfACurrent : public ::testing::TestWithParam<Supply> {};
+
+/// The dictionary's rows of a sensor that reads too much are those of the catalog's effects.
+TEST_P(ReadingOfACurrent, ShowsWhereverTheCurrentIsUsed) {
+  Robot robot = testing::nomad();
+  robot.power.regeneration_efficiency = GetParam().regeneration;
+  robot.power.sharing = GetParam().sharing;
+  const joulepath::Run log =
+      testing::synthetic_run(robot, "run", 10, 2.0, testing::swinging(0.1, 0.5, 3.0, 1.5));
+  const RunSignals run = make_run_signals(log, 0, robot);
+  const ModelPoint nominal{.robot = robot};
+  const Prediction base = predict(run, nominal);
+  const std::vector<DictionaryEntry> names = dictionary_entries(lay_out({run}, robot));
+  const std::vector<Eigen::MatrixXd> rows = dictionary_rows(lay_out({run}, robot), run, robot, base);
+  constexpr double kOffset_A = 1e-4, kGain = 1e-4;
+  const auto of_the_catalog = [&](const EffectSetting& effect, double size) -> Eigen::MatrixXd {
+    return signature_rows(run, nominal, base, predict(run, {.robot = robot, .effects = {effect}})) / size;
   };
-  const auto current = of("constant", kCurrentLeft), winding = of("constant", kWindingLeft),
-             driver = of("constant", kDriverPower), right = of("constant", kCurrentRight),
-             scaled = of("current", kDriverPower),
-             torque = entries_of(run, "motor torque", "current", kCurrentRight);
-  ASSERT_TRUE(current.size() == 2 && scaled.size() == 2 && torque.size() == 1);
+  const Eigen::MatrixXd offset = of_the_catalog(
+      {.name = "current_sensor_offset", .parameters = {{"offset_A", kOffset_A}}, .side = Side::left},
+      kOffset_A);
+  const Eigen::MatrixXd gain =
+      of_the_catalog({.name = "current_sensor_gain", .parameters = {{"fraction", kGain}}}, kGain);
+  const auto rows_of = [&](const std::string& law) -> const Eigen::MatrixXd& {
+    return rows[static_cast<std::size_t>(std::ranges::find(names, law, &DictionaryEntry::law) -
+                                         names.begin())];
+  };
+  const Eigen::MatrixXd &constant = rows_of("current_sensor_offset"),
+                        &scaled = rows_of("current_sensor_gain");
+  int braking = 0;
   for (Eigen::Index j = 0; j < run.size(); ++j) {
-    EXPECT_EQ(current[0][j], 1.0);
-    EXPECT_EQ(right[0][j], 0.0);
-    EXPECT_NEAR(winding[0][j], -robot.motor.left.resistance_ohm, 1e-12);
-    EXPECT_NEAR(driver[0][j], -p.voltage_V.left[j], 1e-12);
-    EXPECT_NEAR(scaled[1][j], -p.power_W.right[j], 1e-12);
-    EXPECT_NEAR(torque[0][j],
-                std::abs(p.current_A.right[j]) * friction_direction(run.wheel_speed_rad_s.right[j]), 1e-12);
+    const double left_W = base.power_W.left[j], right_W = base.power_W.right[j];
+    if (std::min({std::abs(left_W), std::abs(right_W), std::abs(left_W + right_W)}) < 0.01) continue;
+    braking += left_W < 0;
+    for (const Channel channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight, kDriverPower}) {
+      EXPECT_NEAR(constant(j, channel), offset(j, channel), 1e-6) << j << " channel " << channel;
+      EXPECT_NEAR(scaled(j, channel), gain(j, channel), 1e-6) << j << " channel " << channel;
+    }
   }
+  EXPECT_GT(braking, 20);
 }
 
-TEST(DictionaryEntry, OfAReadingNeedsASensor) {
-  RunSignals run = there_or_back(0.5);
-  run.motor_current_A.right.resize(0);
-  run.motor_power_W = {};
-  for (const Channel channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight, kDriverPower}) {
+INSTANTIATE_TEST_SUITE_P(Supplies, ReadingOfACurrent,
+                         ::testing::Values(Supply{0.0, PowerSharing::wheel}, Supply{0.6, PowerSharing::wheel},
+                                           Supply{0.4, PowerSharing::bus}));
+
+/// A gear takes its part of the torque, against the motion.
+TEST_P(DictionaryEntries, LossOfAGearFollowsTheMotorsTorque) {
+  const RunSignals run = there_or_back(GetParam());
+  const Prediction p = predict(run, {.robot = testing::nomad()});
+  const auto torque = entries_of(run, "motor torque", "current", kCurrentRight);
+  ASSERT_EQ(torque.size(), 1u);
+  for (Eigen::Index j = 0; j < run.size(); ++j)
+    EXPECT_NEAR(torque[0][j],
+                std::abs(p.current_A.right[j]) * friction_direction(run.wheel_speed_rad_s.right[j]), 1e-12);
+}
+
+TEST(ReadingOfOneCurrent, NeedsASensor) {
+  const Robot robot = testing::nomad();
+  joulepath::Run log = testing::synthetic_run(robot, "run", 10, 2.0, testing::swinging(0.5, 0.2, 1.3, 0.6));
+  log.log.motor_current_A.right.clear();
+  const RunSignals run = make_run_signals(log, 0, robot);
+  for (const Channel channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight}) {
     const auto entries = entries_of(run, "constant", "current reading", channel);
     ASSERT_EQ(entries.size(), 2u);
     EXPECT_EQ(entries[0].isZero(), channel != kCurrentLeft && channel != kWindingLeft) << channel;

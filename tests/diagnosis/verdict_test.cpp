@@ -111,31 +111,46 @@ TEST(Judgment, AConstantDisplacesAnExplanationThatIsWorse) {
   EXPECT_EQ(judged(stood_for, named_with(0.9)).named.at(0).candidate.label(), "quadratic_drag");
 }
 
-/// A named law whose strength varies by half with the speed: of what law and form explain, the form's part
-/// is unknown.
-TEST(InexactForm, HasItsShareOfWhatIsExplained) {
-  constexpr double kGram = 1e4, kStrength = 1.0, kVariation = 0.5;
+/// Outcome of a race of one law and one form of it, each with this gram, at these places.
+Names names_of_form(double gram, double strength, double variation) {
   Identification id;
   id.equations =
       equations_at({{Column::Kind::amplitude, 0, 0, 1.0, 0.0}, {Column::Kind::form, 0, 0, kFormSpread, 0.0}},
-                   kGram * Eigen::Matrix2d::Identity(), Eigen::Vector2d(kStrength, kVariation));
+                   gram * Eigen::Matrix2d::Identity(), Eigen::Vector2d(strength, variation));
   id.equations.prior_sd[1] = kFormSpread;
   const Candidate friction{.shape = {.name = "coulomb_friction"}, .amplitude = {"torque_Nm"}, .step = {0.01}};
   id.equations.candidates = {friction};
   id.problem = without_calibration(id.equations, {0});
   id.explanations = search_explanations(id.problem, id.equations, {});
-  id.state.effects = {{friction, {kStrength}}};
+  id.state.effects = {{friction, {strength}}};
   id.signals = {RunSignals{.motor_power_W = {Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1)}}};
   id.signals[0].time_s = Eigen::VectorXd::Zero(1);
   const Dataset dataset{.robot = testing::nomad()};
   const RunsByUse runs;
-  const Names names = choose_names({.dataset = dataset, .runs = runs, .id = id});
+  return choose_names({.dataset = dataset, .runs = runs, .id = id});
+}
+
+/// A named law whose strength varies by half with the speed: of what law and form explain, the form's part
+/// is unknown.
+TEST(InexactForm, HasItsShareOfWhatIsExplained) {
+  constexpr double kGram = 1e4, kStrength = 1.0, kVariation = 0.5;
+  const Names names = names_of_form(kGram, kStrength, kVariation);
   ASSERT_EQ(names.unknowns.size(), 1u);
   const auto explained = [](double place, double prior_sd) {
     return std::pow(kGram * place, 2) / (kGram + 1 / (prior_sd * prior_sd));
   };
   const double form = explained(kVariation, kFormSpread), law = explained(kStrength, 1.0);
   EXPECT_NEAR(names.unknowns[0].share, form / (form + law), 1e-9);
+}
+
+/// Gram 1e4: the form is known to 0.01. Gram 100: to 0.077, and the prior draws it to 0.59 of its place.
+TEST(InexactForm, IsToldFromAFifthOnWhereTheRunsAreSure) {
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_EQ(names_of_form(1e4, 1.0, sign * 0.25).unknowns.size(), 1u);
+    EXPECT_TRUE(names_of_form(1e4, 1.0, sign * 0.21).unknowns.empty()) << "0.209, less 0.02";
+    EXPECT_TRUE(names_of_form(1e4, 1.0, sign * 0.12).unknowns.empty());
+    EXPECT_TRUE(names_of_form(100, 2.0, sign * 0.4).unknowns.empty()) << "0.236, less 0.15";
+  }
 }
 
 /// Held at 3 of 5 and of -10 standard deviations, the furthest first; the third one is fitted.

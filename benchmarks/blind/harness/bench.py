@@ -53,12 +53,14 @@ def main():
     parser = argparse.ArgumentParser(prog="benchmarks/blind/run")
     parser.add_argument("stage", nargs="?", default="all", choices=["all", "seal", "diagnose", "score", "again"])
     parser.add_argument("--short", action="store_true", help="60 cases, mechanics only, nothing is sealed")
-    parser.add_argument("--name", default="full", help="campaign's name; mujoco: cases that MuJoCo drives")
+    parser.add_argument("--name", default="full", choices=["full", "mujoco"], help="mujoco: cases that MuJoCo drives")
     parser.add_argument("--cases", type=int, default=0, help="seal, or ask again, the first N cases only (any prefix keeps the bins' proportions)")
     parser.add_argument("--minutes", type=float, default=55, help="stop diagnosing after this long; call again to go on")
     parser.add_argument("--partial", action="store_true", help="score although cases are not diagnosed yet")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
+    if arguments.name != "full" and (arguments.short or arguments.stage == "again"):
+        parser.error("--short and again know the campaign full alone")
     if arguments.short:
         return short(arguments.jobs)
     if arguments.stage == "again":

@@ -52,7 +52,7 @@ class Examination:
 
     def generate(self, tag, more=()):
         data = self.scratch / tag / self.case["id"]
-        subprocess.run(seal.plant_command(self.case, self.case.get("physics", "blind_plant")) + ["--out", str(data), "--label", "none", *more], check=True,
+        subprocess.run(seal.plant_command(self.case, seal.physics_of(self.case)) + ["--out", str(data), "--label", "none", *more], check=True,
                        capture_output=True, timeout=LIMIT_s)
         return data
 

@@ -76,4 +76,4 @@ def mujoco(frozen):
 
 def campaign(name, frozen):
     """The cases of a campaign by its name."""
-    return mujoco(frozen) if name == "mujoco" else plan(frozen, *workspace.effect_names(), SHORT if name == "short" else FULL)
+    return mujoco(frozen) if name == "mujoco" else plan(frozen, *workspace.effect_names(), {"full": FULL, "short": SHORT}[name])

@@ -145,6 +145,14 @@ def figures(cases, power, confusion, reliability):
     return drawn
 
 
+TITLE = "Blind benchmark of the diagnosis"
+CAMPAIGNS = {  # options of the command, title, what moves the robot where it is not the plant
+    "full": ("", TITLE, ""), "short": (" --short", TITLE, ""),
+    "mujoco": (" --name mujoco", "Blind benchmark on robots that MuJoCo drives",
+               "MuJoCo moves the robots: rigid bodies in space, contacts, joint friction, implicit integration; the forms of the effects stand in `benchmarks/blind/README.md`. "
+               "Machines, sizes, protocols and noise are drawn as in the [large campaign](blind.md). What is detectable, material, separable, and where a gap lies, is the plant's word on the same case.")}
+
+
 def head_lines(frozen, name, sealed, labels, results, prefix):
     bins = {}
     for i in results:
@@ -152,8 +160,9 @@ def head_lines(frozen, name, sealed, labels, results, prefix):
     failed = sum("diagnosis" not in r for r in results.values())
     status = ("Sealed: labels' hashes were committed before the first diagnosis, seeds derive from the frozen commit" if sealed
               else "REHEARSAL: not sealed (tree or manifest not committed); it shows mechanics, it is no evidence")
-    return ["# Blind benchmark of the diagnosis", "",
-            f"Command `./dev bench blind{'' if name == 'full' else ' --name ' + name}`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
+    options, title, physics = CAMPAIGNS[name]
+    return [f"# {title}", "", *([physics, ""] if physics else []),
+            f"Command `./dev bench blind{options}`; campaign `{name}`, frozen commit `{frozen}`; {time.strftime('%Y-%m-%d')}; {machine()}.",
             f"{status}. Seeds: SHA-256 of the frozen commit and the case's key (`benchmarks/blind/harness/plan.py`).",
             f"{len(results)} cases scored of {len(labels)} sealed ({len(labels) - len(results)} not diagnosed); {failed} diagnoses gave no answer: "
             "a miss where something was to be said, an alarm on null sets. Bins: " + ", ".join(f"{k} {v}" for k, v in sorted(bins.items())) + ".",

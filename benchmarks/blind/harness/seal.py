@@ -21,6 +21,11 @@ def plant_command(case, program="blind_plant"):
     return command + (["--one-log"] if case["bin"] == "long" else [])
 
 
+def physics_of(case):
+    """The program that moves the robot; the oracle's word is always the plant's."""
+    return case.get("physics", "blind_plant")
+
+
 def label_of(case):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "label.json")
@@ -47,6 +52,8 @@ def seal(name, limit, jobs):
     if manifest.exists():
         sys.exit(f"{manifest.name} exists: this commit is sealed already")
     cases = plan.campaign(name, frozen)[: limit or None]
+    for physics in {physics_of(case) for case in cases}:
+        workspace.program(physics)
     folder.mkdir(parents=True, mode=0o700, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         labels = list(pool.map(label_of, cases))

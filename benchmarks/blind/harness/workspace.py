@@ -13,7 +13,7 @@ UNFROZEN = ["benchmarks/results"]  # what may change after the freeze: results a
 def program(name):
     path = pathlib.Path(os.environ.get("JOULEPATH_BIN", ROOT / "build" / "release" / "bin")) / name
     if not path.exists():
-        sys.exit(f"{path} is missing: run ./dev build first")
+        sys.exit(f"{path} is missing: {'apt install libmujoco-dev, configure and build again' if name == 'blind_mujoco' else 'run ./dev build first'}")
     return str(path)
 
 

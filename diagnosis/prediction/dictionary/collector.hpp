@@ -69,18 +69,27 @@ class DictionaryCollector {
                                                     robot_->motor[side].torque_per_ampere_Nm_A();
     });
   }
-  /// What a motor's current reads beyond the true one, at that voltage of the motor; nothing where no sensor
-  /// reads it.
+  /// What the motors' currents read beyond the true ones; nothing where no sensor reads them. The motor power
+  /// that it adds to the log takes part in the battery's balance as the supply counts it. `law`: the
+  /// catalog's effect that reads so.
   template <class Function>
-  void reading(const std::string& family, Side side, Function&& size_A, const Prediction* prediction) {
+  void reading(const std::string& family, const std::string& law, const Prediction* prediction,
+               Function&& size_A) {
     entry(family, "current reading", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
-      if (signals_->motor_current_A[side].size() == 0) return;
-      const double current_A = size_A(j);
-      entry_rows(j, column(kCurrentLeft, side)) = current_A;
-      entry_rows(j, column(kWindingLeft, side)) = -robot_->motor[side].resistance_ohm * current_A;
-      if (measures_motors(*signals_))
-        entry_rows(j, kDriverPower) = -prediction->voltage_V[side][j] * current_A;
+      const PowerSupply& supply = robot_->power;
+      const Sided<Eigen::VectorXd>& power_W = prediction->power_W;
+      for (Side side : kSides) {
+        if (signals_->motor_current_A[side].size() == 0) continue;
+        const double current_A = size_A(j, side);
+        entry_rows(j, column(kCurrentLeft, side)) = current_A;
+        entry_rows(j, column(kWindingLeft, side)) = -robot_->motor[side].resistance_ohm * current_A;
+        const double counted_W =
+            supply.sharing == PowerSharing::bus ? power_W.left[j] + power_W.right[j] : power_W[side][j];
+        entry_rows(j, kDriverPower) -= (counted_W >= 0 ? 1.0 : supply.regeneration_efficiency) *
+                                       prediction->voltage_V[side][j] * current_A;
+      }
     });
+    entries.back().law = law;
   }
   /// A voltage in the winding's equation.
   template <class Function>
@@ -129,7 +138,7 @@ class DictionaryCollector {
 
   template <class Function>
   void entry(const std::string& family, const std::string& channel, Function&& fill) {
-    entries.push_back({family, channel});
+    entries.push_back({.family = family, .channel = channel});
     if (!signals_) return;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(signals_->size(), kChannelCount);
     for (Eigen::Index j = 0; j < signals_->size(); ++j) fill(j, matrix);

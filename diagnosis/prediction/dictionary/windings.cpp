@@ -8,12 +8,13 @@ void add_motors(DictionaryCollector& out, const Robot* robot, const Prediction* 
   out.friction("motor torque", false, [&](Eigen::Index j, Side side) {
     return robot->motor[side].torque_per_ampere_Nm_A() * std::abs(current_A(j, side));
   });
-  for (Side side : kSides)
-    out.reading(
-        "constant", side, [](Eigen::Index) { return 1.0; }, p);
-  for (Side side : kSides)
-    out.reading(
-        "current", side, [&, side](Eigen::Index j) { return current_A(j, side); }, p);
+  out.entries.back().law = "gear_efficiency";
+  for (Side one : kSides)
+    out.reading("constant", "current_sensor_offset", p,
+                [one](Eigen::Index, Side side) { return side == one ? 1.0 : 0.0; });
+  out.reading("current", "current_sensor_gain", p, current_A);
+  out.reading("current", "", p,
+              [&](Eigen::Index j, Side side) { return side_sign(side) * current_A(j, side); });
 }
 
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
@@ -27,6 +28,7 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
   out.voltage("current", false, [&](Eigen::Index j, Side side) {
     return std::clamp(current(j, side) / kBlurredCurrent_A, -1.0, 1.0);
   });
+  out.entries.back().law = "driver_voltage_drop";
   for (double corner : {0.4, 0.6, 0.8})
     out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
       const double i = current(j, side), beyond = std::abs(i) - corner * layout.greatest_current_A;
