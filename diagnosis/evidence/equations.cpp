@@ -61,7 +61,8 @@ std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
                                        const std::vector<Candidate>& candidates, bool two_payloads) {
   std::vector<UnknownTerm> terms;
   const auto is_known = [&](const std::string& law) {
-    return std::ranges::any_of(candidates, [&](const Candidate& known) { return known.shape.name == law; });
+    return std::ranges::any_of(
+        candidates, [&](const Candidate& known) { return !law.empty() && known.effect().info.curve == law; });
   };
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].kind != Column::Kind::dictionary) continue;

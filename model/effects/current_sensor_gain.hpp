@@ -17,7 +17,8 @@ struct CurrentSensorGain {
                                    .validity = "logs only",
                                    .source = "-",
                                    .gazebo = "sensor gain of the log",
-                                   .mujoco = "sensor gain of the log"};
+                                   .mujoco = "sensor gain of the log",
+                                   .curve = "scaled reading"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<CurrentSensorGain>{
         "fraction", "1", -0.95, 10, 0.03, "relative error of the reading", &CurrentSensorGain::fraction}};

@@ -18,7 +18,8 @@ struct CurrentSensorOffset {
                                    .validity = "logs only",
                                    .source = "-",
                                    .gazebo = "sensor bias of the log",
-                                   .mujoco = "sensor bias of the log"};
+                                   .mujoco = "sensor bias of the log",
+                                   .curve = "shifted reading"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<CurrentSensorOffset>{
         "offset_A", "A", -100, 100, 0.05, "added to the reading of that side", &CurrentSensorOffset::offset_A,

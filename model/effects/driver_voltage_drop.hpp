@@ -18,7 +18,8 @@ struct DriverVoltageDrop {
                                    .source = "transistor and diode drops of an H-bridge",
                                    .gazebo = "none",
                                    .mujoco = "none",
-                                   .sign = Sign::nonnegative};
+                                   .sign = Sign::nonnegative,
+                                   .curve = "drop by sign"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<DriverVoltageDrop>{"voltage_V", "V", -5, 20, 0.2, "lost in the bridge",
                                                          &DriverVoltageDrop::voltage_V}};

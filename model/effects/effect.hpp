@@ -71,6 +71,7 @@ struct EffectInfo {
   Sign sign{Sign::either};
   Pliability pliability{Pliability::firm};
   Needs needs{};
+  std::string_view curve{};  ///< the entry of the diagnosis' dictionary with the same rows, if there is one
 };
 
 /// What a parameter does in its effect. The first parameter is the strength, and only the first.

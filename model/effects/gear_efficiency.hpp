@@ -18,7 +18,8 @@ struct GearEfficiency {
                                    .source = "constant-efficiency gear",
                                    .gazebo = "none",
                                    .mujoco = "none",
-                                   .sign = Sign::nonnegative};
+                                   .sign = Sign::nonnegative,
+                                   .curve = "loss by torque"};
   static constexpr auto parameters() {
     return std::array{EffectParameter<GearEfficiency>{
         "loss_fraction", "1", -0.5, 0.9, 0.05, "of the transmitted torque", &GearEfficiency::loss_fraction}};

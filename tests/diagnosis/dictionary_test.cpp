@@ -101,8 +101,7 @@ TEST_P(ReadingOfACurrent, ShowsWhereverTheCurrentIsUsed) {
     return rows[static_cast<std::size_t>(std::ranges::find(names, law, &DictionaryEntry::law) -
                                          names.begin())];
   };
-  const Eigen::MatrixXd &constant = rows_of("current_sensor_offset"),
-                        &scaled = rows_of("current_sensor_gain");
+  const Eigen::MatrixXd &constant = rows_of("shifted reading"), &scaled = rows_of("scaled reading");
   int braking = 0;
   for (Eigen::Index j = 0; j < run.size(); ++j) {
     const double left_W = base.power_W.left[j], right_W = base.power_W.right[j];

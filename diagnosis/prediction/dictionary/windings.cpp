@@ -1,5 +1,6 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
 #include "diagnosis/thresholds.hpp"
+// Design: docs/decisions/0630-a-reading-shows-in-three-channels.md
 
 namespace joulepath {
 
@@ -8,11 +9,11 @@ void add_motors(DictionaryCollector& out, const Robot* robot, const Prediction* 
   out.friction("motor torque", false, [&](Eigen::Index j, Side side) {
     return robot->motor[side].torque_per_ampere_Nm_A() * std::abs(current_A(j, side));
   });
-  out.entries.back().law = "gear_efficiency";
+  out.entries.back().law = "loss by torque";
   for (Side one : kSides)
-    out.reading("constant", "current_sensor_offset", p,
+    out.reading("constant", "shifted reading", p,
                 [one](Eigen::Index, Side side) { return side == one ? 1.0 : 0.0; });
-  out.reading("current", "current_sensor_gain", p, current_A);
+  out.reading("current", "scaled reading", p, current_A);
   out.reading("current", "", p,
               [&](Eigen::Index j, Side side) { return side_sign(side) * current_A(j, side); });
 }
@@ -28,7 +29,7 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
   out.voltage("current", false, [&](Eigen::Index j, Side side) {
     return std::clamp(current(j, side) / kBlurredCurrent_A, -1.0, 1.0);
   });
-  out.entries.back().law = "driver_voltage_drop";
+  out.entries.back().law = "drop by sign";
   for (double corner : {0.4, 0.6, 0.8})
     out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
       const double i = current(j, side), beyond = std::abs(i) - corner * layout.greatest_current_A;
