@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "diagnosis/numerics/parallel.hpp"
@@ -183,12 +184,10 @@ double ghost_share(const LinearProblem& problem, const Equations& equations, con
                    int candidate) {
   const EffectInfo& info = equations.candidates[static_cast<std::size_t>(candidate)].effect().info;
   if (info.pliability == Pliability::anywhere) return 1.0;
+  const std::vector<int> of_candidate = equations.columns_of_candidate(candidate, true);
   std::vector<int> others;
-  for (int k : explanation.columns) {
-    const Column& column = equations.columns[static_cast<std::size_t>(k)];
-    const bool of_a_law = column.kind != Column::Kind::nuisance && column.kind != Column::Kind::dictionary;
-    if (!of_a_law || column.owner != candidate) others.push_back(k);
-  }
+  std::ranges::copy_if(explanation.columns, std::back_inserter(others),
+                       [&](int k) { return std::ranges::count(of_candidate, k) == 0; });
   if (others.empty()) return 0.0;
   const auto n = static_cast<Eigen::Index>(others.size());
   Eigen::MatrixXd gram(n, n);

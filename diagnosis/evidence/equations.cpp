@@ -60,15 +60,16 @@ std::vector<UnknownTerm> unknown_terms(const std::vector<Column>& columns,
                                        const std::vector<DictionaryEntry>& dictionary,
                                        const std::vector<Candidate>& candidates, bool two_payloads) {
   std::vector<UnknownTerm> terms;
-  const auto is_known = [&](const std::string& law) {
-    return std::ranges::any_of(
-        candidates, [&](const Candidate& known) { return !law.empty() && known.effect().info.curve == law; });
+  const auto is_known = [&](const std::string& curve) {
+    return !curve.empty() && std::ranges::any_of(candidates, [&](const Candidate& candidate) {
+      return candidate.effect().info.curve == curve;
+    });
   };
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].kind != Column::Kind::dictionary) continue;
     const DictionaryEntry& entry = dictionary[static_cast<std::size_t>(columns[k].owner)];
     const std::string label = label_of(entry);
-    if (label == kOfTheLogger || is_known(entry.law) || (!two_payloads && entry.family == "payload"))
+    if (label == kOfTheLogger || is_known(entry.curve) || (!two_payloads && entry.family == "payload"))
       continue;
     const auto known = std::ranges::find(terms, label, &UnknownTerm::label);
     if (known == terms.end())

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/numerics/parallel.hpp"
-#include "model/power.hpp"
+#include "diagnosis/prediction/rows.hpp"
 
 namespace joulepath {
 namespace {
@@ -45,10 +45,6 @@ Sums sums_of(const RunSignals& run, const Prediction& with_it, const Prediction&
   return sums;
 }
 
-Sided<double> sample(const Sided<Eigen::VectorXd>& power_W, Eigen::Index j) {
-  return {power_W.left[j], power_W.right[j]};
-}
-
 /// The change of one run's channels by rows of the linear problem, added to a prediction.
 Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& base,
              const Eigen::MatrixXd& rows) {
@@ -62,8 +58,7 @@ Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& b
     changed.power_W[side] = changed.voltage_V[side].cwiseProduct(changed.current_A[side]);
   }
   for (Eigen::Index j = 0; j < changed.battery_power_W.size(); ++j)
-    changed.battery_power_W[j] += supply_power_W(point.robot.power, sample(changed.power_W, j)) -
-                                  supply_power_W(point.robot.power, sample(base.power_W, j));
+    changed.battery_power_W[j] += logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
   if (changed.battery_power_W.size() > 0) changed.battery_power_W += rows.col(kDriverPower);
   if (changed.battery_voltage_V.size() > 0) changed.battery_voltage_V += rows.col(kSupplyVoltage);
   const auto from_start = [&](Channel c) { return (rows.col(c).array() - rows(0, c)).matrix(); };

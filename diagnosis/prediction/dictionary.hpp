@@ -14,7 +14,7 @@ namespace joulepath {
 struct DictionaryEntry {
   std::string family{};   ///< "wheel speed", "place", "heading", ...
   std::string channel{};  ///< "current", "current reading", "voltage", "motion" or one of the battery's
-  std::string law{};      ///< EffectInfo::curve of an effect with these rows; beside it no unknown
+  std::string curve{};    ///< EffectInfo::curve of an effect with these rows; beside it no unknown
 };
 
 /// Ranges of the variables over a whole dataset, for the grids of the hats.

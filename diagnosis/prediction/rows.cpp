@@ -5,12 +5,11 @@
 #include "model/power.hpp"
 
 namespace joulepath {
-namespace {
-
-/// Motor power drawn from the supply, from the logged voltages and currents.
 double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
   return supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]});
 }
+
+namespace {
 
 /// Removes the mean of a column: the offset of a run's pose is free.
 void remove_mean(Eigen::Ref<Eigen::VectorXd> column) { column.array() -= column.mean(); }

@@ -97,8 +97,8 @@ TEST_P(ReadingOfACurrent, ShowsWhereverTheCurrentIsUsed) {
       kOffset_A);
   const Eigen::MatrixXd gain =
       of_the_catalog({.name = "current_sensor_gain", .parameters = {{"fraction", kGain}}}, kGain);
-  const auto rows_of = [&](const std::string& law) -> const Eigen::MatrixXd& {
-    return rows[static_cast<std::size_t>(std::ranges::find(names, law, &DictionaryEntry::law) -
+  const auto rows_of = [&](const std::string& curve) -> const Eigen::MatrixXd& {
+    return rows[static_cast<std::size_t>(std::ranges::find(names, curve, &DictionaryEntry::curve) -
                                          names.begin())];
   };
   const Eigen::MatrixXd &constant = rows_of("shifted reading"), &scaled = rows_of("scaled reading");

@@ -70,7 +70,8 @@ def rates(cases):
     """`cases` is a list of (label, Answer). The measures of the scorecard that are proportions of answers."""
     of = lambda *names: [(l, a) for l, a in cases if l["bin"] in names]
     seen = lambda entries: [(l, a) for l, a in entries if judge.detectable(l)]
-    none_or_small = lambda l, a: a.says_none_fits() or a.lists_unknown()
+    none_fits = lambda l, a: a.says_none_fits()
+    none_or_small = lambda l, a: none_fits(l, a) or a.lists_unknown()
     large = lambda entries: [(l, a) for l, a in entries if judge.material(l)]
     singles, pairs, triples = seen(of("single")), seen(of("pair")), seen(of("triple"))
     many, few = ([(l, a) for l, a in large(singles) if (l["runs"] > 6) == more] for more in (True, False))
@@ -110,13 +111,13 @@ def rates(cases):
         rate("pairs: at least one", any_of, pairs, 0.98, 0.95),
         rate("triples: all three", every, triples),
         rate("triples: at least one", any_of, triples),
-        rate("foreign effect: says none fits (unexplained or partly)", lambda l, a: a.says_none_fits(), seen(of("foreign")), 0.93, 0.88),
+        rate("foreign effect: says none fits (unexplained or partly)", none_fits, seen(of("foreign")), 0.93, 0.88),
         rate("foreign effect: says none fits, or lists an unknown below the materiality floor", none_or_small, seen(of("foreign"))),
         rate("foreign effect: says unexplained, names nothing", lambda l, a: a.verdict == "unexplained", seen(of("foreign"))),
-        rate("true effect removed: says none fits", lambda l, a: a.says_none_fits(), seen(of("removed")), 0.90, 0.85),
+        rate("true effect removed: says none fits", none_fits, seen(of("removed")), 0.90, 0.85),
         rate("true effect removed: says none fits, or lists an unknown below the materiality floor", none_or_small, seen(of("removed"))),
-        rate("true effect removed, detectable and material: says none fits", lambda l, a: a.says_none_fits(), large(of("removed"))),
-        rate("true effect removed, separable from what remains: says none fits", lambda l, a: a.says_none_fits(),
+        rate("true effect removed, detectable and material: says none fits", none_fits, large(of("removed"))),
+        rate("true effect removed, separable from what remains: says none fits", none_fits,
              [(l, a) for l, a in seen(of("removed")) if judge.separable(l)]),
         rate("sound day called data_suspect", lambda l, a: a.verdict == "data_suspect",
              [(l, a) for l, a in cases if l["bin"] not in ("spoilt", "removed")], 0.005, 0.015, False),

@@ -70,11 +70,9 @@ class DictionaryCollector {
     });
   }
   /// What the motors' currents read beyond the true ones; nothing where no sensor reads them. The motor power
-  /// that it adds to the log takes part in the battery's balance as the supply counts it. `law`: the
-  /// catalog's effect that reads so.
+  /// that it adds to the log takes part in the battery's balance as the supply counts it.
   template <class Function>
-  void reading(const std::string& family, const std::string& law, const Prediction* prediction,
-               Function&& size_A) {
+  void reading(const std::string& family, const Prediction* prediction, Function&& size_A) {
     entry(family, "current reading", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
       const PowerSupply& supply = robot_->power;
       const Sided<Eigen::VectorXd>& power_W = prediction->power_W;
@@ -89,8 +87,9 @@ class DictionaryCollector {
                                        prediction->voltage_V[side][j] * current_A;
       }
     });
-    entries.back().law = law;
   }
+  /// The last entry has the rows of the catalog's effect with this EffectInfo::curve.
+  void known_as(const std::string& curve) { entries.back().curve = curve; }
   /// A voltage in the winding's equation.
   template <class Function>
   void voltage(const std::string& family, bool apart, Function&& size_V) {

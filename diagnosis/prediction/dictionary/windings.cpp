@@ -9,13 +9,14 @@ void add_motors(DictionaryCollector& out, const Robot* robot, const Prediction* 
   out.friction("motor torque", false, [&](Eigen::Index j, Side side) {
     return robot->motor[side].torque_per_ampere_Nm_A() * std::abs(current_A(j, side));
   });
-  out.entries.back().law = "loss by torque";
-  for (Side one : kSides)
-    out.reading("constant", "shifted reading", p,
-                [one](Eigen::Index, Side side) { return side == one ? 1.0 : 0.0; });
-  out.reading("current", "scaled reading", p, current_A);
-  out.reading("current", "", p,
-              [&](Eigen::Index j, Side side) { return side_sign(side) * current_A(j, side); });
+  out.known_as("loss by torque");
+  for (Side one : kSides) {
+    out.reading("constant", p, [one](Eigen::Index, Side side) { return side == one ? 1.0 : 0.0; });
+    out.known_as("shifted reading");
+  }
+  out.reading("current", p, current_A);
+  out.known_as("scaled reading");
+  out.reading("current", p, [&](Eigen::Index j, Side side) { return side_sign(side) * current_A(j, side); });
 }
 
 void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, const RunSignals* s,
@@ -29,7 +30,7 @@ void add_windings(DictionaryCollector& out, const DictionaryLayout& layout, cons
   out.voltage("current", false, [&](Eigen::Index j, Side side) {
     return std::clamp(current(j, side) / kBlurredCurrent_A, -1.0, 1.0);
   });
-  out.entries.back().law = "drop by sign";
+  out.known_as("drop by sign");
   for (double corner : {0.4, 0.6, 0.8})
     out.voltage("current", false, [&, corner](Eigen::Index j, Side side) {
       const double i = current(j, side), beyond = std::abs(i) - corner * layout.greatest_current_A;
