@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0550-encoder-noise-is-a-random-walk.md
+// Design: docs/decisions/0502-noise-and-scatter.md
 namespace joulepath {
 namespace {
 

@@ -67,7 +67,7 @@ def missing_documents(source):
 
 
 def decisions(source):
-    """Each decision has a status; code cites each one that stands."""
+    """Each decision has a status; code cites each one that stands; thresholds name decisions that exist."""
     folder = source / "docs/decisions"
     numbers = {file.name[:4] for file in folder.glob("*.md")}
     cited = {name for _, name in cited_documents(source)}
@@ -79,6 +79,10 @@ def decisions(source):
             yield f"docs/decisions/{file.name}: superseded by {status[2]}, which does not exist"
         elif status[1] and f"docs/decisions/{file.name}" not in cited:
             yield f"docs/decisions/{file.name}: accepted, but no code cites it"
+    thresholds = "diagnosis/thresholds.hpp"
+    for number in re.findall(r"\((\d{4})\b[^()]*\)", (source / thresholds).read_text()):
+        if number not in numbers:
+            yield f"{thresholds}: no decision {number}"
 
 
 def differences(source, version):

@@ -6,7 +6,7 @@
 #include "planner/nlp/fast/jerk_newton.hpp"
 #include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
-// Design: docs/decisions/0210-jerk-by-stages.md
+// Design: docs/decisions/0302-jerk.md
 namespace joulepath::nlp {
 namespace {
 

@@ -5,7 +5,7 @@
 
 namespace joulepath {
 
-// Design: docs/decisions/0460-parameters-of-arc-length-are-polynomials.md
+// Design: docs/decisions/0200-paths.md
 /// A short part of a curve with parameter t, and t as a polynomial of the arc length on it.
 ///
 /// The speed |B'| is taken at Chebyshev points. The integral of the polynomial through them gives the arc

@@ -13,7 +13,7 @@
 #include <mutex>
 
 #include "planner/path/search/ompl_space.hpp"
-// Design: docs/decisions/0022-search.md
+// Design: docs/decisions/0201-routes-and-floor.md
 namespace joulepath {
 namespace {
 

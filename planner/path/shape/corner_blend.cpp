@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "model/assert.hpp"
-// Design: docs/decisions/0021-clothoid-blends.md
+// Design: docs/decisions/0200-paths.md
 namespace joulepath {
 namespace {
 
