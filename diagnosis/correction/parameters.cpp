@@ -10,6 +10,7 @@
 
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0507-cross-fitting.md
+// Method: [Davies1977], [Wald1943]
 namespace joulepath {
 namespace {
 

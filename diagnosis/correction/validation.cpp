@@ -10,6 +10,7 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/text_of_list.hpp"
 // Design: docs/decisions/0507-cross-fitting.md
+// Method: [Stone1974]
 namespace joulepath {
 namespace {
 

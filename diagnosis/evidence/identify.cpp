@@ -11,6 +11,7 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0503-evidence.md
+// Method: [MacKay1992]
 namespace joulepath {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "diagnosis/thresholds.hpp"
 // Design: docs/decisions/0502-noise-and-scatter.md
+// Method: [Yule1927], [Kalman1960]
 namespace joulepath {
 namespace {
 

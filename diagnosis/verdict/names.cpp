@@ -12,6 +12,7 @@
 #include "model/normal_quantiles.hpp"
 // Design: docs/decisions/0505-unknown-terms.md,
 // docs/decisions/0507-cross-fitting.md
+// Method: [BarbieriBerger2004]
 namespace joulepath {
 namespace {
 

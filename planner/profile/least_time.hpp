@@ -5,6 +5,7 @@
 #include "planner/profile/place_cost.hpp"
 
 // Design: docs/decisions/0303-bounds.md
+// Method: [Bobrow1985]
 namespace joulepath {
 
 /// The least time of the continuous problem, bounded from below.

@@ -5,6 +5,7 @@
 #include "planner/profile/costate.hpp"
 
 // Design: docs/decisions/0303-bounds.md
+// Method: [Vinter1993]
 namespace joulepath {
 
 /// Upper bound of the difference between a profile's cost and the least one.

@@ -18,6 +18,7 @@
 #include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/profile.hpp"
 // Design: docs/decisions/0300-path-domain.md
+// Method: [Verscheure2009]
 namespace joulepath {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/thread_clock.hpp"
 // Design: docs/decisions/0301-solvers.md
+// Method: [Mehrotra1992]
 namespace joulepath::nlp {
 namespace {
 

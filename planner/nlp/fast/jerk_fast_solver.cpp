@@ -7,6 +7,7 @@
 #include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
 // Design: docs/decisions/0302-jerk.md
+// Method: [Mehrotra1992]
 namespace joulepath::nlp {
 namespace {
 

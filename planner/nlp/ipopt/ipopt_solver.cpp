@@ -8,6 +8,7 @@
 #include "planner/nlp/ipopt/ipopt_nlp.hpp"
 #include "planner/nlp/transcription/squares_program.hpp"
 
+// Method: [WaechterBiegler2006]
 namespace joulepath::nlp {
 namespace {
 

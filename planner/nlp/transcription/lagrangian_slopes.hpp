@@ -6,6 +6,7 @@
 #include "planner/path/geometry/path_slopes.hpp"
 
 // Design: docs/decisions/0211-whole-curves.md
+// Method: [Fiacco1983]
 namespace joulepath::nlp {
 
 /// Derivatives of a problem's least cost by its path. By the envelope theorem they are the partial

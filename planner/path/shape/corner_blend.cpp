@@ -5,6 +5,7 @@
 
 #include "model/assert.hpp"
 // Design: docs/decisions/0200-paths.md
+// Method: [ShinSingh1990]
 namespace joulepath {
 namespace {
 
