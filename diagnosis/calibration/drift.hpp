@@ -6,7 +6,7 @@
 
 #include "diagnosis/calibration/calibration.hpp"
 
-// Design: docs/decisions/0511-calibration-and-drift.md
+// Design: docs/decisions/0511-calibration.md
 namespace joulepath {
 
 struct DriftSettings {
