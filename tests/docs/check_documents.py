@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks of documents: links and cited files exist, decisions have a status and are cited, versions agree.
+"""Checks of documents: links and cited files exist, decisions have a status and are cited, no page tells
+of its making, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -85,6 +86,21 @@ def decisions(source):
             yield f"{thresholds}: no decision {number}"
 
 
+# A note says what holds and why. How it came about is the version history's: cases of a benchmark, commits.
+HISTORY = re.compile(r"\bcases? \d{3,}\b|\b(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{7,12}\b")
+MOST_DECISIONS = 40
+
+
+def histories(source):
+    notes = sorted(source.glob("docs/decisions/*.md"))
+    if len(notes) > MOST_DECISIONS:
+        yield f"docs/decisions: {len(notes)} notes, at most {MOST_DECISIONS}: extend the note of the room and theme"
+    for document in [*sorted(source.glob("docs/*.md")), *notes]:
+        for number, line in enumerate(document.read_text().splitlines(), 1):
+            for word in HISTORY.findall(line):
+                yield f"{document.relative_to(source)}:{number}: tells of its making: {word}"
+
+
 def differences(source, version):
     consumer = (source / "tests/consumer/plan_and_print.cpp").read_text()
     if consumer not in (source / "README.md").read_text():
@@ -98,7 +114,7 @@ def differences(source, version):
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     problems = [*broken_links(source), *missing_paths(source), *missing_documents(source), *decisions(source),
-                *differences(source, sys.argv[2])]
+                *histories(source), *differences(source, sys.argv[2])]
     print("\n".join(problems) or "documents: links, paths, program and versions agree")
     return 1 if problems else 0
 
