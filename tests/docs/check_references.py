@@ -8,8 +8,9 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests"]
-CODE = {".hpp", ".cpp", ".py", ".js"}
+ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests",
+         "docs/decisions"]
+CITING = {".hpp", ".cpp", ".py", ".js", ".md"}
 KEY = r"P1|[A-Z]\w*(?:19|20)\d\d[a-z]?"
 ENTRY = re.compile(rf"^- \*\*\[({KEY})\]\*\*(.*?)(?=^- |^#|\Z)", re.MULTILINE | re.DOTALL)
 CITED = re.compile(rf"\[({KEY})(?=[],])")
@@ -17,10 +18,10 @@ FILE = re.compile(r"`([\w/.]+\.(?:hpp|cpp|py|js))`")
 
 
 def citations(source):
-    """(file, keys) of all code that cites one."""
+    """(file, keys) of all code and decisions that cite one."""
     for room in ROOMS:
         for file in sorted((source / room).rglob("*")):
-            if file.suffix not in CODE or file == pathlib.Path(__file__).resolve():
+            if file.suffix not in CITING or file == pathlib.Path(__file__).resolve():
                 continue
             keys = set(CITED.findall(file.read_text(errors="replace")))
             if keys:
