@@ -12,7 +12,7 @@
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
 #include "scenarios/document.hpp"
-// Design: docs/decisions/0012-results-are-renamed-into-place.md
+// Design: docs/decisions/0700-results-and-jobs.md
 namespace joulepath {
 namespace {
 

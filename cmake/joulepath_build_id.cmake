@@ -1,6 +1,6 @@
 # joulepath_build_id(NAME): a library with the digest of app/build_id.hpp. It covers the content of all sources of the
 # program and its pages, the compiler and its flags; no time and no folder. The folders are searched, so that no source can be forgotten.
-# Design: docs/decisions/0430-a-build-is-its-sources.md
+# Design: docs/decisions/0700-results-and-jobs.md
 set(JOULEPATH_BUILD_PATTERNS "")
 foreach(folder model planner diagnosis scenarios studio app)
   list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.cpp ${folder}/*.hpp ${folder}/CMakeLists.txt)

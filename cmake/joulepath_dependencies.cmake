@@ -1,5 +1,5 @@
 # Read by the build, and by joulepathConfig.cmake in projects that use an installed joulepath.
-# Everything comes from the distribution; nothing is downloaded (docs/decisions/0002-dependencies.md).
+# Everything comes from the distribution; nothing is downloaded (docs/decisions/0800-build.md).
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)

@@ -34,7 +34,7 @@ function(joulepath_warnings target)
 endfunction()
 
 # With JOULEPATH_UNITY the sources of one folder of a target are compiled as one unit: headers are parsed once.
-# Names in anonymous namespaces are therefore unique within a folder. Design: docs/decisions/0270-unity-build.md
+# Names in anonymous namespaces are therefore unique within a folder. Design: docs/decisions/0800-build.md
 function(joulepath_unity target)
   if(NOT JOULEPATH_UNITY)
     return()

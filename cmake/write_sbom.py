@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-# Design: docs/decisions/0240-packages-repeat.md
+# Design: docs/decisions/0800-build.md
 """CycloneDX 1.5 list of what a Debian package of joulepath contains and needs.
 
 usage: write_sbom.py PACKAGE.deb OUTPUT.json
 Components: the program, the libraries that are compiled in (headers), and the shared libraries that the
-package depends on, each with the version of the distribution's package. Without times, so that it repeats: docs/decisions/0240-packages-repeat.md.
+package depends on, each with the version of the distribution's package. Without times, so that it repeats: docs/decisions/0800-build.md.
 """
 import hashlib
 import json

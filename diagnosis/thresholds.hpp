@@ -1,8 +1,7 @@
 #pragma once
 
 #include <cstddef>
-// Design: docs/decisions/0130-thresholds-in-one-header.md,
-// docs/decisions/0440-thresholds-that-guard-nothing.md
+// Design: docs/decisions/0513-thresholds.md
 namespace joulepath {
 
 // Every number that decides what a diagnosis says, with its origin:
@@ -50,14 +49,14 @@ inline constexpr double kUnevenPeriod = 0.05;
 /// Samples of an even grid over those of an uneven log, at most. Declared: bounds memory.
 inline constexpr double kMostGrowth = 50.0;
 /// Mean square of an acceleration over that of the encoders' noise, below which it counts as none. Derived:
-/// 99.9 % of windows of eleven samples of noise are below, at kPeriod_s and logs of 50 Hz and more (0510).
+/// 99.9 % of windows of eleven samples of noise are below, at kPeriod_s and logs of 50 Hz and more (0501).
 inline constexpr double kAccelerationOverNoise = 3.0;
-/// Half the width of such a window. Chosen (0510).
+/// Half the width of such a window. Chosen (0501).
 inline constexpr double kAccelerationWindow_s = 0.5;
-/// kAccelerationOverNoise of jerks, over three samples. Chosen (0553): guards stiffnesses of contacts against
+/// kAccelerationOverNoise of jerks, over three samples. Chosen (0501): guards stiffnesses of contacts against
 /// the smoothing of noise.
 inline constexpr double kJerkOverNoise = 5.0;
-/// Samples further apart tell noise from motion no more. Chosen (0510).
+/// Samples further apart tell noise from motion no more. Chosen (0501).
 inline constexpr double kLongestNoisePeriod_s = 0.2;
 /// Below it dry friction has no known direction under the kernel. Chosen.
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
@@ -76,52 +75,52 @@ inline constexpr double kDeadBand_A = 0.1;
 
 // Data that contradict physics. Sound data stay far from these numbers; `./dev bench spoilt` exercises them.
 
-/// A channel that shows less of the change that the others ask for is dead. Chosen (0220).
+/// A channel that shows less of the change that the others ask for is dead. Chosen (0500).
 inline constexpr double kDeadShare = 0.1;
-/// And whose own change is smaller than this part of it. Chosen (0220).
+/// And whose own change is smaller than this part of it. Chosen (0500).
 inline constexpr double kDeadSize = 0.3;
-/// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0220).
+/// The windings' equation is sound where it leaves a smaller share unexplained. Chosen (0500).
 inline constexpr double kSoundWinding = 0.004;
-/// Above it a side or a sign may be wrong: the drop R i is a small part of the voltage. Chosen (0220).
+/// Above it a side or a sign may be wrong: the drop R i is a small part of the voltage. Chosen (0500).
 inline constexpr double kDoubtfulWinding = 0.0001;
-/// As kSoundWinding, of currents against the motion's torques. Chosen (0220).
+/// As kSoundWinding, of currents against the motion's torques. Chosen (0500).
 inline constexpr double kSoundTorque = 0.3;
-/// The same of turning rates against each other and of positions against the wheels. Chosen (0220).
+/// The same of turning rates against each other and of positions against the wheels. Chosen (0500).
 inline constexpr double kSoundMotion = 0.1;
-/// The same of the battery's power against the motors'. Chosen (0220).
+/// The same of the battery's power against the motors'. Chosen (0500).
 inline constexpr double kSoundBattery = 0.05;
-/// Above it the scale of the motors' currents may be wrong: standby hides a factor. Chosen (0570).
+/// Above it the scale of the motors' currents may be wrong: standby hides a factor. Chosen (0500).
 inline constexpr double kDoubtfulBattery = 0.0001;
-/// A relation that leaves a smaller share unexplained is exact: repairs are weighed no finer. Chosen (0220).
+/// A relation that leaves a smaller share unexplained is exact: repairs are weighed no finer. Chosen (0500).
 inline constexpr double kExactRelation = 1e-5;
-/// Exponent of the coefficients' boxes while a factor is refined: they are nearly fixed. Chosen (0220).
+/// Exponent of the coefficients' boxes while a factor is refined: they are nearly fixed. Chosen (0500).
 inline constexpr double kRefinementFreedom = 0.05;
-/// A repair must lower what a relation leaves unexplained by this factor. Chosen (0220).
+/// A repair must lower what a relation leaves unexplained by this factor. Chosen (0500).
 inline constexpr double kRepairGain = 4.0;
-/// The same of a relation that is doubtful only. Chosen (0220).
+/// The same of a relation that is doubtful only. Chosen (0500).
 inline constexpr double kRepairGainOfDoubtful = 10.0;
-/// And may raise it for no other one by more than this, unless that stays sound. Chosen (0220).
+/// And may raise it for no other one by more than this, unless that stays sound. Chosen (0500).
 inline constexpr double kRepairHarm = 1.5;
-/// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0220).
+/// A factor that is no unit must be this many nats better than a fault that is usual. Chosen (0500).
 inline constexpr double kUnusualFault = 1.0;
 /// A smaller factor or divisor of a channel may be an effect. Declared.
 inline constexpr double kMostEffectFactor = 1.5;
-/// A unit's factor from which on noise tells it: vibration multiplies a gyro's noise by less. Chosen (0522).
+/// A unit's factor from which on noise tells it: vibration multiplies a gyro's noise by less. Chosen (0500).
 inline constexpr double kLeastNoiseOfUnit = 30.0;
-/// Noise (SI units) below which a channel was computed, not measured. Physical scale (0522).
+/// Noise (SI units) below which a channel was computed, not measured. Physical scale (0500).
 inline constexpr double kLeastSensorNoise = 1e-6;
-/// A run with another unit is noisier than every other run by this factor. Declared (0522).
+/// A run with another unit is noisier than every other run by this factor. Declared (0500).
 inline constexpr double kNoiseApart = 3.0;
-/// Exponent of the coefficients' boxes where one run is held against the others. Chosen (0570).
+/// Exponent of the coefficients' boxes where one run is held against the others. Chosen (0500).
 inline constexpr double kComparedFreedom = 0.2;
-/// Kinds of laws that a run has to break where no other run does: an effect breaks one. Chosen (0570).
+/// Kinds of laws that a run has to break where no other run does: an effect breaks one. Chosen (0500).
 inline constexpr std::size_t kLeastOddKinds = 2;
 /// Faults of one dataset that are sought. Declared: bounds time.
 inline constexpr int kMostFaults = 6;
 
 // Boxes of the relations between channels: what calibration errors and effects of the catalog may change.
 
-/// Rows over which changes of a pose are taken: those of single rows disappear in the noise. Chosen (0220).
+/// Rows over which changes of a pose are taken: those of single rows disappear in the noise. Chosen (0500).
 inline constexpr std::ptrdiff_t kIncrementRows = 6;
 /// Runs that turn less do not test a gyro or a heading. Physical scale.
 inline constexpr double kLeastYawRate_rad_s = 0.06;
@@ -129,41 +128,41 @@ inline constexpr double kLeastYawRate_rad_s = 0.06;
 inline constexpr double kLeastSpeed_m_s = 0.04;
 /// Of readings: a speed that changes within this time looks like an offset. Physical scale.
 inline constexpr double kLongestDelay_s = 0.15;
-/// Of a current sensor, over the current that friction takes. Chosen (0220).
+/// Of a current sensor, over the current that friction takes. Chosen (0500).
 inline constexpr double kGreatestOffset = 0.7;
 /// Of a driver's voltage, over the greatest voltage. Physical scale.
 inline constexpr double kGreatestDrop = 0.035;
-/// A winding's resistance or a converter's power over the file's, from measured channels. Chosen (0220).
+/// A winding's resistance or a converter's power over the file's, from measured channels. Chosen (0500).
 inline constexpr double kLeastMeasuredFactor = 0.6;
-/// See kLeastMeasuredFactor. Chosen (0220).
+/// See kLeastMeasuredFactor. Chosen (0500).
 inline constexpr double kMostMeasuredFactor = 1.7;
-/// The same where the current is predicted: resistances of the floor multiply it. Chosen (0220).
+/// The same where the current is predicted: resistances of the floor multiply it. Chosen (0500).
 inline constexpr double kLeastPredictedFactor = 0.2;
-/// See kLeastPredictedFactor. Chosen (0220).
+/// See kLeastPredictedFactor. Chosen (0500).
 inline constexpr double kMostPredictedCurrent = 5.0;
-/// The same of a predicted power. Chosen (0220).
+/// The same of a predicted power. Chosen (0500).
 inline constexpr double kMostPredictedPower = 6.0;
-/// A motor constant or an instrument's scale over the file's. Chosen (0220).
+/// A motor constant or an instrument's scale over the file's. Chosen (0500).
 inline constexpr double kLeastScale = 0.7;
-/// See kLeastScale. Chosen (0220).
+/// See kLeastScale. Chosen (0500).
 inline constexpr double kMostScale = 1.4;
-/// Dry friction over the file's. Chosen (0220).
+/// Dry friction over the file's. Chosen (0500).
 inline constexpr double kLeastFriction = 0.3;
-/// See kLeastFriction. Chosen (0220).
+/// See kLeastFriction. Chosen (0500).
 inline constexpr double kMostFriction = 5.0;
-/// Torque per wheel speed over the file's, of bearings or of drag that looks like it. Chosen (0220).
+/// Torque per wheel speed over the file's, of bearings or of drag that looks like it. Chosen (0500).
 inline constexpr double kMostTorquePerSpeed = 20.0;
-/// Inertia over the file's. Chosen (0220).
+/// Inertia over the file's. Chosen (0500).
 inline constexpr double kLeastInertia = 0.4;
-/// See kLeastInertia. Chosen (0220).
+/// See kLeastInertia. Chosen (0500).
 inline constexpr double kMostInertia = 2.5;
 /// Resistance to turning over the weight. Physical scale.
 inline constexpr double kGreatestTurningLoad = 0.05;
 /// Slope of the floor. Physical scale.
 inline constexpr double kGreatestSlope = 0.03;
-/// Distance or angle over what the wheels roll: radii, track width, slip. Chosen (0220).
+/// Distance or angle over what the wheels roll: radii, track width, slip. Chosen (0500).
 inline constexpr double kLeastRolled = 0.55;
-/// See kLeastRolled. Chosen (0220).
+/// See kLeastRolled. Chosen (0500).
 inline constexpr double kMostRolled = 1.6;
 /// Difference of the wheels' radii over their mean. Physical scale.
 inline constexpr double kGreatestMismatch = 0.08;
@@ -171,11 +170,11 @@ inline constexpr double kGreatestMismatch = 0.08;
 inline constexpr double kGreatestGyroBias_rad_s = 0.1;
 /// Error of a heading's zero. Physical scale.
 inline constexpr double kGreatestHeadingOffset_rad = 0.4;
-/// Braking power that a battery takes with the sign of a draw, over that of driving. Chosen (0220).
+/// Braking power that a battery takes with the sign of a draw, over that of driving. Chosen (0500).
 inline constexpr double kGreatestBrakeDraw = 0.3;
-/// Braking power over driving power of one factor. Chosen (0220).
+/// Braking power over driving power of one factor. Chosen (0500).
 inline constexpr double kGreatestBrakeFactor = 1.3;
-/// Standby power over the file's. Chosen (0220).
+/// Standby power over the file's. Chosen (0500).
 inline constexpr double kMostStandby = 5.0;
 /// A dead gyro, heading or position shows where the wheels turn the body faster. Physical scale.
 inline constexpr double kMovingYawRate_rad_s = 0.1;
@@ -200,7 +199,7 @@ inline constexpr double kMoving_m_s = 0.05;
 /// Loggers of robots have longer sample periods. Physical scale.
 inline constexpr double kShortestPeriod_s = 5e-4;
 
-// What runs cannot show. They guard against names that no manoeuvre supports (0372).
+// What runs cannot show. They guard against names that no manoeuvre supports (0508).
 
 /// A sample turns where the wheels differ by this share of their speeds. Physical scale.
 inline constexpr double kTurningShare = 0.2;
@@ -212,11 +211,11 @@ inline constexpr double kLeastManoeuvreShare = 0.01;
 // Noise and calibration.
 
 /// Samples over which a residual of heading or position changes: longer than the memory of its short noise,
-/// so that only the walk of the encoders' noise makes longer ones change more. Chosen (0550).
+/// so that only the walk of the encoders' noise makes longer ones change more. Chosen (0502).
 inline constexpr std::ptrdiff_t kShortNoiseLag = 5;
-/// See kShortNoiseLag; shorter than a run. Chosen (0550).
+/// See kShortNoiseLag; shorter than a run. Chosen (0502).
 inline constexpr std::ptrdiff_t kLongNoiseLag = 30;
-/// Least variance of that short noise over the mean square of the changes over kShortNoiseLag. Chosen (0550):
+/// Least variance of that short noise over the mean square of the changes over kShortNoiseLag. Chosen (0502):
 /// guards logs where the walk is all.
 inline constexpr double kLeastShortNoise = 0.05;
 /// Least noise of a channel over what it reads. Derived: 12 bits of a signal that fills half its range.
@@ -225,7 +224,7 @@ inline constexpr double kResolution = 5e-4;
 inline constexpr double kVoltageResolution = 2e-4;
 /// Creep of a rubber tire times the mass that it carries, 1-sigma. Physical scale.
 inline constexpr double kUsualCreep_kg_m_s_N = 2e-3;
-/// Error of time stamps over the log's period, 1-sigma. Chosen (0045: nulls have 3.4 %, median).
+/// Error of time stamps over the log's period, 1-sigma. Chosen (0503).
 inline constexpr double kStampFraction = 0.06;
 /// A calibration error further out, in its sigmas, is a finding. Derived: 0.3 % of normal errors.
 inline constexpr double kCalibrationBox = 3.0;
@@ -267,33 +266,33 @@ inline constexpr int kBeamWidth = 14;
 inline constexpr std::size_t kMostReconsidered = 300;
 /// Rounds of linearize, search, refit. Declared: ends a search that alternates between two sets.
 inline constexpr int kRelinearizations = 4;
-/// Log evidence needed to name an effect below the materiality floor. Chosen (0045).
+/// Log evidence needed to name an effect below the materiality floor. Chosen (0504).
 inline constexpr double kSmallEffectEvidence = 10.0;
 /// The same from fewer than kRunsForSmallEffects, firm effects alone. Derived: twice the above, as the
 /// scatter of six runs is underestimated by that factor in one draw of four (chi-square of 5 below 2.7)
-/// (0552).
+/// (0504).
 inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;
 /// The same as kSmallEffectEvidence for pliable effects at just material size; grows as 1/sqrt(size). Chosen
-/// (0043).
+/// (0504).
 inline constexpr double kSmallPliableEvidence = 13.0;
-/// Effects below this share of the materiality floor are not named. Chosen (0045): guards logs without noise.
+/// Effects below this share of the materiality floor are not named. Chosen (0504): guards logs without noise.
 inline constexpr double kLeastSize = 0.03;
-/// Share of all evidence that inexact forms of the other effects make up. Chosen (0045): without it, practice
+/// Share of all evidence that inexact forms of the other effects make up. Chosen (0504): without it, practice
 /// set p10 gets a second name.
 inline constexpr double kShareOfFormError = 0.05;
-/// Overlap from which on all of an effect may be the others' inexact form. Chosen (0045), with the above.
+/// Overlap from which on all of an effect may be the others' inexact form. Chosen (0504), with the above.
 inline constexpr double kFullOverlap = 0.25;
-/// Ridge on columns of length 1, for that overlap: forms that hardly differ. Chosen (0043).
+/// Ridge on columns of length 1, for that overlap: forms that hardly differ. Chosen (0504).
 inline constexpr double kOverlapRidge = 1e-3;
 /// Prior width of an amplitude in sizes worth noticing. Chosen.
 inline constexpr double kAmplitudePriorSteps = 4.0;
-/// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0042).
+/// Share by which a law's strength usually varies with each form variable, 1-sigma. Chosen (0503).
 inline constexpr double kFormSpread = 0.12;
 /// A law's form further out, in its sigmas, is part of an unknown cause. Derived: 0.3 % of normal errors
-/// (0521).
+/// (0505).
 inline constexpr double kInexactForm = 3.0;
 /// A law's form whose 95 % interval lies beyond this share of its strength is part of an unknown cause, too.
-/// Chosen (0521).
+/// Chosen (0505).
 inline constexpr double kSureForm = 0.2;
 /// Speed in the middle of a form variable's scale. Physical scale.
 inline constexpr double kUsualSpeed_m_s = 0.3;
@@ -336,7 +335,7 @@ inline constexpr double kMaterialHeading_rad = 0.03;
 inline constexpr double kMaterialPosition = 0.006;
 /// Shorter runs count as this long for kMaterialPosition. Declared.
 inline constexpr double kLeastTravelled_m = 0.5;
-/// Of the electrical channels. Declared (0045: half a sample is a delay).
+/// Of the electrical channels. Declared (0503: half a sample is a delay).
 inline constexpr double kMaterialDelay_samples = 0.6;
 
 // Unknown terms, and calibration constants beyond their uncertainty.
@@ -347,7 +346,7 @@ inline constexpr double kLeastUnknownShare = 0.05;
 /// law differ by the curvature of the model alone.
 inline constexpr double kSameSignature = 0.99;
 /// Increase of -2 log likelihood when constants are held within kCalibrationBox, from which on one is a
-/// finding. Chosen (0045): guards the all-clear of runs without an effect.
+/// finding. Chosen (0503): guards the all-clear of runs without an effect.
 inline constexpr double kLeastLossOfBox = 50.0;
 
 // Names and groups.
@@ -365,7 +364,7 @@ inline constexpr double kFreeAmplitude = 30.0;
 /// A less likely effect, group or unknown term is not named; a group without a member as likely is ambiguous.
 /// Chosen (benchmarks/diagnosis_race: nulls reach 0.61).
 inline constexpr double kLeastProbabilityNamed = 0.7;
-/// A less likely effect is not named for a calibration constant beyond its uncertainty. Chosen (0630).
+/// A less likely effect is not named for a calibration constant beyond its uncertainty. Chosen (0505).
 inline constexpr double kLeastProbabilityOfConstant = 0.05;
 /// A less likely effect is not listed. Declared.
 inline constexpr double kLeastProbabilityRanked = 1e-4;
@@ -395,7 +394,7 @@ inline constexpr double kLoading_s = 10.0;
 inline constexpr double kShareSeen = 0.9;
 /// Runs that would not show a greater gap are too few. Declared.
 inline constexpr double kGreatestUnseen_percent = 10.0;
-/// Effects whose usual size changes less of the energy are no gap of energy. Chosen (0221).
+/// Effects whose usual size changes less of the energy are no gap of energy. Chosen (0506).
 inline constexpr double kLeastEnergyOfStep = 0.002;
 
 // Held-out runs and the correction.
@@ -406,19 +405,19 @@ inline constexpr double kToleratedWorsening_percent = 0.05;
 inline constexpr double kNotableShrink = 0.1;
 /// Two parameters of a correction whose correlation is smaller are not listed together. Declared.
 inline constexpr double kNotableCorrelation = 0.5;
-/// A held-out gap above this many noise floors is more than noise. Chosen (0042).
+/// A held-out gap above this many noise floors is more than noise. Chosen (0507).
 inline constexpr double kFloorsLeft = 2.0;
-/// A smaller held-out gap is not examined further. Chosen (0042).
+/// A smaller held-out gap is not examined further. Chosen (0507).
 inline constexpr double kMaterialGap_percent = 2.0;
 /// Factor on kFloorsLeft and kMaterialGap_percent where nothing is named or fewer than kFewHeldOut runs
 /// judge: the scatter is known less. Chosen: guards the all-clear of runs without an effect.
 inline constexpr double kCautionFactor = 2.0;
-/// The noise floor is at most this many times the scatter between runs. Chosen (0042): guards causes that no
+/// The noise floor is at most this many times the scatter between runs. Chosen (0507): guards causes that no
 /// law has.
 inline constexpr double kScatterFactor = 2.0;
-/// Another day's scatter changes the remaining gap by this many noise floors. Chosen (0045).
+/// Another day's scatter changes the remaining gap by this many noise floors. Chosen (0504).
 inline constexpr double kAnotherDay = 0.7;
-/// Share by which an inexact form moves a law's mean strength. Chosen (0043).
+/// Share by which an inexact form moves a law's mean strength. Chosen (0504).
 inline constexpr double kLawInexactness = 0.025;
 /// Of the diagnosis runs, to choose the ceiling's ridge. Chosen.
 inline constexpr std::size_t kRidgeFolds = 4;
@@ -433,7 +432,7 @@ inline constexpr double kNegligibleShare = 0.01;
 inline constexpr double kSpeedCell_m_s = 0.2;
 /// Width. Declared.
 inline constexpr double kTimeCell_s = 60.0;
-/// The gap is averaged over this time before and after a sample. Chosen (0590): noise hides small gaps that
+/// The gap is averaged over this time before and after a sample. Chosen (0510): noise hides small gaps that
 /// last.
 inline constexpr double kGapWindow_s = 0.2;
 /// Width of a square. Declared.
@@ -470,13 +469,13 @@ inline constexpr double kPayloadOfSmoothError_kg = 10.0;
 inline constexpr double kStraight_rad = 0.05;
 /// Degrees of freedom from which a scatter is estimated. Chosen: guards fewer runs than variables.
 inline constexpr double kLeastFreedom = 4.0;
-/// Error of a braking rate or an entry speed that nobody recorded, 1-sigma, relative. Declared (0044).
+/// Error of a braking rate or an entry speed that nobody recorded, 1-sigma, relative. Declared (0509).
 inline constexpr double kMotionDoubtSigma = 0.2;
 /// Effects of a set: a sum and a difference per run do not carry more. Chosen.
 inline constexpr int kMostEffectsOfEnergies = 2;
 /// Sigmas by which a large effect must move the data beyond calibration to be a candidate. Derived: 95 %.
 inline constexpr double kVisibleSigmas = 2.0;
-/// Of the runs, where the dataset says nothing about their use. Chosen (0044).
+/// Of the runs, where the dataset says nothing about their use. Chosen (0509).
 inline constexpr std::size_t kEnergyFolds = 4;
 
 }  // namespace joulepath

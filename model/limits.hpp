@@ -7,7 +7,7 @@
 
 #include "model/sided.hpp"
 
-// Design: docs/decisions/0100-one-table-of-limits.md
+// Design: docs/decisions/0101-limits-and-energy.md
 namespace joulepath {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "model/energy.hpp"
-// Design: docs/decisions/0110-one-energy-integral.md
+// Design: docs/decisions/0101-limits-and-energy.md
 namespace joulepath {
 
 /// The input of the power model at an instant: speeds and accelerations, and the site with the

@@ -9,7 +9,7 @@
 
 #include "diagnosis/values/constant_payload.hpp"
 #include "scenarios/log_columns.hpp"
-// Design: docs/decisions/0150-input-is-bounded.md
+// Design: docs/decisions/0601-logs.md
 
 namespace joulepath {
 namespace {

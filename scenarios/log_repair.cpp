@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "scenarios/log_columns.hpp"
-// Design: docs/decisions/0011-odd-logs-are-data.md
+// Design: docs/decisions/0601-logs.md
 namespace joulepath {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string_view>
-// Design: docs/decisions/0150-input-is-bounded.md
+// Design: docs/decisions/0600-input-files.md
 
 namespace joulepath {
 namespace {

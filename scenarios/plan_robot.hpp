@@ -4,7 +4,7 @@
 
 #include "model/robot.hpp"
 
-// Design: docs/decisions/0381-a-plan-names-its-robot.md
+// Design: docs/decisions/0600-input-files.md
 namespace joulepath {
 
 /// The robot of a plan, as plan.json says it.

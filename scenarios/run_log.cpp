@@ -11,7 +11,7 @@
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
-// Design: docs/decisions/0365-a-long-log-is-in-memory-once.md
+// Design: docs/decisions/0601-logs.md
 
 namespace joulepath {
 namespace {

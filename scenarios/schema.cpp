@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0010-one-schema-per-file.md
+// Design: docs/decisions/0600-input-files.md
 namespace joulepath {
 namespace {
 

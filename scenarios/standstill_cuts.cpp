@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "scenarios/clock_jumps.hpp"
-// Design: docs/decisions/0222-long-logs-are-cut-at-standstill.md
+// Design: docs/decisions/0601-logs.md
 namespace joulepath {
 namespace {
 

@@ -1,7 +1,7 @@
 #include "scenarios/value_builder.hpp"
 
 #include "model/printable.hpp"
-// Design: docs/decisions/0150-input-is-bounded.md
+// Design: docs/decisions/0600-input-files.md
 
 namespace joulepath {
 namespace {

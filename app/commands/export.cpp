@@ -16,7 +16,7 @@
 #include "scenarios/mission_file.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
-// Design: docs/decisions/0091-exports-plan-again.md
+// Design: docs/decisions/0603-orders-and-exports.md
 namespace joulepath {
 namespace {
 

@@ -9,7 +9,7 @@
 
 namespace joulepath {
 
-/// The run that a journal belongs to. Design: docs/decisions/0431-resume-knows-its-run.md
+/// The run that a journal belongs to. Design: docs/decisions/0700-results-and-jobs.md
 struct JournalRun {
   std::string command{};  ///< batch or sweep
   std::string source{};   ///< absolute name of the missions or of the study

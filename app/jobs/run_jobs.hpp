@@ -10,7 +10,7 @@
 
 #include "app/jobs/shard.hpp"
 
-// Design: docs/decisions/0280-shards-instead-of-a-cluster-engine.md
+// Design: docs/decisions/0700-results-and-jobs.md
 namespace joulepath {
 
 /// The result of one job.

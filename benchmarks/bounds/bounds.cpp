@@ -2,7 +2,7 @@
 // judges them.
 //
 //   bench_bounds FIRST COUNT FINE_NODES OUT.json
-// Design: docs/decisions/0310-claims-are-attacked-by-other-means.md
+// Design: docs/decisions/0803-judges.md
 #include <cmath>
 #include <cstdio>
 #include <fstream>

@@ -1,4 +1,4 @@
-"""Least-energy profiles by dynamic programming over squared speeds at nodes, with the model of check.py.
+"""Least-energy profiles by dynamic programming [Bellman1957] over squared speeds at nodes, with the model of check.py.
 
 A grid of levels at every node, then grids in ever smaller bands about the profile found. Limits hold at five
 places of each segment with a little room. Time is free or has a price: a deadline couples all segments.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-// Design: docs/decisions/0071-paper-benchmark.md
+// Design: docs/decisions/0803-judges.md
 namespace joulepath::bench {
 namespace {
 

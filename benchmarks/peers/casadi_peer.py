@@ -1,4 +1,4 @@
-"""CasADi + Ipopt: the least-energy profile as a user of CasADi would write it.
+"""CasADi [Andersson2019] + Ipopt: the least-energy profile as a user of CasADi would write it.
 
 Unknowns are the squared speeds b at N + 1 equally spaced nodes and the braking energy that is lost per wheel and
 segment; acceleration is constant in a segment, so the energy of a segment is taken by Simpson's rule in time.

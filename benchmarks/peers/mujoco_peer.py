@@ -1,4 +1,4 @@
-"""Wheel speeds driven in MuJoCo: rigid bodies, contacts, casters, motors as actuators.
+"""Wheel speeds driven in MuJoCo [Todorov2012]: rigid bodies, contacts, casters, motors as actuators.
 
 The controller knows nothing of the program's model but the reference: PI on the wheels at 100 Hz, encoder steps, 20 ms of
 latency, voltage held between its steps. A pose controller may correct the wheels' references; without it, what the floor

@@ -2,7 +2,7 @@
 
 A section that is asked for by name runs again; the page is made of the newest answer of each. --quick runs few problems.
 
-Design: docs/decisions/0250-peers-and-a-public-problem-set.md
+Design: docs/decisions/0803-judges.md
 """
 
 import argparse

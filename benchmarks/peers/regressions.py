@@ -1,4 +1,4 @@
-"""Regressions that users know, on the logs of one day: a refit, two sparse ones, a black box.
+"""Regressions that users know, on the logs of one day: a refit, two sparse ones [Brunton2016], a black box.
 
 All see the same columns, residuals and held-out runs: currents and voltages of both wheels, every fourth run held out.
 They name the column that explains most of the residual.

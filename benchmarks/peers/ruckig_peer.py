@@ -1,4 +1,4 @@
-"""Ruckig: jerk-limited motion along a straight line, in least time or in a given time."""
+"""Ruckig [BerscheidKroeger2021]: jerk-limited motion along a straight line, in least time or in a given time."""
 
 from common import cpu_ms, package
 

@@ -1,4 +1,4 @@
-"""toppra: least time and fixed duration on the same path.
+"""toppra [PhamPham2018]: least time and fixed duration on the same path.
 
 The path of toppra is (arc length, heading): linear, yaw and lateral limits are joint limits, traction is a linear
 constraint of second order. Currents and voltages depend on the speed itself and have no place in its constraints; the

@@ -2,7 +2,7 @@
 //
 //   bench_problems generate PATHS TURNS JERK SEED PROBLEMS.json SOLUTIONS.json ROBOT.yaml...
 //   bench_problems solve PROBLEMS.json SOLUTIONS.json [NODES]
-// Design: docs/decisions/0250-peers-and-a-public-problem-set.md
+// Design: docs/decisions/0803-judges.md
 #include <cstdio>
 #include <cstring>
 #include <fstream>

@@ -70,7 +70,7 @@ struct CalibrationResult {
 /// The full method is a bounded nonlinear least squares fit of
 ///   Kt n i = J q''_mean +/- D q''_half_difference + nu q' + T_m sign(q') + payload and d terms,
 ///   V = R i + Kv n q'                                                [P1, Eqs. (14), (15), (17)]
-/// with every channel smoothed by one kernel (docs/decisions/0070-calibration.md). The wheels determine J = m
+/// with every channel smoothed by one kernel (docs/decisions/0511-calibration.md). The wheels determine J = m
 /// r^2/2 + I_w + I_s and D = I r^2/(2 l^2) + I_w + I_s without payload; I_w + I_s and I_c follow from the
 /// masses and lengths of the robot file. The ratio of Kt to Kv and the gear ratio keep the values of the
 /// robot file.

@@ -6,7 +6,7 @@
 
 #include "diagnosis/calibration/calibration.hpp"
 
-// Design: docs/decisions/0382-drift-against-the-calibrated-day.md
+// Design: docs/decisions/0511-calibration.md
 namespace joulepath {
 
 struct DriftSettings {

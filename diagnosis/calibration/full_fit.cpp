@@ -10,6 +10,7 @@
 
 #include "model/assert.hpp"
 
+// Method: [Kraft1994]
 namespace joulepath::calibration {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+// Method: [EfronStein1981]
 namespace joulepath::calibration {
 
 Resampled jackknife(std::size_t units, const std::function<std::vector<double>(std::size_t)>& estimate) {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/calibration/smoothed_run.hpp"
 
+// Method: [SoederstroemStoica1983], [Fuller1987]
 namespace joulepath::calibration {
 
 /// Parameters of the full method, in the order of FitValues.

@@ -17,7 +17,7 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0220-the-data-are-checked-first.md
+// Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0220-the-data-are-checked-first.md
+// Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 
 Effectiveness compare(const Relations& before, const Relations& after, bool by_factor) {

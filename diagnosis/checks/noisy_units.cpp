@@ -10,7 +10,7 @@
 #include "model/local_fit.hpp"
 #include "model/log_columns.hpp"
 #include "model/printable.hpp"
-// Design: docs/decisions/0522-units-show-in-the-noise.md
+// Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0570-one-run-against-the-others.md
+// Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 namespace {
 

@@ -12,7 +12,7 @@
 #include "model/kinematics.hpp"
 #include "model/motor.hpp"
 #include "model/power.hpp"
-// Design: docs/decisions/0220-the-data-are-checked-first.md
+// Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "model/effects/catalog.hpp"
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0372-what-no-run-shows-has-no-name.md
+// Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/evidence/power.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0221-an-all-clear-needs-power.md
+// Design: docs/decisions/0506-verdict.md
 namespace joulepath {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap.hpp"
 
+// Method: [HoerlKennard1970]
 namespace joulepath {
 namespace {
 

@@ -9,7 +9,8 @@
 #include <functional>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0554-a-law-of-no-size-has-no-shape.md
+// Design: docs/decisions/0507-cross-fitting.md
+// Method: [Davies1977], [Wald1943]
 namespace joulepath {
 namespace {
 

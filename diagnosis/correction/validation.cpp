@@ -9,8 +9,8 @@
 #include "diagnosis/evidence/materiality.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0231-every-run-judges.md,
-// docs/decisions/0523-names-that-widen-the-gap.md
+// Design: docs/decisions/0507-cross-fitting.md
+// Method: [Stone1974]
 namespace joulepath {
 namespace {
 

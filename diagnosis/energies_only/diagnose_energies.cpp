@@ -14,7 +14,7 @@
 #include "diagnosis/verdict/names.hpp"
 #include "model/text_of_list.hpp"
 
-// Design: docs/decisions/0044-energies-alone.md
+// Design: docs/decisions/0509-energies-alone.md
 namespace joulepath {
 namespace {
 

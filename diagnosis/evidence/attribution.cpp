@@ -8,9 +8,7 @@
 
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0043-small-effects-and-foreign-forms.md,
-// docs/decisions/0551-a-small-member-keeps-its-set.md,
-// docs/decisions/0552-strong-evidence-of-few-runs.md
+// Design: docs/decisions/0504-small-effects-and-groups.md
 namespace joulepath {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0045-unseen-runs-and-boxes.md
+// Design: docs/decisions/0503-evidence.md
 namespace joulepath {
 
 BoxedFit fit_within_calibration(const Identification& id) {

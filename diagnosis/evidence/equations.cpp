@@ -11,8 +11,8 @@
 #include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/signals/resolution.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0042-a-laws-form-is-uncertain.md,
-// docs/decisions/0481-straight-runs-have-no-yaw-rate.md
+// Design: docs/decisions/0503-evidence.md,
+// docs/decisions/0501-motion.md
 namespace joulepath {
 namespace {
 

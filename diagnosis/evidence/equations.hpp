@@ -22,7 +22,7 @@ struct Column {
 };
 
 /// A cause that no law of the catalog stands for: a smooth curve of something that was measured, in one
-/// channel, or in all that the reading of a current takes part in (0630).
+/// channel, or in all that the reading of a current takes part in (0505).
 struct UnknownTerm {
   std::string label{};         ///< what it depends on and where it acts: "wheel speed (current)"
   std::vector<int> columns{};  ///< of the equations

@@ -10,8 +10,8 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0040-diagnosis-by-joint-evidence.md,
-// docs/decisions/0482-one-effect-first-at-the-battery.md
+// Design: docs/decisions/0503-evidence.md
+// Method: [MacKay1992]
 namespace joulepath {
 namespace {
 

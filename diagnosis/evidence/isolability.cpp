@@ -11,7 +11,7 @@
 #include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0470-what-the-runs-could-tell-apart.md
+// Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
 namespace {
 

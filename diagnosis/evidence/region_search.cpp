@@ -7,7 +7,7 @@
 
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0524-patches-at-the-battery.md
+// Design: docs/decisions/0503-evidence.md
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "diagnosis/evidence/linear_fit.hpp"
 #include "diagnosis/evidence/signatures.hpp"
 #include "model/limit_table.hpp"
-// Design: docs/decisions/0480-a-payload-that-is-not-stated-is-unknown.md
+// Design: docs/decisions/0503-evidence.md
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0550-encoder-noise-is-a-random-walk.md
+// Design: docs/decisions/0502-noise-and-scatter.md
+// Method: [Yule1927], [Kalman1960]
 namespace joulepath {
 namespace {
 

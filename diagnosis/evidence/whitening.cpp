@@ -7,8 +7,7 @@
 #include <map>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0041-noise-is-what-a-fit-of-everything-leaves.md,
-// docs/decisions/0550-encoder-noise-is-a-random-walk.md
+// Design: docs/decisions/0502-noise-and-scatter.md
 namespace joulepath {
 namespace {
 

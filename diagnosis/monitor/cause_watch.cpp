@@ -6,7 +6,7 @@
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 
-// Design: docs/decisions/0375-monitor-by-blocks.md
+// Design: docs/decisions/0512-monitor.md
 namespace joulepath {
 namespace {
 

@@ -6,7 +6,7 @@
 namespace joulepath {
 
 /// A sequential test for a change of a mean, for Gaussian estimates of known sigma. An e-detector of the
-/// Shiryaev-Roberts kind [Shin, Ramdas, Rinaldo 2024], in units of time: for each alternative size delta
+/// Shiryaev-Roberts kind [Shin2024], in units of time: for each alternative size delta
 ///
 ///   R <- (R + dt) L,   L = exp((delta - d)(|x| - d)/s^2 - (delta - d)^2/(2 s^2))
 ///

@@ -13,7 +13,7 @@
 #include "model/effects/effect_label.hpp"
 #include "model/limit_table.hpp"
 #include "model/motions.hpp"
-// Design: docs/decisions/0471-the-next-run-is-weighed-like-the-present-ones.md
+// Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
 namespace {
 

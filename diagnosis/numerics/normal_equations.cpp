@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/assert.hpp"
-// Design: docs/decisions/0355-few-runs-keep-their-scatter.md
+// Design: docs/decisions/0502-noise-and-scatter.md
 namespace joulepath {
 namespace {
 

@@ -29,7 +29,7 @@ struct ColumnEstimate {
 /// expectation maximization about the estimate of a rich fit:
 ///   D = mean over runs of E[z^2],  E[z^2] = mean^2 + C + C Z'X S X'Z C,  C = (Z'Z + D^-1)^-1
 /// with S the estimate's covariance: what the fit absorbs of few runs' deviations counts as theirs
-/// (restricted maximum likelihood; Laird and Ware, Biometrics 38, 1982). The last `given` variances stay as
+/// (restricted maximum likelihood; [LairdWare1982]). The last `given` variances stay as
 /// they start.
 [[nodiscard]] Eigen::VectorXd run_variances(const std::vector<RawRunEquations>& runs,
                                             const ColumnEstimate& estimate,

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+// Method: [Efron1979], [Steele2014]
 namespace joulepath {
 
 /// A small deterministic generator (splitmix64) with the same bytes on every platform.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-// Design: docs/decisions/0553-slip-is-a-state.md
+// Design: docs/decisions/0501-motion.md
 namespace joulepath {
 namespace {
 

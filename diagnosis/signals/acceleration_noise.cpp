@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0510-accelerations-below-the-noise-count-as-none.md
+// Design: docs/decisions/0501-motion.md
 namespace joulepath {
 namespace {
 

@@ -10,9 +10,9 @@
 #include "diagnosis/evidence/signatures.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/normal_quantiles.hpp"
-// Design: docs/decisions/0230-unknown-terms-compete.md,
-// docs/decisions/0521-a-form-beyond-its-doubt.md,
-// docs/decisions/0530-kept-runs-do-not-stand-for-all.md
+// Design: docs/decisions/0505-unknown-terms.md,
+// docs/decisions/0507-cross-fitting.md
+// Method: [BarbieriBerger2004]
 namespace joulepath {
 namespace {
 

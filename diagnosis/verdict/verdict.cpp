@@ -5,8 +5,7 @@
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0371-evidence-is-not-withdrawn.md,
-// docs/decisions/0525-a-cause-without-a-sure-name.md
+// Design: docs/decisions/0506-verdict.md
 namespace joulepath {
 namespace {
 

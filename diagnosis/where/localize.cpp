@@ -11,7 +11,7 @@
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/where/gap_ledger.hpp"
-// Design: docs/decisions/0590-the-gap-is-a-mean-before-it-is-a-size.md
+// Design: docs/decisions/0510-where-the-gap-lies.md
 
 namespace joulepath {
 namespace {

@@ -7,8 +7,7 @@
 
 #include "model/config_error.hpp"
 #include "model/text_of_list.hpp"
-// Design: docs/decisions/0003-effects.md
-// Design: docs/decisions/0120-effects-say-what-the-diagnosis-must-know.md
+// Design: docs/decisions/0100-effects.md
 namespace joulepath {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "model/effects/yardsticks.hpp"
 
+// Method: [Armstrong1994]
 namespace joulepath {
 
 /// Friction that decreases with speed: a lubricated gear has it in addition to Coulomb friction at low speed.

@@ -4,6 +4,7 @@
 
 #include "model/effects/effect.hpp"
 
+// Method: [Borenstein1996]
 namespace joulepath {
 
 /// The effective track differs from the robot file: the contact point of a wide tire is not at its middle.

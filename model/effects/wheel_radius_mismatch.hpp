@@ -4,6 +4,7 @@
 
 #include "model/effects/effect.hpp"
 
+// Method: [Borenstein1996]
 namespace joulepath {
 
 /// The wheels differ: one tire is worn. The robot pulls to the side of the smaller wheel.

@@ -4,6 +4,7 @@
 
 #include "model/effects/effect.hpp"
 
+// Method: [Kalker1990]
 namespace joulepath {
 
 /// Driven wheels turn slightly faster than the ground speed requires: the contact creeps under force.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-// Design: docs/decisions/0062-controller-knows-the-file-only.md
+// Design: docs/decisions/0102-simulation.md
 namespace joulepath {
 namespace {
 

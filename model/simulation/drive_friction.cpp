@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include "model/simulation/drive_forces.hpp"
-// Design: docs/decisions/0060-dry-friction-by-events.md
+// Design: docs/decisions/0102-simulation.md
+// Method: [Karnopp1985]
 namespace joulepath {
 
 /// Bounds of friction on the surfaces that hold: its values for sliding either way, at zero speed.

@@ -12,6 +12,7 @@
 
 #include "model/assert.hpp"
 
+// Method: [CashKarp1990]
 namespace joulepath {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/channel_delay.hpp"
-// Design: docs/decisions/0061-logs-are-means.md
+// Design: docs/decisions/0102-simulation.md
 namespace joulepath {
 namespace {
 

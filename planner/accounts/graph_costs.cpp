@@ -10,6 +10,7 @@
 #include "planner/accounts/corner_table.hpp"
 #include "planner/motion/motion_energy.hpp"
 
+// Method: [Brent1973]
 namespace joulepath {
 namespace {
 

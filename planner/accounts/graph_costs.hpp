@@ -6,7 +6,7 @@
 #include "model/plant.hpp"
 #include "planner/path/search/route_graph.hpp"
 
-// Design: docs/decisions/0322-turning-energy-on-edges.md
+// Design: docs/decisions/0401-controllers-and-graphs.md
 namespace joulepath {
 
 /// Cost of one directed edge.

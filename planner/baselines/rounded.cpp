@@ -10,7 +10,7 @@
 #include "planner/baselines/trapezoid.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
-// Design: docs/decisions/0211-trapezoids-under-jerk.md
+// Design: docs/decisions/0302-jerk.md
 
 namespace joulepath {
 namespace {

@@ -12,7 +12,7 @@
 #include "planner/cache/content_key.hpp"
 #include "planner/cache/disk_store.hpp"
 
-// Design: docs/decisions/0300-answers-by-content.md
+// Design: docs/decisions/0403-answers-by-content.md
 namespace joulepath {
 
 /// Answers identified by the content of their question. They are kept in memory up to a limit (the least

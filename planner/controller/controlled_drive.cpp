@@ -10,7 +10,7 @@
 #include "planner/motion/path_motion.hpp"
 #include "planner/profile/profile_solver.hpp"
 
-// Design: docs/decisions/0376-controllers-under-jerk.md
+// Design: docs/decisions/0401-controllers-and-graphs.md
 namespace joulepath {
 namespace {
 

@@ -9,7 +9,7 @@
 #include "planner/baselines/rounded.hpp"
 #include "planner/motion/path_motion.hpp"
 
-// Design: docs/decisions/0376-controllers-under-jerk.md
+// Design: docs/decisions/0401-controllers-and-graphs.md
 namespace joulepath {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "planner/path/floor/path_conflict.hpp"
-// Design: docs/decisions/0200-every-path-is-checked.md
+// Design: docs/decisions/0201-routes-and-floor.md
 namespace joulepath {
 namespace {
 

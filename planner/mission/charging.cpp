@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/watt_hours.hpp"
-// Design: docs/decisions/0006-charging-stops.md
+// Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "planner/mission/visit_search.hpp"
 #include "planner/mission/visit_verdict.hpp"
 
-// Design: docs/decisions/0005-order-of-visits.md
+// Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 namespace {
 

@@ -6,7 +6,8 @@
 
 #include "model/limit_table.hpp"
 
-// Design: docs/decisions/0005-order-of-visits.md
+// Design: docs/decisions/0400-visits-and-charging.md
+// Method: [HeldKarp1962], [DesrochersSoumis1988]
 namespace joulepath {
 
 double payload_after_kg(const VisitRequest& visit, double payload_kg) {

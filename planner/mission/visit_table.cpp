@@ -5,7 +5,7 @@
 
 #include "model/limit_table.hpp"
 
-// Design: docs/decisions/0005-order-of-visits.md
+// Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 namespace {
 

@@ -6,8 +6,7 @@
 #include "model/limits.hpp"
 #include "model/plant.hpp"
 
-// Design: docs/decisions/0380-commands-keep-the-limits.md
-// Design: docs/decisions/0410-corrections-within-the-limits.md
+// Design: docs/decisions/0402-on-the-robot.md
 namespace joulepath {
 
 /// What the drives are told from the start of a period on; the accelerations hold throughout it.

@@ -178,7 +178,7 @@ std::span<const double> Follower::wanted_rates(const Measurement& measured, cons
 
 /// Kinematic control about the path: with e the lateral and h the heading error, l the convergence length,
 ///   omega/|v| = kappa cos h/(1 - kappa e) -+ e sinc(h)/l^2 - 2 h/l,
-/// for which e^2/l^2 + h^2 never grows.                    [Samson 1993, path following of a unicycle]
+/// for which e^2/l^2 + h^2 never grows.                    [Samson1993]
 double Follower::yaw_per_meter(const FollowCommand& command) const {
   const ProfileState next = profile_->at_time(std::clamp(ahead_s(), 0.0, profile_->time_s.back()));
   const double kappa = piece_point(request_.piece, next.s).curvature_per_m;

@@ -9,7 +9,7 @@
 #include "planner/online/projection.hpp"
 #include "planner/online/replanner.hpp"
 
-// Design: docs/decisions/0321-a-follower-on-the-arc-length.md
+// Design: docs/decisions/0402-on-the-robot.md
 namespace joulepath {
 
 struct FollowerSettings {

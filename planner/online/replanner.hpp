@@ -4,7 +4,7 @@
 #include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/online/online_problem.hpp"
 
-// Design: docs/decisions/0320-replanning-on-one-grid.md, docs/decisions/0452-an-overloaded-robot-stops.md
+// Design: docs/decisions/0402-on-the-robot.md
 namespace joulepath {
 
 /// Plans what is left of a piece of path again, from any state on it, within milliseconds: tables are made

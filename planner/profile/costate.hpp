@@ -7,6 +7,7 @@
 #include "planner/profile/place_cost.hpp"
 #include "planner/values/profile.hpp"
 
+// Method: [Pontryagin1962]
 namespace joulepath {
 
 /// The price of the square of the rate along a path, p(s) = psi/(2 u) with psi linear in the profile's time

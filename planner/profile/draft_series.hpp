@@ -7,7 +7,7 @@
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/path/geometry/path_slopes.hpp"
 
-// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 
 /// Drafts (ProfileRequest::draft) of curves that an optimizer changes little by little, without the general

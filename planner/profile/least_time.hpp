@@ -4,7 +4,8 @@
 
 #include "planner/profile/place_cost.hpp"
 
-// Design: docs/decisions/0161-least-time-by-comparison.md
+// Design: docs/decisions/0303-bounds.md
+// Method: [Bobrow1985]
 namespace joulepath {
 
 /// The least time of the continuous problem, bounded from below.

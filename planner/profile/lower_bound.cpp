@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 
+// Method: [Brent1973]
 namespace joulepath {
 namespace {
 

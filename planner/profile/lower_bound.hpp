@@ -4,7 +4,8 @@
 
 #include "planner/profile/costate.hpp"
 
-// Design: docs/decisions/0160-a-bound-by-weak-duality.md
+// Design: docs/decisions/0303-bounds.md
+// Method: [Vinter1993]
 namespace joulepath {
 
 /// Upper bound of the difference between a profile's cost and the least one.

@@ -7,6 +7,7 @@
 #include "planner/profile/wheel_power.hpp"
 #include "planner/values/profile_request.hpp"
 
+// Method: [Pontryagin1962]
 namespace joulepath {
 
 /// Data for all places of a path: the request, and the plant without its nonlinear parts.

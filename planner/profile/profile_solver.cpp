@@ -17,8 +17,8 @@
 #include "planner/profile/request_check.hpp"
 #include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/profile.hpp"
-// Design: docs/decisions/0001-path-domain.md
-// Design: docs/decisions/0581-a-grid-ends-at-a-thousand-nodes.md
+// Design: docs/decisions/0300-path-domain.md
+// Method: [Verscheure2009]
 namespace joulepath {
 namespace {
 

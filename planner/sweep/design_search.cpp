@@ -5,6 +5,7 @@
 
 #include "planner/path/shape/nlopt_run.hpp"
 
+// Method: [Rowan1990]
 namespace joulepath {
 namespace {
 

@@ -29,8 +29,8 @@ class DesignTable {
   /// Every combination of the levels; the last parameter changes fastest.
   static DesignTable grid(std::vector<SweepParameter> parameters);
 
-  /// `count` designs; the values of each parameter fill `count` equal parts of its range, one in each (McKay,
-  /// Beckman, Conover, 1979). Levels are used equally often. The seed determines all values.
+  /// `count` designs; the values of each parameter fill `count` equal parts of its range, one in each
+  /// [McKay1979]. Levels are used equally often. The seed determines all values.
   static DesignTable latin_hypercube(std::vector<SweepParameter> parameters, std::size_t count,
                                      std::uint64_t seed);
 

@@ -5,7 +5,7 @@
 
 #include "planner/legs/floor_check.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
-// Design: docs/decisions/0200-every-path-is-checked.md
+// Design: docs/decisions/0201-routes-and-floor.md
 
 namespace joulepath {
 namespace {

@@ -5,7 +5,7 @@
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/search/graph_route.hpp"
 #include "planner/ways/way_fields.hpp"
-// Design: docs/decisions/0004-ways-by-energy.md
+// Design: docs/decisions/0210-ways.md
 namespace joulepath {
 namespace {
 

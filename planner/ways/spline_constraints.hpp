@@ -7,8 +7,7 @@
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/path/shape/spline_slopes.hpp"
 
-// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md,
-// docs/decisions/0600-a-tight-bend-is-an-inequality.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 
 inline constexpr double kClearanceMargin_m = 0.002;

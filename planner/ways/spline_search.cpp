@@ -8,6 +8,7 @@
 #include "planner/path/shape/nlopt_run.hpp"
 #include "planner/ways/spline_constraints.hpp"
 
+// Method: [Kraft1994]
 namespace joulepath {
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "planner/ways/swing.hpp"
 
-// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 
 /// Two legs that meet at a stop with a free heading, in the same one at first.

@@ -7,8 +7,7 @@
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_drafts.hpp"
 
-// Design: docs/decisions/0170-ways-as-whole-curves.md,
-// docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 
 /// A leg between two stops with a free path: the robot leaves in its present heading, turns while it drives,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+// Method: [Bellman1957]
 namespace joulepath {
 namespace {
 

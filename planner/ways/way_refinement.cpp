@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/path/shape/refine.hpp"
-// Design: docs/decisions/0420-curves-are-checked-at-the-end.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 namespace {
 

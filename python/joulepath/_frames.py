@@ -1,6 +1,6 @@
 """Logs in memory: the columns of a frame as the compiled module takes them.
 
-Design: docs/decisions/0450-frames-are-checked-by-cell.md
+Design: docs/decisions/0701-python.md
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Many plans on the workers of a Dask cluster; needs ``distributed``.
 
 Tasks are shards of ``joulepath batch`` or ``joulepath sweep``. They contain file names only, so workers and client need a
-common file system. Each shard runs in a separate process, which ends with its worker. Design: docs/decisions/0262-dask-runs-processes.md
+common file system. Each shard runs in a separate process, which ends with its worker. Design: docs/decisions/0701-python.md
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@
 #include "scenarios/bags/message_numbers.hpp"
 #include "scenarios/bags/topic_samples.hpp"
 
-// Design: docs/decisions/0261-bags-are-tables.md
+// Design: docs/decisions/0602-bags.md
 namespace joulepath {
 namespace {
 

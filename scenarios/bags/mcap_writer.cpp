@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-// Format: https://mcap.dev/spec, version 0. Design: docs/decisions/0451-bags-have-an-index.md
+// Format: https://mcap.dev/spec, version 0. Design: docs/decisions/0602-bags.md
 namespace joulepath {
 namespace {
 

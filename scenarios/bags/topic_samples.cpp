@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-// Design: docs/decisions/0261-bags-are-tables.md
+// Design: docs/decisions/0602-bags.md
 namespace joulepath {
 namespace {
 

@@ -7,7 +7,7 @@
 #include "model/printable.hpp"
 #include "planner/path/geometry/segment_ends.hpp"
 #include "planner/path/shape/corner_blend.hpp"
-// Design: docs/decisions/0090-orders-are-paths.md
+// Design: docs/decisions/0603-orders-and-exports.md
 namespace joulepath {
 namespace {
 

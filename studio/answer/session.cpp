@@ -11,7 +11,7 @@
 #include "studio/answer/asked.hpp"
 #include "studio/answer/drawn_plan.hpp"
 #include "studio/answer/path_json.hpp"
-// Design: docs/decisions/0330-one-answer-for-page-and-program.md
+// Design: docs/decisions/0702-studio-and-reports.md
 
 namespace joulepath::studio {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-// Design: docs/decisions/0331-a-page-of-plain-modules.md
+// Design: docs/decisions/0702-studio-and-reports.md
 
 namespace joulepath::studio {
 

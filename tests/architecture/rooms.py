@@ -13,13 +13,13 @@ diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagno
 diagnosis""".split()
 HOUSE = ["model", "planner", "diagnosis", "scenarios", "app/report", "studio", "app", "python"]  # planner and diagnosis do not know each other
 # Headers that take long to compile or that a replacement of the library must find in one place.
-# Design: docs/decisions/0140-compile-time.md
+# Design: docs/decisions/0800-build.md
 CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/yaml_text.cpp", "png.h": "scenarios/image.cpp",
             "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/", "httplib": "studio/server/"}
 
 
 # The studio's page is compiled from these by emscripten, whose standard library has no algorithms on ranges.
-# Design: docs/decisions/0330-one-answer-for-page-and-program.md
+# Design: docs/decisions/0702-studio-and-reports.md
 PAGE, PROGRAM_ALONE = re.compile("model/|planner/|studio/answer/"), re.compile("model/(simulation|estimate)|planner/(sweep|controller)|ipopt_solver|search/search.cpp|ompl_space|shape/refine|ways/spline_search")
 
 

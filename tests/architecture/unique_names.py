@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Names in anonymous namespaces are unique within a folder: ./dev compiles a folder as one unit (decision 0270).
+"""Names in anonymous namespaces are unique within a folder: ./dev compiles a folder as one unit (decision 0800).
 
 A check by text: constants, types and functions with the same parameters at the beginning of a line. Two equal
 aliases (`using Json = ...`) are allowed.

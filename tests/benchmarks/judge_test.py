@@ -1,6 +1,6 @@
 """Attacks on the judge of the public problem set: answers that are not what they say must be refused or not count as better.
 
-Design: docs/decisions/0252-the-judge-is-attacked.md
+Design: docs/decisions/0803-judges.md
 """
 import copy
 import json

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks of documents: links and cited files exist, decisions have a status and are cited, versions agree.
+"""Checks of documents: links and cited files exist, decisions have a status and are cited, no page tells
+of its making, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -67,7 +68,7 @@ def missing_documents(source):
 
 
 def decisions(source):
-    """Each decision has a status; code cites each one that stands."""
+    """Each decision has a status; code cites each one that stands; thresholds name decisions that exist."""
     folder = source / "docs/decisions"
     numbers = {file.name[:4] for file in folder.glob("*.md")}
     cited = {name for _, name in cited_documents(source)}
@@ -79,6 +80,25 @@ def decisions(source):
             yield f"docs/decisions/{file.name}: superseded by {status[2]}, which does not exist"
         elif status[1] and f"docs/decisions/{file.name}" not in cited:
             yield f"docs/decisions/{file.name}: accepted, but no code cites it"
+    thresholds = "diagnosis/thresholds.hpp"
+    for number in re.findall(r"\((\d{4})\b[^()]*\)", (source / thresholds).read_text()):
+        if number not in numbers:
+            yield f"{thresholds}: no decision {number}"
+
+
+# A note says what holds and why. How it came about is the version history's: cases of a benchmark, commits.
+HISTORY = re.compile(r"\bcases? \d{3,}\b|\b(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{7,12}\b")
+MOST_DECISIONS = 40
+
+
+def histories(source):
+    notes = sorted(source.glob("docs/decisions/*.md"))
+    if len(notes) > MOST_DECISIONS:
+        yield f"docs/decisions: {len(notes)} notes, at most {MOST_DECISIONS}: extend the note of the room and theme"
+    for document in [*sorted(source.glob("docs/*.md")), *notes]:
+        for number, line in enumerate(document.read_text().splitlines(), 1):
+            for word in HISTORY.findall(line):
+                yield f"{document.relative_to(source)}:{number}: tells of its making: {word}"
 
 
 def differences(source, version):
@@ -94,7 +114,7 @@ def differences(source, version):
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     problems = [*broken_links(source), *missing_paths(source), *missing_documents(source), *decisions(source),
-                *differences(source, sys.argv[2])]
+                *histories(source), *differences(source, sys.argv[2])]
     print("\n".join(problems) or "documents: links, paths, program and versions agree")
     return 1 if problems else 0
 

@@ -1,6 +1,6 @@
 """The sites that a mutant changes, their draw by a committed seed, and the source text with all mutants in it.
 
-Design: docs/decisions/0360-mutants-are-compiled-at-once.md
+Design: docs/decisions/0801-tests-and-ci.md
 """
 import hashlib
 import os

@@ -4,7 +4,7 @@
 usage: wasm_test.py JOULEPATH FOLDER_OF_STUDIO_CORE [COUNT]
 
 Exit code 77 (skipped in CTest) where the build has no WebAssembly or node is absent, unless JOULEPATH_STUDIO_WASM=ON.
-Design: docs/decisions/0400-emscripten-in-ci.md
+Design: docs/decisions/0702-studio-and-reports.md
 """
 import json
 import math

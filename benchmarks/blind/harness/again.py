@@ -1,6 +1,6 @@
 """Cases of the published campaign once more, by the program as it is now: development data, blind no longer.
 
-Design: docs/decisions/0512-a-scored-campaign-is-asked-again.md
+Design: docs/decisions/0802-blind-benchmark.md
 """
 import concurrent.futures
 import re

@@ -1,6 +1,6 @@
 """benchmarks/blind/run: the blind benchmark from sealing to the report. See benchmarks/blind/README.md.
 
-Design: docs/decisions/0031-blind-harness-in-python.md
+Design: docs/decisions/0802-blind-benchmark.md
 """
 import argparse
 import json

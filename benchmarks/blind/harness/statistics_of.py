@@ -3,7 +3,7 @@ import math
 
 
 def wilson(hits, total, z=1.959964):
-    """Wilson score interval of a proportion."""
+    """Wilson score interval of a proportion [Wilson1927]."""
     if total == 0:
         return (0.0, 1.0)
     p = hits / total

@@ -1,4 +1,4 @@
-// The plant's drive() in MuJoCo: the same commands and sensors, other bodies, contacts and time stepping.
+// The plant's drive() in MuJoCo [Todorov2012]: the same commands and sensors, other bodies, contacts and time stepping.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

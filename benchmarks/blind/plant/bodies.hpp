@@ -5,6 +5,7 @@
 
 #include "plant.hpp"
 
+// Method: [CanudasDeWit1995]
 namespace blind {
 
 /// One LuGre bristle: `level` is the friction it reaches when it slides, `z` its deflection in units of the

@@ -7,7 +7,7 @@
 
 #include "box_fit.hpp"
 #include "rivals.hpp"
-// Design: docs/decisions/0610-what-an-observer-tells-apart.md
+// Design: docs/decisions/0802-blind-benchmark.md
 namespace blind {
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "observer.hpp"
 #include "signals.hpp"
-// Design: docs/decisions/0032-blind-detectable.md
+// Design: docs/decisions/0802-blind-benchmark.md
 namespace blind {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bodies.hpp"
-// Design: docs/decisions/0030-blind-generator.md
+// Design: docs/decisions/0802-blind-benchmark.md
 namespace blind {
 
 std::vector<Sample> drive(const Machine& truth, const Machine& nominal, const World& world, const Run& run,

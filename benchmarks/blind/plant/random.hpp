@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+// Method: [Steele2014]
 namespace blind {
 
 /// A small counter-based generator (SplitMix64): the same numbers on every machine and library.

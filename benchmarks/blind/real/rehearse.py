@@ -3,7 +3,7 @@
 Writes benchmarks/results/blind_real.md. The logs are found by JOULEPATH_DATA_DIR (the folder that holds
 kobuki_wheelslip/ and husky_borealtc/); sources, commits and licenses stand in ../README.md.
 
-Design: docs/decisions/0033-real-logs.md
+Design: docs/decisions/0802-blind-benchmark.md
 """
 import os
 import pathlib

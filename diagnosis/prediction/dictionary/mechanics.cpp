@@ -1,6 +1,6 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0571-the-load-may-remember.md
+// Design: docs/decisions/0505-unknown-terms.md
 namespace joulepath {
 namespace {
 

@@ -1,6 +1,6 @@
 #include "diagnosis/prediction/dictionary/collector.hpp"
 #include "diagnosis/thresholds.hpp"
-// Design: docs/decisions/0630-a-reading-shows-in-three-channels.md
+// Design: docs/decisions/0505-unknown-terms.md
 
 namespace joulepath {
 

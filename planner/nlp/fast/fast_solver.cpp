@@ -7,7 +7,8 @@
 #include "planner/nlp/fast/coarse_problem.hpp"
 #include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/thread_clock.hpp"
-// Design: docs/decisions/0051-fast-solver.md
+// Design: docs/decisions/0301-solvers.md
+// Method: [Mehrotra1992]
 namespace joulepath::nlp {
 namespace {
 

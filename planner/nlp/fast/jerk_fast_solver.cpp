@@ -6,7 +6,8 @@
 #include "planner/nlp/fast/jerk_newton.hpp"
 #include "planner/nlp/fast/narrowing_kinks.hpp"
 #include "planner/nlp/fast/newton_step.hpp"
-// Design: docs/decisions/0210-jerk-by-stages.md
+// Design: docs/decisions/0302-jerk.md
+// Method: [Mehrotra1992]
 namespace joulepath::nlp {
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-// Design: docs/decisions/0350-kinks-are-narrowed.md
+// Design: docs/decisions/0301-solvers.md
 namespace joulepath::nlp {
 namespace {
 

@@ -3,7 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-// Design: docs/decisions/0050-derivatives.md
+// Design: docs/decisions/0300-path-domain.md
+// Method: [GriewankWalther2008]
 namespace joulepath::nlp {
 
 /// A number with its exact first and second derivatives by N variables: forward mode.

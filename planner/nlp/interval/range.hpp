@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+// Method: [Moore1966]
 namespace joulepath::nlp {
 
 /// Interval arithmetic: the range of a row over a box. A row that cannot reach its limit is left out of the

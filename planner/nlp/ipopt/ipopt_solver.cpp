@@ -1,4 +1,4 @@
-// Design: docs/decisions/0580-ipopt-begins-where-the-fast-solver-ends.md
+// Design: docs/decisions/0301-solvers.md
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 
 #include <IpIpoptApplication.hpp>
@@ -8,6 +8,7 @@
 #include "planner/nlp/ipopt/ipopt_nlp.hpp"
 #include "planner/nlp/transcription/squares_program.hpp"
 
+// Method: [WaechterBiegler2006]
 namespace joulepath::nlp {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "planner/motion/path_motion.hpp"
 #include "planner/nlp/interval/segment.hpp"
-// Design: docs/decisions/0620-less-work-per-place.md
+// Design: docs/decisions/0300-path-domain.md
 
 namespace joulepath::nlp {
 

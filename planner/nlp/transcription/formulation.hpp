@@ -14,6 +14,7 @@
 #include "planner/nlp/terms/wheel_energy.hpp"
 #include "planner/nlp/terms/yaw_acceleration.hpp"
 
+// Method: [Verscheure2009], [HargravesParis1987]
 namespace joulepath::nlp {
 
 /// The problem, for squares b_k of the rate at the nodes (b_k >= 0; speed, yaw rate, lateral acceleration

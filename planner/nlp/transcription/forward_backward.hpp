@@ -7,6 +7,7 @@
 
 #include "planner/nlp/transcription/problem.hpp"
 
+// Method: [PhamPham2018]
 namespace joulepath::nlp {
 
 /// Where and why no profile passes.

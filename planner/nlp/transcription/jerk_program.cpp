@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "planner/values/profile.hpp"
-// Design: docs/decisions/0053-jerk.md
+// Design: docs/decisions/0302-jerk.md
 namespace joulepath::nlp {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "planner/nlp/transcription/segment_program.hpp"
 #include "planner/values/profile.hpp"
 
+// Method: [HargravesParis1987]
 namespace joulepath::nlp {
 
 /// A motion with constant jerk between nodes: rate and acceleration at the nodes [N], times between [N - 1].

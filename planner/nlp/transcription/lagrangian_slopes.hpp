@@ -5,7 +5,8 @@
 #include "planner/nlp/transcription/solution.hpp"
 #include "planner/path/geometry/path_slopes.hpp"
 
-// Design: docs/decisions/0540-curves-follow-the-gradient-of-their-cost.md
+// Design: docs/decisions/0211-whole-curves.md
+// Method: [Fiacco1983]
 namespace joulepath::nlp {
 
 /// Derivatives of a problem's least cost by its path. By the envelope theorem they are the partial

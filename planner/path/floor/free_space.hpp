@@ -9,7 +9,7 @@
 
 #include "planner/path/floor/obstacle_field.hpp"
 #include "planner/path/geometry/polygon_distance.hpp"
-// Design: docs/decisions/0620-less-work-per-place.md
+// Design: docs/decisions/0201-routes-and-floor.md
 
 namespace joulepath {
 

@@ -5,7 +5,7 @@
 
 #include "model/sampled_motion.hpp"
 #include "planner/path/floor/outline_sweep.hpp"
-// Design: docs/decisions/0200-every-path-is-checked.md
+// Design: docs/decisions/0201-routes-and-floor.md
 namespace joulepath {
 namespace {
 

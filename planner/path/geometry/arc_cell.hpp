@@ -5,14 +5,14 @@
 
 namespace joulepath {
 
-// Design: docs/decisions/0460-parameters-of-arc-length-are-polynomials.md
+// Design: docs/decisions/0200-paths.md
 /// A short part of a curve with parameter t, and t as a polynomial of the arc length on it.
 ///
 /// The speed |B'| is taken at Chebyshev points. The integral of the polynomial through them gives the arc
 /// length s at these points (Clenshaw-Curtis quadrature with variable end). The polynomial t(s) through the
-/// pairs (s, t) is evaluated in Newton's form, with the points in Leja's order. [L. N. Trefethen,
-/// Approximation Theory and Approximation Practice, SIAM 2013, chapters 5 and 19]
-/// Both errors fall geometrically with the number of points where |B'| has no zero near the part.
+/// pairs (s, t) is evaluated in Newton's form, with the points in Leja's order
+/// ([Trefethen2013], chapters 5 and 19). Both errors fall geometrically with the number of points where |B'|
+/// has no zero near the part.
 class ArcCell {
  public:
   static constexpr std::size_t kPoints = 12;

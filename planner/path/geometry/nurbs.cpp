@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+// Method: [Ramshaw1989]
 namespace joulepath {
 namespace {
 

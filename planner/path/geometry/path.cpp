@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "model/assert.hpp"
-// Design: docs/decisions/0020-paths-are-pieces.md
+// Design: docs/decisions/0200-paths.md
 namespace joulepath {
 
 bool is_turn(const PathPiece& piece) { return std::holds_alternative<TurnInPlace>(piece); }

@@ -8,6 +8,7 @@
 #include "model/limits.hpp"
 #include "planner/path/search/polyline.hpp"
 
+// Method: [Dijkstra1959]
 namespace joulepath {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "planner/path/floor/free_space.hpp"
 
+// Method: [Bhattacharya2010]
 namespace joulepath {
 
 /// One point inside each island: a connected part of the floor that the disc cannot enter and that does not

@@ -69,7 +69,7 @@ class SeededSampler : public ob::RealVectorStateSampler {
   }
 };
 
-/// Uniform samples of the ellipse of points that can still lie on a cheaper solution.
+/// Uniform samples of the ellipse of points that can still lie on a cheaper solution [Gammell2014].
 class EllipseSampler : public ob::InformedSampler {
  public:
   EllipseSampler(const ob::ProblemDefinitionPtr& problem, unsigned max_calls, const SearchRequest& request,

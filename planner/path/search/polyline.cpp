@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+// Method: [GeraertsOvermars2007]
 namespace joulepath {
 namespace {
 

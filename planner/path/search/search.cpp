@@ -13,7 +13,8 @@
 #include <mutex>
 
 #include "planner/path/search/ompl_space.hpp"
-// Design: docs/decisions/0022-search.md
+// Design: docs/decisions/0201-routes-and-floor.md
+// Method: [Sucan2012], [Gammell2015], [StrubGammell2020], [KaramanFrazzoli2011], [Gammell2014]
 namespace joulepath {
 namespace {
 

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "model/assert.hpp"
-// Design: docs/decisions/0021-clothoid-blends.md
+// Design: docs/decisions/0200-paths.md
+// Method: [ShinSingh1990]
 namespace joulepath {
 namespace {
 

@@ -7,6 +7,7 @@
 #include "planner/path/shape/corner_blend.hpp"
 #include "planner/path/shape/nlopt_run.hpp"
 
+// Method: [Powell1994]
 namespace joulepath {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "planner/path/geometry/nurbs.hpp"
-// Design: docs/decisions/0201-dense-waypoints.md
+// Design: docs/decisions/0200-paths.md
 namespace joulepath {
 namespace {
 

@@ -20,8 +20,7 @@ struct SmoothingSpline {
 /// on the number of points.
 ///
 /// Weighted least squares over a cubic B-spline by chord length u, with a weak penalty of the third
-/// derivative that settles what the points leave open (P. Dierckx, "Curve and Surface Fitting with Splines",
-/// Oxford 1993, chapters 4 and 5):
+/// derivative that settles what the points leave open ([Dierckx1993], chapters 4 and 5):
 ///
 ///   min sum_i w_i |x(u_i) - p_i|^2 + sum_j (r h_j)^6 int_j |x'''|^2 du,   w_i = du there, h_j = length of
 ///   span j.

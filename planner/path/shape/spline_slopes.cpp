@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-// Design: docs/decisions/0560-the-gradient-of-a-spline-in-one-pass.md
+// Design: docs/decisions/0211-whole-curves.md
 namespace joulepath {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/corner_blend.hpp"
 #include "planner/path/shape/smoothing_spline.hpp"
-// Design: docs/decisions/0201-dense-waypoints.md
+// Design: docs/decisions/0200-paths.md
 
 namespace joulepath {
 namespace {

@@ -1,6 +1,6 @@
 /**
  * Answers of the planner. Drafts come from WebAssembly where the page has it, from the program otherwise; a plan is
- * certified by the program where there is one. Design: docs/decisions/0330-one-answer-for-page-and-program.md
+ * certified by the program where there is one. Design: docs/decisions/0702-studio-and-reports.md
  */
 import {emit, has_legs, on, store} from "studio/store.js";
 
