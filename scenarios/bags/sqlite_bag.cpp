@@ -7,10 +7,9 @@
 #include <map>
 #include <memory>
 
-// A bag of rosbag2 is plain tables. The file's own SQL (views, triggers, virtual tables, functions of
-// generated columns) never runs. A table has no more rows and no more bytes than its file, so that the work
-// is bounded by the file's size even where its pages refer to one another without end
-// (https://sqlite.org/security.html).
+// A bag of rosbag2 is plain tables. The file's own SQL (views, triggers, virtual tables, computed columns)
+// never runs. A table has no more rows and no more bytes than its file, so that the work is bounded by the
+// file's size even where its pages refer to one another without end (https://sqlite.org/security.html).
 namespace joulepath {
 namespace {
 
@@ -56,11 +55,6 @@ std::int64_t size_of(const std::string& file) {
 /// Calls remain until SQLite is interrupted.
 int spend_call(void* calls_left) { return --*static_cast<std::int64_t*>(calls_left) < 0 ? 1 : 0; }
 
-/// Columns of tables are all that the queries read: anything else is SQL of the file.
-int allow_reading(void*, int action, const char*, const char*, const char*, const char*) {
-  return action == SQLITE_SELECT || action == SQLITE_READ ? SQLITE_OK : SQLITE_DENY;
-}
-
 void restrain(const Database& database, std::int64_t& calls_left) {
   for (const auto& [setting, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
                                     {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
@@ -85,7 +79,16 @@ Database opened(const std::string& file, const NamedBy& named_by) {
   return database;
 }
 
-/// Throws unless the bag's tables are tables: not views and not virtual.
+/// Whether a column of a table is computed by an expression of the file.
+bool has_computed_column(const Database& database, const char* table) {
+  const Statement columns =
+      prepared(database, ("PRAGMA main.table_xinfo(" + std::string(table) + ")").c_str());
+  while (columns && sqlite3_step(columns.get()) == SQLITE_ROW)
+    if (sqlite3_column_int(columns.get(), 6) != 0) return true;
+  return false;
+}
+
+/// Throws unless the bag's tables are tables: not views, not virtual, and with stored columns alone.
 void check_tables(const Database& database, const std::string& file, const NamedBy& named_by) {
   constexpr const char* kTables[] = {"topics", "messages", "message_definitions"};
   const Statement tables = prepared(database, "PRAGMA main.table_list");
@@ -98,6 +101,10 @@ void check_tables(const Database& database, const std::string& file, const Named
     if (kind != "table")
       throw named_by.error(file, std::string(*wanted) + " is a " + kind,
                            "a bag of rosbag2 (sqlite3), whose topics and messages are tables",
+                           "SQL of the file is not run");
+    if (has_computed_column(database, *wanted))
+      throw named_by.error(file, std::string(*wanted) + " has a computed column",
+                           "a bag of rosbag2 (sqlite3), whose columns are stored",
                            "SQL of the file is not run");
     found += wanted < std::end(kTables) - 1 ? 1 : 0;
   }
@@ -127,7 +134,6 @@ BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
   const Database database = opened(file, named_by);
   restrain(database, calls_left);
   check_tables(database, file, named_by);
-  sqlite3_set_authorizer(database.get(), &allow_reading, nullptr);
   const Statement topics = prepared(database, "SELECT id, name, type, serialization_format FROM topics");
   const Statement messages = prepared(database, kMessagesInOrder);
   if (!topics || !messages)
