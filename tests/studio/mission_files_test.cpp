@@ -120,7 +120,8 @@ TEST_F(MissionFolder, WhatIsSavedIsWhatIsReadAgain) {
     Json state = files.load();
     state["robot"]["limits"]["speed_m_s"] = 0.75;
     state["mission"]["legs"][0]["payload_kg"] = 2.5;
-    EXPECT_EQ(files.save(state), files.load()) << robot;
+    const Json saved = files.save(state);
+    EXPECT_EQ(saved, files.load()) << robot;
   }
 }
 

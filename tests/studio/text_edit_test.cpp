@@ -151,7 +151,7 @@ TEST(TextEdit, AFileOfOtherLineEndsIsEditedAsTheSame) {
       [](Json& mission) { mission["clearance_m"] = 0.2; },
       [](Json& mission) { mission["stations"]["dock"]["x_m"] = 2.5; },
       [](Json& mission) { mission.erase("start"); }};
-  for (const std::string text :
+  for (const std::string& text :
        {std::string(kMission), std::string(kMission).substr(0, std::string(kMission).size() - 1)})
     for (const auto& edit : edits) EXPECT_EQ(edited(with_crlf(text), edit), with_crlf(edited(text, edit)));
 }
