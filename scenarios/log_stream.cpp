@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "scenarios/document.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -78,7 +78,7 @@ MonitorRow LogLines::csv_row(std::string_view line) {
 MonitorRow LogLines::json_row(std::string_view line) {
   has_json_ = true;
   clear();
-  const auto json = nlohmann::json::parse(line, nullptr, false);
+  const auto json = shallow_json(line);
   if (!json.is_object()) return {};
   for (const LogColumn& column : log_columns())
     if (const auto found = json.find(column.name); found != json.end() && found->is_number())

@@ -160,7 +160,7 @@ std::string Session::checked_answer(const json& question) const {
 }
 
 std::string Session::answer(const std::string& question) const try {
-  return checked_answer(json::parse(question));
+  return checked_answer(question_from<json>(question));
 } catch (const ConfigError& error) {
   return error_json(error).dump(-1, ' ', false, json::error_handler_t::replace);
 } catch (const std::exception& error) {  // no question may end a program that others ask, too
