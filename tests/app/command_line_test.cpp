@@ -77,10 +77,10 @@ TEST(CommandLine, AShortLogIsLeftOutOrAnError) {
     std::string text =
         "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,motor_current_left_A,motor_current_right_A\n";
     for (int k = 0; k < samples; ++k) {
-      const double t = k * period_s;
-      text += std::to_string(clock * t) + "," + std::to_string(2 - 2 * std::cos(t)) + "," +
-              std::to_string(2 - 2 * std::cos(t)) + ",0." + std::to_string(300 + k % 7) + ",0." +
-              std::to_string(310 + k % 5) + "\n";
+      const double t = k * period_s, speed = 2 - 2 * std::cos(t), current = 0.3 + 0.14 * std::sin(t);
+      for (const double value : {clock * t, speed, speed, current + 1e-3 * (k % 7), current + 1e-3 * (k % 5)})
+        text += std::to_string(value) + ",";
+      text.back() = '\n';
     }
     scratch.write(name, text);
   };
@@ -94,7 +94,8 @@ TEST(CommandLine, AShortLogIsLeftOutOrAnError) {
       "robot: robot.yaml\nruns: [{file: good.csv, payload_kg: 0}, {file: short.csv, payload_kg: 0}]\n");
   const std::string micro =
       scratch.write("c.yaml", "robot: robot.yaml\nruns: [{file: micro.csv, payload_kg: 0}]\n");
-  for (const std::string command : {"check ", "diagnose --force --out " + scratch.at("out") + " "}) {
+  for (const std::string& command :
+       {std::string("check "), "diagnose --force --out " + scratch.at("out") + " "}) {
     const auto refused = run_program(scratch, command + alone);
     EXPECT_EQ(refused.code, 2) << refused.out;
     EXPECT_NE(refused.err.find("74 samples in 0.365 s"), std::string::npos) << refused.err;
