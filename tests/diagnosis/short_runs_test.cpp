@@ -157,6 +157,17 @@ TEST(Clock, InAnotherUnitIsImplausible) {
   }
 }
 
+/// A repair of one run's clock is tried on the others, too, which it makes too short.
+TEST(Clock, OfOneRunInMillisecondsIsNamedWithThatRun) {
+  Dataset dataset = sound_day(5);
+  for (double& time_s : dataset.runs[2].log.time_s) time_s *= 1e3;
+  for (double& current_A : dataset.runs[0].log.motor_current_A.left) current_A *= -1;  // another broken run
+  const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
+  EXPECT_TRUE(std::ranges::any_of(found, [](const DataCheck& check) {
+    return check.channel == "time_s" && check.run == "run_2";
+  })) << described(found);
+}
+
 /// Slow logs of sound robots: a sample each ten or thirty seconds, a drive without a stop, a slow start.
 TEST(Clock, OfASlowLogIsPlausible) {
   for (const double period_s : {1.0, 10.0, 30.0}) {
