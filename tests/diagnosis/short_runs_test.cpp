@@ -19,7 +19,7 @@ namespace {
 using testing::nomad;
 using testing::synthetic_run;
 
-constexpr testing::LogNoise kNoise{0.002, 0.005, 0.01};
+constexpr testing::LogNoise kLogNoise{0.002, 0.005, 0.01};
 
 /// A drive from rest: it stands for `rest_s`, then starts, stops and turns smoothly.
 Run drive(const std::string& name, double duration_s, double rest_s, unsigned seed, double period_s = 0.02) {
@@ -30,7 +30,7 @@ Run drive(const std::string& name, double duration_s, double rest_s, unsigned se
                               .yaw_rate_rad_s = 0.25 * (1 - std::cos(0.9 * t)),
                               .yaw_acceleration_rad_s2 = 0.225 * std::sin(0.9 * t)};
   };
-  Run run = synthetic_run(nomad(), name, duration_s, 5.0, law, kNoise, seed, period_s);
+  Run run = synthetic_run(nomad(), name, duration_s, 5.0, law, kLogNoise, seed, period_s);
   run.log.payload_kg.clear();
   run.log.battery_voltage_V.assign(run.log.size(), 24.8);
   for (std::size_t i = 0; i < run.log.size(); ++i) {
@@ -179,7 +179,7 @@ TEST(Clock, OfASlowLogIsPlausible) {
     EXPECT_FALSE(names_the_clock(run)) << period_s;
   }
   EXPECT_FALSE(
-      names_the_clock(synthetic_run(nomad(), "steady", 600, 0, testing::constant_speed(0.4), kNoise)));
+      names_the_clock(synthetic_run(nomad(), "steady", 600, 0, testing::constant_speed(0.4), kLogNoise)));
 }
 
 }  // namespace
