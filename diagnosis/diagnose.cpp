@@ -16,11 +16,6 @@
 namespace joulepath {
 namespace {
 
-Diagnosis diagnose_without_logs(const Dataset& dataset, const DiagnoseOptions& options) {
-  if (std::ranges::any_of(dataset.runs, is_energy_run)) return diagnose_energies(dataset, options);
-  return {.notes = {"no run has a log with wheel speeds, nor an energy with its motion"}};
-}
-
 /// Broken channels say nothing about the robot: no cause is sought.
 Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<DataCheck> checks) {
   const Survey survey = survey_dataset(dataset, runs.signals);
@@ -137,11 +132,12 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
 }  // namespace
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
+  refuse_short_runs(dataset);
   RunsByUse runs = sort_runs(dataset);
   std::vector<DataCheck> checks = check_data(dataset, runs);
   if (checks.empty()) runs = with_estimated_payloads(std::move(runs));
   Diagnosis diagnosis = !checks.empty()        ? stopped_by(dataset, runs, std::move(checks))
-                        : runs.signals.empty() ? diagnose_without_logs(dataset, options)
+                        : runs.signals.empty() ? diagnose_energies(dataset, options)
                                                : diagnose_logs(dataset, runs, options);
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "scenarios/log_columns.hpp"
+#include "scenarios/partial_channels.hpp"
 // Design: docs/decisions/0601-logs.md
 namespace joulepath {
 namespace {
@@ -268,11 +269,12 @@ std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::strin
   if (wheels.left.empty() || wheels.right.empty()) return artifacts;
   for (const auto& column : log_columns()) {
     const std::vector<double>& values = column.channel(trajectory);
-    if (values.empty() || may_stay(column)) continue;
+    if (values.empty() || may_stay(column) || is_partial(values)) continue;
     const auto& witness = &values == &wheels.left ? wheels.right : wheels.left;
     find_stuck(trajectory, {.run = run, .channel = column.name}, values, witness, artifacts);
   }
-  if (!trajectory.position_x_m.empty() && !trajectory.position_y_m.empty())
+  if (!trajectory.position_x_m.empty() && !trajectory.position_y_m.empty() &&
+      !is_partial(trajectory.position_x_m))
     find_stuck(trajectory, {.run = run, .channel = "position_x_m"}, places(trajectory), wheels.left,
                artifacts);
   return artifacts;

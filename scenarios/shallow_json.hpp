@@ -24,12 +24,12 @@ namespace joulepath {
 }
 
 /// The values of a text of somebody else: discarded (`is_discarded()`, no object, no list) where it is not
-/// JSON or nested more than 64 deep. Copying and printing nested values recurse, and each level takes 100
+/// JSON or nested more than 64 deep. `note` is asked at each key and value, as by Json::parse. Copying and printing nested values recurse, and each level takes 100
 /// bytes.
 template <class Json = nlohmann::json>
-[[nodiscard]] Json shallow_json(std::string_view text) {
+[[nodiscard]] Json shallow_json(std::string_view text, const typename Json::parser_callback_t& note = nullptr) {
   constexpr int kMostDepth = 64;
-  return nests_deeper(text, kMostDepth) ? Json(Json::value_t::discarded) : Json::parse(text, nullptr, false);
+  return nests_deeper(text, kMostDepth) ? Json(Json::value_t::discarded) : Json::parse(text, note, false);
 }
 
 }  // namespace joulepath
