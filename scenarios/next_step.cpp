@@ -9,6 +9,13 @@ constexpr const char* kLogMore = words_of(Verdict::too_little_data).next_step;
 
 bool is_corrected(const Diagnosis& d) { return d.corrected_robot || !d.corrected_instruments.empty(); }
 
+/// Why nothing is written although effects are named.
+std::string not_written(const Diagnosis& d) {
+  return d.refused_correction.empty()
+             ? "No correction shrinks the gap on held-out runs: none is written."
+             : "No correction is written, as its robot file would be refused: " + d.refused_correction + ".";
+}
+
 /// Where to look for what no effect explains.
 std::string examine(const Diagnosis& d) {
   std::vector<std::string> quantities;
@@ -21,11 +28,12 @@ std::string examine(const Diagnosis& d) {
 
 std::string next_step(const Diagnosis& d) {
   const std::string step = words_of(d.verdict).next_step;
+  if (!d.foreign_constants.empty()) return step + " Name this robot's file, or correct these constants in it.";
   switch (d.verdict) {
     case Verdict::explained:
-      return is_corrected(d) ? step : "No correction shrinks the gap on held-out runs: none is written.";
+      return is_corrected(d) ? step : not_written(d);
     case Verdict::partly_explained:
-      return (is_corrected(d) ? step + " " : "") + examine(d);
+      return (is_corrected(d) ? step : not_written(d)) + " " + examine(d);
     case Verdict::unexplained:
       return step + " " + examine(d);
     case Verdict::ambiguous:
@@ -33,6 +41,7 @@ std::string next_step(const Diagnosis& d) {
     case Verdict::data_suspect:
       return step + " joulepath check DATASET --repair FILE writes it repaired.";
     case Verdict::no_gap:
+      return d.simulator.runs > 0 ? "The simulator needs no correction." : step;
     case Verdict::too_little_data:
       return step;
   }
