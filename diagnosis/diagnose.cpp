@@ -33,7 +33,8 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
 }
 
 /// Causes relative to another robot's constants say nothing about this one.
-Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs, std::vector<ForeignConstant> constants) {
+Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
+                           std::vector<ForeignConstant> constants) {
   const Survey survey = survey_dataset(dataset, runs.signals);
   return {.verdict = Verdict::unexplained,
           .foreign_constants = std::move(constants),
@@ -97,7 +98,8 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
                      std::size_t bootstrap) {
   const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
-  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
+  const auto [verdict, detectable_percent, all_clear_note] =
+      examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
   gap.energy.detectable_percent = detectable_percent;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
@@ -154,15 +156,16 @@ Examined examine(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& 
 }
 
 /// The runs that the fit of the others does not describe, in the numbers of the answer.
-std::vector<RunApart> describe(const Dataset& dataset, const RunsByUse& all, const std::vector<RunPower>& powers,
-                               const std::set<std::size_t>& apart) {
+std::vector<RunApart> describe(const Dataset& dataset, const RunsByUse& all,
+                               const std::vector<RunPower>& powers, const std::set<std::size_t>& apart) {
   const std::vector<RunEnergy> nominal =
       run_energies(all.signals, ModelPoints(all.signals.size(), {.robot = dataset.robot}));
   const double gap_J = absolute_gap_J(nominal);
   std::vector<RunApart> described;
   for (const RunPower& power : powers) {
     if (!apart.contains(power.run)) continue;
-    const auto at = std::ranges::find(all.signals, power.run, &RunSignals::run_index) - all.signals.begin();
+    const auto at =
+        std::ranges::find(all.signals, power.run, &RunSignals::run_index) - all.signals.begin();
     described.push_back({dataset.runs[power.run].name, 100 * (power.measured_W / power.predicted_W - 1),
                          std::abs(nominal[static_cast<std::size_t>(at)].gap_J()) / gap_J});
   }

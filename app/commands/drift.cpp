@@ -30,8 +30,8 @@ void demand_same_robot(const Dataset& first, const Dataset& day) {
   if (values_of(day.robot) == values_of(first.robot)) return;
   throw ConfigError({{day.file, 0, 0},
                      "robot",
-                     "\"" + day.robot_file + "\", whose values are not those of \"" + first.robot_file + "\" of " +
-                         first.file,
+                     "\"" + day.robot_file + "\", whose values are not those of \"" + first.robot_file +
+                         "\" of " + first.file,
                      "one robot file for all days",
                      "--robot FILE replaces the datasets'"});
 }

@@ -77,11 +77,13 @@ bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::
     for (Side side : kSides)
       for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j)
         if (run.conducting[side][static_cast<std::size_t>(j)])
-          fit.add({run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j]}, run.motor_voltage_V[side][j]);
+          fit.add({run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j]},
+                  run.motor_voltage_V[side][j]);
   std::array<double, 2> value{}, error{};
   const Motor& motor = robot.motor.left;
   return fit.solve(value, error) &&
-         add_ratio("winding resistance", "ohm", motor.resistance_ohm, value[0], error[0], kMostMeasuredFactor, ratios) &&
+         add_ratio("winding resistance", "ohm", motor.resistance_ohm, value[0], error[0],
+                   kMostMeasuredFactor, ratios) &&
          add_ratio("voltage per wheel speed", "V s/rad", motor.volts_per_speed_V_s_rad(), value[1], error[1],
                    kMostScale, ratios);
 }
@@ -99,9 +101,11 @@ bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vect
                    jerk = run.wheel_jerk_rad_s3.left.size() > 0 ? mean(run.wheel_jerk_rad_s3) : 0.0;
       const auto k = static_cast<std::size_t>(j);
       const bool forward = run.wheel_speed_rad_s.left[j] > 0;
-      if (!run.turning.left[k] || !run.turning.right[k] || forward != (run.wheel_speed_rad_s.right[j] > 0)) continue;
+      if (!run.turning.left[k] || !run.turning.right[k]) continue;
+      if (forward != (run.wheel_speed_rad_s.right[j] > 0)) continue;
       const double torque_Nm = torque_Nm_A * (run.motor_current_A.left[j] + run.motor_current_A.right[j]);
-      fit.add({rate, forward ? 1.0 : -1.0, speed, jerk}, torque_Nm - run.payload_kg[j] * radius_m * radius_m * rate);
+      fit.add({rate, forward ? 1.0 : -1.0, speed, jerk},
+              torque_Nm - run.payload_kg[j] * radius_m * radius_m * rate);
     }
   std::array<double, 1> value{}, error{};
   const double file_kg =

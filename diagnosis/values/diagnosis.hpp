@@ -52,7 +52,9 @@ struct GapReport {
 
 /// Whether the energy gap or a signal's shrinks by what counts.
 [[nodiscard]] inline bool shrinks_notably(const GapReport& gap) {
-  const auto shrinks = [](double before, double after) { return after < before && is_notable_change(before, after); };
+  const auto shrinks = [](double before, double after) {
+    return after < before && is_notable_change(before, after);
+  };
   const auto signal = [&](const SignalGap& s) { return s.present && shrinks(s.before_rms, s.after_rms); };
   return shrinks(gap.energy.before_percent, gap.energy.after_percent) || signal(gap.current_A) ||
          signal(gap.voltage_V) || signal(gap.position_m) || signal(gap.heading_rad) || signal(gap.battery_W);

@@ -28,7 +28,8 @@ class DriftCommand : public ::testing::Test {
     std::ofstream(scratch.at("d/second.yaml")) << day;
   }
   ProgramResult drift(const std::string& options = "") const {
-    return run_program(scratch, "drift " + scratch.at("d/dataset.yaml") + " " + scratch.at("d/second.yaml") + options);
+    return run_program(
+        scratch, "drift " + scratch.at("d/dataset.yaml") + " " + scratch.at("d/second.yaml") + options);
   }
 
   ScratchDirectory scratch{};
@@ -36,7 +37,8 @@ class DriftCommand : public ::testing::Test {
 
 TEST_F(DriftCommand, RefusesDaysWithDifferentRobots) {
   for (const auto& [old_part, new_part] :
-       {std::pair{"chassis_mass_kg: 21.2", "chassis_mass_kg: 26"}, std::pair{"resistance_ohm: 2.74", "resistance_ohm: 2.2"},
+       {std::pair{"chassis_mass_kg: 21.2", "chassis_mass_kg: 26"},
+        std::pair{"resistance_ohm: 2.74", "resistance_ohm: 2.2"},
         std::pair{"friction_torque_Nm: 0.015", "friction_torque_Nm: 0.2"}}) {
     second_day(old_part, new_part);
     const ProgramResult refused = drift();

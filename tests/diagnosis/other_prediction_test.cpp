@@ -107,7 +107,8 @@ Diagnosis with_simulator(double factor) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const double kind = seed % 4;
     dataset.runs.push_back(testing::synthetic_run(
-        dataset.robot, "run_" + std::to_string(seed), 12, kind, testing::swinging(0.3 + 0.1 * kind, 0.1, 1, 0.2 * kind),
+        dataset.robot, "run_" + std::to_string(seed), 12, kind,
+        testing::swinging(0.3 + 0.1 * kind, 0.1, 1, 0.2 * kind),
         {0.002, 0.005, 0.01}, seed));
     Trajectory& other = dataset.runs.back().predicted.emplace(dataset.runs.back().log);
     for (Side side : kSides)
