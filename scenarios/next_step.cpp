@@ -24,9 +24,7 @@ std::string examine(const Diagnosis& d) {
                             : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
 }
 
-}  // namespace
-
-std::string next_step(const Diagnosis& d) {
+std::string step_by_verdict(const Diagnosis& d) {
   const std::string step = words_of(d.verdict).next_step;
   if (!d.foreign_constants.empty()) return step + " Name this robot's file, or correct these constants in it.";
   switch (d.verdict) {
@@ -46,6 +44,13 @@ std::string next_step(const Diagnosis& d) {
       return step;
   }
   return step;
+}
+
+}  // namespace
+
+std::string next_step(const Diagnosis& d) {
+  if (d.runs_apart.empty()) return step_by_verdict(d);
+  return step_by_verdict(d) + " Find out what was different in " + text_of_list(d.runs_apart, &RunApart::run) + ".";
 }
 
 }  // namespace joulepath
