@@ -439,6 +439,16 @@ inline constexpr double kLawInexactness = 0.025;
 /// Of the diagnosis runs, to choose the ceiling's ridge. Chosen.
 inline constexpr std::size_t kRidgeFolds = 4;
 
+// A run that no model of the others describes.
+
+/// Its gap over that of the next run, under the fit of the others. Chosen: a run of a payload, a place or a
+/// direction of its own has a law that explains it.
+inline constexpr double kApart = 4.0;
+/// The same under the fit of all runs, from which on the others are fitted alone: one run moves the fit. Chosen.
+inline constexpr double kDoubtedApart = 1.5;
+/// Its gap over the mean power, at least. Declared.
+inline constexpr double kLeastApart = 0.05;
+
 // Cells of the gap, and phases of a motion.
 
 /// Beyond this, small cells get no interval. Declared: bounds time.

@@ -54,12 +54,6 @@ Range95 shrink_interval(const GapInput& input, std::vector<RunEnergy> before, st
           std::min(1.0, said + wider * std::max(0.0, high - said) + day)};
 }
 
-double bias_percent(const std::vector<RunEnergy>& runs) {
-  double gap = 0, measured = 0;
-  for (const RunEnergy& run : runs) gap += run.gap_J(), measured += std::abs(run.measured_J);
-  return measured > 0 ? 100 * gap / measured : 0.0;
-}
-
 /// Root mean square of a residual over samples and runs.
 struct MeanSquare {
   double sum{}, count{};
@@ -158,6 +152,12 @@ double energy_gap_percent(const std::vector<RunEnergy>& runs) {
   return measured > 0 ? 100 * gap / measured : 0.0;
 }
 
+double energy_bias_percent(const std::vector<RunEnergy>& runs) {
+  double gap = 0, measured = 0;
+  for (const RunEnergy& run : runs) gap += run.gap_J(), measured += std::abs(run.measured_J);
+  return measured > 0 ? 100 * gap / measured : 0.0;
+}
+
 double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
                            const Eigen::VectorXd& run_variance, const NoiseModel& noise) {
   double expected_J = 0, measured_J = 0;
@@ -202,8 +202,8 @@ GapReport measure_gap(const GapInput& input) {
   EnergyGap& energy = report.energy;
   energy.before_percent = energy_gap_percent(before);
   energy.after_percent = energy_gap_percent(after);
-  energy.bias_before_percent = bias_percent(before);
-  energy.bias_after_percent = bias_percent(after);
+  energy.bias_before_percent = energy_bias_percent(before);
+  energy.bias_after_percent = energy_bias_percent(after);
   energy.noise_floor_percent = input.noise_floor_percent;
   energy.before_J = absolute_gap_J(before);
   energy.after_J = absolute_gap_J(after);

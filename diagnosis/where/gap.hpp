@@ -31,6 +31,9 @@ using ModelPoints = std::vector<ModelPoint>;
 /// sum |gap| / sum |measured|, percent.
 [[nodiscard]] double energy_gap_percent(const std::vector<RunEnergy>& runs);
 
+/// sum gap / sum |measured|, percent.
+[[nodiscard]] double energy_bias_percent(const std::vector<RunEnergy>& runs);
+
 struct GapInput {
   const std::vector<RunSignals>& before_signals;
   const std::vector<RunSignals>& after_signals;  ///< read at the corrected model's delay

@@ -32,8 +32,9 @@ jp.cause_cards = function (d) {
 };
 
 jp.diagnosis_tiles = function (d) {
-  const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
+  const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95, simulator = d.simulator;
   return h("div", {class: "tiles"}, [
+    simulator ? jp.tile("Simulator's energy gap", percent(simulator.gap_percent), `bias ${percent(simulator.bias_percent)}, ${simulator.runs} of ${simulator.of_runs} runs`) : null,
     jp.tile("Energy gap before", percent(energy.before_percent), is_number(energy.bias_before_percent) ? `bias ${percent(energy.bias_before_percent)} (negative: the model predicts too little)` : with_unit(energy.before_J, "J")),
     !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : is_number(energy.after_percent) ? jp.tile("After the correction", percent(energy.after_percent), with_unit(energy.after_J, "J")) : null,
     is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", percent(energy.noise_floor_percent), "scatter of the runs: a model need not get below it") : null,
