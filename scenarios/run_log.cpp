@@ -43,8 +43,9 @@ std::pair<long, long> rows_in_common(const std::vector<LogFile>& files) {
 }
 
 /// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
-/// one by one: a long log is in memory once.
-void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+/// one by one: a long log is in memory once. The holds are those of channels that are interpolated.
+HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+  HoldsOfChannel holds;
   const auto rows = rows_in_common(files);
   const auto taken = [&](std::vector<double>& values) {
     values.erase(values.begin() + rows.second, values.end());
@@ -56,6 +57,10 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
     for (auto& [name, values] : file.channels) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
+      if (const auto own = file.holds.find(name); own != file.holds.end())
+        holds[name] = std::move(own->second);
+      else if (&file != &files.front())
+        holds[name] = holds_of(file.times, values);
       if (&file == &files.front()) {
         column->channel(log.trajectory) = taken(values);
         continue;
@@ -71,6 +76,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
     log.artifacts.push_back({"resampled", run, "",
                              "several files or topics, interpolated linearly to the times of the first",
                              files.size() - 1, log.trajectory.time_s.front()});
+  return holds;
 }
 
 /// The columns that are not those of the format, and not mapped to one.
@@ -222,11 +228,13 @@ void sign_unsigned_channels(Trajectory& log, const ColumnSources& sources, const
   }
 }
 
-void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
+void start_epoch_clock_at_zero(RunLog& log, HoldsOfChannel& holds, const std::string& run) {
   auto& times = log.trajectory.time_s;
   const double start_s = times.front();
   if (std::abs(start_s) < kEpochClock_s) return;
   for (double& time_s : times) time_s -= start_s;
+  for (auto& [channel, of_channel] : holds)
+    for (Hold& hold : of_channel.of_reported_length) hold.from_s -= start_s, hold.to_s -= start_s;
   char text[96];
   std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are relative to it", start_s);
   log.artifacts.push_back({"clock_origin", run, "time_s", text, 1, 0.0});
@@ -258,13 +266,13 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   const std::vector<std::string> ignored = ignored_columns(headers, given);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
-  merge(files, log, run);
+  HoldsOfChannel holds = merge(files, log, run);
   refuse_mistyped(ignored, missing_columns(log.trajectory, given), names.front().file);
   refuse_one_wheel(log.trajectory, names.front().file);
   log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
   refuse_no_motion(log.trajectory, names.front().file);
-  start_epoch_clock_at_zero(log, run);
-  auto odd = find_artifacts(log.trajectory, run);
+  start_epoch_clock_at_zero(log, holds, run);
+  auto odd = find_artifacts(log.trajectory, holds, run);
   log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());
   sign_unsigned_channels(log.trajectory, given, run, log);
   note_ignored(ignored, log, run);
