@@ -42,15 +42,24 @@ std::string causes_words(const std::vector<Cause>& causes) {
   return text_of_list(words, "; ");
 }
 
-/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."
+/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy.
+std::string size_words(const EnergyGap& e, bool named) {
+  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ")";
+  if (!named || !(e.after_percent < e.before_percent)) return " is " + percent_text(e.before_percent) + floor;
+  return " shrinks from " + percent_text(e.before_percent) + " to " + percent_text(e.after_percent) + floor;
+}
+
+/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."; of motors and battery, where both are
+/// measured.
 std::string gap_words(const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
-  if (!(e.before_J > 0)) return "";
-  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ").";
-  if (d.causes.empty() || !(e.after_percent < e.before_percent))
-    return " The energy gap is " + percent_text(e.before_percent) + floor;
-  return " The energy gap shrinks from " + percent_text(e.before_percent) + " to " +
-         percent_text(e.after_percent) + floor;
+  const bool named = !d.causes.empty();
+  const std::optional<EnergyGap>& battery = d.gap.battery_energy;
+  std::string words;
+  if (d.gap.energy.before_J > 0)
+    words = (battery ? " The motors' energy gap" : " The energy gap") + size_words(d.gap.energy, named) + ".";
+  if (battery && battery->before_J > 0)
+    words += " The battery's energy gap" + size_words(*battery, named) + ".";
+  return words;
 }
 
 /// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,

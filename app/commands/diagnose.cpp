@@ -40,9 +40,8 @@ void print_where(std::ostream& out, const Diagnosis& d) {
   table.print(out);
 }
 
-void print_gap(std::ostream& out, const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
-  out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
+void print_gap(std::ostream& out, const std::string& of, const EnergyGap& e, const Diagnosis& d) {
+  out << of << " gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
   if (!d.causes.empty())
     out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
@@ -92,7 +91,8 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
       << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect) return;
-  print_gap(out, d);
+  print_gap(out, d.gap.battery_energy ? "the motors' energy" : "energy", d.gap.energy, d);
+  if (d.gap.battery_energy) print_gap(out, "the battery's energy", *d.gap.battery_energy, d);
   print_causes(out, d);
   print_worth(out, d);
   print_where(out, d);
