@@ -22,8 +22,8 @@ struct RunEnergy {
 /// One model for each run.
 using ModelPoints = std::vector<ModelPoint>;
 
-/// Where the energy of a run is compared: at the motors, or at the battery where nothing measures them; or at the
-/// battery in any case.
+/// Where the energy of a run is compared: at the motors, or at the battery where nothing measures them; or at
+/// the battery in any case.
 enum class EnergyAt { motors_first, battery };
 
 /// Nothing for a run that does not measure the energy there.
