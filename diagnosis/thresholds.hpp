@@ -255,6 +255,10 @@ inline constexpr double kRunGyroBias_rad_s = 1e-3;
 /// The same of the standby power. Physical scale.
 inline constexpr double kRunStandby_W = 0.05;
 
+/// A battery's open-circuit voltage differs from the file's by this share, and falls by it in a run, 1-sigma:
+/// it goes with the charge. Physical scale.
+inline constexpr double kOpenCircuitChange = 0.05;
+
 /// Prior width of a payload that no file states over the robot's mass, where the robot has no limit of it.
 /// Physical scale.
 inline constexpr double kUnstatedPayloadShare = 0.5;

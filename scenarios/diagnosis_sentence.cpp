@@ -65,20 +65,28 @@ std::string pose_words(const char* subject, const SignalGap& gap, double scale, 
          unit + ".";
 }
 
-/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %).", and the gaps of the pose where they change.
+/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is none.
+std::string size_words(const EnergyGap& e, bool named) {
+  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ")";
+  const bool shrinks = named && e.after_percent < e.before_percent &&
+                       is_notable_change(e.before_percent, e.after_percent) &&
+                       e.before_percent > e.noise_floor_percent;
+  if (!shrinks) return " is " + percent_text(e.before_percent) + floor;
+  return " shrinks from " + percent_text(e.before_percent) + " to " + percent_text(e.after_percent) + floor;
+}
+
+/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."; of motors and battery, where both are
+/// measured; and the gaps of the pose where they change.
 std::string gap_words(const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
+  const bool named = !d.causes.empty();
+  const std::optional<EnergyGap>& battery = d.gap.battery_energy;
+  const std::string of_file = d.simulator.runs > 0 ? " The robot file's " : " The ";
   std::string words;
-  if (e.before_J > 0) {
-    const bool shrinks = !d.causes.empty() && e.after_percent < e.before_percent &&
-                         is_notable_change(e.before_percent, e.after_percent) &&
-                         e.before_percent > e.noise_floor_percent;
-    words = std::string(" The ") + (d.simulator.runs > 0 ? "robot file's " : "") + "energy gap " +
-            (shrinks ? "shrinks from " + percent_text(e.before_percent) + " to " + percent_text(e.after_percent)
-                     : "is " + percent_text(e.before_percent)) +
-            " (noise floor " + percent_text(e.noise_floor_percent) + ").";
-  }
-  if (d.causes.empty()) return words;
+  if (d.gap.energy.before_J > 0)
+    words = of_file + (battery ? "energy gap at the motors" : "energy gap") + size_words(d.gap.energy, named) + ".";
+  if (battery && battery->before_J > 0)
+    words += of_file + "energy gap at the battery" + size_words(*battery, named) + ".";
+  if (!named) return words;
   return words + pose_words("position", d.gap.position_m, 1000, "mm") +
          pose_words("heading", d.gap.heading_rad, 1, "rad");
 }

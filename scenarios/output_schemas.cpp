@@ -86,7 +86,9 @@ Schema gap_schema() {
            required("noise_floor_percent", result()), required("before_J", result()),
            required("after_J", result()), required("shrink_fraction", result()),
            required("shrink_interval_95", interval())}));
-  return open(map({required("energy", energy), optional("current", open(map({}))),
+  return open(map({required("energy", energy, "of the motors; at the battery where nothing measures them"),
+                   optional("battery_energy", energy, "at the battery, where both are measured"),
+                   optional("current", open(map({}))),
                    optional("voltage", open(map({}))), optional("motion", open(map({})))}));
 }
 

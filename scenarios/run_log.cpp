@@ -118,8 +118,10 @@ void tell_cut(const std::vector<double>& base_s, const std::pair<long, long>& ro
 }
 
 /// Takes the channels of all files to the times of one. Outside of its file's own time a channel is NaN; a
-/// payload holds. Files give up their columns one by one: a long log is in memory once.
-void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those of
+/// channels that are interpolated.
+HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+  HoldsOfChannel holds;
   const std::vector<std::size_t> of_motion = files_of_motion(files);
   const std::size_t base = base_of(files, of_motion);
   const std::pair<long, long> rows = rows_with_motion(files, base, of_motion);
@@ -136,6 +138,10 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
     for (auto& [name, values] : file.channels) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
+      if (const auto of_readings = file.holds.find(name); of_readings != file.holds.end())
+        holds[name] = std::move(of_readings->second);
+      else if (f != base)
+        holds[name] = holds_of(file.times, values);
       std::vector<double>& channel = column->channel(log.trajectory);
       if (f == base) {
         channel = taken(values);
@@ -156,6 +162,7 @@ void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
                              "several files or topics, interpolated linearly to the times of " +
                                  (base == 0 ? "the first" : files[base].table.file),
                              files.size() - 1, times.front()});
+  return holds;
 }
 
 /// The columns that are not those of the format, and not mapped to one.
@@ -307,12 +314,14 @@ void sign_unsigned_channels(Trajectory& log, const ColumnSources& sources, const
   }
 }
 
-void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
+void start_epoch_clock_at_zero(RunLog& log, HoldsOfChannel& holds, const std::string& run) {
   auto& times = log.trajectory.time_s;
   const double start_s = times.front();
   if (std::abs(start_s) < kEpochClock_s) return;
   for (double& time_s : times) time_s -= start_s;
   log.clock_origin_s = start_s;
+  for (auto& [channel, of_channel] : holds)
+    for (Hold& hold : of_channel.of_reported_length) hold.from_s -= start_s, hold.to_s -= start_s;
   char text[96];
   std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are relative to it", start_s);
   log.artifacts.push_back({"clock_origin", run, "time_s", text, 1, 0.0});
@@ -344,13 +353,13 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   const std::vector<std::string> ignored = ignored_columns(headers, given);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
-  merge(files, log, run);
+  HoldsOfChannel holds = merge(files, log, run);
   refuse_mistyped(ignored, missing_columns(log.trajectory, given), names.front().file);
   refuse_one_wheel(log.trajectory, names.front().file);
   log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
   refuse_no_motion(log.trajectory, names.front().file);
-  start_epoch_clock_at_zero(log, run);
-  auto odd = find_artifacts(log.trajectory, run);
+  start_epoch_clock_at_zero(log, holds, run);
+  auto odd = find_artifacts(log.trajectory, holds, run);
   log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());
   sign_unsigned_channels(log.trajectory, given, run, log);
   note_ignored(ignored, log, run);

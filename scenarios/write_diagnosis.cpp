@@ -25,8 +25,7 @@ Json energy_json(const EnergyGap& e) {
           {"before_J", six_digits(e.before_J)},
           {"after_J", six_digits(e.after_J)},
           {"shrink_fraction", six_digits(e.shrink_fraction)},
-          {"shrink_interval_95", interval(e.shrink_interval_95)},
-          {"detectable_percent", six_digits(e.detectable_percent)}};
+          {"shrink_interval_95", interval(e.shrink_interval_95)}};
 }
 
 void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, const std::string& unit) {
@@ -46,12 +45,11 @@ Json gap_json(const GapReport& gap) {
   Json phases = Json::object();
   for (const auto& [phase, energy] : gap.energy_by_phase_J)
     phases[phase] = {{"before_J", six_digits(energy.first)}, {"after_J", six_digits(energy.second)}};
-  return {{"energy", energy_json(gap.energy)},
-          {"current", current},
-          {"voltage", voltage},
-          {"motion", motion},
-          {"battery", battery},
-          {"energy_by_phase", phases}};
+  Json json{{"energy", energy_json(gap.energy)}, {"current", current}, {"voltage", voltage},
+            {"motion", motion},                  {"battery", battery}, {"energy_by_phase", phases}};
+  json["energy"]["detectable_percent"] = six_digits(gap.energy.detectable_percent);
+  if (gap.battery_energy) json["battery_energy"] = energy_json(*gap.battery_energy);
+  return json;
 }
 
 Json simulator_json(const SimulatorGap& simulator) {

@@ -41,9 +41,8 @@ void print_where(std::ostream& out, const Diagnosis& d) {
   table.print(out);
 }
 
-void print_gap(std::ostream& out, const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
-  out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
+void print_gap(std::ostream& out, const std::string& of, const EnergyGap& e, const Diagnosis& d) {
+  out << of << " gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
   if (!d.causes.empty())
     out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
@@ -94,7 +93,8 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   if (const std::string apart = runs_apart_words(d); !apart.empty()) out << apart << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
   if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;
-  print_gap(out, d);
+  print_gap(out, d.gap.battery_energy ? "the motors' energy" : "energy", d.gap.energy, d);
+  if (d.gap.battery_energy) print_gap(out, "the battery's energy", *d.gap.battery_energy, d);
   print_causes(out, d);
   print_worth(out, d);
   print_where(out, d);

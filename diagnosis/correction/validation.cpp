@@ -189,13 +189,13 @@ void fill_floors(const NoiseModel& noise, GapReport& gap) {
 
 }  // namespace
 
-double noise_floor_percent(const Examination& x, const Refit& fitted) {
+double noise_floor_percent(const Examination& x, const Refit& fitted, EnergyAt at) {
   const ModelPoint point = x.point_of(fitted.state);
   const double left =
-      energy_gap_percent(run_energies(fitted.signals, ModelPoints(fitted.signals.size(), point)));
+      energy_gap_percent(run_energies(fitted.signals, ModelPoints(fitted.signals.size(), point), at));
   return finite_or_zero(
       std::min(left, kScatterFactor * run_scatter_percent(fitted.signals, point, x.id.equations.run_variance,
-                                                          x.id.equations.noise)));
+                                                          x.id.equations.noise, at)));
 }
 
 Validation validate(const Examination& x, const Judgment& by_race) {
@@ -218,10 +218,12 @@ GapReport held_out_gap(const Examination& x, const Validation& v, std::size_t bo
                    .before = x.nominal(),
                    .after = correct_it ? points_of(x, v.model) : ModelPoints(before.size(), x.nominal()),
                    .noise_floor_percent = noise_floor_percent(x, v.fitted),
+                   .battery_floor_percent = noise_floor_percent(x, v.fitted, EnergyAt::battery),
                    .bootstrap = bootstrap,
                    .fitted_signals = v.fitted.signals,
                    .fitted = x.point_of(v.fitted.state)});
   if (!correct_it) gap.energy.shrink_interval_95 = {};  // nothing is claimed
+  if (!correct_it && gap.battery_energy) gap.battery_energy->shrink_interval_95 = {};
   fill_floors(x.id.equations.noise, gap);
   return gap;
 }

@@ -21,7 +21,8 @@ struct Validation {
 
 /// Gap that the calibrated and corrected model leaves on the runs it was fitted to, but at most what the scatter
 /// between runs allows: the error of a wrong model must not count as noise.
-[[nodiscard]] double noise_floor_percent(const Examination& examination, const Refit& fitted);
+[[nodiscard]] double noise_floor_percent(const Examination& examination, const Refit& fitted,
+                                          EnergyAt at = EnergyAt::motors_first);
 
 /// The gap on held-out runs, before and after, with its noise floors.
 [[nodiscard]] GapReport held_out_gap(const Examination& examination, const Validation& validation,

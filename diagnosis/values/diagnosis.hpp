@@ -45,7 +45,8 @@ struct SignalGap {
 }
 
 struct GapReport {
-  EnergyGap energy{};
+  EnergyGap energy{};  ///< of both motors, or at the battery's terminals where nothing measures the motors
+  std::optional<EnergyGap> battery_energy{};  ///< at the battery's terminals, where both places are measured
   SignalGap current_A{}, voltage_V{}, position_m{}, heading_rad{}, battery_W{};
   std::map<std::string, std::pair<double, double>> energy_by_phase_J{};  ///< before, after
 };

@@ -371,6 +371,43 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
 }
 
+/// A battery's current at 10 Hz in steps of 5 mA, at rest and in motion, beside wheels at 50 Hz; as empty cells
+/// or as a second file, from 0.5 s on, on two clocks: the rows between its readings are the reader's. A sensor
+/// that stops is still found.
+TEST(DatasetFile, WhatFillsTheRowsBetweenReadingsIsNoHeldValue) {
+  const auto artifacts_of = [](bool second_file, double start_s, double step_A, bool stops) {
+    const ScratchDirectory scratch;
+    std::string wheels = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s",
+                battery = "time_s,battery_current_A\n";
+    wheels += second_file ? "\n" : ",battery_current_A\n";
+    for (int i = 0; i <= 1500; ++i) {
+      const std::string time = std::to_string(start_s + 0.02 * i + 0.004 * std::sin(2.3 * i));
+      wheels += time + "," + std::to_string(4 + std::sin(0.37 * i)) + "," +
+                std::to_string(4 + std::cos(0.41 * i));
+      const int held = stops && i > 600 && i < 800 ? 600 : i;
+      const double amperes =
+          i < 300 && !stops ? 0.4 : 1.2 + 0.7 * std::sin(0.013 * held) + 0.1 * std::sin(1.9 * held);
+      const std::string reading =
+          i % 5 == 0 && i >= 25 ? std::to_string(step_A * std::round(amperes / step_A)) : "";
+      if (second_file && !reading.empty()) battery += time + "," + reading + "\n";
+      wheels += second_file ? "\n" : "," + reading + "\n";
+    }
+    scratch.write("a.csv", wheels), scratch.write("b.csv", battery);
+    const std::string runs = second_file ? "runs: [{files: [a.csv, b.csv]}]" : "runs: [{file: a.csv}]";
+    return read_dataset(scratch.write("d.yaml", dataset_yaml(runs)));
+  };
+  for (const bool second_file : {false, true})
+    for (const double start_s : {0.0, 1.7e9}) {
+      const Dataset sound = artifacts_of(second_file, start_s, 5e-3, false),
+                    stopped = artifacts_of(second_file, start_s, 1e-5, true);
+      EXPECT_FALSE(artifact(sound, "held_value")) << second_file;
+      EXPECT_FALSE(artifact(sound, "slow_channel")) << second_file;
+      ASSERT_TRUE(artifact(stopped, "held_value", "battery_current_A")) << second_file;
+      EXPECT_NEAR(artifact(stopped, "held_value")->first_time_s, 12.0, 0.51) << "since the log's first row";
+      EXPECT_EQ(artifact(stopped, "held_value")->count, 40u) << "readings, not rows";
+    }
+}
+
 TEST(DatasetFile, ASlowLocalizationIsReportedAndASmoothDriveIsNot) {
   const ScratchDirectory scratch;
   const auto artifacts_with_pose_every = [&](int rows) {
