@@ -174,15 +174,17 @@ TEST(Charging, AStopFarAheadOfTheLegThatFailsIsFound) {
   mission.stations["two"] = {.x_m = 18, .y_m = 20};
   mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
   mission.legs = {{.to = "one"}, {.to = "two"}, {.to = "one"}, {.to = "two"}, {.to = "one"}};
+  PlanOptions options = kCoarse;
+  options.steps.corners = options.steps.refinement = false;
   Robot robot = testing::nomad();
-  const Plan whole = plan_of(mission, kCoarse, robot);
+  const Plan whole = plan_of(mission, options, robot);
   ASSERT_EQ(whole.legs.size(), 5u) << whole.message;
   const auto energy_Wh = [&](std::size_t leg) { return whole.legs[leg].energy.total_J() / 3600; };
   robot.battery.capacity_Wh = 1.1 * whole.energy.total_J() / 3600 / 0.8;
   const double until_third_Wh = energy_Wh(0) + energy_Wh(1) + energy_Wh(2) + 0.5 * energy_Wh(3);
   mission.start.battery_fraction =
       robot.battery.reserve_fraction + until_third_Wh / robot.battery.capacity_Wh;
-  const Plan charged = plan_of(mission, kCoarse, robot);
+  const Plan charged = plan_of(mission, options, robot);
   ASSERT_LE(charged.status, SolveStatus::feasible) << charged.message;
   EXPECT_GT(charged.legs[0].charged_J, 0.0);
   for (const double fraction : charged.battery->fraction_after_leg)
