@@ -49,7 +49,7 @@ json legs_json(const Plan& plan, const RouteSpace* space) {
     std::optional<Infeasibility> blocked;
     if (space)
       blocked = leg.prescribed ? blocked_motion(*leg.prescribed, *space) : blocked_path(path, *space);
-    const Pose start = path.pieces.empty() ? Pose{} : path.start();
+    const Pose& start = leg.start_pose;
     legs.push_back({{"path", leg.prescribed ? json(nullptr) : path_json(path)},
                     {"start", {start.x_m, start.y_m, start.heading_rad}},
                     {"blocked", verdict_json(blocked)}});
