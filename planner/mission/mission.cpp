@@ -255,6 +255,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     return other.status == SolveStatus::infeasible ? chosen : other;
   };
   Plan answer = charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+  blame_battery(answer, world.robot);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;
