@@ -26,7 +26,7 @@ Robot robot_with(double resistance_ohm, double standby_W = 10.0) {
   return robot;
 }
 
-Plan planned(const MissionRequest& mission, const Robot& robot) {
+Plan supplied_plan(const MissionRequest& mission, const Robot& robot) {
   return plan_mission(mission, {.robot = robot},
                       {.solver = SolverChoice::fast, .nodes = 40, .baselines = false});
 }
@@ -40,7 +40,7 @@ double most_power_W(const Plan& plan, const Robot& robot) {
 /// What holds for every answer: a plan takes what the battery has and pays for its resistance, a verdict
 /// names the battery and a resistance with which there is a plan.
 void expect_supplied(const MissionRequest& mission, const Robot& robot) {
-  const Plan plan = planned(mission, robot);
+  const Plan plan = supplied_plan(mission, robot);
   const double most_W = most_battery_power_W(robot.battery);
   if (plan.status <= SolveStatus::feasible) {
     EXPECT_LE(most_power_W(plan, robot), most_W);
@@ -57,7 +57,7 @@ void expect_supplied(const MissionRequest& mission, const Robot& robot) {
   Robot better = robot;
   better.battery.internal_resistance_ohm = relaxation.at("internal_resistance_ohm");
   EXPECT_LT(better.battery.internal_resistance_ohm, robot.battery.internal_resistance_ohm);
-  EXPECT_LE(planned(mission, better).status, SolveStatus::feasible) << planned(mission, better).message;
+  EXPECT_LE(supplied_plan(mission, better).status, SolveStatus::feasible) << supplied_plan(mission, better).message;
 }
 
 TEST(BatteryPower, NoPlanTakesMoreThanTheBatterySupplies) {
@@ -74,8 +74,8 @@ TEST(BatteryPower, StandbyBeyondTheBatteryIsRefusedWithAResistanceThatWorks) {
 }
 
 TEST(BatteryPower, AWeakBatteryMakesTheDriveSlower) {
-  const Plan strong = planned(line_and_curve(), robot_with(0.05)),
-             weak = planned(line_and_curve(), robot_with(5.0));
+  const Plan strong = supplied_plan(line_and_curve(), robot_with(0.05)),
+             weak = supplied_plan(line_and_curve(), robot_with(5.0));
   ASSERT_LE(weak.status, SolveStatus::feasible) << weak.message;
   EXPECT_GT(most_power_W(strong, robot_with(0.05)), most_battery_power_W(robot_with(5.0).battery));
   EXPECT_GT(weak.duration_s, strong.duration_s);
@@ -88,7 +88,7 @@ TEST(BatteryPower, APrescribedMotionBeyondTheBatteryIsRefusedAtItsPlace) {
   mission.legs = {{.motion = motion, .payload = {8, 8}}};
   const Robot robot = robot_with(5.0);
   expect_supplied(mission, robot);
-  const Plan plan = planned(mission, robot);
+  const Plan plan = supplied_plan(mission, robot);
   ASSERT_TRUE(plan.infeasibility.has_value());
   EXPECT_GT(plan.infeasibility->arc_length_m, 0.0);
   EXPECT_NE(plan.message.find(" at t = "), std::string::npos) << plan.message;
@@ -97,7 +97,7 @@ TEST(BatteryPower, APrescribedMotionBeyondTheBatteryIsRefusedAtItsPlace) {
 TEST(BatteryPower, AStatedLimitThatIsLowerIsNotBlamedOnTheBattery) {
   Robot robot = robot_with(0.05);
   robot.limits->battery_power_W = 9.0;  // below standby
-  const Plan plan = planned(line_and_curve(), robot);
+  const Plan plan = supplied_plan(line_and_curve(), robot);
   ASSERT_TRUE(plan.infeasibility.has_value());
   EXPECT_TRUE(plan.infeasibility->reason.relaxation.contains("battery_power_W")) << plan.message;
 }
