@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/plan_analysis.hpp"
 #include "app/plan_options.hpp"
+#include "app/plan_summary.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
