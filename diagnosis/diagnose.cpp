@@ -228,7 +228,7 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
       return of_another_robot(dataset, runs, std::move(constants));
     if (auto checks = check_data(dataset, runs); !checks.empty())
       return stopped_by(dataset, runs, std::move(checks));
-    if (runs.signals.empty()) return diagnose_without_logs(dataset, options);
+    if (runs.signals.empty()) return diagnose_energies(dataset, options);
     return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
   };
   Diagnosis diagnosis = examined();
