@@ -13,7 +13,7 @@
 //   path constraints  bounds on b at the nodes; rows at both     bounds on u and a at the nodes; the same
 //                     ends and the middle of each segment        rows; jerk; the cap between nodes
 //   quadrature        two Gauss-Legendre points in time per segment, exact for powers up to t^3
-//   order             2 in the number of segments                2 at least
+//   order             2 in the number of segments, where no limit is active; 2 at least with jerk
 //
 // Why b: the dynamics are linear in it and finite at rest, so a and dt have closed forms. Jerk has none in b.
 //
