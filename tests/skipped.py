@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How many tests of a CTest run were skipped, and why: the reason that each printed, equal reasons on one line.
+"""How many tests of a CTest run were skipped, and why: the reason that each printed, equal reasons on one line. Cases
+that Python's unittest skipped inside of a test that passed are told, too.
 
 usage: skipped.py JUNIT_FILE (of ctest --output-junit)
 """
@@ -9,6 +10,7 @@ import sys
 import xml.etree.ElementTree
 
 GTEST = re.compile(r": Skipped\n(.*?)\n+\[  SKIPPED \]", re.DOTALL)
+CASE = re.compile(r" \.\.\. skipped (['\"])(.*)\1$", re.MULTILINE)
 UNSTATED = "no reason stated"
 
 
@@ -21,13 +23,17 @@ def reason(output):
 
 def summary(junit):
     """The lines of the summary."""
-    cases = xml.etree.ElementTree.fromstring(junit).findall("testcase")
-    by_reason = collections.defaultdict(list)
-    for case in cases:
-        if case.find("skipped") is not None:
-            by_reason[reason(case.findtext("system-out") or "")].append(case.get("name"))
-    yield f"{sum(map(len, by_reason.values()))} of {len(cases)} tests were skipped" + (":" if by_reason else "")
-    for why, names in sorted(by_reason.items(), key=lambda item: -len(item[1])):
+    tests = xml.etree.ElementTree.fromstring(junit).findall("testcase")
+    skipped, inside = collections.defaultdict(list), collections.defaultdict(list)
+    for test in tests:
+        output = test.findtext("system-out") or ""
+        if test.find("skipped") is not None:
+            skipped[reason(output)].append(test.get("name"))
+        for _, why in CASE.findall(output):
+            inside[why].append("a case of " + test.get("name"))
+    count, cases = (sum(map(len, names.values())) for names in (skipped, inside))
+    yield f"{count} of {len(tests)} tests were skipped" + (f", and {cases} inside of others" if cases else "")
+    for why, names in [*sorted(skipped.items(), key=lambda item: -len(item[1])), *inside.items()]:
         yield f"  {len(names):4} {why}: {names[0]}" + (", ..." if len(names) > 1 else "")
 
 
