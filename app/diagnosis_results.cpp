@@ -5,12 +5,13 @@
 #include "app/report/diagnosis_report.hpp"
 #include "scenarios/decision_cost.hpp"
 #include "scenarios/repaired_dataset.hpp"
+#include "scenarios/robot_file.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
 namespace joulepath {
 
-DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
-                                   const Document* document) {
+DiagnosisResults diagnosis_results(Dataset dataset, DiagnoseOptions options, const Document* document) {
+  options.refusal = refusal_of;
   DiagnosisResults results{.dataset = std::move(dataset)};
   Diagnosis& diagnosis = results.diagnosis = diagnose(results.dataset, options);
   if (document)

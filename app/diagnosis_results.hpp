@@ -18,9 +18,9 @@ struct DiagnosisResults {
   [[nodiscard]] std::string json_with_signals() const;
 };
 
-/// Diagnoses a dataset, and plans the standard missions with the corrected robot. `document` is the source of
+/// Diagnoses a dataset (`options.refusal` is set here), and plans the standard missions with the corrected robot. `document` is the source of
 /// the dataset; null: its file.
-[[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, const DiagnoseOptions& options,
+[[nodiscard]] DiagnosisResults diagnosis_results(Dataset dataset, DiagnoseOptions options,
                                                  const Document* document = nullptr);
 
 }  // namespace joulepath

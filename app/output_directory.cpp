@@ -1,12 +1,14 @@
 #include "app/output_directory.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "app/command.hpp"
 #include "model/assert.hpp"
@@ -31,9 +33,9 @@ void refuse_input(const fs::path& path) {
     throw ConfigError({{path.string(), 0, 0}, "--out", "an input of this command", "a name of its own", ""});
 }
 
-/// Writes and syncs a whole file.
-void write_whole(const fs::path& path, const std::string& content) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+/// Writes a whole file. A new one gets this mode, less the process's mask.
+void write_whole(const fs::path& path, const std::string& content, mode_t mode = 0644) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
   if (file < 0) fail(path, "write", std::strerror(errno));
   std::size_t done = 0;
   while (done < content.size()) {
@@ -93,6 +95,15 @@ fs::path without_trailing_slash(const std::string& directory) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+/// `mode`: of a file that is replaced.
+void rename_into_place(const fs::path& target, const std::string& content, std::optional<mode_t> mode = {}) {
+  const TemporaryDirectory temporary(target);
+  const fs::path part = temporary.path() / target.filename();
+  write_whole(part, content, mode ? mode_t{0600} : mode_t{0644});
+  if (mode && ::chmod(part.c_str(), *mode) != 0) fail(target, "write", std::strerror(errno));
+  rename_over(part, target);
+}
+
 }  // namespace
 
 OutputDirectory::OutputDirectory(const std::string& directory, std::vector<std::string> names, bool force)
@@ -136,7 +147,7 @@ void write_output_file(const std::string& file, const std::string& content, bool
     throw ConfigError({{file, 0, 0}, "", "a directory", "the name of a file", ""});
   if (!force && fs::exists(target, error)) refuse_existing(target);
   refuse_input(target);
-  replace_file(file, content);
+  rename_into_place(target, content);
 }
 
 bool remove_output_file(const std::string& file) {
@@ -150,10 +161,13 @@ bool remove_output_file(const std::string& file) {
 }
 
 void replace_file(const std::string& file, const std::string& content) {
-  const fs::path target = file;
-  const TemporaryDirectory temporary(target);
-  write_whole(temporary.path() / target.filename(), content);
-  rename_over(temporary.path() / target.filename(), target);
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(file, error);
+  if (error) fail(file, "write", error.message());
+  struct stat earlier {};
+  if (::stat(target.c_str(), &earlier) != 0) return rename_into_place(target, content);
+  if (::access(target.c_str(), W_OK) != 0) fail(file, "write", std::strerror(errno));
+  rename_into_place(target, content, earlier.st_mode & 07777);
 }
 
 }  // namespace joulepath

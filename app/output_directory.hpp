@@ -37,7 +37,8 @@ void write_output_file(const std::string& file, const std::string& content, bool
 /// does.
 bool remove_output_file(const std::string& file);
 
-/// The same as write_output_file() for a file that the user edits, an input or not.
+/// The same for a file that the user edits, an input or not: a symbolic link stays one, and the file keeps
+/// its mode. A file that the user may not write is refused.
 void replace_file(const std::string& file, const std::string& content);
 
 }  // namespace joulepath

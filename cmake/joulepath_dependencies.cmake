@@ -15,7 +15,6 @@ pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 if(NOT JOULEPATH_CONSUMER) # of the program alone; projects that use the library do without
   find_package(CLI11 REQUIRED)
-  pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 endif()
 
 if(NOT TARGET yaml-cpp::yaml-cpp)

@@ -1,11 +1,13 @@
 #include <algorithm>
 
 #include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/checks/foreign_robot.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/correction/all_clear.hpp"
 #include "diagnosis/correction/ceiling.hpp"
 #include "diagnosis/correction/control.hpp"
 #include "diagnosis/correction/correction.hpp"
+#include "diagnosis/correction/runs_apart.hpp"
 #include "diagnosis/energies_only/diagnose_energies.hpp"
 #include "diagnosis/energies_only/energy_run.hpp"
 #include "diagnosis/evidence/isolability.hpp"
@@ -16,16 +18,21 @@
 namespace joulepath {
 namespace {
 
-Diagnosis diagnose_without_logs(const Dataset& dataset, const DiagnoseOptions& options) {
-  if (std::ranges::any_of(dataset.runs, is_energy_run)) return diagnose_energies(dataset, options);
-  return {.notes = {"no run has a log with wheel speeds, nor an energy with its motion"}};
-}
-
 /// Broken channels say nothing about the robot: no cause is sought.
 Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<DataCheck> checks) {
   const Survey survey = survey_dataset(dataset, runs.signals);
   return {.verdict = Verdict::data_suspect,
           .data_checks = std::move(checks),
+          .missing_channels = survey.missing_channels,
+          .notes = survey.notes};
+}
+
+/// Causes relative to another robot's constants say nothing about this one.
+Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
+                           std::vector<ForeignConstant> constants) {
+  const Survey survey = survey_dataset(dataset, runs.signals);
+  return {.verdict = Verdict::unexplained,
+          .foreign_constants = std::move(constants),
           .missing_channels = survey.missing_channels,
           .notes = survey.notes};
 }
@@ -76,12 +83,18 @@ double share_of(const std::vector<UnknownCause>& unknowns, Verdict verdict) {
   return std::min(1.0, sum);
 }
 
+/// An explanation shows in a gap that shrinks.
+Verdict shown_verdict(Verdict verdict, const GapReport& gap) {
+  return verdict == Verdict::explained && !shrinks_notably(gap) ? Verdict::partly_explained : verdict;
+}
+
 /// What the held-out runs say of the named causes: verdict, gap, causes, and what they are worth.
 Diagnosis conclusion(const Examination& x, const Names& names, const Validation& validation,
                      std::size_t bootstrap) {
   const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
-  const auto [verdict, detectable_percent, all_clear_note] = examine_all_clear(x, judged, gap.energy);
+  const auto [verdict, detectable_percent, all_clear_note] =
+      examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
   gap.energy.detectable_percent = detectable_percent;
   const Causes causes = report_causes(x, names, validation, gap.energy);
   const Control control = wrong_candidate(x, named, causes.causes, gap.energy);
@@ -104,20 +117,88 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
           .validation_method = method_of(x.runs)};
 }
 
-/// The steps in their order; each reads what the steps before it found.
-Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const DiagnoseOptions& options) {
-  const Survey survey = survey_dataset(dataset, runs.signals);
-  std::set<std::string> without = survey.invisible_effects;
+/// What the runs say of another simulator's predictions, and with it of both models.
+void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+                     Diagnosis& d) {
+  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
+  d.simulator.model_verdict = d.verdict;
+  d.verdict = verdict_on_both(d.simulator);
+}
+
+/// The steps up to the names and their test on held-out runs; each reads what the steps before it found.
+struct Examined {
+  RunsByUse runs{};
+  Survey survey{};
+  Identification id{};
+  Names names{};
+  Validation validation{};
+
+  Examination on(const Dataset& dataset, const DiagnoseOptions& options) const {
+    return {.dataset = dataset, .runs = runs, .id = id, .refusal = options.refusal};
+  }
+};
+
+Examined examine(const Dataset& dataset, RunsByUse runs, const DiagnoseOptions& options) {
+  Examined examined{.runs = std::move(runs)};
+  examined.survey = survey_dataset(dataset, examined.runs.signals);
+  std::set<std::string> without = examined.survey.invisible_effects;
   without.insert(options.without.begin(), options.without.end());
-  const Identification id = identify(runs.diagnosis, without);
-  const Examination x{.dataset = dataset, .runs = runs, .id = id};
+  examined.id = identify(examined.runs.diagnosis, without);
+  const Examination x = examined.on(dataset, options);
+  examined.names = choose_names(x);
+  examined.validation = validate(x, judge(x, examined.names));
+  return examined;
+}
+
+/// The runs that the fit of the others does not describe, in the numbers of the answer.
+std::vector<RunApart> describe(const Dataset& dataset, const RunsByUse& all,
+                               const std::vector<RunPower>& powers, const std::set<std::size_t>& apart) {
+  const std::vector<RunEnergy> nominal =
+      run_energies(all.signals, ModelPoints(all.signals.size(), {.robot = dataset.robot}));
+  const double gap_J = absolute_gap_J(nominal);
+  std::vector<RunApart> described;
+  for (const RunPower& power : powers) {
+    if (!apart.contains(power.run)) continue;
+    const auto at =
+        std::ranges::find(all.signals, power.run, &RunSignals::run_index) - all.signals.begin();
+    described.push_back({dataset.runs[power.run].name, 100 * (power.measured_W / power.predicted_W - 1),
+                         std::abs(nominal[static_cast<std::size_t>(at)].gap_J()) / gap_J});
+  }
+  return described;
+}
+
+/// Where the fit of all runs leaves some of them far from the rest, the others are examined alone. The answer is
+/// theirs if their fit confirms it.
+std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const DiagnoseOptions& options,
+                                           Examined& all) {
+  if (all.runs.few) return {};
+  const auto apart_from = [&](const Examined& e, const std::vector<RunPower>& powers, double ratio) {
+    return runs_apart(powers, ratio, noise_floor_percent(e.on(dataset, options), e.validation.fitted));
+  };
+  const std::set<std::size_t> doubted =
+      apart_from(all, run_powers(all.on(dataset, options), all.validation), kDoubtedApart);
+  if (doubted.empty()) return {};
+  Examined others = examine(dataset, with_estimated_payloads(sort_runs(dataset, doubted)), options);
+  const std::vector<RunPower> powers = run_powers(others.on(dataset, options), others.validation,
+                                                  {doubted.begin(), doubted.end()});
+  if (others.runs.few || apart_from(others, powers, kApart) != doubted) return {};
+  std::vector<RunApart> described = describe(dataset, all.runs, powers, doubted);
+  all = std::move(others);
+  return described;
+}
+
+Diagnosis diagnose_logs(const Dataset& dataset, RunsByUse usable, const DiagnoseOptions& options) {
+  Examined examined = examine(dataset, std::move(usable), options);
+  std::vector<RunApart> apart = leave_out_runs_apart(dataset, options, examined);
+  const auto& [runs, survey, id, names, validation] = examined;
+  const Examination x = examined.on(dataset, options);
   const std::vector<OtherPrediction> others = other_predictions(dataset, runs.signals, runs.options);
-  const Names names = choose_names(x);
-  const Validation validation = validate(x, judge(x, names));
   const Correction correction = correction_of(x, validation);
   Diagnosis d = conclusion(x, names, validation, options.bootstrap);
+  d.runs_apart = std::move(apart);
+  judge_simulator(runs.signals, others, d);
   d.where = localize_gap(runs.signals, others, x.nominal(), id.equations.noise, options.bootstrap);
-  d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.verdict);
+  d.next = propose_run(id, dataset.robot, d.causes, d.ranking, d.simulator.model_verdict);
   d.isolability = isolability(read_signals(runs.diagnosis, 0.0), dataset.robot,
                               {id.equations.noise, id.equations.run_variance, id.dispersion},
                               survey.invisible_effects, options.without);
@@ -125,24 +206,30 @@ Diagnosis diagnose_logs(const Dataset& dataset, const RunsByUse& runs, const Dia
   d.missing_channels = survey.missing_channels;
   d.notes = joined({survey.notes,
                     taken_out(options.without),
-                    {told_by_others(runs.signals, others)},
+                    {told_by_others(dataset, d.simulator)},
                     d.notes,
                     correction.notes,
                     {told_by_energies(dataset, correction)}});
   d.corrected_robot = correction.robot;
   d.corrected_instruments = correction.instruments;
+  d.refused_correction = correction.refused;
   return d;
 }
 
 }  // namespace
 
 Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
-  RunsByUse runs = sort_runs(dataset);
-  std::vector<DataCheck> checks = check_data(dataset, runs);
-  if (checks.empty()) runs = with_estimated_payloads(std::move(runs));
-  Diagnosis diagnosis = !checks.empty()        ? stopped_by(dataset, runs, std::move(checks))
-                        : runs.signals.empty() ? diagnose_without_logs(dataset, options)
-                                               : diagnose_logs(dataset, runs, options);
+  refuse_short_runs(dataset);
+  const auto examined = [&]() -> Diagnosis {
+    RunsByUse runs = sort_runs(dataset);
+    if (auto constants = foreign_constants(dataset.robot, runs.signals); !constants.empty())
+      return of_another_robot(dataset, runs, std::move(constants));
+    if (auto checks = check_data(dataset, runs); !checks.empty())
+      return stopped_by(dataset, runs, std::move(checks));
+    if (runs.signals.empty()) return diagnose_without_logs(dataset, options);
+    return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
+  };
+  Diagnosis diagnosis = examined();
   diagnosis.artifacts = artifact_texts(dataset);
   return diagnosis;
 }

@@ -32,6 +32,9 @@ inline constexpr double kTurningRun = 0.1;
 /// Of a log that can be smoothed, of a channel whose memory and of a pair of channels whose correlation is
 /// estimated. Chosen: guards short logs and channels that few rows have.
 inline constexpr std::size_t kLeastSamples = 40;
+/// Of a log that can be smoothed. Derived: the width of the kernel, 7 kKernelSigma_s, and two periods of a
+/// log of kLeastSamples; a shorter log may leave no row.
+inline constexpr double kLeastLength_s = 0.5;
 /// Of all runs together; longer logs are thinned out more. Declared: bounds memory and time.
 inline constexpr double kMostRows = 12000.0;
 /// Between rows, at most; logs of more than 80 minutes have more rows. Derived: a delay spans three rows on
@@ -95,6 +98,9 @@ inline constexpr double kDoubtfulBattery = 0.0001;
 inline constexpr double kExactRelation = 1e-5;
 /// Exponent of the coefficients' boxes while a factor is refined: they are nearly fixed. Chosen (0500).
 inline constexpr double kRefinementFreedom = 0.05;
+/// Rows of a relation beyond its coefficients. Derived: what fewer rows leave unexplained is noise to more
+/// than a factor of 2 (chi-square of 10, 95 %); with none, every relation is exact.
+inline constexpr std::ptrdiff_t kLeastFreeRows = 10;
 /// A repair must lower what a relation leaves unexplained by this factor. Chosen (0500).
 inline constexpr double kRepairGain = 4.0;
 /// The same of a relation that is doubtful only. Chosen (0500).
@@ -190,8 +196,19 @@ inline constexpr double kLeastChange = 0.3;
 
 /// Of a wheel's rim. Physical scale.
 inline constexpr double kFastest_m_s = 20.0;
+/// A reading this many times what the battery drives through a standing motor is in another unit. Chosen: a
+/// winding is known better, and a slip of a unit is a factor of 1000.
+inline constexpr double kFarBeyond = 10.0;
 /// Between samples, median. Physical scale.
 inline constexpr double kLongestStep_s = 60.0;
+/// Of an epoch clock: the year 2286. Derived: milliseconds since 1970 are above it, seconds below.
+inline constexpr double kLatestClock_s = 1e10;
+/// From rest to a wheel's greatest speed, at the steepest of the log. Physical scale: a robot needs seconds.
+inline constexpr double kLongestStart_s = 100.0;
+/// And in more samples than this: a log with a sample each minute misses the start. Chosen.
+inline constexpr double kLeastStartSteps = 10.0;
+/// Of a wheel's greatest speed: a slower one stands. Chosen.
+inline constexpr double kStandingShare = 0.1;
 /// Ratio of the body's speed to that of its wheels: another robot's log. Physical scale.
 inline constexpr double kOddRatio = 2.0;
 /// Below this mean speed they are not compared. Physical scale.
@@ -237,6 +254,10 @@ inline constexpr double kLeastChangingFriction_Nm = 1e-3;
 inline constexpr double kRunGyroBias_rad_s = 1e-3;
 /// The same of the standby power. Physical scale.
 inline constexpr double kRunStandby_W = 0.05;
+
+/// A battery's open-circuit voltage differs from the file's by this share, and falls by it in a run, 1-sigma:
+/// it goes with the charge. Physical scale.
+inline constexpr double kOpenCircuitChange = 0.05;
 
 /// Prior width of a payload that no file states over the robot's mass, where the robot has no limit of it.
 /// Physical scale.
@@ -421,6 +442,16 @@ inline constexpr double kAnotherDay = 0.7;
 inline constexpr double kLawInexactness = 0.025;
 /// Of the diagnosis runs, to choose the ceiling's ridge. Chosen.
 inline constexpr std::size_t kRidgeFolds = 4;
+
+// A run that no model of the others describes.
+
+/// Its gap over that of the next run, under the fit of the others. Chosen: a run of a payload, a place or a
+/// direction of its own has a law that explains it.
+inline constexpr double kApart = 4.0;
+/// The same under the fit of all runs, from which on the others are fitted alone: one run moves the fit. Chosen.
+inline constexpr double kDoubtedApart = 1.5;
+/// Its gap over the mean power, at least. Declared.
+inline constexpr double kLeastApart = 0.05;
 
 // Cells of the gap, and phases of a motion.
 

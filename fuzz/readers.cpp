@@ -1,6 +1,7 @@
-// One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. An input is
-// right, or it is refused with a ConfigError; anything else (crash, sanitizer report, other exception, more
-// time or memory than the limits of ./dev fuzz) is a finding. Another value lists the targets.
+// One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. Datasets and
+// logs that are read are checked and diagnosed, too, where they are short. An input is right, or it is
+// refused with a ConfigError; anything else (crash, sanitizer report, other exception, more time or memory
+// than the limits of ./dev fuzz) is a finding. Another value lists the targets.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -17,7 +18,10 @@
 
 #include "app/command.hpp"
 #include "app/jobs/journal.hpp"
+#include "diagnosis/checks/data_checks.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/any_file.hpp"
+#include "scenarios/dataset_file.hpp"
 
 namespace {
 
@@ -117,10 +121,28 @@ void read_as(const std::string& kind, const std::string& input) {
   }
 }
 
+/// Checks and diagnoses the dataset, or the log with a right robot, as the commands do. Work grows with the
+/// samples: longer ones are left to the readers.
+void diagnose_as_commands_do(const std::string& input) {
+  constexpr std::size_t kMostSamples = 500;
+  static const std::string robot = in_scratch("../good/robot.yaml");
+  try {
+    const joulepath::Dataset dataset = joulepath::read_dataset_or_log(
+        input, {.cut_long_logs = true, .accept_implausible = true}, chosen().kind == "dataset" ? "" : robot);
+    std::size_t samples = 0;
+    for (const joulepath::Run& run : dataset.runs) samples += run.log.size();
+    if (samples > kMostSamples) return;
+    static_cast<void>(joulepath::check_data(dataset, joulepath::sort_runs(dataset)));
+    static_cast<void>(joulepath::diagnose(dataset, {.bootstrap = 5}));
+  } catch (const joulepath::ConfigError&) {
+  }
+}
+
 /// A bag is read twice: its topics, then the run in it.
 void read_as_chosen(const std::string& input) {
   read_as(chosen().kind, input);
   if (chosen().kind == "bag") read_as("run log", input);
+  if (chosen().kind == "dataset" || chosen().kind == "run log") diagnose_as_commands_do(input);
 }
 
 }  // namespace

@@ -31,9 +31,16 @@ Character decode(std::string_view text) {
 
 bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
-std::string escaped(unsigned value) {
-  char text[8];
-  std::snprintf(text, sizeof text, "\\x%02x", value & 0xFFu);
+/// Line and paragraph separators, and marks that turn the direction of writing [Unicode 15, UAX 9]: they move
+/// what is printed after them.
+bool is_layout_mark(std::uint32_t code) {
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+std::string escaped(std::uint32_t value) {
+  char text[12];
+  std::snprintf(text, sizeof text, value <= 0xFF ? "\\x%02x" : "\\u%04x", static_cast<unsigned>(value));
   return text;
 }
 
@@ -54,7 +61,7 @@ std::string printable(std::string_view text) {
     const Character character = decode(text.substr(at));
     if (character.bytes == 0)
       shown += escaped(static_cast<unsigned char>(text[at]));
-    else if (is_control(character.code))
+    else if (is_control(character.code) || is_layout_mark(character.code))
       shown += escaped(character.code);
     else
       shown += text.substr(at, character.bytes);

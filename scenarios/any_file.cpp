@@ -78,12 +78,13 @@ FileSummary summary_of_dataset(const std::string& file, const ReadOptions& optio
       read_dataset(file, {.untrusted = options.untrusted, .cut_long_logs = true, .accept_implausible = true});
   std::size_t samples = 0;
   for (const auto& run : dataset.runs) samples += run.log.size();
+  refuse_short_runs(dataset);
   RunsByUse runs = sort_runs(dataset);
   FileSummary summary{"dataset", counted(dataset.runs.size(), "run") + ", " + counted(samples, "sample"),
                       notes_of(dataset.artifacts), check_data(dataset, runs)};
   describe_repairs(dataset, summary.data_checks);
-  if (std::string note = unstated_payload_note(dataset); !note.empty())
-    summary.notes.push_back(std::move(note));
+  for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
+    if (!note.empty()) summary.notes.push_back(note);
   if (brief || !summary.data_checks.empty() || runs.signals.empty()) return summary;
   summary.isolability = isolability(dataset, with_estimated_payloads(std::move(runs)));
   std::ranges::copy(isolability_notes(summary.isolability), std::back_inserter(summary.notes));

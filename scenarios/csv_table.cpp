@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/printable.hpp"
 #include "scenarios/document.hpp"
 
 namespace joulepath {
@@ -91,7 +92,7 @@ class CsvParser {
     for (std::size_t position = 0; position <= line_.size();) {
       const std::size_t start = position;
       const auto cell = position < line_.size() ? next_cell(position) : (++position, std::string_view{});
-      const std::string name(trimmed(cell));
+      const std::string name = printable(trimmed(cell));
       if (parse_number(name))
         fail(start, "", "a number in the header", "a first row with the columns' names");
       const bool want = !name.empty() && wanted(name);

@@ -10,6 +10,7 @@
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/motion_entry.hpp"
+#include "scenarios/partial_channels.hpp"
 #include "scenarios/physical_bounds.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
@@ -67,6 +68,16 @@ void fill_payload(Run& run, std::vector<LogArtifact>& artifacts) {
   if (run.payload.size() == 1) column = std::vector<double>();
 }
 
+/// The run without channels that are known in a part of it: as a whole, or in its parts.
+std::vector<Run> with_whole_channels(Run run, const ReadOptions& options,
+                                     std::vector<LogArtifact>& artifacts) {
+  if (!options.keep_whole_drives) return split_at_partial_channels(std::move(run), artifacts);
+  drop_partial_channels(run.log, run.name, artifacts);
+  std::vector<Run> whole;
+  whole.push_back(std::move(run));
+  return whole;
+}
+
 class RunReader {
  public:
   RunReader(Dataset& dataset, const ColumnSources& sources, const ReadOptions& options,
@@ -91,7 +102,12 @@ class RunReader {
   }
 
  private:
-  void add(const Node& node, Run run) {
+  void add(const Node& node, Run whole) {
+    for (Run& run : with_whole_channels(std::move(whole), options_, dataset_.artifacts))
+      add_stretches(node, std::move(run));
+  }
+
+  void add_stretches(const Node& node, Run run) {
     std::vector<Run> stretches = split_at_clock_jumps(std::move(run), dataset_.artifacts);
     if (stretches.empty())
       node.fail_found("a log with a jump of the clock at every sample", "a clock in seconds");
@@ -139,6 +155,7 @@ class RunReader {
     refuse_same_samples(run, named_by);
     run.current_sign_from_motion = log.current_sign_from_motion;
     run.wheels_from_body_speeds = log.wheels_from_body_speeds;
+    run.clock_origin_s = log.clock_origin_s;
     if (!options_.accept_implausible)
       for (const Implausible& channel : implausible_channels(run, dataset_.robot))
         named_by.fail_found(channel.found, channel.accepted,
@@ -182,9 +199,10 @@ class RunReader {
                             file, [](const std::string&) { return false; }, NamedBy(node))
                             .header;
     const bool own_names = std::find(header.begin(), header.end(), "time_s") != header.end();
-    run.predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources,
-                                 dataset_.robot.geometry, node.text())
-                        .trajectory;
+    RunLog predicted = read_run_log({{file, NamedBy(node)}}, own_names ? ColumnSources{} : sources,
+                                    dataset_.robot.geometry, node.text());
+    drop_partial_channels(predicted.trajectory, node.text(), dataset_.artifacts);
+    run.predicted = std::move(predicted.trajectory);
   }
 
   Dataset& dataset_;
@@ -261,6 +279,7 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
   RunLog log = read_run_log(log_file, dataset.robot.geometry);
   Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
   run.wheels_from_body_speeds = log.wheels_from_body_speeds;
+  run.clock_origin_s = log.clock_origin_s;
   if (!options.accept_implausible)
     for (const Implausible& channel : implausible_channels(run, dataset.robot))
       throw ConfigError({run.mark, "", channel.found, channel.accepted,

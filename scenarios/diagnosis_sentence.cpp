@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 #include "diagnosis/thresholds.hpp"
@@ -26,7 +27,7 @@ std::string plain_words(std::string name) {
 }
 
 /// "dragging wheel (left), 0.24 N m": the effect with its strength.
-std::string cause_words(const Cause& cause) {
+std::string strength_words(const Cause& cause) {
   const std::string text = plain_words(effect_label(cause.effect));
   if (cause.parameters.empty()) return text;
   const FoundParameter& strength = cause.parameters.front();
@@ -36,21 +37,65 @@ std::string cause_words(const Cause& cause) {
   return text + ", " + three_digits(strength.value) + (unit.empty() ? "" : " " + unit);
 }
 
+std::string others_words(const Cause& cause) {
+  std::vector<std::string> others;
+  for (const std::string& other : cause.indistinguishable_from) others.push_back(plain_words(other));
+  return text_of_list(others);
+}
+
+/// "viscous friction, 0.01 N m s/rad (probability 0.29, not told from quadratic drag, stribeck friction)".
+std::string cause_words(const Cause& cause) {
+  const std::string others = others_words(cause);
+  return strength_words(cause) + " (probability " + three_digits(cause.probability) +
+         (others.empty() ? "" : ", not told from " + others) + ")";
+}
+
 std::string causes_words(const std::vector<Cause>& causes) {
   std::vector<std::string> words;
   for (const Cause& cause : causes) words.push_back(cause_words(cause));
   return text_of_list(words, "; ");
 }
 
-/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."
+/// " The position gap shrinks from 68 mm to 12 mm.": of a pose, where the correction changes it by what counts.
+std::string pose_words(const char* subject, const SignalGap& gap, double scale, const char* unit) {
+  if (!gap.present || std::max(gap.before_rms, gap.after_rms) <= gap.noise_floor_rms) return "";
+  if (!is_notable_change(gap.before_rms, gap.after_rms)) return "";
+  return std::string(" The ") + subject + " gap " + (gap.after_rms < gap.before_rms ? "shrinks" : "grows") +
+         " from " + three_digits(scale * gap.before_rms) + " to " + three_digits(scale * gap.after_rms) + " " +
+         unit + ".";
+}
+
+/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is none.
+std::string size_words(const EnergyGap& e, bool named) {
+  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ")";
+  const bool shrinks = named && e.after_percent < e.before_percent &&
+                       is_notable_change(e.before_percent, e.after_percent) &&
+                       e.before_percent > e.noise_floor_percent;
+  if (!shrinks) return " is " + percent_text(e.before_percent) + floor;
+  return " shrinks from " + percent_text(e.before_percent) + " to " + percent_text(e.after_percent) + floor;
+}
+
+/// "The energy gap shrinks from 26 % to 0.3 % (noise floor 0.1 %)."; of motors and battery, where both are
+/// measured; and the gaps of the pose where they change.
 std::string gap_words(const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
-  if (!(e.before_J > 0)) return "";
-  const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ").";
-  if (d.causes.empty() || !(e.after_percent < e.before_percent))
-    return " The energy gap is " + percent_text(e.before_percent) + floor;
-  return " The energy gap shrinks from " + percent_text(e.before_percent) + " to " +
-         percent_text(e.after_percent) + floor;
+  const bool named = !d.causes.empty();
+  const std::optional<EnergyGap>& battery = d.gap.battery_energy;
+  const std::string of_file = d.simulator.runs > 0 ? " The robot file's " : " The ";
+  std::string words;
+  if (d.gap.energy.before_J > 0)
+    words = of_file + (battery ? "energy gap at the motors" : "energy gap") + size_words(d.gap.energy, named) + ".";
+  if (battery && battery->before_J > 0)
+    words += of_file + "energy gap at the battery" + size_words(*battery, named) + ".";
+  if (!named) return words;
+  return words + pose_words("position", d.gap.position_m, 1000, "mm") +
+         pose_words("heading", d.gap.heading_rad, 1, "rad");
+}
+
+/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs."
+std::string simulator_words(const SimulatorGap& simulator) {
+  return "The simulator's energy gap is " + percent_text(simulator.gap_percent) + " (bias " +
+         percent_text(simulator.bias_percent) + ", noise floor " + percent_text(simulator.noise_floor_percent) +
+         ") on " + std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
 }
 
 /// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,
@@ -60,18 +105,22 @@ std::string size_not_seen(const Diagnosis& d) {
   return percent > 100 * kMaterialEnergy ? " above " + three_digits(percent) + " % of the energy" : "";
 }
 
+/// With the share of each unknown cause in what is explained.
 std::string unknown_words(const Diagnosis& d) {
   if (!d.leftover_significant || d.leftover_description.empty()) return "";
-  return " What no effect explains " + d.leftover_description + ".";
+  std::vector<std::string> shares;
+  for (const UnknownCause& unknown : d.unknowns)
+    shares.push_back(unknown.depends_on + ", " + percent_text(100 * unknown.share) + " of the explained gap");
+  return " What no effect explains " +
+         (shares.empty() ? d.leftover_description : "depends on " + text_of_list(shares, "; then ")) + ".";
 }
 
 /// "these runs cannot tell viscous friction from quadratic drag, stribeck friction".
 std::string group_words(const Diagnosis& d) {
   for (const Cause& cause : d.causes) {
     if (cause.indistinguishable_from.empty()) continue;
-    std::vector<std::string> others;
-    for (const std::string& other : cause.indistinguishable_from) others.push_back(plain_words(other));
-    return "these runs cannot tell " + cause_words(cause) + " from " + text_of_list(others) + ".";
+    return "these runs cannot tell " + strength_words(cause) + " (probability " +
+           three_digits(cause.probability) + ") from " + others_words(cause) + ".";
   }
   return "the likeliest cause is uncertain: " + causes_words(d.causes) + ".";
 }
@@ -89,12 +138,11 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
-}  // namespace
-
-std::string diagnosis_sentence(const Diagnosis& d) {
-  const VerdictWords& words = words_of(d.verdict);
+/// The sentence on the model of the robot file.
+std::string model_sentence(const Diagnosis& d, Verdict verdict) {
+  const VerdictWords& words = words_of(verdict);
   const std::string title = std::string(words.title) + ": ";
-  switch (d.verdict) {
+  switch (verdict) {
     case Verdict::no_gap:
       return std::string(words.title) + size_not_seen(d) + ": " + clause(words.meaning) + gap_words(d);
     case Verdict::explained:
@@ -111,6 +159,51 @@ std::string diagnosis_sentence(const Diagnosis& d) {
       return title + clause(words.meaning) + gap_words(d);
   }
   return {};
+}
+
+/// "The robot file does not describe this robot: winding resistance 2.7 ohm in the file, 0.5 ohm in the runs."
+std::string foreign_words(const std::vector<ForeignConstant>& constants) {
+  std::vector<std::string> words;
+  for (const ForeignConstant& one : constants)
+    words.push_back(one.name + " " + three_digits(one.in_file) + " " + one.unit + " in the file, " +
+                    three_digits(one.in_runs) + " " + one.unit + " in the runs");
+  return "The robot file does not describe this robot: " + text_of_list(words, "; ") + ".";
+}
+
+/// On both models, where there are two.
+std::string verdict_sentence(const Diagnosis& d) {
+  if (!d.foreign_constants.empty())
+    return std::string(words_of(d.verdict).title) + ": " + clause(foreign_words(d.foreign_constants));
+  if (d.simulator.runs == 0) return model_sentence(d, d.verdict);
+  const std::string simulator = simulator_words(d.simulator);
+  if (d.verdict == Verdict::no_gap)
+    return "No gap of the simulator: " + clause(simulator) + " Robot file: " +
+           clause(model_sentence(d, d.simulator.model_verdict));
+  if (d.verdict == d.simulator.model_verdict) return model_sentence(d, d.verdict) + " " + simulator;
+  return std::string(words_of(d.verdict).title) + ": " + clause(simulator) + " Robot file: " +
+         clause(model_sentence(d, d.simulator.model_verdict));
+}
+
+}  // namespace
+
+std::string runs_apart_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const RunApart& apart : d.runs_apart)
+    words.push_back(apart.run + ", whose energy is " + percent_text(std::abs(apart.over_model_percent)) +
+                    (apart.over_model_percent < 0 ? " below" : " above") + " the model of the others (" +
+                    percent_text(100 * apart.share_of_gap) + " of the gap of all runs)");
+  return words.empty() ? "" : "Left out: " + text_of_list(words, "; ") + ".";
+}
+
+std::string diagnosis_sentence(const Diagnosis& d) {
+  const std::string apart = runs_apart_words(d);
+  return verdict_sentence(d) + (apart.empty() ? "" : " " + apart);
+}
+
+std::string diagnosis_meaning(const Diagnosis& d) {
+  if (!d.foreign_constants.empty()) return foreign_words(d.foreign_constants);
+  const bool of_the_model = d.simulator.runs == 0 || d.verdict == d.simulator.model_verdict;
+  return of_the_model ? words_of(d.verdict).meaning : simulator_words(d.simulator);
 }
 
 }  // namespace joulepath

@@ -6,7 +6,14 @@
 
 namespace joulepath {
 
-/// The result of a diagnosis in one sentence: verdict, causes with their sizes, and the change of the gap.
+/// The result of a diagnosis in one line: verdict, causes with their sizes and probabilities, and the change of
+/// the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);
+
+/// "Left out: run_07.csv, whose energy is 51 % above ...": the runs that the answer does not count; or empty.
+[[nodiscard]] std::string runs_apart_words(const Diagnosis& diagnosis);
+
+/// What the verdict means, in one or two sentences.
+[[nodiscard]] std::string diagnosis_meaning(const Diagnosis& diagnosis);
 
 }  // namespace joulepath

@@ -97,6 +97,7 @@ struct NamedBy {
 struct ReadOptions {
   bool untrusted{};           ///< file names in the input must be relative and stay in the input's folder
   bool cut_long_logs{};       ///< long logs are cut at standstill into several runs
+  bool keep_whole_drives{};   ///< leave channels out that a part of a log lacks, instead of cutting the log
   bool accept_implausible{};  ///< accept logs with numbers that no robot has; the caller reports them
 };
 

@@ -127,7 +127,11 @@ class LogFileReader {
     const ColumnSource mapping = source(name);
     if (mapping.is_absent) return;
     std::vector<double> channel = take(*values);
-    if (const auto missing = fill_missing(file_.times, channel))
+    std::vector<bool> own(channel.size());
+    std::transform(channel.begin(), channel.end(), own.begin(),
+                   [](double value) { return std::isfinite(value); });
+    const std::size_t missing = fill_missing(file_.times, channel);
+    if (missing > 0)
       file_.artifacts.push_back({"missing_values", run_, name,
                                  channel.empty()
                                      ? "the column is empty"
@@ -139,17 +143,31 @@ class LogFileReader {
         file_.artifacts.push_back(
             {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
     convert(channel, mapping);
+    if (missing > 0 || mapping.delay_s != 0.0)
+      file_.holds[name] = holds_of_own(channel, own, mapping.delay_s);
+    shift(channel, mapping);
     file_.channels[name] = std::move(channel);
   }
 
   void convert(std::vector<double>& channel, const ColumnSource& mapping) const {
     for (double& value : channel) value = mapping.scale * value + mapping.offset;
     if (mapping.derivative) channel = change_per_second(file_.times, channel);
-    if (mapping.delay_s != 0.0) {
-      std::vector<double> shifted = file_.times;
-      for (double& time_s : shifted) time_s -= mapping.delay_s;
-      channel = interpolated(shifted, channel, file_.times);
-    }
+  }
+
+  /// A late channel at the times that it belongs to.
+  void shift(std::vector<double>& channel, const ColumnSource& mapping) const {
+    if (mapping.delay_s == 0.0) return;
+    std::vector<double> shifted = file_.times;
+    for (double& time_s : shifted) time_s -= mapping.delay_s;
+    channel = interpolated(shifted, channel, file_.times);
+  }
+
+  [[nodiscard]] Holds holds_of_own(const std::vector<double>& channel, const std::vector<bool>& own,
+                                   double delay_s) const {
+    std::vector<double> times, readings;
+    for (std::size_t i = 0; i < channel.size(); ++i)
+      if (own[i]) times.push_back(file_.times[i] - delay_s), readings.push_back(channel[i]);
+    return holds_of(times, readings);
   }
 
   [[nodiscard]] bool used_orientation() const {
@@ -179,6 +197,7 @@ class LogFileReader {
     }
     unwrap_angle(heading_rad);
     convert(heading_rad, source("heading_rad"));
+    shift(heading_rad, source("heading_rad"));
     file_.channels["heading_rad"] = std::move(heading_rad);
   }
 

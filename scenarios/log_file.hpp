@@ -7,6 +7,7 @@
 #include "diagnosis/values/dataset.hpp"
 #include "scenarios/csv_table.hpp"
 #include "scenarios/log_columns.hpp"
+#include "scenarios/log_repair.hpp"
 
 namespace joulepath {
 
@@ -22,6 +23,7 @@ struct LogFile {
   CsvTable table{};  ///< as read, without its columns
   std::vector<double> times{};
   std::map<std::string, std::vector<double>> channels{};
+  HoldsOfChannel holds{};  ///< of the readings of channels that have rows between them
   std::vector<LogArtifact> artifacts{};
 };
 

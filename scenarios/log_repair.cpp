@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "scenarios/log_columns.hpp"
+#include "scenarios/partial_channels.hpp"
 // Design: docs/decisions/0601-logs.md
 namespace joulepath {
 namespace {
@@ -80,51 +81,19 @@ bool has_fine_steps(const std::vector<double>& values, std::size_t changes) {
   return 10 * distinct(values) > 9 * changes;
 }
 
-/// Equal values in a row, zeros aside (a robot at rest).
-struct Hold {
-  std::size_t start{};
-  std::size_t length{};
-};
-
-/// The holds of a channel. A log of a day has millions of them: the short ones are only counted.
-struct Holds {
-  std::size_t count{};
-  std::map<std::size_t, std::size_t> count_of_length{};
-  std::vector<Hold> of_reported_length{};
-
-  [[nodiscard]] std::size_t median_length() const {
-    std::size_t below = 0;
-    for (const auto& [length, number] : count_of_length)
-      if ((below += number) > count / 2) return length;
-    return 0;
-  }
-};
-
-Holds holds_of(const std::vector<double>& values) {
-  Holds holds;
-  std::size_t start = 0, singles = 0;
-  for (std::size_t i = 1; i <= values.size(); ++i) {
-    if (i < values.size() && values[i] == values[start]) continue;
-    const Hold hold{start, i - start};
-    start = i;
-    if (values[hold.start] == 0.0) continue;
-    ++holds.count;
-    if (hold.length == 1)
-      ++singles;
-    else
-      ++holds.count_of_length[hold.length];
-    if (hold.length >= kHeldSamples) holds.of_reported_length.push_back(hold);
-  }
-  if (singles > 0) holds.count_of_length[1] = singles;
-  return holds;
-}
+/// Whether the sensor of a channel is slower than its log: it usually repeats a value.
+bool is_slow(const Holds& holds) { return holds.count >= 30 && holds.median_length() >= 2; }
 
 /// Whether another channel changed all the time: then the sensor stopped, not the robot.
-bool changes_during(const std::vector<double>& witness, const Hold& hold) {
+bool changes_during(const std::vector<double>& times, const std::vector<double>& witness, const Hold& hold) {
+  const auto row_at = [&](auto place) { return static_cast<std::size_t>(place - times.begin()); };
+  const std::size_t first = row_at(std::ranges::lower_bound(times, hold.from_s)),
+                    end = row_at(std::ranges::upper_bound(times, hold.to_s));
+  if (end < first + 2) return false;
   std::size_t changes = 0;
-  for (std::size_t i = hold.start + 1; i < hold.start + hold.length; ++i)
+  for (std::size_t i = first + 1; i < end; ++i)
     if (witness[i] != witness[i - 1]) ++changes;
-  return 10 * changes >= 9 * (hold.length - 1);
+  return 10 * changes >= 9 * (end - first - 1);
 }
 
 /// A value that stays exactly the same while a wheel's speed changes.
@@ -133,8 +102,8 @@ std::optional<LogArtifact> held_values(const Trajectory& log, const LogArtifact&
   LogArtifact held = of;
   std::size_t longest = 0;
   for (const Hold& hold : holds.of_reported_length) {
-    if (!changes_during(witness, hold)) continue;
-    if (held.count == 0) held.first_time_s = log.time_s[hold.start];
+    if (!changes_during(log.time_s, witness, hold)) continue;
+    if (held.count == 0) held.first_time_s = hold.from_s;
     held.count += hold.length;
     longest = std::max(longest, hold.length);
   }
@@ -148,13 +117,12 @@ std::optional<LogArtifact> held_values(const Trajectory& log, const LogArtifact&
 
 /// A channel that repeats every value in several rows: its sensor is slower than the log.
 std::optional<LogArtifact> slow_channel(const LogArtifact& of, const Holds& holds) {
-  const std::size_t rows = holds.median_length();
-  if (holds.count < 30 || rows < 2) return {};
+  if (!is_slow(holds)) return {};
   LogArtifact slow = of;
   slow.kind = "slow_channel";
   slow.count = holds.count;
-  slow.description =
-      "a new value only at every " + std::to_string(rows) + ". row: the channel is slower than the log";
+  slow.description = "a new value only at every " + std::to_string(holds.median_length()) +
+                     ". row: the channel is slower than the log";
   return slow;
 }
 
@@ -176,13 +144,11 @@ std::vector<double> places(const Trajectory& log) {
   return place;
 }
 
-void find_stuck(const Trajectory& log, const LogArtifact& of, const std::vector<double>& values,
+void find_stuck(const Trajectory& log, const LogArtifact& of, const Holds& holds,
                 const std::vector<double>& witness, std::vector<LogArtifact>& artifacts) {
-  const Holds holds = holds_of(values);
-  const auto held = held_values(log, of, holds, witness), slow = slow_channel(of, holds);
-  if ((!held && !slow) || !has_fine_steps(values, holds.count)) return;
-  if (held) artifacts.push_back(*held);
-  if (slow) artifacts.push_back(*slow);
+  if (!holds.fine_steps) return;
+  if (const auto held = held_values(log, of, holds, witness)) artifacts.push_back(*held);
+  if (const auto slow = slow_channel(of, holds)) artifacts.push_back(*slow);
 }
 
 /// Heading, temperature, payload and commands may stay constant for long; other measured channels may not.
@@ -260,7 +226,37 @@ std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& 
   return missing;
 }
 
-std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::string& run) {
+std::size_t Holds::median_length() const {
+  std::size_t below = 0;
+  for (const auto& [length, number] : count_of_length)
+    if ((below += number) > count / 2) return length;
+  return 0;
+}
+
+Holds holds_of(const std::vector<double>& times, const std::vector<double>& readings) {
+  Holds holds;
+  std::size_t start = 0, singles = 0;
+  for (std::size_t i = 1; i <= readings.size(); ++i) {
+    if (i < readings.size() && readings[i] == readings[start]) continue;
+    const Hold hold{times[start], times[i - 1], i - start};
+    const bool at_rest = readings[start] == 0.0;
+    start = i;
+    if (at_rest) continue;
+    ++holds.count;
+    if (hold.length == 1)
+      ++singles;
+    else
+      ++holds.count_of_length[hold.length];
+    if (hold.length >= kHeldSamples) holds.of_reported_length.push_back(hold);
+  }
+  if (singles > 0) holds.count_of_length[1] = singles;
+  holds.fine_steps =
+      (is_slow(holds) || !holds.of_reported_length.empty()) && has_fine_steps(readings, holds.count);
+  return holds;
+}
+
+std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const HoldsOfChannel& of_own_readings,
+                                        const std::string& run) {
   std::vector<LogArtifact> artifacts;
   if (trajectory.size() < 3) return artifacts;
   find_gaps(trajectory, run, artifacts);
@@ -268,13 +264,17 @@ std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::strin
   if (wheels.left.empty() || wheels.right.empty()) return artifacts;
   for (const auto& column : log_columns()) {
     const std::vector<double>& values = column.channel(trajectory);
-    if (values.empty() || may_stay(column)) continue;
+    if (values.empty() || may_stay(column) || is_partial(values)) continue;
     const auto& witness = &values == &wheels.left ? wheels.right : wheels.left;
-    find_stuck(trajectory, {.run = run, .channel = column.name}, values, witness, artifacts);
-  }
-  if (!trajectory.position_x_m.empty() && !trajectory.position_y_m.empty())
-    find_stuck(trajectory, {.run = run, .channel = "position_x_m"}, places(trajectory), wheels.left,
+    const auto own = of_own_readings.find(column.name);
+    find_stuck(trajectory, {.run = run, .channel = column.name},
+               own == of_own_readings.end() ? holds_of(trajectory.time_s, values) : own->second, witness,
                artifacts);
+  }
+  if (!trajectory.position_x_m.empty() && !trajectory.position_y_m.empty() &&
+      !is_partial(trajectory.position_x_m))
+    find_stuck(trajectory, {.run = run, .channel = "position_x_m"},
+               holds_of(trajectory.time_s, places(trajectory)), wheels.left, artifacts);
   return artifacts;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,31 @@ void unwrap_angle(std::vector<double>& values);
 /// Replaces NaN by interpolation between neighbors; returns their number.
 std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values);
 
-/// Clock jumps, held values, channels slower than the log: artifacts that affect this run.
-[[nodiscard]] std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const std::string& run);
+/// Equal readings in a row, zeros aside (a robot at rest).
+struct Hold {
+  double from_s{};
+  double to_s{};
+  std::size_t length{};
+};
+
+/// The holds of a channel. A log of a day has millions of them: the short ones are only counted.
+struct Holds {
+  std::size_t count{};
+  std::map<std::size_t, std::size_t> count_of_length{};
+  std::vector<Hold> of_reported_length{};
+  bool fine_steps{};  ///< almost every change brings a new value; examined where holds are reported or usual
+
+  [[nodiscard]] std::size_t median_length() const;
+};
+
+/// Of a channel's own readings: what fills the rows between them says nothing of its sensor.
+[[nodiscard]] Holds holds_of(const std::vector<double>& times, const std::vector<double>& readings);
+using HoldsOfChannel = std::map<std::string, Holds>;
+
+/// Clock jumps, held values, channels slower than the log: artifacts that affect this run. `of_own_readings`:
+/// of channels that are interpolated in the trajectory.
+[[nodiscard]] std::vector<LogArtifact> find_artifacts(Trajectory& trajectory,
+                                                      const HoldsOfChannel& of_own_readings,
+                                                      const std::string& run);
 
 }  // namespace joulepath

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <set>
 
 #include "scenarios/document.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -52,7 +53,10 @@ void LogLines::read_header(std::string_view line) {
   for (const char candidate : {';', '\t'})
     if (line.find(candidate) != std::string_view::npos) separator_ = candidate;
   for_each_cell(line, separator_, [&](std::size_t, std::string_view name) {
-    column_.push_back(find_log_column(std::string(name)));
+    const LogColumn* column = find_log_column(std::string(name));
+    if (column && std::ranges::count(column_, column) > 0)
+      throw ConfigError({{file_, line_, 1}, column->name, "a duplicate column", "each column once", ""});
+    column_.push_back(column);
   });
   const auto has = [&](const char* name) { return std::ranges::count(column_, find_log_column(name)) > 0; };
   const bool has_wheels = has("wheel_speed_left_rad_s") && has("wheel_speed_right_rad_s");
@@ -78,8 +82,15 @@ MonitorRow LogLines::csv_row(std::string_view line) {
 MonitorRow LogLines::json_row(std::string_view line) {
   has_json_ = true;
   clear();
-  const auto json = nlohmann::json::parse(line, nullptr, false);
-  if (!json.is_object()) return {};
+  std::set<std::string> keys;
+  bool doubled = false;
+  const auto note_key = [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    if (event == nlohmann::json::parse_event_t::key && depth == 1)
+      doubled |= !keys.insert(value.get<std::string>()).second;
+    return true;
+  };
+  const auto json = shallow_json(line, note_key);
+  if (!json.is_object() || doubled) return {};
   for (const LogColumn& column : log_columns())
     if (const auto found = json.find(column.name); found != json.end() && found->is_number())
       column.channel(row_).assign(1, found->get<double>());

@@ -13,9 +13,9 @@
 namespace joulepath {
 
 /// Rows of a log that arrives line by line: CSV with a header, or one JSON object per line. Columns have the
-/// names of the run log format; others are ignored. A header without a time or without speeds is an error.
-/// Nothing in a later line is: a cell without a number is absent, a line without any known column gives a row
-/// without a time.
+/// names of the run log format; others are ignored. A header without a time or without speeds is an error,
+/// and so is one with a column twice. Nothing in a later line is: a cell without a number is absent, a line
+/// without any known column, and an object with a key twice, give a row without a time.
 class LogLines {
  public:
   /// `file`: the name of the log in errors.

@@ -9,6 +9,13 @@ constexpr const char* kLogMore = words_of(Verdict::too_little_data).next_step;
 
 bool is_corrected(const Diagnosis& d) { return d.corrected_robot || !d.corrected_instruments.empty(); }
 
+/// Why nothing is written although effects are named.
+std::string not_written(const Diagnosis& d) {
+  return d.refused_correction.empty()
+             ? "No correction shrinks the gap on held-out runs: none is written."
+             : "No correction is written, as its robot file would be refused: " + d.refused_correction + ".";
+}
+
 /// Where to look for what no effect explains.
 std::string examine(const Diagnosis& d) {
   std::vector<std::string> quantities;
@@ -17,15 +24,14 @@ std::string examine(const Diagnosis& d) {
                             : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
 }
 
-}  // namespace
-
-std::string next_step(const Diagnosis& d) {
+std::string step_by_verdict(const Diagnosis& d) {
   const std::string step = words_of(d.verdict).next_step;
+  if (!d.foreign_constants.empty()) return step + " Name this robot's file, or correct these constants in it.";
   switch (d.verdict) {
     case Verdict::explained:
-      return is_corrected(d) ? step : "No correction shrinks the gap on held-out runs: none is written.";
+      return is_corrected(d) ? step : not_written(d);
     case Verdict::partly_explained:
-      return (is_corrected(d) ? step + " " : "") + examine(d);
+      return (is_corrected(d) ? step : not_written(d)) + " " + examine(d);
     case Verdict::unexplained:
       return step + " " + examine(d);
     case Verdict::ambiguous:
@@ -33,10 +39,18 @@ std::string next_step(const Diagnosis& d) {
     case Verdict::data_suspect:
       return step + " joulepath check DATASET --repair FILE writes it repaired.";
     case Verdict::no_gap:
+      return d.simulator.runs > 0 ? "The simulator needs no correction." : step;
     case Verdict::too_little_data:
       return step;
   }
   return step;
+}
+
+}  // namespace
+
+std::string next_step(const Diagnosis& d) {
+  if (d.runs_apart.empty()) return step_by_verdict(d);
+  return step_by_verdict(d) + " Find out what was different in " + text_of_list(d.runs_apart, &RunApart::run) + ".";
 }
 
 }  // namespace joulepath

@@ -86,8 +86,25 @@ Schema gap_schema() {
            required("noise_floor_percent", result()), required("before_J", result()),
            required("after_J", result()), required("shrink_fraction", result()),
            required("shrink_interval_95", interval())}));
-  return open(map({required("energy", energy), optional("current", open(map({}))),
+  return open(map({required("energy", energy, "of the motors; at the battery where nothing measures them"),
+                   optional("battery_energy", energy, "at the battery, where both are measured"),
+                   optional("current", open(map({}))),
                    optional("voltage", open(map({}))), optional("motion", open(map({})))}));
+}
+
+Schema simulator_schema() {
+  return open(map({required("runs", integer(kNotNegative), "whose energy it predicts"),
+                   required("of_runs", integer(kNotNegative), "that could be compared"),
+                   required("gap_percent", result()), required("bias_percent", result()),
+                   required("noise_floor_percent", result()),
+                   required("model_verdict", choice(verdict_names()), "on the robot file's model alone")}));
+}
+
+Schema runs_apart_schema() {
+  return list(
+      open(map({required("run", text()),
+                required("over_model_percent", result(), "measured energy over the others' model, less 100 %"),
+                required("share_of_gap", result(), "of all runs, with the robot file's model")})));
 }
 
 Schema where_schema() {
@@ -141,6 +158,11 @@ Schema data_checks_schema() {
                         required("evidence", text()), required("repair", text())})));
 }
 
+Schema foreign_constants_schema() {
+  return list(open(map({required("constant", text()), required("unit", text()),
+                        required("in_file", result()), required("in_runs", result())})));
+}
+
 Schema signals_schema() {
   return list(open(map({required("name", text()), required("use", text(), "diagnosis | validation"),
                         required("columns", dictionary(list(number())),
@@ -177,8 +199,11 @@ Schema diagnosis_schema() {
   return open(map(
       {required("schema", text()),
        required("gap", gap_schema()),
+       optional("simulator", simulator_schema(), "energy gap of the predictions under `predicted:`"),
+       optional("runs_apart", runs_apart_schema(),
+                "runs that no model of the others describes; nothing else here counts them"),
        required("where", where_schema()),
-       required("verdict", choice(verdict_names())),
+       required("verdict", choice(verdict_names()), "on the robot file's model and the simulator together"),
        optional("sentence", text(), "the answer in one line"),
        optional("next_step", text(), "what to do next"),
        required("causes", list(cause_schema())),
@@ -199,6 +224,8 @@ Schema diagnosis_schema() {
                 "correlated estimates of the fit"),
        optional("isolability", isolability_schema(),
                 "effects that the design of the runs can show, and pairs that it can separate"),
+       optional("foreign_constants", foreign_constants_schema(),
+                "constants of another robot; with any of them no cause is sought"),
        optional("data_checks", data_checks_schema(),
                 "channels that contradict physics; with any of them the verdict is data_suspect"),
        optional("artifacts", list(any_of({text(), open(map({}))}))),

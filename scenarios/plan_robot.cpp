@@ -1,11 +1,11 @@
 #include "scenarios/plan_robot.hpp"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "planner/cache/content_key.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/robot_file.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 
@@ -19,7 +19,7 @@ PlanRobot plan_robot(const Robot& robot) {
 void check_plan_robot(const std::string& directory, const Robot& robot) {
   const std::string file = (std::filesystem::path(directory) / "plan.json").string();
   if (!std::filesystem::exists(file)) return;
-  const auto plan = nlohmann::json::parse(read_text_file(file), nullptr, false);
+  const auto plan = shallow_json(read_text_file(file));
   if (!plan.is_object() || !plan.contains("robot") || !plan["robot"].is_object()) return;
   const auto said = [&](const char* key) {
     const auto found = plan["robot"].find(key);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/printable.hpp"
+#include "scenarios/implausible_constants.hpp"
 
 namespace joulepath {
 namespace {
@@ -98,7 +99,7 @@ bool has_footprint(const Robot& robot) {
 }
 
 std::vector<std::string> robot_notes(const Robot& robot) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = implausible_constants(robot);
   const double ratio = ratio_of(robot.motor.left);
   if (ratio < kUsualLeast || ratio > kUsualMost)
     notes.push_back("torque constant " + four_digits(ratio) +

@@ -15,7 +15,7 @@ void check_robot(const Node& root, const Robot& robot);
 /// Whether the robot's outline is known.
 [[nodiscard]] bool has_footprint(const Robot& robot);
 
-/// Possible but unusual values: constants that differ, wheels outside of the footprint.
+/// Unusual values: constants that differ or that mass and size contradict, wheels outside of the footprint.
 [[nodiscard]] std::vector<std::string> robot_notes(const Robot& robot);
 
 }  // namespace joulepath

@@ -136,4 +136,15 @@ Robot read_robot(const std::string& file, const NamedBy& named_by) {
   return robot_from(Document::load(file, named_by));
 }
 
+std::string refusal_of(const Robot& robot) {
+  try {
+    static_cast<void>(robot_from(Document::parse(robot_text(robot), "")));
+    return {};
+  } catch (const ConfigError& error) {
+    ConfigError::Detail detail = error.detail();
+    detail.mark = {};
+    return ConfigError(detail).what();
+  }
+}
+
 }  // namespace joulepath

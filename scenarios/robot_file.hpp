@@ -18,4 +18,8 @@ namespace joulepath {
 /// The text of a robot file that reads back as the same robot (numbers to the last bit).
 [[nodiscard]] std::string robot_text(const Robot& robot);
 
+/// Why the program would refuse a file of the robot: the key, what it would hold and what is accepted. Empty: the
+/// file reads back.
+[[nodiscard]] std::string refusal_of(const Robot& robot);
+
 }  // namespace joulepath

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <set>
 
 #include "model/kinematics.hpp"
 #include "model/number_text.hpp"
+#include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/bags/bag_file.hpp"
 #include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
+#include "scenarios/partial_channels.hpp"
 // Design: docs/decisions/0601-logs.md
 
 namespace joulepath {
@@ -23,54 +27,142 @@ bool is_orientation(const std::string& name) {
                      [&](const char* q) { return name == q; });
 }
 
-/// Rows of the first file, from and to, within the time that all files cover.
-std::pair<long, long> rows_in_common(const std::vector<LogFile>& files) {
-  double begin_s = files.front().times.front(), end_s = files.front().times.back();
-  for (const auto& file : files) {
-    begin_s = std::max(begin_s, file.times.front());
-    end_s = std::min(end_s, file.times.back());
+/// The time in which a file's channels are known: from its first sample to its last, and one usual step on
+/// either side.
+struct OwnTime {
+  double begin_s{}, end_s{};
+
+  explicit OwnTime(const LogFile& file) {
+    const std::vector<double>& times = file.times;
+    const double step_s = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    begin_s = times.front() - step_s, end_s = times.back() + step_s;
   }
-  const auto& base = files.front().times;
-  const auto first = std::lower_bound(base.begin(), base.end(), begin_s),
-             last = std::upper_bound(base.begin(), base.end(), end_s);
-  if (last - first < 2)
-    throw ConfigError({{files.back().table.file, 0, 0},
-                       "time_s",
-                       "times that do not overlap with those of " + files.front().table.file,
-                       "files of one run on one clock",
-                       "map time_s so that all files use the same clock"});
-  return {first - base.begin(), last - base.begin()};
+  [[nodiscard]] bool covers(double time_s) const { return begin_s <= time_s && time_s <= end_s; }
+};
+
+/// Sets of channels of which each gives the motion.
+const std::vector<std::string> kMotions[] = {{"wheel_speed_left_rad_s", "wheel_speed_right_rad_s"},
+                                             {"linear_speed_m_s", "angular_speed_rad_s"},
+                                             {"position_x_m", "position_y_m", "heading_rad"}};
+
+/// The files with the first set that is there, else with any channel of the motion, else the first file.
+std::vector<std::size_t> files_of_motion(const std::vector<LogFile>& files) {
+  std::set<std::size_t> with_any;
+  for (const std::vector<std::string>& motion : kMotions) {
+    std::set<std::size_t> with_set;
+    std::size_t found = 0;
+    for (const std::string& name : motion)
+      for (std::size_t f = 0; f < files.size(); ++f)
+        if (files[f].channels.contains(name)) {
+          with_set.insert(f), ++found;
+          break;
+        }
+    if (found == motion.size()) return {with_set.begin(), with_set.end()};
+    with_any.insert(with_set.begin(), with_set.end());
+  }
+  if (with_any.empty()) return {0};
+  return {with_any.begin(), with_any.end()};
 }
 
-/// Takes the channels of all files to the times of the first, where all overlap. Files give up their columns
-/// one by one: a long log is in memory once.
-void merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
-  const auto rows = rows_in_common(files);
+/// The file whose times the log gets: the first, unless it misses a part of the motion.
+std::size_t base_of(const std::vector<LogFile>& files, const std::vector<std::size_t>& of_motion) {
+  const OwnTime first(files.front());
+  const LogFile& motion = files[of_motion.front()];
+  const bool whole = first.covers(motion.times.front()) && first.covers(motion.times.back());
+  return whole ? 0 : of_motion.front();
+}
+
+/// Rows of the base, from and to, in which the motion is known.
+std::pair<long, long> rows_with_motion(const std::vector<LogFile>& files, std::size_t base_file,
+                                       const std::vector<std::size_t>& of_motion) {
+  const std::vector<double>& base = files[base_file].times;
+  double begin_s = base.front(), end_s = base.back();
+  for (const std::size_t f : of_motion) {
+    const OwnTime own(files[f]);
+    begin_s = std::max(begin_s, own.begin_s), end_s = std::min(end_s, own.end_s);
+  }
+  const auto first = std::lower_bound(base.begin(), base.end(), begin_s),
+             last = std::upper_bound(base.begin(), base.end(), end_s);
+  return {first - base.begin(), std::max(first, last) - base.begin()};
+}
+
+/// A file without a time in common with the log belongs to another run, or to another clock.
+void refuse_apart(const std::vector<LogFile>& files, std::size_t base_file,
+                  const std::pair<long, long>& rows) {
+  const std::vector<double>& base = files[base_file].times;
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const OwnTime own(files[f]);
+    long common = 0;
+    for (long k = rows.first; k < rows.second && common < 2; ++k)
+      common += own.covers(base[static_cast<std::size_t>(k)]) ? 1 : 0;
+    if (common < 2)
+      throw ConfigError(
+          {{files[f == 0 ? files.size() - 1 : f].table.file, 0, 0},
+           "time_s",
+           "times that do not overlap with those of " + files[f == 0 ? 0 : base_file].table.file,
+           "files of one run on one clock",
+           "map time_s so that all files use the same clock"});
+  }
+}
+
+void tell_cut(const std::vector<double>& base_s, const std::pair<long, long>& rows, RunLog& log,
+              const std::string& run) {
+  const auto count = static_cast<long>(base_s.size()) - (rows.second - rows.first);
+  if (count == 0) return;
+  const double before_s = base_s[static_cast<std::size_t>(rows.first)] - base_s.front(),
+               after_s = base_s.back() - base_s[static_cast<std::size_t>(rows.second - 1)];
+  log.artifacts.push_back({"cut", run, "",
+                           four_digits(before_s) + " s at the beginning and " + four_digits(after_s) +
+                               " s at the end are left out: the motion is not known there",
+                           static_cast<std::size_t>(count), base_s.front()});
+}
+
+/// Takes the channels of all files to the times of one. Outside of its file's own time a channel is NaN; a
+/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those of
+/// channels that are interpolated.
+HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
+  HoldsOfChannel holds;
+  const std::vector<std::size_t> of_motion = files_of_motion(files);
+  const std::size_t base = base_of(files, of_motion);
+  const std::pair<long, long> rows = rows_with_motion(files, base, of_motion);
+  refuse_apart(files, base, rows);
+  tell_cut(files[base].times, rows, log, run);
   const auto taken = [&](std::vector<double>& values) {
     values.erase(values.begin() + rows.second, values.end());
     values.erase(values.begin(), values.begin() + rows.first);
     return std::move(values);
   };
-  log.trajectory.time_s = taken(files.front().times);
-  for (LogFile& file : files) {
+  const std::vector<double>& times = log.trajectory.time_s = taken(files[base].times);
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    LogFile& file = files[f];
     for (auto& [name, values] : file.channels) {
       const LogColumn* column = find_log_column(name);
       if (!column || !column->channel(log.trajectory).empty()) continue;
-      if (&file == &files.front()) {
-        column->channel(log.trajectory) = taken(values);
+      if (const auto of_readings = file.holds.find(name); of_readings != file.holds.end())
+        holds[name] = std::move(of_readings->second);
+      else if (f != base)
+        holds[name] = holds_of(file.times, values);
+      std::vector<double>& channel = column->channel(log.trajectory);
+      if (f == base) {
+        channel = taken(values);
         continue;
       }
       if (name == "heading_rad") unwrap_angle(values);
-      column->channel(log.trajectory) = interpolated(file.times, values, log.trajectory.time_s);
+      channel = interpolated(file.times, values, times);
       values = std::vector<double>();  // `= {}` would keep the memory
+      const OwnTime own(file);
+      for (std::size_t k = 0; k < times.size() && name != "payload_kg"; ++k)
+        if (!own.covers(times[k])) channel[k] = std::numeric_limits<double>::quiet_NaN();
     }
     file.times = std::vector<double>();
     file.channels.clear();
   }
   if (files.size() > 1)
     log.artifacts.push_back({"resampled", run, "",
-                             "several files or topics, interpolated linearly to the times of the first",
-                             files.size() - 1, log.trajectory.time_s.front()});
+                             "several files or topics, interpolated linearly to the times of " +
+                                 (base == 0 ? "the first" : files[base].table.file),
+                             files.size() - 1, times.front()});
+  return holds;
 }
 
 /// The columns that are not those of the format, and not mapped to one.
@@ -222,11 +314,14 @@ void sign_unsigned_channels(Trajectory& log, const ColumnSources& sources, const
   }
 }
 
-void start_epoch_clock_at_zero(RunLog& log, const std::string& run) {
+void start_epoch_clock_at_zero(RunLog& log, HoldsOfChannel& holds, const std::string& run) {
   auto& times = log.trajectory.time_s;
   const double start_s = times.front();
   if (std::abs(start_s) < kEpochClock_s) return;
   for (double& time_s : times) time_s -= start_s;
+  log.clock_origin_s = start_s;
+  for (auto& [channel, of_channel] : holds)
+    for (Hold& hold : of_channel.of_reported_length) hold.from_s -= start_s, hold.to_s -= start_s;
   char text[96];
   std::snprintf(text, sizeof text, "the clock begins at %.3f s; times are relative to it", start_s);
   log.artifacts.push_back({"clock_origin", run, "time_s", text, 1, 0.0});
@@ -258,13 +353,13 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   const std::vector<std::string> ignored = ignored_columns(headers, given);
   for (const auto& file : files)
     log.artifacts.insert(log.artifacts.end(), file.artifacts.begin(), file.artifacts.end());
-  merge(files, log, run);
+  HoldsOfChannel holds = merge(files, log, run);
   refuse_mistyped(ignored, missing_columns(log.trajectory, given), names.front().file);
   refuse_one_wheel(log.trajectory, names.front().file);
   log.wheels_from_body_speeds = derive_speeds(log.trajectory, geometry, run, log.artifacts);
   refuse_no_motion(log.trajectory, names.front().file);
-  start_epoch_clock_at_zero(log, run);
-  auto odd = find_artifacts(log.trajectory, run);
+  start_epoch_clock_at_zero(log, holds, run);
+  auto odd = find_artifacts(log.trajectory, holds, run);
   log.artifacts.insert(log.artifacts.end(), odd.begin(), odd.end());
   sign_unsigned_channels(log.trajectory, given, run, log);
   note_ignored(ignored, log, run);
@@ -272,7 +367,9 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
 }
 
 RunLog read_run_log(const std::string& file, const Geometry& geometry) {
-  return read_run_log({{file, {}}}, {}, geometry, file);
+  RunLog log = read_run_log({{file, {}}}, {}, geometry, file);
+  drop_partial_channels(log.trajectory, file, log.artifacts);
+  return log;
 }
 
 std::string run_log_text(const Trajectory& trajectory, const std::vector<ExtraColumn>& extra) {

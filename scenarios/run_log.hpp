@@ -17,16 +17,18 @@ struct RunLog {
   std::vector<LogArtifact> artifacts{};
   bool current_sign_from_motion{};
   bool wheels_from_body_speeds{};
+  double clock_origin_s{};  ///< taken away from the times of an epoch clock
 };
 
-/// Reads one run from one or several files. Several files are resampled at the times of the first by linear
-/// interpolation, within their common range. Missing speeds are derived (wheels from body and back with
-/// `geometry`; body from pose). Throws ConfigError: no time, time that does not increase (with the line), no
-/// motion at all, malformed cells. Usable but unusual data become artifacts.
+/// Reads one run from one or several files. Several files are resampled by linear interpolation at the times
+/// of the first, or of the one with the motion where the first misses a part of it. The log lasts as long as
+/// the motion is known; other channels are NaN outside of their file's own time. Missing speeds are derived
+/// (wheels from body and back with `geometry`; body from pose). Throws ConfigError: no time, time that does
+/// not increase (with the line), no motion at all, malformed cells. Usable but unusual data become artifacts.
 [[nodiscard]] RunLog read_run_log(const std::vector<LogFileName>& files, const ColumnSources& sources,
                                   const Geometry& geometry, const std::string& run_name);
 
-/// A log with the format's own column names.
+/// A log with the format's own column names, without the channels that a part of it lacks.
 [[nodiscard]] RunLog read_run_log(const std::string& file, const Geometry& geometry);
 
 /// A column beside those of a run log.

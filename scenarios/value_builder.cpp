@@ -45,9 +45,12 @@ void ValueBuilder::count(std::size_t values, Place place) {
   if (count_ > kMaxValues) fail(place, "", "more than 2,000,000 values", "a smaller file");
 }
 
-void ValueBuilder::check_text(const std::string& text, Place place) const {
+/// A line break or a mark that turns the direction of writing would forge a line wherever the text is
+/// printed.
+void ValueBuilder::take_text(std::string& text, Place place) const {
   if (const std::string control = first_control_character(text); !control.empty())
     fail(place, path(), "the control character " + control, "text without control characters");
+  text = printable(text);
 }
 
 Value& ValueBuilder::place_for(Place place) {
@@ -76,12 +79,12 @@ void ValueBuilder::close() {
 
 void ValueBuilder::key(std::string text, Place place) {
   Frame& frame = open_.back();
+  take_text(text, place);
   const auto [same, is_new] = frame.line_of_key.emplace(text, place.line);
   frame.value->entries.push_back({.key = std::move(text), .line = place.line, .column = place.column});
   if (!is_new)
     fail(place, path(), "a duplicate key", "each key once",
          "the first one is on line " + std::to_string(same->second));
-  check_text(frame.value->entries.back().key, place);
   frame.has_key = true;
 }
 
@@ -94,7 +97,7 @@ void ValueBuilder::scalar(std::string text, bool quoted, Place place) {
   value.line = place.line;
   value.column = place.column;
   last_ = &value;
-  check_text(value.text, place);
+  take_text(value.text, place);
 }
 
 void ValueBuilder::null(Place place) {

@@ -8,9 +8,10 @@
 
 namespace joulepath {
 
-/// Builds a tree of values from a parser's events. Refuses duplicate keys, control characters in texts,
-/// nesting deeper than kMaxDepth and more than kMaxValues values (copies of aliases count), so that memory is
-/// bounded for any text. Time is linear in the number of events.
+/// Builds a tree of values from a parser's events; line breaks, tabs and marks of direction in its texts are
+/// escaped, as `\x0a`. Refuses duplicate keys, other control characters in texts, nesting deeper than
+/// kMaxDepth and more than kMaxValues values (copies of aliases count), so that memory is bounded for any
+/// text. Time is linear in the number of events.
 class ValueBuilder {
  public:
   static constexpr std::size_t kMaxDepth = 64;
@@ -47,7 +48,7 @@ class ValueBuilder {
 
   Value& place_for(Place place);
   void count(std::size_t values, Place place);
-  void check_text(const std::string& text, Place place) const;
+  void take_text(std::string& text, Place place) const;
   [[nodiscard]] bool wants_key() const;
   [[nodiscard]] std::string path() const;
 

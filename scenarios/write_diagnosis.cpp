@@ -25,8 +25,7 @@ Json energy_json(const EnergyGap& e) {
           {"before_J", six_digits(e.before_J)},
           {"after_J", six_digits(e.after_J)},
           {"shrink_fraction", six_digits(e.shrink_fraction)},
-          {"shrink_interval_95", interval(e.shrink_interval_95)},
-          {"detectable_percent", six_digits(e.detectable_percent)}};
+          {"shrink_interval_95", interval(e.shrink_interval_95)}};
 }
 
 void add_signal(Json& json, const SignalGap& gap, const std::string& prefix, const std::string& unit) {
@@ -46,12 +45,33 @@ Json gap_json(const GapReport& gap) {
   Json phases = Json::object();
   for (const auto& [phase, energy] : gap.energy_by_phase_J)
     phases[phase] = {{"before_J", six_digits(energy.first)}, {"after_J", six_digits(energy.second)}};
-  return {{"energy", energy_json(gap.energy)},
-          {"current", current},
-          {"voltage", voltage},
-          {"motion", motion},
-          {"battery", battery},
-          {"energy_by_phase", phases}};
+  Json json{{"energy", energy_json(gap.energy)}, {"current", current}, {"voltage", voltage},
+            {"motion", motion},                  {"battery", battery}, {"energy_by_phase", phases}};
+  json["energy"]["detectable_percent"] = six_digits(gap.energy.detectable_percent);
+  if (gap.battery_energy) json["battery_energy"] = energy_json(*gap.battery_energy);
+  return json;
+}
+
+Json simulator_json(const SimulatorGap& simulator) {
+  return {{"runs", simulator.runs},
+          {"of_runs", simulator.of_runs},
+          {"gap_percent", six_digits(simulator.gap_percent)},
+          {"bias_percent", six_digits(simulator.bias_percent)},
+          {"noise_floor_percent", six_digits(simulator.noise_floor_percent)},
+          {"model_verdict", verdict_name(simulator.model_verdict)}};
+}
+
+Json run_apart_json(const RunApart& apart) {
+  return {{"run", apart.run},
+          {"over_model_percent", six_digits(apart.over_model_percent)},
+          {"share_of_gap", six_digits(apart.share_of_gap)}};
+}
+
+Json foreign_json(const ForeignConstant& one) {
+  return {{"constant", one.name},
+          {"unit", one.unit},
+          {"in_file", six_digits(one.in_file)},
+          {"in_runs", six_digits(one.in_runs)}};
 }
 
 Json where_json(const WhereCell& cell) {
@@ -176,9 +196,10 @@ Json isolability_json(const Isolability& isolability) {
 }
 
 std::string diagnosis_json(const Diagnosis& d) {
-  const Json json{
+  Json json{
       {"schema", "joulepath/diagnosis/1"},
       {"gap", gap_json(d.gap)},
+      {"runs_apart", each_json(d.runs_apart, run_apart_json)},
       {"where", each_json(d.where, where_json)},
       {"verdict", verdict_name(d.verdict)},
       {"sentence", diagnosis_sentence(d)},
@@ -197,6 +218,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"pinned_combination", d.pinned_combination},
       {"correlations", each_json(d.correlations, correlation_json)},
       {"isolability", isolability_json(d.isolability)},
+      {"foreign_constants", each_json(d.foreign_constants, foreign_json)},
       {"data_checks", data_checks_json(d.data_checks)},
       {"artifacts", d.artifacts},
       {"missing_channels", d.missing_channels},
@@ -205,6 +227,7 @@ std::string diagnosis_json(const Diagnosis& d) {
        {{"missions", d.decision_missions},
         {"joules_lost_with_nominal_percent", six_digits(d.joules_lost_percent)}}},
       {"validation", {{"runs", d.validation_runs}, {"method", d.validation_method}}}};
+  if (d.simulator.runs > 0) json["simulator"] = simulator_json(d.simulator);
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

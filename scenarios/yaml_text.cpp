@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "model/printable.hpp"
 #include "scenarios/value_builder.hpp"
 
 namespace joulepath {
@@ -66,7 +67,7 @@ class YamlEvents : public YAML::EventHandler {
                                 const std::string& text) const {
     Value value;
     value.kind = Value::Kind::scalar;
-    value.text = text;
+    value.text = printable(text);
     value.quoted = tag == "!";
     value.line = place(mark).line;
     value.column = place(mark).column;

@@ -119,7 +119,7 @@ class Check : public Command {
     const bool sound = summary.data_checks.empty();
     std::ostream& out = summary.kind == "bag" ? std::cerr : std::cout;
     out << printable(file) << ": " << paint(out, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect")
-        << " (" << summary.kind << (summary.text.empty() ? "" : ": " + summary.text) << ")\n";
+        << " (" << summary.kind << (summary.text.empty() ? "" : ": " + printable(summary.text)) << ")\n";
     for (const DataCheck& check : summary.data_checks)
       std::cout << "  " << printable(data_check_text(check)) << '\n';
     if (!options_.quiet)

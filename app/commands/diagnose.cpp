@@ -10,6 +10,7 @@
 #include "model/effects/effect_label.hpp"
 #include "scenarios/corrected_dataset.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/diagnosis_sentence.hpp"
 #include "scenarios/next_step.hpp"
 #include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_file.hpp"
@@ -40,9 +41,8 @@ void print_where(std::ostream& out, const Diagnosis& d) {
   table.print(out);
 }
 
-void print_gap(std::ostream& out, const Diagnosis& d) {
-  const EnergyGap& e = d.gap.energy;
-  out << "energy gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
+void print_gap(std::ostream& out, const std::string& of, const EnergyGap& e, const Diagnosis& d) {
+  out << of << " gap on held-out runs: " << figure(e.before_percent, 3) << " % (bias "
       << figure(e.bias_before_percent, 3) << " %)";
   if (!d.causes.empty())
     out << " -> " << figure(e.after_percent, 3) << " %, shrunk by " << percent(e.shrink_fraction) << " ["
@@ -89,10 +89,12 @@ void print_summary(std::ostream& out, const Diagnosis& d) {
   for (const std::string& note : d.notes) out << "note: " << note << '\n';
   for (const std::string& artifact : d.artifacts) out << "artifact: " << artifact << '\n';
   out << "verdict: " << paint(out, Paint::bold, verdict_name(d.verdict)) << ". "
-      << words_of(d.verdict).meaning << ' ' << next_step(d) << '\n';
+      << diagnosis_meaning(d) << ' ' << next_step(d) << '\n';
+  if (const std::string apart = runs_apart_words(d); !apart.empty()) out << apart << '\n';
   for (const DataCheck& check : d.data_checks) out << "suspect: " << data_check_text(check) << '\n';
-  if (d.verdict == Verdict::data_suspect) return;
-  print_gap(out, d);
+  if (d.verdict == Verdict::data_suspect || !d.foreign_constants.empty()) return;
+  print_gap(out, d.gap.battery_energy ? "the motors' energy" : "energy", d.gap.energy, d);
+  if (d.gap.battery_energy) print_gap(out, "the battery's energy", *d.gap.battery_energy, d);
   print_causes(out, d);
   print_worth(out, d);
   print_where(out, d);
@@ -122,7 +124,7 @@ class Diagnose : public Command {
         .comma_separated();
     line.flag("--signals", signals_,
               "write measured and predicted signals of every run into diagnosis.json, for the studio");
-    line.flag("--fail-on-gap", fail_on_gap_, "exit code 1 unless the verdict is no_gap");
+    line.flag("--fail-on-gap", fail_on_gap_, "exit code 1 unless the verdict is no_gap and no run is left out");
     add_common_flags(line, common_, "qjfu");
   }
 
@@ -148,7 +150,8 @@ class Diagnose : public Command {
       std::cout << results.json;
     else if (!common_.quiet)
       print_summary(std::cout, diagnosis);
-    return fail_on_gap_ && diagnosis.verdict != Verdict::no_gap ? kInfeasibleOrFailed : kDone;
+    const bool gap = diagnosis.verdict != Verdict::no_gap || !diagnosis.runs_apart.empty();
+    return fail_on_gap_ && gap ? kInfeasibleOrFailed : kDone;
   }
 
  private:

@@ -9,6 +9,7 @@
 #include "app/terminal.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/robot_file.hpp"
 
 namespace joulepath {
 namespace {
@@ -16,6 +17,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double percent_of(double part, double whole) { return 100 * part / std::abs(whole); }
+
+/// A robot file's values without its name.
+std::string values_of(Robot robot) {
+  robot.name.clear();
+  return robot_text(robot);
+}
+
+/// Constants that were calibrated with different robot files differ by the files. Throws ConfigError where the
+/// values of `day` are not those of `first`.
+void demand_same_robot(const Dataset& first, const Dataset& day) {
+  if (values_of(day.robot) == values_of(first.robot)) return;
+  throw ConfigError({{day.file, 0, 0},
+                     "robot",
+                     "\"" + day.robot_file + "\", whose values are not those of \"" + first.robot_file +
+                         "\" of " + first.file,
+                     "one robot file for all days",
+                     "--robot FILE replaces the datasets'"});
+}
 
 class DriftCommand : public Command {
  public:
@@ -31,7 +50,9 @@ class DriftCommand : public Command {
                  "days (or bad input).\n"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("DAY", days_, "datasets or logs, oldest first; the first is the calibrated day").required();
+    line.option("DAY", days_,
+                "datasets or logs, oldest first; the first is the calibrated day. All have one robot file")
+        .required();
     line.option("--robot", robot_, "robot file; replaces the datasets'");
     line.option("--false-alarm-rate", settings_.false_alarm_rate,
                 "probability of exit code 1 after a day without drift")
@@ -42,11 +63,14 @@ class DriftCommand : public Command {
 
   int run() override {
     if (days_.size() < 2) throw UsageError("drift needs the calibrated day and at least one day after it");
+    std::vector<Dataset> datasets;
+    for (const std::string& day : days_) {
+      datasets.push_back(read_dataset_or_log(day, {common_.untrusted}, robot_));
+      demand_same_robot(datasets.front(), datasets.back());
+    }
     std::vector<std::vector<CalibratedParameter>> estimates;
-    for (const std::string& day : days_)
-      estimates.push_back(
-          calibrate(read_dataset_or_log(day, {common_.untrusted}, robot_), CalibrationMethod::full)
-              .parameters);
+    for (const Dataset& day : datasets)
+      estimates.push_back(calibrate(day, CalibrationMethod::full).parameters);
     const DriftResult result = find_drift(estimates, settings_);
     if (common_.json)
       std::cout << json_of(result).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

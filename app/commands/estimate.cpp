@@ -88,10 +88,13 @@ class EstimateCommand : public Command {
   }
 
   int run() override {
-    const Dataset dataset = read_dataset_or_log(input_, {.untrusted = common_.untrusted}, robot_);
+    const Dataset dataset =
+        read_dataset_or_log(input_, {.untrusted = common_.untrusted, .keep_whole_drives = true}, robot_);
     if (!common_.quiet)
       for (const LogArtifact& artifact : dataset.artifacts)
-        if (artifact.kind == "cut") std::cerr << "note: " << artifact.description << '\n';
+        if (artifact.kind == "cut" || artifact.kind == "partial_channel")
+          std::cerr << "note: " << artifact.channel << (artifact.channel.empty() ? "" : " ")
+                    << artifact.description << '\n';
     std::optional<OutputDirectory> out;
     if (!out_.empty()) out.emplace(out_, file_names(dataset.runs.size()), common_.force);
     const DatasetEstimate all = estimate_dataset(dataset, {.reach_s = reach_s_});

@@ -47,14 +47,17 @@ class MonitorCommand : public Command {
       follow(monitor, robot, std::cin);
     } else if (is_bag(log_)) {
       const RunLog log = read_run_log(log_, robot.geometry);
-      for (std::size_t k = 0; k < log.trajectory.size(); ++k)
-        tell(monitor.add(monitor_row(log.trajectory, k)));
+      for (std::size_t k = 0; k < log.trajectory.size(); ++k) add(monitor, monitor_row(log.trajectory, k));
     } else {
       std::ifstream file(log_);
       if (!file) throw ConfigError({{log_, 0, 0}, "", "no such file", "a log, or - for standard input", ""});
       follow(monitor, robot, file);
     }
-    if (monitor.status().rows.used == 0)
+    const RowCounts rows = monitor.status().rows;
+    if (rows.used == 1 && rows.late > 0)
+      throw ConfigError(
+          {{log_name(), 0, 0}, "time_s", "no two rows on one clock", "a clock in seconds", kClockHint});
+    if (rows.used == 0)
       throw ConfigError(
           {{log_name(), 0, 0}, "", "no row with a time and speeds", "a log of the plan's drive", ""});
     tell({monitor.leg_executed(), monitor.status()});
@@ -68,7 +71,15 @@ class MonitorCommand : public Command {
   void follow(Monitor& monitor, const Robot& robot, std::istream& stream) {
     LogLines lines(robot.geometry, log_name());
     for (std::string line; std::getline(stream, line);)
-      if (const auto row = lines.row(line)) tell(monitor.add(*row));
+      if (const auto row = lines.row(line)) add(monitor, *row);
+  }
+
+  /// A log whose unit is wrong ends the answer: nothing that it says is true.
+  void add(Monitor& monitor, const MonitorRow& row) {
+    const std::vector<MonitorEvent>& events = monitor.add(row);
+    if (const std::optional<Implausible>& odd = monitor.implausible())
+      throw ConfigError({{log_name(), 0, 0}, odd->channel, odd->found, odd->accepted, odd->hint});
+    tell(events);
   }
 
   void tell(const std::vector<MonitorEvent>& events) {

@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "app/command.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -48,7 +48,7 @@ std::optional<JournalRun> run_of_journal(const std::string& file) {
   std::optional<JournalRun> found;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);)
-    if (const auto run = run_from(Json::parse(line, nullptr, false))) found = run;
+    if (const auto run = run_from(shallow_json<Json>(line))) found = run;
   return found;
 }
 
@@ -76,7 +76,7 @@ void JobJournal::read() {
   bool cut = false;
   while (std::getline(in, line)) {
     cut = in.eof();
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = shallow_json<Json>(line);
     if (const auto run = run_from(json)) run_ = run;
     if (!is_entry(json)) continue;
     const auto index = json["index"].get<std::size_t>();

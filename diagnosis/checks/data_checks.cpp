@@ -74,6 +74,8 @@ class DataCheckSearch {
   Relations relations_with(const Examined& examined, const std::vector<ColumnRepair>& columns,
                            double freedom = 1.0) const {
     const Run run = repaired(run_of(examined), columns, dataset_.robot.geometry);
+    if (!has_usable_log(run))
+      return Relations(examined.relations.size());  // another clock makes it too short
     return relations_of(make_run_signals(run, examined.index(), dataset_.robot, options_), dataset_.robot,
                         freedom);
   }
@@ -177,19 +179,22 @@ class DataCheckSearch {
     std::vector<char> against(runs_.size(), 0);
     parallel_for(runs_.size(), [&](std::size_t r) {
       if (runs_[r].lost || std::ranges::find(found.which, r) != found.which.end()) return;
-      if (!has_columns(run_of(runs_[r]), found.fault)) return;
+      if (!may_have(runs_[r], found.fault)) return;
       against[r] =
           compare(runs_[r].relations, relations_with(runs_[r], found.fault.columns)).contradicts ? 1 : 0;
     });
     if (std::ranges::find(against, 1) != against.end()) return;
     found.which.clear();
     for (std::size_t r = 0; r < runs_.size(); ++r)
-      if (has_columns(run_of(runs_[r]), found.fault)) found.which.push_back(r);
+      if (may_have(runs_[r], found.fault)) found.which.push_back(r);
   }
 
-  static bool has_columns(const Run& run, const Fault& fault) {
-    const std::vector<Fault> possible = possible_faults(run);
-    return std::ranges::any_of(possible, [&](const Fault& other) { return other.channel == fault.channel; });
+  /// Whether the run has the fault's columns and can be used after the repair.
+  bool may_have(const Examined& examined, const Fault& fault) const {
+    const std::vector<Fault> possible = possible_faults(run_of(examined));
+    return std::ranges::any_of(possible,
+                               [&](const Fault& other) { return other.channel == fault.channel; }) &&
+           has_usable_log(repaired(run_of(examined), fault.columns, dataset_.robot.geometry));
   }
 
   /// Refines a factor that is not a unit conversion: the factor at which relations with fixed coefficients

@@ -27,6 +27,7 @@ class Search {
 
   std::vector<FollowedChannel> list() {
     for (Side side : kSides) wheel(side);
+    if (!moves(run_)) return std::move(channels_);
     const VectorXd yaw = body_twist(robot_.geometry, run_.wheel_speed_rad_s).yaw_rate_rad_s;
     compare(run_.gyro_yaw_rate_rad_s, yaw, kMovingYawRate_rad_s, {"gyro_yaw_rate_rad_s"});
     if (run_.heading_measured)
@@ -48,7 +49,7 @@ class Search {
   /// value changes, whatever the value.
   void compare(const VectorXd& channel, const VectorXd& expected, double least_rms,
                std::vector<std::string> columns, bool needed = false) {
-    if (channel.size() != expected.size() || channel.size() == 0) return;
+    if (channel.size() != expected.size() || channel.size() < kLeastFreeRows) return;
     FollowedChannel found{.columns = std::move(columns), .expected = rms(expected), .needed = needed};
     found.is_constant = channel.maxCoeff() - channel.minCoeff() <= kLeastSensorNoise;
     if (found.expected > 0) found.followed = channel.dot(expected) / expected.squaredNorm();
@@ -61,7 +62,8 @@ class Search {
     channels_.push_back(std::move(found));
   }
 
-  /// Compares a motor's channels with its wheel's motion, and the wheel's speed with its voltage.
+  /// Compares a motor's channels with its wheel's motion, where it turns, and the wheel's speed with its
+  /// voltage.
   void wheel(Side side) {
     const std::string suffix = std::string("_") + side_name(side);
     const Motor& motor = robot_.motor[side];
@@ -69,12 +71,14 @@ class Search {
     const VectorXd current = expected_.current_A(side);
     const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
     const double emf = motor.volts_per_speed_V_s_rad();
-    if (run_.motor_current_A[side].size() > 0)
+    const bool turning = wheel_turns(run_, side);
+    if (turning && run_.motor_current_A[side].size() > 0)
       compare(centered(run_.motor_current_A[side]), centered(current), kLeastChange * friction_A,
               {"motor_current" + suffix + "_A"});
     const VectorXd& voltage = run_.motor_voltage_V[side];
-    compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), emf * kTurningWheel_rad_s,
-            {"motor_voltage" + suffix + "_V"});
+    if (turning)
+      compare(voltage, VectorXd(emf * speed + motor.resistance_ohm * current), emf * kTurningWheel_rad_s,
+              {"motor_voltage" + suffix + "_V"});
     if (voltage.size() > 0)
       compare(speed, VectorXd((voltage - motor.resistance_ohm * current) / emf), kTurningWheel_rad_s,
               {"wheel_speed" + suffix + "_rad_s"}, true);

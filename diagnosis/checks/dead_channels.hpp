@@ -21,7 +21,7 @@ struct FollowedChannel {
   bool needed{};       ///< the run cannot be used without this channel (a wheel's speed)
 };
 
-/// The channels that the run has, always in the same order.
+/// The channels that the run has and whose change its motion implies, always in the same order.
 [[nodiscard]] std::vector<FollowedChannel> followed_channels(const RunSignals& run, const Robot& robot);
 
 /// The runs in which a channel is dead: all that have it where each run that could show the contrary is one

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/checks/column_bounds.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/kinematics.hpp"
@@ -11,19 +12,6 @@
 
 namespace joulepath {
 namespace {
-
-struct Bound {
-  const char* column;
-  double most;  ///< greatest plausible absolute value
-  const char* hint;
-};
-constexpr Bound kColumnBounds[] = {
-    {"motor_voltage_left_V", 1000, "millivolts?"},      {"motor_voltage_right_V", 1000, "millivolts?"},
-    {"motor_current_left_A", 1000, "milliamperes?"},    {"motor_current_right_A", 1000, "milliamperes?"},
-    {"motor_power_left_W", 1e5, "milliwatts?"},         {"motor_power_right_W", 1e5, "milliwatts?"},
-    {"battery_voltage_V", 1000, "millivolts?"},         {"battery_current_A", 2000, "milliamperes?"},
-    {"gyro_yaw_rate_rad_s", 30, "degrees per second?"}, {"payload_kg", 1e4, "grams?"},
-};
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -39,17 +27,53 @@ double greatest_of(const std::string& column, const Run& run) {
 
 using Findings = std::vector<Implausible>;
 
-void check_time(const Trajectory& log, Findings& findings) {
+/// A clock in a smaller unit than seconds shows in its year, or in a wheel that needs minutes and many
+/// samples to come to speed.
+void check_slow_clock(const Run& run, Findings& findings) {
+  const auto tell = [&](std::string found, std::string accepted) {
+    findings.push_back({"time_s", std::move(found), std::move(accepted), kClockHint});
+  };
+  if (run.clock_origin_s > kLatestClock_s)
+    return tell("a clock that begins at " + four_digits(run.clock_origin_s) + " s",
+                "at most " + four_digits(kLatestClock_s) + " s, the year 2286 of an epoch clock");
+  for (Side side : kSides) {
+    const std::vector<double>& speed_rad_s = run.log.wheel_speed_rad_s[side];
+    QuickestStart start;
+    for (std::size_t i = 0; i < speed_rad_s.size(); ++i) start.add(run.log.time_s[i], speed_rad_s[i]);
+    if (start.is_too_slow())
+      return tell("a wheel that needs " + four_digits(start.duration_s()) + " s to come to " +
+                      four_digits(greatest(speed_rad_s)) + " rad/s at its steepest",
+                  "at most " + four_digits(kLongestStart_s) + " s");
+  }
+}
+
+/// Zero where no step is longer than kLongestStep_s: the steps of a long log are then not copied.
+double median_of_long_steps(const std::vector<double>& time_s) {
   const auto is_long = [](double before_s, double after_s) { return after_s - before_s > kLongestStep_s; };
-  if (std::ranges::adjacent_find(log.time_s, is_long) == log.time_s.end()) return;
+  if (std::ranges::adjacent_find(time_s, is_long) == time_s.end()) return 0.0;
   std::vector<double> steps;
-  for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  if (*middle > kLongestStep_s)
-    findings.push_back({"time_s", "time_s with a sample every " + four_digits(*middle) + " s",
-                        "at most " + four_digits(kLongestStep_s) + " s between samples",
-                        "milliseconds, microseconds?"});
+  return *middle;
+}
+
+void check_time(const Run& run, Findings& findings) {
+  const std::vector<double>& time_s = run.log.time_s;
+  if (time_s.size() < 2) return;
+  const double length_s = time_s.back() - time_s.front();
+  const double mean_s = length_s / static_cast<double>(time_s.size() - 1);
+  const double median_s = median_of_long_steps(time_s);
+  if (mean_s < kShortestPeriod_s)
+    findings.push_back({"time_s",
+                        "time_s with a sample every " + four_digits(mean_s) + " s: the run lasts " +
+                            four_digits(length_s) + " s",
+                        "at least " + four_digits(kShortestPeriod_s) + " s between samples", kClockHint});
+  else if (median_s > kLongestStep_s)
+    findings.push_back({"time_s", "time_s with a sample every " + four_digits(median_s) + " s",
+                        "at most " + four_digits(kLongestStep_s) + " s between samples", kClockHint});
+  else
+    check_slow_clock(run, findings);
 }
 
 void check_wheels(const Trajectory& log, const Geometry& geometry, Findings& findings) {
@@ -78,7 +102,7 @@ void check_robot(const Trajectory& log, const Geometry& geometry, Findings& find
                            .speed_m_s) /
               static_cast<double>(n);
   }
-  if (std::max(body, wheels) < kMoving_m_s) return;
+  if (!(std::max(body, wheels) >= kMoving_m_s)) return;  // or unknown in a part of the log
   if (body <= kOddRatio * wheels && wheels <= kOddRatio * body) return;
   findings.push_back({"linear_speed_m_s",
                       "a mean speed of " + four_digits(body) + " m/s where this robot's wheels turn for " +
@@ -92,11 +116,11 @@ void check_robot(const Trajectory& log, const Geometry& geometry, Findings& find
 std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot) {
   const Trajectory& log = run.log;
   Findings findings;
-  check_time(log, findings);
+  check_time(run, findings);
   check_wheels(log, robot.geometry, findings);
-  for (const Bound& bound : kColumnBounds)
-    if (const double most = greatest_of(bound.column, run); most > bound.most)
-      findings.push_back({bound.column, std::string(bound.column) + " up to " + four_digits(most),
+  for (const ColumnBound& bound : column_bounds(robot))
+    if (const std::string column(bound.column); greatest_of(column, run) > bound.most)
+      findings.push_back({column, column + " up to " + four_digits(greatest_of(column, run)),
                           "at most " + four_digits(bound.most), bound.hint});
   check_robot(log, robot.geometry, findings);
   return findings;

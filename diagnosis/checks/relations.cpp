@@ -53,8 +53,10 @@ struct Bounds {
 constexpr Bounds kWinding{kSoundWinding, kDoubtfulWinding}, kTorque{kSoundTorque, kSoundTorque},
     kMotion{kSoundMotion, kSoundMotion}, kBattery{kSoundBattery, kDoubtfulBattery};
 
+/// None with too few rows: coefficients explain as many rows exactly, whatever the channels are.
 std::optional<Relation> relation(std::string law, const Bounds& bounds, const VectorXd& explained,
                                  const std::vector<BoxedTerm>& terms) {
+  if (explained.size() < static_cast<Eigen::Index>(terms.size()) + kLeastFreeRows) return {};
   return Relation{std::move(law), fit_in_box(explained, terms).unexplained, bounds.sound, bounds.doubtful};
 }
 
@@ -63,7 +65,7 @@ std::optional<Relation> relation(std::string law, const Bounds& bounds, const Ve
 std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 Side side, double freedom) {
   const VectorXd& voltage = run.motor_voltage_V[side];
-  if (!has(run, voltage)) return {};
+  if (!has(run, voltage) || !wheel_turns(run, side)) return {};
   const Motor& motor = robot.motor[side];
   const bool measured = has(run, run.motor_current_A[side]);
   const VectorXd current = measured ? run.motor_current_A[side] : expected.current_A(side);
@@ -87,7 +89,7 @@ std::optional<Relation> winding(const RunSignals& run, const Robot& robot, const
 std::optional<Relation> mechanics(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                   Side side, double freedom) {
   const VectorXd& current = run.motor_current_A[side];
-  if (!has(run, current) || rms(run.wheel_speed_rad_s[side]) < kBlurredWheel_rad_s) return {};
+  if (!has(run, current) || !wheel_turns(run, side)) return {};
   const Motor& motor = robot.motor[side];
   const double friction_A = motor.friction_torque_Nm / motor.torque_per_ampere_Nm_A();
   const VectorXd yaw = body_twist(robot.geometry, run.wheel_speed_rad_s).yaw_rate_rad_s;
@@ -169,7 +171,7 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
 /// may be large.
 std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 double freedom) {
-  if (!has(run, run.battery_power_W)) return {};
+  if (!has(run, run.battery_power_W) || !moves(run)) return {};
   const bool measured = has(run, run.motor_power_W.left) && has(run, run.motor_power_W.right);
   VectorXd drive = VectorXd::Zero(run.size()), brake = VectorXd::Zero(run.size());
   for (Side side : kSides) {
@@ -204,6 +206,12 @@ std::optional<Relation> supply(const RunSignals& run, const Robot& robot, double
 }
 
 }  // namespace
+
+bool wheel_turns(const RunSignals& run, Side side) {
+  return rms(run.wheel_speed_rad_s[side]) >= kBlurredWheel_rad_s;
+}
+
+bool moves(const RunSignals& run) { return wheel_turns(run, Side::left) || wheel_turns(run, Side::right); }
 
 ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
   ExpectedMotors expected;

@@ -19,6 +19,10 @@ struct Relation {
   double doubtful{};
 };
 
+/// Whether a wheel turns, and whether any does: of motors and battery, a run at rest shows noise and offsets.
+[[nodiscard]] bool wheel_turns(const RunSignals& run, Side side);
+[[nodiscard]] bool moves(const RunSignals& run);
+
 /// Currents and voltages that the nominal robot's motors need for the measured motion.
 struct ExpectedMotors {
   Sided<Eigen::VectorXd> friction_A{}, viscous_A{}, inertia_A{};
@@ -27,7 +31,8 @@ struct ExpectedMotors {
 
 [[nodiscard]] ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot);
 
-/// Of one run, by law, always in the same order; empty where a channel is absent or the run does not move.
+/// Of one run, by law, always in the same order; empty where a channel is absent, where the run does not move
+/// and where it has fewer than `kLeastFreeRows` rows more than the law has coefficients.
 using Relations = std::vector<std::optional<Relation>>;
 
 /// The relations that the run's channels and motion allow. With `freedom` 1 a factor may take any value

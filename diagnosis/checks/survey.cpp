@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "diagnosis/checks/plausible.hpp"
 #include "diagnosis/signals/manoeuvres.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/effects/catalog.hpp"
 #include "model/limit_table.hpp"
+#include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 // Design: docs/decisions/0508-what-runs-can-show.md
 namespace joulepath {
@@ -76,6 +78,18 @@ constexpr Channel kChannels[] = {
     {"start_time", [](const RunSignals& r) { return r.time_of_day_known; }, &Needs::time_of_day},
 };
 
+double log_length_s(const Trajectory& log) {
+  return log.size() == 0 ? 0.0 : log.time_s.back() - log.time_s.front();
+}
+
+std::string length_text(const Trajectory& log) {
+  return std::to_string(log.size()) + " samples in " + four_digits(log_length_s(log)) + " s";
+}
+
+std::string needed_text() {
+  return std::to_string(kLeastSamples) + " samples and " + four_digits(kLeastLength_s) + " s";
+}
+
 }  // namespace
 
 Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& signals) {
@@ -103,7 +117,8 @@ Survey survey_dataset(const Dataset& dataset, const std::vector<RunSignals>& sig
   if (!reverses(share)) lacks("no reversing", true, &Needs::reversing);
   if (share.still < kLeastManoeuvreShare)
     survey.notes.push_back("no standstill: sensor offsets are less visible");
-  if (const std::string note = unstated_payload_note(dataset); !note.empty()) survey.notes.push_back(note);
+  for (const std::string& note : {unstated_payload_note(dataset), short_runs_note(dataset)})
+    if (!note.empty()) survey.notes.push_back(note);
   return survey;
 }
 
@@ -116,6 +131,33 @@ std::string unstated_payload_note(const Dataset& dataset) {
          "the payload is not stated. It is estimated from the log, and no mass is named on that ground. The "
          "dataset file states it per run: - {file: " +
          runs.front() + ", payload_kg: 0}";
+}
+
+std::string short_runs_note(const Dataset& dataset) {
+  std::vector<std::string> runs;
+  const Trajectory* longest = nullptr;
+  for (const Run& run : dataset.runs) {
+    if (is_energy_run(run) || has_usable_log(run)) continue;
+    runs.push_back(run.name);
+    if (!longest || log_length_s(run.log) > log_length_s(*longest)) longest = &run.log;
+  }
+  if (runs.empty()) return "";
+  return runs_text(runs, dataset.runs.size()) + "too short, left out: " + (runs.size() > 1 ? "up to " : "") +
+         length_text(*longest) + ", where the smoothing needs " + needed_text();
+}
+
+void refuse_short_runs(const Dataset& dataset) {
+  if (dataset.runs.empty() || std::ranges::any_of(dataset.runs, [](const Run& run) {
+        return is_energy_run(run) || has_usable_log(run);
+      }))
+    return;
+  const Run& longest =
+      std::ranges::max(dataset.runs, {}, [](const Run& run) { return log_length_s(run.log); });
+  std::string found = "no run that is long enough: " + longest.name + " has " + length_text(longest.log),
+              hint;
+  for (const Implausible& channel : implausible_channels(longest, dataset.robot))
+    append_item(found, channel.found), append_item(hint, channel.hint);
+  throw ConfigError({longest.mark, "runs", found, "a log with wheel speeds and " + needed_text(), hint});
 }
 
 std::vector<std::string> artifact_texts(const Dataset& dataset) {

@@ -21,6 +21,13 @@ struct Survey {
 /// Which runs state no payload, what that means, and the line of the dataset file that states it; else empty.
 [[nodiscard]] std::string unstated_payload_note(const Dataset& dataset);
 
+/// The logs that are too short to be smoothed, how long they are and what is needed; else empty.
+[[nodiscard]] std::string short_runs_note(const Dataset& dataset);
+
+/// Throws ConfigError with the first run's place where no run can be diagnosed: every log is too short, and
+/// none has a measured energy with its motion.
+void refuse_short_runs(const Dataset& dataset);
+
 /// Artifacts as sentences.
 [[nodiscard]] std::vector<std::string> artifact_texts(const Dataset& dataset);
 

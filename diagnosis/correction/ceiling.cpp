@@ -70,8 +70,7 @@ Eigen::MatrixXd dictionary_part(const Identification& id, const DictionaryLayout
 }
 
 /// Predicted less measured energy (J) of a run, dictionary included.
-double flexible_gap_J(const RunSignals& run, const Robot& robot, const Prediction& p,
-                      const Eigen::MatrixXd& added) {
+double flexible_gap_J(const RunSignals& run, const Prediction& p, const Eigen::MatrixXd& added) {
   double gap_J = 0;
   for (Side side : kSides) {
     const Eigen::VectorXd measured_W = measured_power_W(run, side);
@@ -79,7 +78,7 @@ double flexible_gap_J(const RunSignals& run, const Robot& robot, const Predictio
     const int s = side == Side::left ? 0 : 1;
     const Eigen::VectorXd current_A = added.col(kCurrentLeft + s);
     const Eigen::VectorXd voltage_V =
-        added.col(kWindingLeft + s) + robot.motor[side].resistance_ohm * current_A;
+        added.col(kWindingLeft + s) + p.reading_resistance_ohm[side].cwiseProduct(current_A);
     gap_J += run.period_s *
              ((p.voltage_V[side] + voltage_V).dot(p.current_A[side] + current_A) - measured_W.sum());
   }
@@ -105,7 +104,7 @@ double ceiling_shrink_fraction(const Examination& x, bool any_named, const Energ
     parallel_for(signals.size(), [&](std::size_t r) {
       if (!x.runs.fold_of.empty() && x.runs.fold_of[r] != fold) return;
       const Prediction p = predict(signals[r], point);
-      gap_J[r] = flexible_gap_J(signals[r], point.robot, p,
+      gap_J[r] = flexible_gap_J(signals[r], p,
                                 dictionary_part(id, layout, parameters, signals[r], x.dataset.robot, p));
     });
   }

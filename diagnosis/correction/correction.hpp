@@ -9,6 +9,7 @@ struct Correction {
   std::optional<Robot> robot{};  ///< constants moved, physical effects added
   std::vector<EffectSetting> instruments{};
   std::vector<std::string> notes{};
+  std::string refused{};  ///< why a robot that shrinks the gap is not written; empty: none was refused
 };
 
 /// The corrected robot, if the cause is unambiguous: the part of the names that does not widen the held-out

@@ -17,17 +17,6 @@ namespace {
 /// Logs without any noise (a simulator's) have no floor to measure.
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
 
-/// Gap that the calibrated and corrected model leaves on the runs it was fitted to, but at most
-/// what the scatter between runs allows: the error of a wrong model must not count as noise.
-double noise_floor_percent(const Examination& x, const Refit& fitted) {
-  const ModelPoint point = x.point_of(fitted.state);
-  const double left =
-      energy_gap_percent(run_energies(fitted.signals, ModelPoints(fitted.signals.size(), point)));
-  return finite_or_zero(
-      std::min(left, kScatterFactor * run_scatter_percent(fitted.signals, point, x.id.equations.run_variance,
-                                                          x.id.equations.noise)));
-}
-
 double nominal_gap_percent(const Examination& x) {
   const std::vector<RunSignals> signals = read_signals(x.runs.validation, 0.0);
   return energy_gap_percent(run_energies(signals, ModelPoints(signals.size(), x.nominal())));
@@ -115,23 +104,42 @@ void keep_part(const std::vector<ActiveEffect>& part, const Refit& fitted, bool 
   v.fitted = fitted;
 }
 
-/// The first part of the names that is better than the file on held-out runs. Constants are moved only where
-/// that reduces the gap. Names that widen it by more than kMaterialGap_percent are withdrawn.
+/// A correction that may be written, and what it does on held-out runs.
+struct Draft {
+  ModelState state{};
+  JudgedModel model{};
+};
+
+/// The names with the fit's constants and with the file's, the one with the smaller held-out gap first.
+std::vector<Draft> drafts_of(const Examination& x, const Refit& fitted, JudgedModel model) {
+  Draft effects_alone{.state = fitted.state, .model = with_nominal_constants(model)};
+  std::ranges::fill(effects_alone.state.nuisance_fraction, 0.0);
+  std::vector<Draft> drafts{{within_calibration(x, fitted.state), std::move(model)},
+                            std::move(effects_alone)};
+  if (!(gap_percent(x, drafts[0].model) <= gap_percent(x, drafts[1].model))) std::swap(drafts[0], drafts[1]);
+  return drafts;
+}
+
+/// The first part of the names that is better than the file on held-out runs and that the program reads.
+/// Constants are moved only where that reduces the gap. Names that widen it by more than kMaterialGap_percent are
+/// withdrawn.
 void choose_correction(const Examination& x, double before, Validation& v) {
   const bool widens = gap_percent(x, v.model) > before + kMaterialGap_percent;
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
     const bool all = part.size() == v.judgment.named.size();
     const Refit fitted = all ? v.fitted : fit_names(x, part);
-    JudgedModel model = all ? v.model : judged_model(x, fitted);
-    ModelState state = fitted.state;
-    JudgedModel effects_alone = with_nominal_constants(model);
-    if (!(gap_percent(x, model) <= gap_percent(x, effects_alone))) {
-      model = std::move(effects_alone);
-      std::ranges::fill(state.nuisance_fraction, 0.0);
+    for (Draft& draft : drafts_of(x, fitted, all ? v.model : judged_model(x, fitted))) {
+      if (!is_better(x, before, draft.model)) break;
+      v.refused = x.refusal ? x.refusal(corrected_robot(x, draft.state)) : "";
+      if (!v.refused.empty()) continue;
+      v.corrected = std::move(draft.state), v.model = std::move(draft.model);
+      if (!all) keep_part(part, fitted, widens, v);
+      return;
     }
-    if (!is_better(x, before, model)) continue;
-    v.corrected = state, v.model = model;
-    if (!all) keep_part(part, fitted, widens, v);
+  }
+  if (!v.refused.empty()) {
+    v.judgment.notes.push_back("no correction is written: the program would refuse its robot file, " + v.refused);
+    if (v.judgment.verdict == Verdict::explained) v.judgment.verdict = Verdict::partly_explained;
     return;
   }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out gap: none is written");
@@ -151,21 +159,10 @@ double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
 }
 
-/// A constant far outside its uncertainty is an effect: where nothing is named it stays within its box.
-JudgedModel within_calibration(const Examination& x, JudgedModel model) {
-  for (ModelState& state : model.states)
-    for (std::size_t k = 0; k < x.id.nuisances.size(); ++k) {
-      const double most = kCalibrationBox * x.id.nuisances[k].sigma;
-      state.nuisance_fraction[k] = std::clamp(state.nuisance_fraction[k], -most, most);
-    }
-  return model;
-}
-
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
 void judge_what_is_left(const Examination& x, double before, Validation& v) {
   const bool named = !v.judgment.named.empty();
-  const double floor = noise_floor_percent(x, v.fitted),
-               after = gap_percent(x, named ? v.model : within_calibration(x, v.model));
+  const double floor = noise_floor_percent(x, v.fitted), after = gap_percent(x, v.model);
   const double least =
       (named ? caution(x) : kCautionFactor) * std::max(kFloorsLeft * floor, kMaterialGap_percent);
   if (after <= least) return;
@@ -192,6 +189,15 @@ void fill_floors(const NoiseModel& noise, GapReport& gap) {
 
 }  // namespace
 
+double noise_floor_percent(const Examination& x, const Refit& fitted, EnergyAt at) {
+  const ModelPoint point = x.point_of(fitted.state);
+  const double left =
+      energy_gap_percent(run_energies(fitted.signals, ModelPoints(fitted.signals.size(), point), at));
+  return finite_or_zero(
+      std::min(left, kScatterFactor * run_scatter_percent(fitted.signals, point, x.id.equations.run_variance,
+                                                          x.id.equations.noise, at)));
+}
+
 Validation validate(const Examination& x, const Judgment& by_race) {
   Validation v{.judgment = by_race};
   fit_what_can_be_told(x, v);
@@ -212,10 +218,12 @@ GapReport held_out_gap(const Examination& x, const Validation& v, std::size_t bo
                    .before = x.nominal(),
                    .after = correct_it ? points_of(x, v.model) : ModelPoints(before.size(), x.nominal()),
                    .noise_floor_percent = noise_floor_percent(x, v.fitted),
+                   .battery_floor_percent = noise_floor_percent(x, v.fitted, EnergyAt::battery),
                    .bootstrap = bootstrap,
                    .fitted_signals = v.fitted.signals,
                    .fitted = x.point_of(v.fitted.state)});
   if (!correct_it) gap.energy.shrink_interval_95 = {};  // nothing is claimed
+  if (!correct_it && gap.battery_energy) gap.battery_energy->shrink_interval_95 = {};
   fill_floors(x.id.equations.noise, gap);
   return gap;
 }

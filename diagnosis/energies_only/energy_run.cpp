@@ -115,8 +115,6 @@ EnergyRun energy_run(const Run& run, std::size_t index, const Robot& robot) {
 
 }  // namespace
 
-bool is_energy_run(const Run& run) { return run.motion && (run.measured_energy_J || run.battery_energy_Wh); }
-
 std::vector<EnergyRun> energy_runs(const Dataset& dataset) {
   std::vector<EnergyRun> runs;
   for (std::size_t r = 0; r < dataset.runs.size(); ++r) {

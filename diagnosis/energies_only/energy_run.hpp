@@ -44,9 +44,6 @@ struct EnergyRun {
   }
 };
 
-/// True for a run with a prescribed motion, an energy and no log.
-[[nodiscard]] bool is_energy_run(const Run& run);
-
 /// The dataset's runs without a log, in its order. Throws ConfigError with the run's place where its motion
 /// cannot be driven.
 [[nodiscard]] std::vector<EnergyRun> energy_runs(const Dataset& dataset);

@@ -221,11 +221,11 @@ std::vector<RawRunEquations> compress_and_estimate(const std::vector<RunRows>& r
   for (std::size_t r = 0; r < rows.size(); ++r) left[r] = rows[r].residual;
   const std::array<double, kChannelCount> floor = resolution_floor(signals);
   equations.noise = first_noise ? *first_noise : white_noise(left, floor);
-  const Eigen::VectorXd estimated = run_start_variance(robot);
-  const Eigen::Index given = payload_column ? 1 : 0;
-  equations.run_variance.resize(estimated.size() + given);
-  equations.run_variance << estimated,
-      Eigen::VectorXd::Constant(given, std::pow(payload_prior_sd_kg(robot), 2));
+  const Eigen::VectorXd start = run_start_variance(robot);
+  const Eigen::Index payloads = payload_column ? 1 : 0, given = kGivenRunVariances + payloads;
+  equations.run_variance.resize(start.size() + payloads);
+  equations.run_variance << start,
+      Eigen::VectorXd::Constant(payloads, std::pow(payload_prior_sd_kg(robot), 2));
   for (int pass = first_noise ? 1 : 0;; ++pass) {
     std::vector<RawRunEquations> raw = compress_all(rows, equations.noise);
     set_dictionary_prior(raw, equations.columns);

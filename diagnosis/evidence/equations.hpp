@@ -36,7 +36,8 @@ struct Equations {
   std::vector<UnknownTerm> unknowns{};  ///< the dictionary by family and channel
   std::vector<RunEquations> runs{};
   NoiseModel noise{};
-  /// Of friction left, right, resistance left, right, gyro, standby; of the payload where a run states none.
+  /// Of friction left, right, resistance left, right, gyro, standby, open-circuit voltage and its change by
+  /// charge; of the payload where a run states none.
   Eigen::VectorXd run_variance{};
   Eigen::VectorXd prior_sd{};
 

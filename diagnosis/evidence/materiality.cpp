@@ -54,7 +54,7 @@ Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& b
     const Eigen::VectorXd current_A = rows.col(kCurrentLeft + s);
     changed.current_A[side] += current_A;
     changed.voltage_V[side] +=
-        rows.col(kWindingLeft + s) + point.robot.motor[side].resistance_ohm * current_A;
+        rows.col(kWindingLeft + s) + base.reading_resistance_ohm[side].cwiseProduct(current_A);
     changed.power_W[side] = changed.voltage_V[side].cwiseProduct(changed.current_A[side]);
   }
   for (Eigen::Index j = 0; j < changed.battery_power_W.size(); ++j)

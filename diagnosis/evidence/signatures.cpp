@@ -183,6 +183,14 @@ Eigen::MatrixXd form_rows(const Differencer& differencer, const ModelState& stat
                               variable);
 }
 
+/// Charge drawn since the run's start, as a share of the run's greatest.
+Eigen::VectorXd drawn_share(const Eigen::VectorXd& current_A) {
+  Eigen::VectorXd drawn = current_A;
+  for (Eigen::Index j = 1; j < drawn.size(); ++j) drawn[j] += drawn[j - 1];
+  const double greatest = drawn.size() > 0 ? drawn.cwiseAbs().maxCoeff() : 0.0;
+  return greatest > 0 ? Eigen::VectorXd(drawn / greatest) : drawn;
+}
+
 }  // namespace
 
 AmplitudeStep amplitude_step(const ModelState& state, const Candidate& candidate, std::size_t part) {
@@ -259,7 +267,7 @@ std::vector<Eigen::MatrixXd> signatures(const RunSignals& signals, const Robot& 
 std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Robot& robot,
                                             const Prediction& base) {
   const Eigen::Index n = signals.size();
-  std::vector<Eigen::MatrixXd> own(6, Eigen::MatrixXd::Zero(n, kChannelCount));
+  std::vector<Eigen::MatrixXd> own(8, Eigen::MatrixXd::Zero(n, kChannelCount));
   for (Side side : kSides) {
     const std::size_t s = side == Side::left ? 0 : 1;
     const Motor& motor = robot.motor[side];
@@ -274,6 +282,9 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
   }
   own[4].col(kGyro).setConstant(1.0);
   own[5].col(kDriverPower).setConstant(1.0);
+  own[6].col(kSupplyVoltage).setConstant(1.0);
+  if (signals.battery_current_A.size() == n)
+    own[7].col(kSupplyVoltage) = drawn_share(signals.battery_current_A);
   return own;
 }
 
@@ -292,10 +303,12 @@ double payload_prior_sd_kg(const Robot& robot) {
 }
 
 Eigen::VectorXd run_start_variance(const Robot& robot) {
-  Eigen::VectorXd sd(6);
+  const double open_V = robot.battery.open_circuit_voltage_V,
+               charge_V = std::isfinite(open_V) ? kOpenCircuitChange * open_V : 0.0;
+  Eigen::VectorXd sd(8);
   const double torque = kRunChange * (robot.motor.left.friction_torque_Nm + kLeastChangingFriction_Nm),
                ohm = kRunChange * robot.motor.left.resistance_ohm;
-  sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W;
+  sd << torque, torque, ohm, ohm, kRunGyroBias_rad_s, kRunStandby_W, charge_V, charge_V;
   return sd.cwiseAbs2();
 }
 

@@ -45,10 +45,13 @@ inline constexpr std::array<std::string_view, 5> kFormVariables{"speed", "yaw ra
                                                       const Prediction& base);
 
 /// Columns of the parameters that may differ between runs: friction and resistance (left, right), bias of the
-/// gyro, standby power.
+/// gyro, standby power; then the battery's open-circuit voltage at the run's start, and its change by the
+/// charge that the run draws.
 [[nodiscard]] std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Robot& robot,
                                                           const Prediction& base);
 [[nodiscard]] Eigen::VectorXd run_start_variance(const Robot& robot);
+/// The last of them are given, not estimated: a battery is at another charge in every run.
+inline constexpr Eigen::Index kGivenRunVariances = 2;
 
 /// Column of a payload (kg) that no file states: a further parameter of the run. Zero for a stated one.
 [[nodiscard]] Eigen::MatrixXd payload_signature(const RunSignals& signals, const ModelPoint& point,

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "model/normal_quantiles.hpp"
+#include "model/printable.hpp"
 #include "model/watt_hours.hpp"
 
 namespace joulepath {
@@ -12,20 +15,27 @@ namespace {
 constexpr double kShrink = 0.05;        ///< share of the plan that the first joules count for
 constexpr double kLegTolerance = 0.03;  ///< of a leg's energy
 constexpr double kSmoothing = 0.02;
-constexpr double kMostOfAnything = 1e6;  ///< in the units of a row
+constexpr double kMostAngle_rad = 1e6;
+constexpr std::uint64_t kFewOdd = 20;    ///< rows with a number that no robot has; more are no glitches
+constexpr std::uint64_t kOddShare = 10;  ///< where they are one in so many
 constexpr double kClockJump_s = 60;      ///< a longer step has to be confirmed by the next row
 constexpr double kLongestGap_s = 3600;   ///< a longer step is another clock, not time that passed
 
-/// A number that no robot has: one such row would decide all sums.
-bool is_absurd(const MonitorRow& row) {
-  const auto beyond = [](double value) { return std::abs(value) > kMostOfAnything; };
-  return std::ranges::any_of(
-      std::array{row.wheel_speed_rad_s.left, row.wheel_speed_rad_s.right, row.motor_voltage_V.left,
-                 row.motor_voltage_V.right, row.motor_current_A.left, row.motor_current_A.right,
-                 row.motor_power_W.left, row.motor_power_W.right, row.battery_voltage_V,
-                 row.battery_current_A, row.heading_rad, row.payload_kg},
-      beyond);
-}
+struct RowColumn {
+  std::string_view name;
+  double (*of)(const MonitorRow&);
+};
+constexpr RowColumn kRowColumns[] = {
+    {"motor_voltage_left_V", [](const MonitorRow& row) { return row.motor_voltage_V.left; }},
+    {"motor_voltage_right_V", [](const MonitorRow& row) { return row.motor_voltage_V.right; }},
+    {"motor_current_left_A", [](const MonitorRow& row) { return row.motor_current_A.left; }},
+    {"motor_current_right_A", [](const MonitorRow& row) { return row.motor_current_A.right; }},
+    {"motor_power_left_W", [](const MonitorRow& row) { return row.motor_power_W.left; }},
+    {"motor_power_right_W", [](const MonitorRow& row) { return row.motor_power_W.right; }},
+    {"battery_voltage_V", [](const MonitorRow& row) { return row.battery_voltage_V; }},
+    {"battery_current_A", [](const MonitorRow& row) { return row.battery_current_A; }},
+    {"payload_kg", [](const MonitorRow& row) { return row.payload_kg; }},
+};
 
 std::array<double, 2> interval_95(double value, double sigma) {
   return {value - kNormal95 * sigma, value + kNormal95 * sigma};
@@ -37,6 +47,7 @@ Monitor::Monitor(const Robot& robot, PlannedCourse course, const MonitorOptions&
     : robot_(robot),
       course_(std::move(course)),
       options_(options),
+      bounds_(column_bounds(robot)),
       progress_(course_),
       meter_(robot.power),
       watch_(robot, options.hours_per_false_alarm) {}
@@ -53,9 +64,45 @@ bool Monitor::is_on_the_clock(double time_s) {
   return true;
 }
 
+/// A number that no robot has: one such row would decide all sums. Rows that keep coming with it have another
+/// unit.
+bool Monitor::is_possible(const MonitorRow& row) {
+  const auto refuse = [&](std::string channel, double value, double most, const char* hint) {
+    if (++odd_rows_ > kFewOdd && kOddShare * odd_rows_ > rows_.used + odd_rows_ && !implausible_)
+      implausible_ = {channel,
+                      channel + " of " + four_digits(value) + " in " + std::to_string(odd_rows_) + " rows",
+                      "at most " + four_digits(most), hint};
+    return false;
+  };
+  if (std::abs(row.time_s) > kLatestClock_s) return refuse("time_s", row.time_s, kLatestClock_s, kClockHint);
+  for (const Side side : kSides)
+    if (const double most = kFastest_m_s / robot_.geometry.wheel_radius_m[side],
+        speed = row.wheel_speed_rad_s[side];
+        std::abs(speed) > most)
+      return refuse(std::string("wheel_speed_") + side_name(side) + "_rad_s", speed, most,
+                    "degrees per second, rpm or encoder ticks?");
+  for (const RowColumn& column : kRowColumns) {
+    const auto bound = std::ranges::find(bounds_, column.name, &ColumnBound::column);
+    if (std::abs(column.of(row)) > bound->most)
+      return refuse(std::string(column.name), column.of(row), bound->most, bound->hint);
+  }
+  return !(std::abs(row.heading_rad) > kMostAngle_rad);
+}
+
+/// Milliseconds that are read as seconds show in the wheels' acceleration.
+void Monitor::watch_clock(const MonitorRow& row) {
+  for (const Side side : kSides) {
+    start_[side].add(row.time_s, row.wheel_speed_rad_s[side]);
+    if (start_[side].is_too_slow() && !implausible_)
+      implausible_ = {"time_s",
+                      "a wheel that needs " + four_digits(start_[side].duration_s()) + " s to come to speed",
+                      "at most " + four_digits(kLongestStart_s) + " s", kClockHint};
+  }
+}
+
 bool Monitor::is_usable(const MonitorRow& row) {
   if (!std::isfinite(row.time_s) || !std::isfinite(row.wheel_speed_rad_s.left) ||
-      !std::isfinite(row.wheel_speed_rad_s.right) || is_absurd(row)) {
+      !std::isfinite(row.wheel_speed_rad_s.right) || !is_possible(row)) {
     ++rows_.broken;
     return false;
   }
@@ -83,6 +130,7 @@ const std::vector<MonitorEvent>& Monitor::add(const MonitorRow& logged) {
   row.time_s -= clock_shift_s_;
   if (!is_usable(row)) return events_;
   last_s_ = row.time_s;
+  watch_clock(row);
   if (std::isnan(next_status_s_)) next_status_s_ = row.time_s + options_.status_every_s;
   const double rim_m_s = rim_speed_m_s(robot_.geometry, row.wheel_speed_rad_s);
   if (row.time_s > before_s) progress_.advance(row.time_s - before_s, 0.5 * (rim_m_s + last_rim_m_s_));

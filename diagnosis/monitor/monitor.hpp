@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "diagnosis/checks/column_bounds.hpp"
+#include "diagnosis/checks/implausible.hpp"
 #include "diagnosis/monitor/cause_watch.hpp"
 #include "diagnosis/monitor/energy_meter.hpp"
 #include "diagnosis/monitor/planned_course.hpp"
@@ -20,7 +22,7 @@ struct MonitorOptions {
 struct RowCounts {
   std::uint64_t used{};
   std::uint64_t late{};     ///< not later than one before (doubled, out of order), or alone on another clock
-  std::uint64_t broken{};   ///< without a time or a wheel speed, or with a number above 1e6
+  std::uint64_t broken{};   ///< without a time or a wheel speed, or with a number that no robot has
   std::uint64_t missing{};  ///< that a gap of the clock left out
 };
 
@@ -84,8 +86,12 @@ class Monitor {
   [[nodiscard]] MonitorStatus status() const;
   /// The present leg so far.
   [[nodiscard]] LegExecuted leg_executed() const;
+  /// A channel in another unit, by the checks of logs in files: what was told so far is wrong.
+  [[nodiscard]] const std::optional<Implausible>& implausible() const { return implausible_; }
 
  private:
+  [[nodiscard]] bool is_possible(const MonitorRow& row);
+  void watch_clock(const MonitorRow& row);
   [[nodiscard]] bool is_usable(const MonitorRow& row);
   [[nodiscard]] bool is_on_the_clock(double time_s);
   [[nodiscard]] MonitorEvent told(const CauseChange& change, double stated_kg) const;
@@ -94,11 +100,15 @@ class Monitor {
   Robot robot_;
   PlannedCourse course_;
   MonitorOptions options_;
+  std::array<ColumnBound, 10> bounds_;
   CourseProgress progress_;
   EnergyMeter meter_;
   CauseWatch watch_;
   std::vector<MonitorEvent> events_{};
   RowCounts rows_{};
+  std::uint64_t odd_rows_{};  ///< with a number that no robot has
+  Sided<QuickestStart> start_{};
+  std::optional<Implausible> implausible_{};
   double clock_shift_s_{};      ///< of the log's clock against the first one
   double doubtful_s_{kAbsent};  ///< log time of the last row that was on another clock
   double last_s_{kAbsent}, last_rim_m_s_{}, next_status_s_{kAbsent}, period_s_{kAbsent}, stated_kg_{};

@@ -95,6 +95,26 @@ void distort(const std::vector<Effect>& instruments, double channel_delay_s, con
     }
 }
 
+double gain_of(const std::vector<Effect>& instruments, Side side) {
+  double gain = 1.0;
+  for (const Effect& instrument : instruments)
+    std::visit(
+        [&](const auto& effect) {
+          if constexpr (requires { effect.current_reading(side); }) gain *= effect.current_reading(side).gain;
+        },
+        instrument);
+  return gain;
+}
+
+Sided<Eigen::VectorXd> reading_resistance_ohm(const SplitModel& split, const RunSignals& signals) {
+  Sided<Eigen::VectorXd> ohm;
+  const Eigen::VectorXd factor = signals.time_of_day_s.unaryExpr(
+      [&](double time_of_day_s) { return split.plant.resistance_factor(time_of_day_s); });
+  for (Side side : kSides)
+    ohm[side] = factor * (split.plant.robot.motor[side].resistance_ohm / gain_of(split.instruments, side));
+  return ohm;
+}
+
 Prediction empty_prediction(Eigen::Index n) {
   Prediction out;
   const Resizer resize{n};
@@ -201,6 +221,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
     return motion;
   });
   distort(split.instruments, point.channel_delay_s, signals, out);
+  out.reading_resistance_ohm = reading_resistance_ohm(split, signals);
   return out;
 }
 

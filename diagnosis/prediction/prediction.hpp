@@ -22,6 +22,9 @@ struct Prediction {
   Sided<Eigen::VectorXd> current_A{};  ///< as a sensor reads them, effects of instruments included
   Sided<Eigen::VectorXd> voltage_V{};
   Sided<Eigen::VectorXd> power_W{};  ///< voltage times current, in the convention of the log
+  /// What one more ampere of the reading adds to the winding's voltage: the resistance with its effects, over
+  /// the reading's gain.
+  Sided<Eigen::VectorXd> reading_resistance_ohm{};
   Eigen::VectorXd battery_power_W{};
   Eigen::VectorXd battery_voltage_V{};  ///< at the measured battery current
   Eigen::VectorXd yaw_rate_rad_s{};

@@ -19,19 +19,18 @@ void fill(Channel channel, const Eigen::VectorXd& residual, ResidualRows& rows) 
   rows.present.col(channel).setConstant(true);
 }
 
-void fill_motor(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction, Side side,
-                ResidualRows& rows) {
+void fill_motor(const RunSignals& signals, const Prediction& prediction, Side side, ResidualRows& rows) {
   const Eigen::Index n = signals.size();
   const int s = side == Side::left ? 0 : 1;
   const auto current = static_cast<Channel>(kCurrentLeft + s),
              winding = static_cast<Channel>(kWindingLeft + s);
   const bool has_current = signals.motor_current_A[side].size() == n && n > 0;
   const bool has_voltage = signals.motor_voltage_V[side].size() == n && n > 0;
-  const double resistance_ohm = point.robot.motor[side].resistance_ohm;
   if (has_current) fill(current, signals.motor_current_A[side] - prediction.current_A[side], rows);
   if (has_voltage) {
     Eigen::VectorXd winding_V = signals.motor_voltage_V[side] - prediction.voltage_V[side];
-    if (has_current) winding_V -= resistance_ohm * rows.value.col(current);
+    if (has_current)
+      winding_V -= prediction.reading_resistance_ohm[side].cwiseProduct(rows.value.col(current));
     fill(winding, winding_V, rows);
   }
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -82,7 +81,7 @@ void fill_motion(const RunSignals& signals, const Prediction& prediction, Residu
 ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction) {
   ResidualRows rows{.value = Eigen::MatrixXd::Zero(signals.size(), kChannelCount)};
   rows.present.setConstant(signals.size(), kChannelCount, false);
-  for (Side side : kSides) fill_motor(signals, point, prediction, side, rows);
+  for (Side side : kSides) fill_motor(signals, prediction, side, rows);
   fill_supply(signals, point, prediction, rows);
   fill_motion(signals, prediction, rows);
   return rows;
@@ -103,7 +102,7 @@ Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& poin
     rows.col(kCurrentLeft + s) = current;
     rows.col(kWindingLeft + s) = voltage;
     if (signals.motor_current_A[side].size() == n)
-      rows.col(kWindingLeft + s) -= point.robot.motor[side].resistance_ohm * current;
+      rows.col(kWindingLeft + s) -= base.reading_resistance_ohm[side].cwiseProduct(current);
   }
   rows.col(kDriverPower) = driver_W;
   rows.col(kSupplyVoltage) = changed.battery_voltage_V - base.battery_voltage_V;

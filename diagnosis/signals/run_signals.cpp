@@ -263,8 +263,11 @@ bool measures_energy(const RunSignals& run) {
 bool has_usable_log(const Run& run) {
   const bool wheels = !run.log.wheel_speed_rad_s.left.empty() && !run.log.wheel_speed_rad_s.right.empty();
   const bool body = !run.log.linear_speed_m_s.empty() && !run.log.angular_speed_rad_s.empty();
-  return run.log.size() >= kLeastSamples && (wheels || body);
+  return run.log.size() >= kLeastSamples &&
+         run.log.time_s.back() - run.log.time_s.front() >= kLeastLength_s && (wheels || body);
 }
+
+bool is_energy_run(const Run& run) { return run.motion && (run.measured_energy_J || run.battery_energy_Wh); }
 
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options) {

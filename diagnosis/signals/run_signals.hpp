@@ -81,11 +81,14 @@ struct SignalOptions {
   double channel_delay_s{};  ///< delay at which the electrical channels are read
 };
 
-/// Smooths and downsamples a log with wheel speeds and at least `kLeastSamples` samples.
+/// Smooths and downsamples a usable log; at least one row is left.
 RunSignals make_run_signals(const Run& run, std::size_t run_index, const Robot& robot,
                             const SignalOptions& options = {});
 
-/// True for a run that can be diagnosed sample by sample: wheel speeds, enough samples.
+/// True for a run that can be diagnosed sample by sample: wheel speeds, `kLeastSamples`, `kLeastLength_s`.
 bool has_usable_log(const Run& run);
+
+/// True for a run with a prescribed motion, an energy and no log.
+[[nodiscard]] bool is_energy_run(const Run& run);
 
 }  // namespace joulepath

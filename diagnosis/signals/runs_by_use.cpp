@@ -52,10 +52,10 @@ SignalOptions sampling(const Dataset& dataset, const std::vector<std::size_t>& u
 
 }  // namespace
 
-RunsByUse sort_runs(const Dataset& dataset) {
+RunsByUse sort_runs(const Dataset& dataset, const std::set<std::size_t>& left_out) {
   std::vector<std::size_t> usable;
   for (std::size_t r = 0; r < dataset.runs.size(); ++r)
-    if (has_usable_log(dataset.runs[r])) usable.push_back(r);
+    if (has_usable_log(dataset.runs[r]) && !left_out.contains(r)) usable.push_back(r);
   std::vector<std::size_t> fitted, judged;
   for (std::size_t r : usable) (dataset.runs[r].use == RunUse::validation ? judged : fitted).push_back(r);
   RunsByUse runs;

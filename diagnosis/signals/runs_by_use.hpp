@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "diagnosis/signals/log_set.hpp"
@@ -20,7 +21,8 @@ struct RunsByUse {
 /// Runs marked `use: validation` judge and do nothing else. Without any, every run chooses and fits, and each
 /// is judged by a fit of the other folds' runs; folds are dealt by manoeuvre, then by payload. They depend on
 /// what is in the runs, not on their order.
-[[nodiscard]] RunsByUse sort_runs(const Dataset& dataset);
+/// Runs of `left_out` count as not usable.
+[[nodiscard]] RunsByUse sort_runs(const Dataset& dataset, const std::set<std::size_t>& left_out = {});
 
 /// 0 where runs do not take turns.
 [[nodiscard]] std::size_t fold_count(const RunsByUse& runs);

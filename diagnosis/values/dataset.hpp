@@ -20,7 +20,7 @@ struct PayloadStep {
 /// A property of a log that is not physics: held values, clock jumps, wrapped counters, ignored columns.
 struct LogArtifact {
   std::string kind{};     ///< clock_jump | gap | held_value | wrapped | unsigned | ignored_columns |
-                          ///< missing_values | resampled | contradiction
+                          ///< missing_values | resampled | contradiction | cut | partial_channel
   std::string run{};      ///< name of the run, empty = the whole dataset
   std::string channel{};  ///< column, empty = all
   std::string description{};
@@ -42,6 +42,7 @@ struct Run {
   bool payload_known{};  ///< false: neither the dataset nor the log states a payload; `payload` is a guess
   std::string surface{};
   std::optional<double> start_time_s{};  ///< time of day
+  double clock_origin_s{};               ///< what an epoch clock read at time 0 of the log; 0: no such clock
   RunUse use{RunUse::any};
   bool wheels_from_body_speeds{};   ///< the log has only the speeds of the body
   bool current_sign_from_motion{};  ///< the log's currents are unsigned; the sign comes from the wheel's

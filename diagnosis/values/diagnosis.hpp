@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -7,8 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/data_check.hpp"
 #include "diagnosis/values/dataset.hpp"
+#include "diagnosis/values/foreign_constant.hpp"
 #include "diagnosis/values/isolability.hpp"
 #include "diagnosis/values/verdict.hpp"
 #include "model/prescribed_motion.hpp"
@@ -34,10 +39,45 @@ struct SignalGap {
   bool present{};
 };
 
+/// Whether a gap changes by what counts.
+[[nodiscard]] inline bool is_notable_change(double before, double after) {
+  return std::abs(after - before) >= kNotableShrink * before;
+}
+
 struct GapReport {
-  EnergyGap energy{};
+  EnergyGap energy{};  ///< of both motors, or at the battery's terminals where nothing measures the motors
+  std::optional<EnergyGap> battery_energy{};  ///< at the battery's terminals, where both places are measured
   SignalGap current_A{}, voltage_V{}, position_m{}, heading_rad{}, battery_W{};
   std::map<std::string, std::pair<double, double>> energy_by_phase_J{};  ///< before, after
+};
+
+/// Whether the energy gap or a signal's shrinks by what counts.
+[[nodiscard]] inline bool shrinks_notably(const GapReport& gap) {
+  const auto shrinks = [](double before, double after) {
+    return after < before && is_notable_change(before, after);
+  };
+  const auto signal = [&](const SignalGap& s) { return s.present && shrinks(s.before_rms, s.after_rms); };
+  return shrinks(gap.energy.before_percent, gap.energy.after_percent) || signal(gap.current_A) ||
+         signal(gap.voltage_V) || signal(gap.position_m) || signal(gap.heading_rad) || signal(gap.battery_W);
+}
+
+/// The energy gap of another simulator (`predicted:`), over the runs that it predicts.
+struct SimulatorGap {
+  std::size_t runs{};     ///< whose energy it predicts; 0: no such run
+  std::size_t of_runs{};  ///< all that could be compared
+  double gap_percent{}, bias_percent{}, noise_floor_percent{};
+  Verdict model_verdict{};  ///< on the model of the robot file alone
+
+  [[nodiscard]] bool exceeds() const {
+    return runs > 0 && gap_percent > std::max(noise_floor_percent, 100 * kMaterialEnergy);
+  }
+};
+
+/// A run that no model of the other runs describes; nothing else of a diagnosis counts it.
+struct RunApart {
+  std::string run{};
+  double over_model_percent{};  ///< measured energy over what the others' model predicts, less 100 %
+  double share_of_gap{};        ///< of the file's model, over all runs
 };
 
 struct WhereCell {
@@ -103,8 +143,10 @@ struct NextExperiment {
 /// The result of `diagnose`.
 struct Diagnosis {
   GapReport gap{};
+  SimulatorGap simulator{};
+  std::vector<RunApart> runs_apart{};
   std::vector<WhereCell> where{};
-  Verdict verdict{Verdict::too_little_data};
+  Verdict verdict{Verdict::too_little_data};  ///< on the robot file's model and on `simulator` together
   std::vector<Cause> causes{};
   std::vector<RankedEffect> ranking{};
   std::vector<UnknownCause> unknowns{};
@@ -119,6 +161,7 @@ struct Diagnosis {
   std::string pinned_combination{};
   std::vector<ParameterCorrelation> correlations{};  ///< of the causes' strengths, the strongest first
   std::vector<DataCheck> data_checks{};  ///< channels that contradict physics: nothing else is examined
+  std::vector<ForeignConstant> foreign_constants{};  ///< the file's is another robot: no cause is sought
   Isolability isolability{};             ///< of the diagnosis runs; empty where no log can be used
   std::map<std::size_t, double> estimated_payload_kg{};  ///< of runs that state none, by index
   std::vector<std::string> artifacts{};
@@ -130,10 +173,15 @@ struct Diagnosis {
   std::string validation_method{};
   std::optional<Robot> corrected_robot{};  ///< where a correction holds on held-out runs
   std::vector<EffectSetting> corrected_instruments{};
+  std::string refused_correction{};  ///< why a correction that shrinks the gap is not written; empty: none
 };
+
+/// Why a robot file with these values would be refused; empty: it reads back.
+using RobotRefusal = std::function<std::string(const Robot&)>;
 
 struct DiagnoseOptions {
   std::size_t bootstrap{400};
+  RobotRefusal refusal{};  ///< without it every correction counts as one that reads back
   std::set<std::string> without{};  ///< effects taken out of the catalog
 };
 

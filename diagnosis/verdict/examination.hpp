@@ -6,6 +6,7 @@
 
 #include "diagnosis/evidence/identify.hpp"
 #include "diagnosis/signals/runs_by_use.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
 
@@ -14,6 +15,7 @@ struct Examination {
   const Dataset& dataset;
   const RunsByUse& runs;
   const Identification& id;
+  RobotRefusal refusal{};
 
   const Explanation& best() const { return id.explanations.front(); }
   ModelPoint nominal() const { return {.robot = dataset.robot}; }

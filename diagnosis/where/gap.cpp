@@ -16,6 +16,12 @@
 namespace joulepath {
 namespace {
 
+/// Whether a run's energy there is the battery's.
+bool is_at_battery(const RunSignals& run, EnergyAt at) {
+  return run.size() > 0 && run.battery_power_W.size() == run.size() &&
+         (at == EnergyAt::battery || !measures_motors(run));
+}
+
 double shrink(const std::vector<RunEnergy>& before, const std::vector<RunEnergy>& after,
               const std::vector<std::size_t>& runs) {
   double old_J = 0, new_J = 0;
@@ -32,15 +38,15 @@ double small_sample_factor(std::size_t runs) {
 }
 
 /// 95 % interval of the shrink on another day's runs: runs resampled about the shrink that is said.
-Range95 shrink_interval(const GapInput& input, std::vector<RunEnergy> before, std::vector<RunEnergy> after,
-                        const EnergyGap& energy) {
+Range95 shrink_interval(const GapInput& input, EnergyAt at, std::vector<RunEnergy> before,
+                        std::vector<RunEnergy> after, const EnergyGap& energy) {
   const std::size_t held_out = before.size();
   if (held_out == 0 || input.bootstrap == 0 || energy.before_J <= 0) return {};
   if (held_out < kFewHeldOut) {
     const std::size_t fitted = input.fitted_signals.size();
-    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.before)))
+    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.before), at))
       before.push_back(run);
-    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.fitted)))
+    for (const RunEnergy& run : run_energies(input.fitted_signals, ModelPoints(fitted, input.fitted), at))
       after.push_back(run);
   }
   const auto [low, high] =
@@ -49,15 +55,9 @@ Range95 shrink_interval(const GapInput& input, std::vector<RunEnergy> before, st
         return shrink(before, after, runs);
       });
   const double said = energy.shrink_fraction, wider = small_sample_factor(before.size()),
-               day = kAnotherDay * input.noise_floor_percent / energy.before_percent;
+               day = kAnotherDay * energy.noise_floor_percent / energy.before_percent;
   return {said - wider * std::max(0.0, said - low) - day,
           std::min(1.0, said + wider * std::max(0.0, high - said) + day)};
-}
-
-double bias_percent(const std::vector<RunEnergy>& runs) {
-  double gap = 0, measured = 0;
-  for (const RunEnergy& run : runs) gap += run.gap_J(), measured += std::abs(run.measured_J);
-  return measured > 0 ? 100 * gap / measured : 0.0;
 }
 
 /// Root mean square of a residual over samples and runs.
@@ -95,6 +95,23 @@ Squares squares_of(const std::vector<RunSignals>& signals, const ModelPoints& po
   return squares;
 }
 
+EnergyGap energy_gap(const GapInput& input, EnergyAt at, double noise_floor_percent) {
+  const std::vector<RunEnergy> before =
+      run_energies(input.before_signals, ModelPoints(input.before_signals.size(), input.before), at);
+  const std::vector<RunEnergy> after = run_energies(input.after_signals, input.after, at);
+  EnergyGap energy;
+  energy.before_percent = energy_gap_percent(before);
+  energy.after_percent = energy_gap_percent(after);
+  energy.bias_before_percent = energy_bias_percent(before);
+  energy.bias_after_percent = energy_bias_percent(after);
+  energy.noise_floor_percent = noise_floor_percent;
+  energy.before_J = absolute_gap_J(before);
+  energy.after_J = absolute_gap_J(after);
+  energy.shrink_fraction = energy.before_J > 0 ? 1 - energy.after_J / energy.before_J : 0.0;
+  energy.shrink_interval_95 = shrink_interval(input, at, before, after, energy);
+  return energy;
+}
+
 SignalGap signal_gap(const MeanSquare& before, const MeanSquare& after) {
   return {.before_rms = before.root(), .after_rms = after.root(), .present = before.count > 0};
 }
@@ -127,15 +144,17 @@ Eigen::VectorXd measured_power_W(const RunSignals& run, Side side) {
   return {};
 }
 
-std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, const ModelPoints& points) {
+std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, const ModelPoints& points,
+                                    EnergyAt at) {
   std::vector<RunEnergy> energies(signals.size());
   parallel_for(signals.size(), [&](std::size_t r) {
     const Prediction p = predict(signals[r], points[r]);
-    if (!measures_motors(signals[r]) && measures_energy(signals[r])) {
+    if (is_at_battery(signals[r], at)) {
       energies[r] = {.measured_J = signals[r].battery_power_W.sum() * signals[r].period_s,
                      .predicted_J = p.battery_power_W.sum() * signals[r].period_s};
       return;
     }
+    if (at == EnergyAt::battery) return;
     for (Side side : kSides) {
       const Eigen::VectorXd measured = measured_power_W(signals[r], side);
       if (measured.size() == 0) continue;
@@ -144,6 +163,12 @@ std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals, cons
     }
   });
   return energies;
+}
+
+bool measures_both_energies(const std::vector<RunSignals>& signals) {
+  return std::ranges::any_of(signals, [](const RunSignals& run) {
+    return is_at_battery(run, EnergyAt::battery) && !is_at_battery(run, EnergyAt::motors_first);
+  });
 }
 
 double absolute_gap_J(const std::vector<RunEnergy>& runs) {
@@ -158,13 +183,20 @@ double energy_gap_percent(const std::vector<RunEnergy>& runs) {
   return measured > 0 ? 100 * gap / measured : 0.0;
 }
 
+double energy_bias_percent(const std::vector<RunEnergy>& runs) {
+  double gap = 0, measured = 0;
+  for (const RunEnergy& run : runs) gap += run.gap_J(), measured += std::abs(run.measured_J);
+  return measured > 0 ? 100 * gap / measured : 0.0;
+}
+
 double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
-                           const Eigen::VectorXd& run_variance, const NoiseModel& noise) {
+                           const Eigen::VectorXd& run_variance, const NoiseModel& noise, EnergyAt at) {
   double expected_J = 0, measured_J = 0;
   for (const RunSignals& run : signals) {
     const Prediction p = predict(run, point);
     double variance = 0;
-    const bool at_battery = !measures_motors(run) && measures_energy(run);
+    const bool at_battery = is_at_battery(run, at);
+    if (at == EnergyAt::battery && !at_battery) continue;
     if (at_battery) {
       measured_J += run.battery_power_W.sum() * run.period_s;
       const double duration_s = run.period_s * static_cast<double>(run.size());
@@ -195,20 +227,10 @@ double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPo
 }
 
 GapReport measure_gap(const GapInput& input) {
-  GapReport report;
+  GapReport report{.energy = energy_gap(input, EnergyAt::motors_first, input.noise_floor_percent)};
+  if (measures_both_energies(input.before_signals))
+    report.battery_energy = energy_gap(input, EnergyAt::battery, input.battery_floor_percent);
   const ModelPoints nominal(input.before_signals.size(), input.before);
-  const std::vector<RunEnergy> before = run_energies(input.before_signals, nominal);
-  const std::vector<RunEnergy> after = run_energies(input.after_signals, input.after);
-  EnergyGap& energy = report.energy;
-  energy.before_percent = energy_gap_percent(before);
-  energy.after_percent = energy_gap_percent(after);
-  energy.bias_before_percent = bias_percent(before);
-  energy.bias_after_percent = bias_percent(after);
-  energy.noise_floor_percent = input.noise_floor_percent;
-  energy.before_J = absolute_gap_J(before);
-  energy.after_J = absolute_gap_J(after);
-  energy.shrink_fraction = energy.before_J > 0 ? 1 - energy.after_J / energy.before_J : 0.0;
-  energy.shrink_interval_95 = shrink_interval(input, before, after, energy);
   const Squares a = squares_of(input.before_signals, nominal),
                 b = squares_of(input.after_signals, input.after);
   report.current_A = signal_gap(a.current, b.current);

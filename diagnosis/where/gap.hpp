@@ -22,8 +22,17 @@ struct RunEnergy {
 /// One model for each run.
 using ModelPoints = std::vector<ModelPoint>;
 
+/// Where the energy of a run is compared: at the motors, or at the battery where nothing measures them; or at
+/// the battery in any case.
+enum class EnergyAt { motors_first, battery };
+
+/// Nothing for a run that does not measure the energy there.
 [[nodiscard]] std::vector<RunEnergy> run_energies(const std::vector<RunSignals>& signals,
-                                                  const ModelPoints& points);
+                                                  const ModelPoints& points,
+                                                  EnergyAt at = EnergyAt::motors_first);
+
+/// Whether a run measures the energy at both places.
+[[nodiscard]] bool measures_both_energies(const std::vector<RunSignals>& signals);
 
 /// sum |gap| over runs, J.
 [[nodiscard]] double absolute_gap_J(const std::vector<RunEnergy>& runs);
@@ -31,12 +40,16 @@ using ModelPoints = std::vector<ModelPoint>;
 /// sum |gap| / sum |measured|, percent.
 [[nodiscard]] double energy_gap_percent(const std::vector<RunEnergy>& runs);
 
+/// sum gap / sum |measured|, percent.
+[[nodiscard]] double energy_bias_percent(const std::vector<RunEnergy>& runs);
+
 struct GapInput {
   const std::vector<RunSignals>& before_signals;
   const std::vector<RunSignals>& after_signals;  ///< read at the corrected model's delay
   ModelPoint before{};
   ModelPoints after{};
   double noise_floor_percent{};
+  double battery_floor_percent{};  ///< the same of the battery's energy
   std::size_t bootstrap{};
   /// Runs that the correction was fitted to, at its delay, and the model: with few held-out runs, they show
   /// how much the shrink differs from run to run.
@@ -48,7 +61,8 @@ struct GapInput {
 /// to run, together with the readings' noise: what no model of the robot can take away. The variances
 /// come from the fit of everything, so that a wrong explanation does not count as scatter.
 [[nodiscard]] double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPoint& point,
-                                         const Eigen::VectorXd& run_variance, const NoiseModel& noise);
+                                         const Eigen::VectorXd& run_variance, const NoiseModel& noise,
+                                         EnergyAt at = EnergyAt::motors_first);
 
 /// The gap on held-out runs, before and after, per channel and phase, with a paired interval over runs.
 [[nodiscard]] GapReport measure_gap(const GapInput& input);

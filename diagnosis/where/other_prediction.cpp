@@ -1,7 +1,6 @@
 #include "diagnosis/where/other_prediction.hpp"
 
-#include <cmath>
-#include <cstdio>
+#include <algorithm>
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/where/gap.hpp"
@@ -24,30 +23,25 @@ Run as_predicted(const Run& run) {
     log.motor_current_A[side] = at_times_of(log, other, other.motor_current_A[side]);
     log.motor_power_W[side] = at_times_of(log, other, other.motor_power_W[side]);
   }
+  log.battery_voltage_V = at_times_of(log, other, other.battery_voltage_V);
+  log.battery_current_A = at_times_of(log, other, other.battery_current_A);
   return result;
 }
 
-/// Energy gap of the other simulator on the runs with its power.
-struct OtherGap {
-  std::size_t runs{};
-  double gap_J{}, bias_J{}, measured_J{};
-};
-
-OtherGap gap_of(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others) {
-  OtherGap gap;
-  for (std::size_t r = 0; r < signals.size(); ++r) {
-    if (!others[r].has_power()) continue;
-    double run_J = 0, measured_J = 0;
-    for (Side side : kSides) {
-      const Eigen::VectorXd measured_W = measured_power_W(signals[r], side);
-      if (measured_W.size() == 0) continue;
-      run_J += signals[r].period_s * (others[r].power_W[side] - measured_W).sum();
-      measured_J += signals[r].period_s * measured_W.sum();
-    }
-    ++gap.runs;
-    gap.gap_J += std::abs(run_J), gap.bias_J += run_J, gap.measured_J += std::abs(measured_J);
-  }
-  return gap;
+/// Energies of a run with the other simulator as the model; both 0 where nothing can be compared.
+RunEnergy energy_of(const RunSignals& run, const OtherPrediction& other) {
+  RunEnergy energy;
+  const auto add = [&](const Eigen::VectorXd& measured_W, const Eigen::VectorXd& predicted_W) {
+    energy.measured_J += run.period_s * measured_W.sum();
+    energy.predicted_J += run.period_s * predicted_W.sum();
+  };
+  if (!measures_motors(run) && measures_energy(run) && other.battery_power_W.size() > 0)
+    add(run.battery_power_W, other.battery_power_W);
+  if (!measures_motors(run) || !other.has_motor_power()) return energy;
+  for (Side side : kSides)
+    if (const Eigen::VectorXd measured_W = measured_power_W(run, side); measured_W.size() > 0)
+      add(measured_W, other.power_W[side]);
+  return energy;
 }
 
 }  // namespace
@@ -61,7 +55,8 @@ std::vector<OtherPrediction> other_predictions(const Dataset& dataset, const std
     RunSignals read = make_run_signals(as_predicted(run), signals[r].run_index, dataset.robot, options);
     others[r] = {.current_A = std::move(read.motor_current_A),
                  .voltage_V = std::move(read.motor_voltage_V),
-                 .power_W = std::move(read.motor_power_W)};
+                 .power_W = std::move(read.motor_power_W),
+                 .battery_power_W = std::move(read.battery_power_W)};
   }
   return others;
 }
@@ -72,20 +67,39 @@ Prediction in_place_of(Prediction ours, const OtherPrediction& other) {
     if (other.voltage_V[side].size() > 0) ours.voltage_V[side] = other.voltage_V[side];
     if (other.power_W[side].size() > 0) ours.power_W[side] = other.power_W[side];
   }
+  if (other.battery_power_W.size() > 0) ours.battery_power_W = other.battery_power_W;
   return ours;
 }
 
-std::string told_by_others(const std::vector<RunSignals>& signals,
-                           const std::vector<OtherPrediction>& others) {
-  const OtherGap gap = gap_of(signals, others);
-  if (gap.runs == 0 || gap.measured_J == 0) return {};
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "%zu of %zu runs have another simulator's prediction: the location of the gap refers to it "
-                "(energy gap %.3g %%, bias %.3g %%); causes and shrink refer to this model",
-                gap.runs, signals.size(), 100 * gap.gap_J / gap.measured_J,
-                100 * gap.bias_J / gap.measured_J);
-  return text;
+SimulatorGap simulator_gap(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+                           double noise_floor_percent) {
+  std::vector<RunEnergy> energies;
+  for (std::size_t r = 0; r < signals.size(); ++r)
+    if (const RunEnergy energy = energy_of(signals[r], others[r]); energy.measured_J != 0)
+      energies.push_back(energy);
+  return {.runs = energies.size(),
+          .of_runs = signals.size(),
+          .gap_percent = energy_gap_percent(energies),
+          .bias_percent = energy_bias_percent(energies),
+          .noise_floor_percent = noise_floor_percent};
+}
+
+Verdict verdict_on_both(const SimulatorGap& simulator) {
+  const Verdict model = simulator.model_verdict;
+  if (!simulator.exceeds()) return model;
+  const bool silent = model == Verdict::no_gap || model == Verdict::too_little_data;
+  return silent ? Verdict::unexplained : model == Verdict::explained ? Verdict::partly_explained : model;
+}
+
+std::string told_by_others(const Dataset& dataset, const SimulatorGap& simulator) {
+  const auto given = std::ranges::count_if(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
+  if (given == 0) return {};
+  if (simulator.runs == 0)
+    return "another simulator's prediction and its log have no power of the same place: no energy gap of the "
+           "simulator is known";
+  return std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) +
+         " runs have another simulator's prediction: the location of the gap refers to it; causes and shrink "
+         "refer to this model";
 }
 
 }  // namespace joulepath

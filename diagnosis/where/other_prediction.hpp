@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/prediction/prediction.hpp"
+#include "diagnosis/values/diagnosis.hpp"
 
 namespace joulepath {
 
@@ -13,8 +14,9 @@ struct OtherPrediction {
   Sided<Eigen::VectorXd> current_A{};
   Sided<Eigen::VectorXd> voltage_V{};
   Sided<Eigen::VectorXd> power_W{};  ///< given, or voltage times current
+  Eigen::VectorXd battery_power_W{};
 
-  bool has_power() const { return power_W.left.size() > 0 && power_W.right.size() > 0; }
+  bool has_motor_power() const { return power_W.left.size() > 0 && power_W.right.size() > 0; }
 };
 
 /// One entry per run of `signals`, empty for runs without `predicted:`. The other simulator's times count
@@ -26,9 +28,18 @@ struct OtherPrediction {
 /// Our prediction with the channels replaced that the other simulator provides.
 [[nodiscard]] Prediction in_place_of(Prediction ours, const OtherPrediction& other);
 
-/// A sentence for the report: the number of runs with such a prediction, its energy gap, and the parts of the
-/// result that refer to it. Empty where no run has one.
-[[nodiscard]] std::string told_by_others(const std::vector<RunSignals>& signals,
-                                         const std::vector<OtherPrediction>& others);
+/// Energy gap of the other simulator over the runs where it and the log have a power of the same place: of
+/// both motors, else at the battery's terminals. `noise_floor_percent`: of the runs, whatever model predicts.
+[[nodiscard]] SimulatorGap simulator_gap(const std::vector<RunSignals>& signals,
+                                         const std::vector<OtherPrediction>& others,
+                                         double noise_floor_percent);
+
+/// The verdict on both models, from that on this one: a simulator's gap is explained by nothing that is named
+/// here.
+[[nodiscard]] Verdict verdict_on_both(const SimulatorGap& simulator);
+
+/// A sentence for the report: what refers to the other simulator, and what to this model. Empty where no run
+/// has such a prediction.
+[[nodiscard]] std::string told_by_others(const Dataset& dataset, const SimulatorGap& simulator);
 
 }  // namespace joulepath

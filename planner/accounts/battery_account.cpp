@@ -16,6 +16,13 @@ struct LegLoss {
   double lowest_voltage_V{kNoLimit};
 };
 
+/// Time (s) at rest on the battery: waits, and the dwell except at a charger.
+double resting_s(const LegPlan& leg) {
+  double rest_s = leg.charger_W > 0 ? 0.0 : leg.dwell_s;
+  for (const StretchPlan& stretch : leg.stretches) rest_s += stretch.profile.wait_s;
+  return leg.stretches.empty() && !leg.prescribed ? rest_s + leg.duration_s : rest_s;
+}
+
 LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
   LegLoss loss;
   for (const StretchPlan& stretch : leg.stretches) {
@@ -27,10 +34,11 @@ LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
     LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
     loss = {sum.battery_loss_J(), sum.lowest_voltage_V()};
   }
-  if (leg.charger_W > 0) return loss;
+  const double rest_s = resting_s(leg);
+  if (rest_s == 0) return loss;
   const BatteryLoad load = battery_load(plant.robot.battery, plant.robot.power.standby_W);
   if (!load.possible) return loss;
-  loss.loss_J += load.loss_W * leg.dwell_s;
+  loss.loss_J += load.loss_W * rest_s;
   loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
   return loss;
 }
@@ -129,21 +137,36 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
   return account;
 }
 
+namespace {
+
+/// The state of charge at the start, or the capacity, with which a plan keeps the reserve; nothing where
+/// neither alone does. The plan's energy does not depend on them.
+std::map<std::string, double> enough_charge(const BatteryAccount& account, const Battery& battery) {
+  constexpr double kRounding = 1e-9;
+  const double lowest =
+      *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
+  const double start = account.start_fraction + (battery.reserve_fraction - lowest) * (1 + kRounding);
+  if (start <= 1) return {{"battery_fraction", start}};
+  const double usable = account.start_fraction - battery.reserve_fraction;
+  if (!(usable > 0)) return {};
+  return {{"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
+}
+
+}  // namespace
+
 std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant) {
   if (!plan.battery || !plan.battery->fails_on_leg) return std::nullopt;
   const BatteryAccount& account = *plan.battery;
+  const Battery& battery = plant.robot.battery;
   const double lowest =
       *std::min_element(account.fraction_after_leg.begin(), account.fraction_after_leg.end());
-  const double missing_fraction = plant.robot.battery.reserve_fraction - lowest;
-  const LegPlan& leg = plan.legs[*account.fails_on_leg];
-  const Pose pose =
-      leg.stretches.empty() ? Pose{} : piece_point(leg.stretches.front().request.piece, 0.0).pose;
+  const Pose& pose = plan.legs[*account.fails_on_leg].start_pose;
   return Infeasibility{.constraint = "battery_reserve",
                        .x_m = pose.x_m,
                        .y_m = pose.y_m,
-                       .amount = missing_fraction * plant.robot.battery.capacity_Wh,
+                       .amount = (battery.reserve_fraction - lowest) * battery.capacity_Wh,
                        .unit = "Wh",
-                       .relaxation = {{"battery_fraction", account.start_fraction + missing_fraction}},
+                       .relaxation = enough_charge(account, battery),
                        .message = "the battery falls below its reserve on the way"};
 }
 

@@ -18,6 +18,7 @@ class Rows {
   void leg(const LegPlan& leg, std::size_t index) {
     index_ = index;
     now_s_ = leg.start_s;
+    place_ = leg.start_pose;
     if (leg.prescribed) prescribed(leg);
     double from_m = 0;
     for (const StretchPlan& stretch : leg.stretches) {

@@ -37,18 +37,15 @@ void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
   plan.replay_energy_J += standby_W * leg.dwell_s;
 }
 
-/// Bound, gap and status of a leg from those of its stretches. Where a leg waits at its stop, the bound
-/// accounts for a slower drive that uses the waiting time.
-void judge_leg(LegPlan& leg, double standby_W, double accuracy) {
+/// Bound, gap and status of a leg from those of its stretches.
+void judge_leg(LegPlan& leg, double accuracy) {
   leg.lower_bound_J = leg.energy.total_J();
   if (leg.prescribed) return;
   double slow_s = 0, gap_J = 0;
   for (const StretchPlan& stretch : leg.stretches) {
-    const double wait_s = stretch.profile.wait_s, price_W = leg.price_of_time_W;
-    gap_J += stretch.energy.total_J() - standby_W * wait_s - stretch.summary.lower_bound_J +
-             std::max(0.0, price_W + standby_W) * wait_s;
+    gap_J += stretch.energy.total_J() - stretch.summary.lower_bound_J;
     if (!std::isnan(stretch.summary.lower_bound_s))
-      slow_s += stretch.profile.duration_s() - wait_s - stretch.summary.lower_bound_s;
+      slow_s += stretch.profile.duration_s() - stretch.profile.wait_s - stretch.summary.lower_bound_s;
   }
   leg.lower_bound_J -= gap_J;
   leg.gap_percent = std::isnan(gap_J) ? 100 * slow_s / leg.duration_s
@@ -90,7 +87,7 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
   const double standby_W = plant.robot.power.standby_W;
   double slowest_percent = 0.0;  // gap of legs that are driven in the least time
   for (LegPlan& leg : plan.legs) {
-    judge_leg(leg, standby_W, accuracy);
+    judge_leg(leg, accuracy);
     plan.lower_bound_J += leg.lower_bound_J;
     if (std::isnan(leg.lower_bound_J)) slowest_percent = std::max(slowest_percent, leg.gap_percent);
     plan.energy += leg.energy;

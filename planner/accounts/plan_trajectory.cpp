@@ -32,7 +32,7 @@ Sample sample_stretch(const StretchPlan& stretch, const PathMotion& path, const 
 
 /// State of a leg `elapsed_s` after its departure; at rest at its end during dwell.
 Sample sample_leg(const LegPlan& leg, const LegMotion& motion, double elapsed_s) {
-  if (leg.prescribed) {
+  if (motion.prescribed()) {
     const double time_s = leg.prescribed->time_s.front() + elapsed_s;
     const SampledState state = sampled_state(*leg.prescribed, time_s);
     const MotionInstant instant = motion.prescribed()->at(time_s);
@@ -56,7 +56,7 @@ Sample sample_leg(const LegPlan& leg, const LegMotion& motion, double elapsed_s)
     elapsed_s -= duration_s;
     if (!is_turn(stretch.request.piece)) offset_m += piece_length(stretch.request.piece);
   }
-  return {};
+  return {.site = {.pose = leg.start_pose}};
 }
 
 void append(Trajectory& out, const Plant& plant, const Sample& sample, double time_s, double payload_kg,

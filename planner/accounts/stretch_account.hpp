@@ -18,4 +18,8 @@ struct UncertainPlant {
 /// change by each uncertain constant. `request` and `profile` must be set.
 void account_for(StretchPlan& stretch, const UncertainPlant& plant, const SharedAnswers& answers);
 
+/// Makes the bound and the gap of an accounted stretch those of its drive and of a wait (s) at its end, for
+/// the price (W) of a second beyond standby. A slower drive that uses the waiting time may save that price.
+void bound_wait(StretchPlan& stretch, double wait_s, double price_W);
+
 }  // namespace joulepath

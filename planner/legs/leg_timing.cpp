@@ -42,4 +42,11 @@ double LegTiming::duration_s(double price_W, SolverChoice solver) {
   return sum_s;
 }
 
+double LegTiming::least_s(SolverChoice solver) {
+  double sum_s = 0.0;
+  for (const ProfileResult& result : solve(kNoLimit, solver))
+    if (result.summary.lower_bound_s > 0) sum_s += result.summary.lower_bound_s;  // not a number: no proof
+  return sum_s;
+}
+
 }  // namespace joulepath

@@ -23,6 +23,9 @@ class LegTiming {
   /// time.
   double duration_s(double price_W, SolverChoice solver);
 
+  /// Time (s) below which provably no drive of the leg is; a stretch without a proof counts as 0.
+  double least_s(SolverChoice solver);
+
   /// Profiles of all stretches at a price; a result without a profile contains the reason.
   const std::vector<ProfileResult>& solve(double price_W, SolverChoice solver);
 

@@ -22,6 +22,7 @@ struct Excess {
   double limit{};
   double time_s{};
   SampledState state{};
+  double jump_m_s2{};  ///< of the acceleration, where the value is a jerk without bound
 
   double amount() const { return std::abs(value) - limit; }
 };
@@ -99,7 +100,8 @@ struct LimitSearch {
       if (k + 1 < motion.size())
         after_m_s2 = sampled_state(motion, 0.5 * (time_s + motion.time_s[k + 1])).motion.acceleration_m_s2;
       if (std::abs(after_m_s2 - before_m_s2) > kJump_m_s2)
-        add(excesses, {limit_named("jerk"), kNoLimit, limit_m_s3, time_s, sampled_state(motion, time_s)});
+        add(excesses, {limit_named("jerk"), kNoLimit, limit_m_s3, time_s, sampled_state(motion, time_s),
+                       std::abs(after_m_s2 - before_m_s2)});
       before_m_s2 = after_m_s2;
     }
   }
@@ -115,11 +117,19 @@ Infeasibility verdict_of(const std::vector<Excess>& excesses) {
                         .y_m = worst.state.pose.y_m,
                         .amount = worst.amount(),
                         .unit = std::string(worst.row->unit)};
-  if (excesses.size() == 1 && std::isfinite(worst.value))
-    verdict.relaxation[std::string(worst.row->key)] = std::abs(worst.value);
   std::ostringstream text;
   text.precision(4);
-  text << sentence(verdict) << "; the prescribed motion does this at t = " << worst.time_s << " s";
+  if (std::isfinite(worst.value)) {
+    if (excesses.size() == 1) verdict.relaxation[std::string(worst.row->key)] = std::abs(worst.value);
+    text << sentence(verdict) << "; the prescribed motion does this at t = " << worst.time_s << " s";
+  } else {
+    verdict.amount = worst.jump_m_s2;
+    verdict.unit = "m/s^2";
+    text << "the prescribed acceleration jumps by " << worst.jump_m_s2 << " m/s^2 at t = " << worst.time_s
+         << " s, and steps of acceleration keep no limit of jerk; an S-curve does: with `path:` instead of "
+            "`motion:` the leg is planned as one within jerk_m_s3 = "
+         << worst.limit;
+  }
   for (std::size_t i = 1; i < excesses.size(); ++i)
     text << (i == 1 ? "; it exceeds also " : ", ") << excesses[i].row->name << " by " << excesses[i].amount()
          << " " << excesses[i].row->unit;

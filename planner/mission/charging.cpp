@@ -9,6 +9,9 @@ namespace joulepath {
 namespace {
 
 constexpr int kMostStops = 12;
+constexpr int kMostPlans = 60;  ///< tried; a search without a limit grows with the power of the stops
+/// A stop is tried before the leg that fails and before this many legs ahead of it; the cheapest of these is
+/// taken. Only where none of them helps, it is tried farther ahead.
 constexpr std::size_t kEarlierLegs = 2;
 constexpr double kDetourShare = 1.3;  ///< of the straight line, in the estimate of the energy to a charger
 
@@ -63,13 +66,11 @@ MissionRequest with_stop(const MissionRequest& mission, std::size_t leg, const s
   return longer;
 }
 
-/// Missions with one more stop, before the leg that fails or before one of the legs ahead of it.
+/// Missions with one more stop, before one of the legs first..last.
 std::vector<MissionRequest> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
-                                               const Plant& plant) {
+                                               const Plant& plant, std::size_t first, std::size_t last) {
   std::vector<MissionRequest> missions;
-  const std::size_t fails = *failed.battery->fails_on_leg;
-  for (std::size_t back = 0; back <= kEarlierLegs && back <= fails; ++back) {
-    const std::size_t leg = fails - back;
+  for (std::size_t leg = last + 1; leg-- > first;) {
     const bool stands_at_station = leg == 0 || between_stations(mission.legs[leg - 1]);
     const bool charged_already = leg > 0 && mission.legs[leg - 1].charges;
     if (!stands_at_station || charged_already || !between_stations(mission.legs[leg])) continue;
@@ -86,33 +87,64 @@ struct Attempt {
   Plan plan{};
 };
 
+bool drives(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
+
 /// The quality of an attempt: without a breach, less energy is better; else a later breach is better.
 std::pair<bool, double> rank(const Plan& plan) {
   return touches_reserve(plan) ? std::pair(false, static_cast<double>(*plan.battery->fails_on_leg))
                                : std::pair(true, -plan.energy.total_J());
 }
 
+/// Adds stops until the battery suffices, and goes back where that leads nowhere.
+class StopSearch {
+ public:
+  StopSearch(const Plant& plant, const PlanLegs& plan_legs) : plant_(plant), plan_legs_(plan_legs) {}
+
+  /// A plan with more stops than `from`; nothing where none is found.
+  std::optional<Plan> beyond(const Attempt& from, int stops) {
+    if (stops == kMostStops) return std::nullopt;
+    const std::size_t fails = *from.plan.battery->fails_on_leg;
+    const std::size_t near = fails - std::min(fails, kEarlierLegs);
+    if (auto plan = best_of(from, near, fails, stops)) return plan;
+    for (std::size_t leg = near; leg-- > 0;)
+      if (auto plan = best_of(from, leg, leg, stops)) return plan;
+    return std::nullopt;
+  }
+
+ private:
+  /// The best plan with a stop before one of these legs, or with more stops where one alone is not enough.
+  std::optional<Plan> best_of(const Attempt& from, std::size_t first, std::size_t last, int stops) {
+    std::vector<Attempt> attempts;
+    for (MissionRequest& longer : with_one_more_stop(from.mission, from.plan, plant_, first, last)) {
+      if (tried_++ >= kMostPlans) return std::nullopt;
+      Plan plan = plan_legs_(longer);
+      // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
+      const bool further =
+          touches_reserve(plan) && *plan.battery->fails_on_leg > *from.plan.battery->fails_on_leg + 1;
+      if (drives(plan) || further) attempts.push_back({std::move(longer), std::move(plan)});
+    }
+    std::stable_sort(attempts.begin(), attempts.end(),
+                     [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });
+    for (Attempt& attempt : attempts) {
+      if (drives(attempt.plan)) return std::move(attempt.plan);
+      if (auto plan = beyond(attempt, stops + 1)) return plan;
+    }
+    return std::nullopt;
+  }
+
+  const Plant& plant_;
+  const PlanLegs& plan_legs_;
+  int tried_{};
+};
+
 }  // namespace
 
 Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
                        const PlanLegs& plan_legs) {
   if (!mission.charging || !touches_reserve(failed)) return failed;
-  Attempt best{mission, failed};
-  for (int stop = 0; stop < kMostStops && touches_reserve(best.plan); ++stop) {
-    std::optional<Attempt> next;
-    for (MissionRequest& longer : with_one_more_stop(best.mission, best.plan, plant)) {
-      Plan plan = plan_legs(longer);
-      const bool drives = plan.status == SolveStatus::optimal || plan.status == SolveStatus::feasible;
-      // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
-      const bool further =
-          touches_reserve(plan) && *plan.battery->fails_on_leg > *best.plan.battery->fails_on_leg + 1;
-      if ((drives || further) && (!next || rank(plan) > rank(next->plan)))
-        next = Attempt{std::move(longer), std::move(plan)};
-    }
-    if (!next) return failed;
-    best = std::move(*next);
-  }
-  return touches_reserve(best.plan) ? failed : best.plan;
+  if (auto plan = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) return *std::move(plan);
+  failed.message = failed.infeasibility->reason.message += "; no charging stop that was tried prevents it";
+  return failed;
 }
 
 }  // namespace joulepath

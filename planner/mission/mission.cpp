@@ -11,6 +11,7 @@
 #include "planner/mission/charging.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/visit_order.hpp"
+#include "planner/mission/visit_verdict.hpp"
 #include "planner/profile/holding_limit.hpp"
 
 namespace joulepath {
@@ -29,6 +30,13 @@ const std::vector<ProfileResult>& final_results(LegTiming& timing, double price_
   return timing.solve(price_W, options.solver);
 }
 
+/// Time (s) at rest at the end of a leg that has more time than its profiles take.
+double wait_of(const std::vector<ProfileResult>& results, double duration_s) {
+  double wait_s = duration_s;
+  for (const ProfileResult& result : results) wait_s -= result.profile->duration_s();
+  return wait_s > kNoWait * duration_s ? wait_s : 0.0;
+}
+
 /// Replays and accounts for a leg's profiles.
 void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
                 double price_W, double duration_s, const UncertainPlant& uncertain,
@@ -41,28 +49,23 @@ void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<Profile
   }
   leg.price_of_time_W = std::isinf(price_W) ? 0.0 : price_W;
   leg.status = SolveStatus::optimal;
+  const double wait_s = wait_of(results, duration_s);
   for (std::size_t k = 0; k < results.size(); ++k) {
     const ProfileResult& result = results[k];
     leg.status = std::max(leg.status, result.summary.status);
     StretchPlan stretch{
         .request = timing.stretches()[k], .profile = *result.profile, .summary = result.summary};
     stretch.request.time = {.mode = TimeMode::fixed_time, .duration_s = result.profile->duration_s()};
+    if (k + 1 == results.size()) stretch.profile.wait_s += wait_s;
     account_for(stretch, uncertain, answers);
+    if (k + 1 == results.size()) bound_wait(stretch, wait_s, leg.price_of_time_W);
     leg.duration_s += stretch.profile.duration_s();
     leg.energy += stretch.energy;
     leg.stretches.push_back(std::move(stretch));
   }
-  const double wait_s = std::max(0.0, duration_s - leg.duration_s);
-  if (wait_s > kNoWait * duration_s) {
-    const double waiting_J = plant.robot.power.standby_W * wait_s;
-    leg.duration_s += wait_s;
-    leg.energy.standby_J += waiting_J;
-    if (!leg.stretches.empty()) {
-      StretchPlan& last = leg.stretches.back();
-      last.profile.wait_s += wait_s;
-      last.energy.standby_J += waiting_J;
-      last.replay.energy_J += waiting_J;
-    }
+  if (results.empty()) {
+    leg.duration_s = wait_s;
+    leg.energy.standby_J += plant.robot.power.standby_W * wait_s;
   }
   leg.energy.standby_J += plant.robot.power.standby_W * leg.dwell_s;
 }
@@ -84,11 +87,12 @@ struct TimedLegs {
 TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, const RouteSpace* space,
                     const Plant& plant, const PlanOptions& options, Plan& plan) {
   const double floor_W = lowest_price_W(mission.objective);
-  std::vector<double> price_W(mission.legs.size(), floor_W);
+  std::vector<double> price_W(mission.legs.size(), first_price_W(mission, world, plant));
   TimedLegs timed;
   const MissionWays ways(mission, world, space, plant, options);
   const auto choose = [&](bool quick) {
     timed.prepared = prepare_legs(mission, world, plant, options, ways.choose(price_W, quick), plan);
+    bound_open_times(timed.prepared, mission);
     return plan.status == SolveStatus::optimal;
   };
   const auto share = [&](bool roughly) {
@@ -131,8 +135,9 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   TimeSplit& split = timed.split;
   if (split.late) {
     const std::size_t leg = split.late->leg;
-    const auto [s_m, pose] = place_after(timed.prepared.timing[leg],
-                                         split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
+    const auto [s_m, pose] =
+        place_after(timed.prepared.timing[leg], timed.prepared.legs[leg].start_pose,
+                    split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
     Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
     reason.message += held_by(timed.prepared.timing[leg]);
     return PlanInfeasibility{std::move(reason), leg, s_m};
@@ -140,7 +145,8 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   for (std::size_t k = 0; k < timed.prepared.legs.size(); ++k) {
     const std::optional<double>& asked_s = mission.legs[k].duration_s;
     if (!asked_s || split.duration_s[k] <= *asked_s * (1 + 1e-9) + 1e-9) continue;
-    const auto [s_m, pose] = place_after(timed.prepared.timing[k], *asked_s, SolverChoice::fast);
+    const auto [s_m, pose] = place_after(timed.prepared.timing[k], timed.prepared.legs[k].start_pose,
+                                         *asked_s, SolverChoice::fast);
     Infeasibility reason = too_short(*asked_s, split.duration_s[k], s_m, pose);
     reason.message += held_by(timed.prepared.timing[k]);
     return PlanInfeasibility{std::move(reason), k, s_m};
@@ -228,33 +234,71 @@ std::optional<RouteSpace> route_space(const MissionRequest& mission, const Missi
                     mission.clearance_m);
 }
 
-Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
-                  const RouteSpace* space) {
-  std::optional<RouteSpace> own_space;
-  if (!space && (own_space = route_space(asked, world))) space = &*own_space;
-  Plan plan{.mission = asked.name, .status = SolveStatus::optimal};
-  const Plant plant = make_plant(world.robot);
-  MissionRequest mission = asked;
-  if (!asked.visit.empty() && asked.legs.empty()) {
-    plan.visit = order_visits(
-        {asked, world, need_space(asked, space), plant, options, lowest_price_W(asked.objective)});
-    if (Infeasibility reason = plan.visit->infeasibility.value_or(Infeasibility{}); plan.visit->infeasibility)
-      return infeasible(std::move(plan), 0, 0.0, std::move(reason));
-    mission.legs = plan.visit->legs;
-  }
-  if (mission.legs.empty()) refuse_empty(mission);
+namespace {
+
+/// Plans legs that are given, with ways that keep a leg's own duration, and with stops at chargers.
+Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                     const RouteSpace* space, const Plant& plant, const Plan& known) {
   const auto plan_legs = [&](const MissionRequest& legs) {
-    Plan chosen = plan_given_legs(legs, world, options, space, plant, plan);
+    Plan chosen = plan_given_legs(legs, world, options, space, plant, known);
     if (chosen.status != SolveStatus::infeasible || !options.steps.corners || !has_own_duration(legs))
       return chosen;
     // Ways are chosen by energy. A way that cannot keep a leg's own duration is replaced by one with stops at
     // corners.
     PlanOptions plain = options;
     plain.steps.corners = false;
-    Plan other = plan_given_legs(legs, world, plain, space, plant, plan);
+    Plan other = plan_given_legs(legs, world, plain, space, plant, known);
     return other.status == SolveStatus::infeasible ? chosen : other;
   };
-  Plan answer = charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+  return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+}
+
+/// Whether a stop of the plan's order is late for its window; the verdict then names the window.
+bool blames_window(const MissionRequest& mission, Plan& plan) {
+  if (!plan.infeasibility || plan.infeasibility->reason.constraint != "deadline") return false;
+  Infeasibility& reason = plan.infeasibility->reason;
+  const std::size_t visit = plan.visit->order[plan.infeasibility->leg];
+  const auto& window_s = mission.visit[visit].window_s;
+  if (!window_s || mission.objective.deadline_s.value_or(kNoLimit) < window_s->second) return false;
+  reason = missed_window(mission, visit, reason.amount);
+  plan.message = reason.message;
+  return true;
+}
+
+/// Plans the stops in the order of least energy, in others where that misses a window; the plan of the order
+/// that is least late where all of them do.
+Plan plan_visits(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
+                 const RouteSpace* space, const Plant& plant, const Plan& known) {
+  std::optional<Plan> least_late;
+  MissionRequest mission = asked;
+  for (VisitOrder& order : order_visits(
+           {asked, world, need_space(asked, space), plant, options, first_price_W(asked, world, plant)})) {
+    Plan plan = known;
+    plan.visit = std::move(order);
+    if (plan.visit->infeasibility) {
+      Infeasibility reason = *plan.visit->infeasibility;
+      return infeasible(std::move(plan), 0, 0.0, std::move(reason));
+    }
+    mission.legs = plan.visit->legs;
+    plan = plan_with_stops(mission, world, options, space, plant, plan);
+    if (!blames_window(asked, plan)) return plan;
+    if (!least_late || plan.infeasibility->reason.amount < least_late->infeasibility->reason.amount)
+      least_late = std::move(plan);
+  }
+  return *std::move(least_late);
+}
+
+}  // namespace
+
+Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
+                  const RouteSpace* space) {
+  std::optional<RouteSpace> own_space;
+  if (!space && (own_space = route_space(asked, world))) space = &*own_space;
+  const Plan known{.mission = asked.name, .status = SolveStatus::optimal};
+  const Plant plant = make_plant(world.robot);
+  const bool visits = !asked.visit.empty() && asked.legs.empty();
+  if (!visits && asked.legs.empty()) refuse_empty(asked);
+  Plan answer = (visits ? plan_visits : plan_with_stops)(asked, world, options, space, plant, known);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;

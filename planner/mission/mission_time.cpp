@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/config_error.hpp"
+#include "planner/legs/stretch.hpp"
+#include "planner/profile/request_check.hpp"
+
 namespace joulepath {
 namespace {
 
@@ -17,6 +21,7 @@ double price_for_duration(LegTiming& leg, double duration_s, double standby_W, S
   const TimeSplit split =
       split_time({.legs = 1,
                   .duration_s = [&](std::size_t, double price_W) { return leg.duration_s(price_W, solver); },
+                  .least_s = [&](std::size_t) { return leg.least_s(solver); },
                   .latest_arrival_s = {duration_s},
                   .earliest_arrival_s = {0.0},
                   .dwell_s = {0.0},
@@ -33,6 +38,7 @@ TimeSplit share_once(PreparedLegs& prepared, const MissionRequest& mission, doub
   std::vector<double> own_price_W(count, std::nan(""));
   TimeSplitRequest request{.legs = count,
                            .duration_s = {},
+                           .least_s = {},
                            .latest_arrival_s = std::vector<double>(count, kNoLimit),
                            .earliest_arrival_s = std::vector<double>(count, 0.0),
                            .dwell_s = {},
@@ -56,6 +62,10 @@ TimeSplit share_once(PreparedLegs& prepared, const MissionRequest& mission, doub
     const double own_s =
         prepared.timing[leg].duration_s(std::isnan(own_price_W[leg]) ? price_W : own_price_W[leg], solver);
     return mission.legs[leg].duration_s ? std::max(own_s, *mission.legs[leg].duration_s) : own_s;
+  };
+  request.least_s = [&](std::size_t leg) {
+    if (prepared.legs[leg].prescribed) return prepared.legs[leg].duration_s;
+    return std::max(prepared.timing[leg].least_s(solver), mission.legs[leg].duration_s.value_or(0.0));
   };
   TimeSplit split = split_time(request);
   for (std::size_t k = 0; k < count; ++k)
@@ -86,7 +96,48 @@ void set_times_of_day(PreparedLegs& prepared, const TimeSplit& split, const Miss
   }
 }
 
+bool slower_is_always_cheaper(LegTiming& leg) {
+  return std::any_of(leg.stretches().begin(), leg.stretches().end(), [](ProfileRequest request) {
+    request.time = {};
+    return joulepath::slower_is_always_cheaper(request);
+  });
+}
+
+/// The latest arrival (s) that a mission allows at the end of a leg; infinite where it sets none.
+double latest_s(const MissionRequest& mission, std::size_t leg) {
+  double due_s = mission.objective.deadline_s.value_or(kNoLimit);
+  for (std::size_t k = leg; k < mission.legs.size(); ++k)
+    due_s = std::min(due_s, mission.legs[k].deadline_s.value_or(kNoLimit));
+  return mission.legs[leg].duration_s.value_or(due_s);
+}
+
 }  // namespace
+
+double first_price_W(const MissionRequest& mission, const MissionWorld& world, const Plant& plant) {
+  constexpr double kAnyPrice_W = 1.0;
+  const double lowest_W = lowest_price_W(mission.objective);
+  if (lowest_W > 0) return lowest_W;
+  const ProfileRequest straight{
+      .piece = straight_piece({}, 1.0), .plant = plant, .limits = limits_along(world.robot, {})};
+  return slower_is_always_cheaper(straight) ? kAnyPrice_W : lowest_W;
+}
+
+void bound_open_times(PreparedLegs& prepared, const MissionRequest& mission) {
+  constexpr double kSpare = 2;
+  if (lowest_price_W(mission.objective) > 0) return;
+  for (std::size_t k = 0; k < prepared.timing.size(); ++k) {
+    if (!slower_is_always_cheaper(prepared.timing[k])) continue;
+    const double most_s = latest_s(mission, k);
+    if (std::isinf(most_s))
+      throw ConfigError({.mark = {mission.robot_file, 0, 0},
+                         .key = "power.standby_W",
+                         .found = "0 W and no dry friction: slower is always cheaper (legs[" +
+                                  std::to_string(k) + "])",
+                         .accepted = "standby_W above 0, or a mission with a deadline or a duration",
+                         .hint = {}});
+    prepared.timing[k].give(kSpare * most_s);
+  }
+}
 
 double lowest_price_W(const Objective& objective) {
   switch (objective.minimize) {
@@ -112,9 +163,8 @@ TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, cons
   return split;
 }
 
-std::pair<double, Pose> place_after(LegTiming& leg, double elapsed_s, SolverChoice solver) {
+std::pair<double, Pose> place_after(LegTiming& leg, Pose pose, double elapsed_s, SolverChoice solver) {
   double s_m = 0.0;
-  Pose pose{};
   for (std::size_t k = 0; k < leg.stretches().size(); ++k) {
     const PathPiece& piece = leg.stretches()[k].piece;
     const ProfileResult& result = leg.solve(kNoLimit, solver)[k];

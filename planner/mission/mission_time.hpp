@@ -15,7 +15,18 @@ namespace joulepath {
 [[nodiscard]] TimeSplit share_time(PreparedLegs& prepared, const MissionRequest& mission, const Plant& plant,
                                    SolverChoice solver);
 
-/// Place of the robot on a leg (arc length, pose) `elapsed_s` after its departure, at minimum time.
-[[nodiscard]] std::pair<double, Pose> place_after(LegTiming& leg, double elapsed_s, SolverChoice solver);
+/// The price (W) at which ways are chosen first: the lowest one, or 1 W where a second without a price costs
+/// the robot nothing, so that slower would always be cheaper.
+[[nodiscard]] double first_price_W(const MissionRequest& mission, const MissionWorld& world,
+                                   const Plant& plant);
+
+/// Bounds the times of legs on which slower is always cheaper, by far more than their deadlines or durations
+/// allow. Throws ConfigError where a mission gives them no time.
+void bound_open_times(PreparedLegs& prepared, const MissionRequest& mission);
+
+/// Place of the robot on a leg (arc length, pose) `elapsed_s` after its departure from a pose, at minimum
+/// time.
+[[nodiscard]] std::pair<double, Pose> place_after(LegTiming& leg, Pose pose, double elapsed_s,
+                                                  SolverChoice solver);
 
 }  // namespace joulepath

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/config_error.hpp"
 #include "model/limit_table.hpp"
@@ -72,8 +73,10 @@ class LegPreparation {
   std::optional<Infeasibility> add_prescribed(const LegRequest& leg, std::size_t k) {
     prepared_.timing.emplace_back(std::vector<ProfileRequest>{});
     LegPlan& plan = prepared_.legs.emplace_back(prescribed_leg(leg, plant_, here_));
+    plan.start_pose = here_;
     plan.memory = memory_;
     if (auto reason = broken_limit(plan, k, mission_, world_, plant_)) return reason;
+    begin_at(here_);
     const double end_s = plan.prescribed->time_s.back();
     here_ = sampled_state(*plan.prescribed, end_s).pose;
     memory_ = prescribed_motion(plan, plant_).memory(end_s);
@@ -87,6 +90,7 @@ class LegPreparation {
                               .path_source = way.source,
                               .payload = leg.payload,
                               .parts = leg.parts,
+                              .start_pose = here_,
                               .memory = memory_,
                               .dwell_s = leg.dwell_s,
                               .distance_m = way.path.distance_m(),
@@ -95,8 +99,15 @@ class LegPreparation {
                               .alternatives = std::move(way.alternatives),
                               .improvements = std::move(way.improvements)});
     if (way.path.pieces.empty()) return;
+    begin_at(way.path.start());
     here_ = way.path.end();
     memory_ = memory_after(prepared_.timing.back().stretches().back());
+  }
+
+  /// The first motion begins where the mission does: a free start's heading is that of its path.
+  void begin_at(const Pose& pose) {
+    if (!std::exchange(moved_, true))
+      for (LegPlan& leg : prepared_.legs) leg.start_pose = pose;
   }
 
   const MissionRequest& mission_;
@@ -104,6 +115,7 @@ class LegPreparation {
   const Plant& plant_;
   const PlanOptions& options_;
   Pose here_;
+  bool moved_{};
   EffectMemory memory_{};
   PreparedLegs prepared_{};
 };

@@ -12,16 +12,26 @@ namespace {
 constexpr double kHighestPrice_W = 1e7;
 constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
 
-/// Arrival at the end of `last`, before any wait there, when all legs from `first` pay one price.
-double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
-                 double price_W) {
+/// Arrival at the end of `last`, before any wait there, with these durations of the legs from `first` on.
+template <class DurationOf>
+double arrival_with_s(const TimeSplitRequest& request, std::size_t first, std::size_t last,
+                      double departure_s, DurationOf&& duration_s) {
   double time_s = departure_s;
   for (std::size_t leg = first; leg <= last; ++leg) {
-    time_s += request.duration_s(leg, price_W);
+    time_s += duration_s(leg);
     if (leg < last) time_s = std::max(time_s, request.earliest_arrival_s[leg]) + request.dwell_s[leg];
   }
   return time_s;
 }
+
+/// The same when all these legs pay one price.
+double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t last, double departure_s,
+                 double price_W) {
+  return arrival_with_s(request, first, last, departure_s,
+                        [&](std::size_t leg) { return request.duration_s(leg, price_W); });
+}
+
+bool meets(double time_s, double due_s) { return time_s <= due_s * (1 + 1e-9) + 1e-9; }
 
 /// Smallest price, at least `lowest_W`, at which the legs first..last arrive by `due_s`; empty if there is
 /// none.
@@ -35,10 +45,15 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   double low = 0.0;
   double late_low_s = late_s(low);
   if (late_low_s <= 0) return lowest_W;
-  // Far above the minimum time: the lowest price is enough.
-  if (arrival_s(request, first, last, departure_s, kNoLimit) > due_s * (1 + kClearlyLate))
-    return std::nullopt;
+  const double fastest_s = arrival_s(request, first, last, departure_s, kNoLimit);
   const double highest = std::log1p(kHighestPrice_W);
+  if (!meets(fastest_s, due_s)) {
+    // The least time decides before any price is searched. A drive at a high price may be earlier than the
+    // fastest one found, but not before the time that is proven.
+    const double proven_s = arrival_with_s(request, first, last, departure_s, request.least_s);
+    if (fastest_s > due_s * (1 + kClearlyLate) || !meets(proven_s, due_s) || late_s(highest) > 0)
+      return std::nullopt;
+  }
   double high = 0.5;
   double late_high_s = late_s(high);
   while (late_high_s > 0 && high < highest) {
@@ -47,10 +62,7 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
     high = std::min(2 * high, highest);
     late_high_s = late_s(high);
   }
-  if (late_high_s > 0)
-    return arrival_s(request, first, last, departure_s, kNoLimit) <= due_s * (1 + 1e-9) + 1e-9
-               ? std::optional(kNoLimit)
-               : std::nullopt;
+  if (late_high_s > 0) return kNoLimit;  // only the fastest drive arrives in time
   std::uintmax_t iterations = 60;
   const auto close = [](double a, double b) { return std::abs(a - b) < 1e-9 * (1 + std::abs(a)); };
   const auto bracket =

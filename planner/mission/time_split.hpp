@@ -13,6 +13,8 @@ struct TimeSplitRequest {
   /// Driving time (s) of a leg at a price (W) of a second; it falls as the price rises. An infinite price
   /// gives the minimum time.
   std::function<double(std::size_t leg, double price_W)> duration_s{};
+  /// A time (s) below which no drive of a leg is.
+  std::function<double(std::size_t leg)> least_s{};
   std::vector<double> latest_arrival_s{};    ///< per leg; infinite where there is no deadline
   std::vector<double> earliest_arrival_s{};  ///< per leg; 0 if there is none: the robot waits at the stop
   std::vector<double> dwell_s{};             ///< per leg, after arrival

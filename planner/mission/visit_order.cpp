@@ -9,9 +9,12 @@
 namespace joulepath {
 namespace {
 
-/// Allowed lateness of a stop in the table (share of the arrival's time): routes of the table are rough, so
-/// an order with little lateness is planned exactly.
-constexpr double kRough = 0.1;
+constexpr std::size_t kPlannedOrders = 3;  ///< at most, where windows are missed
+
+bool has_windows(const MissionRequest& mission) {
+  return std::any_of(mission.visit.begin(), mission.visit.end(),
+                     [](const VisitRequest& visit) { return visit.window_s.has_value(); });
+}
 
 std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector<std::size_t>& order) {
   std::vector<LegRequest> legs;
@@ -34,22 +37,29 @@ std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector
 
 }  // namespace
 
-VisitOrder order_visits(const ChoiceContext& context) {
+std::vector<VisitOrder> order_visits(const ChoiceContext& context) {
   const MissionRequest& mission = context.mission;
   const VisitSearch search(context);
+  std::vector<VisitLabel> labels = search.orders();
+  if (has_windows(mission))
+    for (VisitLabel& late : search.orders({.windows = true}))
+      if (std::none_of(labels.begin(), labels.end(),
+                       [&](const VisitLabel& label) { return label.order == late.order; }))
+        labels.push_back(std::move(late));
   VisitOrder result{.exact = mission.visit.size() <= kExactStops};
-  std::optional<VisitLabel> best = search.best();
-  if (!best) best = search.best({.late_share = kRough});  // the exact plan decides
-  if (!best) {
+  if (labels.empty()) {
     result.infeasibility = no_order(mission, context.world.robot, search);
-    return result;
+    return {result};
   }
-  result.order = best->order;
-  result.legs = legs_of(mission, best->order);
-  result.energy_J = best->front.least_J();
   result.given_order_J = search.given_order_J();
   result.lower_bound_J = search.lower_bound_J();
-  return result;
+  std::vector<VisitOrder> orders(std::min(labels.size(), kPlannedOrders), result);
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    orders[k].order = labels[k].order;
+    orders[k].legs = legs_of(mission, labels[k].order);
+    orders[k].energy_J = labels[k].front.least_J();
+  }
+  return orders;
 }
 
 }  // namespace joulepath

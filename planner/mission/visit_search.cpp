@@ -28,14 +28,13 @@ VisitSearch::VisitSearch(const ChoiceContext& context)
       capacity_kg_(payload_limit_kg(context.world.robot)),
       table_(context) {}
 
-std::optional<VisitLabel> VisitSearch::best(const RelaxedVisits& relaxed) const {
+std::vector<VisitLabel> VisitSearch::orders(const RelaxedVisits& relaxed) const {
   Layer layer{{.last = count_}};
   for (std::size_t step = 0; step < count_ && !layer.empty(); ++step) layer = next_layer(layer, relaxed);
   const auto rank = [](const VisitLabel& label) { return std::pair(label.late_s, label.front.least_J()); };
-  const auto least =
-      std::min_element(layer.begin(), layer.end(),
-                       [&](const VisitLabel& a, const VisitLabel& b) { return rank(a) < rank(b); });
-  return least == layer.end() ? std::nullopt : std::optional(*least);
+  std::stable_sort(layer.begin(), layer.end(),
+                   [&](const VisitLabel& a, const VisitLabel& b) { return rank(a) < rank(b); });
+  return layer;
 }
 
 std::optional<double> VisitSearch::given_order_J() const {
@@ -79,8 +78,8 @@ std::optional<VisitLabel> VisitSearch::extend(const VisitLabel& label, std::size
   after.front = label.front + table_.front(label.last, next, label.payload_kg);
   if (visit.window_s) {
     after.front.wait_until(visit.window_s->first, standby_W_);
-    const double first_s = after.front.soonest_s(), late_s = first_s - visit.window_s->second;
-    if (late_s > relaxed.late_share * first_s && relaxed.window != next) return std::nullopt;
+    const double late_s = after.front.soonest_s() - visit.window_s->second;
+    if (late_s > 0 && !relaxed.windows) return std::nullopt;
     after.late_s = std::max(after.late_s, late_s);
     after.front.end_at(visit.window_s->second);
   }

@@ -18,15 +18,14 @@ struct VisitLabel {
   double payload_kg{};
   TimeFront front{{0.0, 0.0}};  ///< of the departure
   double heaviest_kg{};         ///< carried so far
-  double late_s{};              ///< at the stop whose window is relaxed
+  double late_s{};              ///< at a stop, if windows are relaxed
   std::vector<std::size_t> order{};
 };
 
 /// Constraints that a search ignores, to find the one that prevents an order.
 struct RelaxedVisits {
-  std::optional<std::size_t> window{};  ///< the end of this stop's
+  bool windows{};  ///< the end of every stop's
   bool capacity{};
-  double late_share{};  ///< of the arrival's time, at every window
 };
 
 /// The robot's load after a stop; below zero if it drops more than it has.
@@ -37,8 +36,9 @@ class VisitSearch {
  public:
   explicit VisitSearch(const ChoiceContext& context);
 
-  /// The order of least cost (least lateness, if a window is relaxed); nothing if there is none.
-  [[nodiscard]] std::optional<VisitLabel> best(const RelaxedVisits& relaxed = {}) const;
+  /// Orders of all stops: the one of least cost (least lateness, if windows are relaxed) first, then those
+  /// that end elsewhere or could be cheaper in another time.
+  [[nodiscard]] std::vector<VisitLabel> orders(const RelaxedVisits& relaxed = {}) const;
 
   /// The order in which the stops are listed; nothing if it violates a window or the capacity.
   [[nodiscard]] std::optional<double> given_order_J() const;

@@ -19,18 +19,6 @@ Infeasibility at_stop(const MissionRequest& mission, std::size_t visit, std::str
   return {.constraint = std::move(constraint), .x_m = place.x_m, .y_m = place.y_m};
 }
 
-Infeasibility window_missed(const MissionRequest& mission, std::size_t visit, double late_s) {
-  const auto& [earliest_s, latest_s] = *mission.visit[visit].window_s;
-  Infeasibility reason = at_stop(mission, visit, "visit_order");
-  reason.amount = late_s;
-  reason.unit = "s";
-  reason.relaxation = {{"window_s", latest_s + late_s}};
-  reason.message = "no order of the stops reaches '" + mission.visit[visit].station + "' (visit[" +
-                   std::to_string(visit) + "]) within its window of " + seconds(earliest_s) + " to " +
-                   seconds(latest_s) + "; the best arrives " + seconds(late_s) + " too late";
-  return reason;
-}
-
 Infeasibility too_heavy(const MissionRequest& mission, double heaviest_kg, double capacity_kg) {
   const Limit& row = payload_limit();
   Infeasibility reason = at_stop(mission, 0, "visit_order");
@@ -46,6 +34,18 @@ Infeasibility too_heavy(const MissionRequest& mission, double heaviest_kg, doubl
 
 }  // namespace
 
+Infeasibility missed_window(const MissionRequest& mission, std::size_t visit, double late_s) {
+  const auto& [earliest_s, latest_s] = *mission.visit[visit].window_s;
+  Infeasibility reason = at_stop(mission, visit, "visit_order");
+  reason.amount = late_s;
+  reason.unit = "s";
+  reason.relaxation = {{"window_s", latest_s + late_s}};
+  reason.message = "no order of the stops that was planned reaches '" + mission.visit[visit].station +
+                   "' (visit[" + std::to_string(visit) + "]) within its window of " + seconds(earliest_s) +
+                   " to " + seconds(latest_s) + "; the best arrives " + seconds(late_s) + " too late";
+  return reason;
+}
+
 Infeasibility no_order(const MissionRequest& mission, const Robot& robot, const VisitSearch& search) {
   if (const auto stop = search.unreachable()) {
     Infeasibility reason = at_stop(mission, *stop, "path");
@@ -53,11 +53,8 @@ Infeasibility no_order(const MissionRequest& mission, const Robot& robot, const 
     reason.message = "'" + mission.visit[*stop].station + "' cannot be reached";
     return reason;
   }
-  for (std::size_t k = 0; k < mission.visit.size(); ++k)
-    if (mission.visit[k].window_s)
-      if (const auto label = search.best({.window = k})) return window_missed(mission, k, label->late_s);
-  if (const auto label = search.best({.capacity = true}))
-    return too_heavy(mission, label->heaviest_kg, payload_limit_kg(robot));
+  if (const auto labels = search.orders({.capacity = true}); !labels.empty())
+    return too_heavy(mission, labels.front().heaviest_kg, payload_limit_kg(robot));
   Infeasibility reason = at_stop(mission, 0, "visit_order");
   reason.message =
       "no order of the stops keeps the time windows, the capacity and picks before their drops: more than "

@@ -4,7 +4,10 @@
 
 namespace joulepath {
 
-/// The verdict if no order of the stops is possible: the first constraint whose removal allows one.
+/// The verdict on the window of a stop (an index into `visit`) that planned orders miss, the best by late_s.
+[[nodiscard]] Infeasibility missed_window(const MissionRequest& mission, std::size_t visit, double late_s);
+
+/// The verdict if no order of the stops is possible whatever their windows.
 [[nodiscard]] Infeasibility no_order(const MissionRequest& mission, const Robot& robot,
                                      const VisitSearch& search);
 

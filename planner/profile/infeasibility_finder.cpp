@@ -7,8 +7,10 @@
 
 #include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
+#include "planner/nlp/transcription/grid.hpp"
 #include "planner/profile/holding_limit.hpp"
 #include "planner/profile/profile_solver.hpp"
+#include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
@@ -59,10 +61,14 @@ ProfileRequest changed(ProfileRequest request, const Knob& knob, double value) {
   return request;
 }
 
+/// Whether a profile passes a grid, or the finer one that the planner tries before it gives up.
 bool passes(const ProfileRequest& request, const std::vector<double>& s) {
   const PathMotion motion = path_motion(request);
-  const nlp::Problem problem = nlp::transcribe(request, motion, s, {}, nullptr);
-  return !nlp::rate_envelope(problem).blocked;
+  const auto passes_on = [&](const std::vector<double>& grid) {
+    return !nlp::rate_envelope(nlp::transcribe(request, motion, grid, {}, nullptr)).blocked;
+  };
+  return passes_on(s) ||
+         (!request.draft && passes_on(nlp::cut_segments(s, std::vector<bool>(s.size() - 1, true))));
 }
 
 /// Smallest (largest for start and end speeds) value for which a profile exists, to 1e-5 of it and not below
@@ -83,6 +89,30 @@ std::optional<double> smallest_relaxation(const ProfileRequest& request, const K
     (possible(middle) ? good : bad) = middle;
   }
   return good;
+}
+
+/// Whether the planner finds a profile in the time that is asked for.
+bool plans(const ProfileRequest& request) {
+  const std::optional<double> least_s = least_time_found_s(request);
+  return least_s && *least_s <= request.time.duration_s * (1 + kMetTime);
+}
+
+/// A value with which the planner finds a profile: that of the envelope, else the next one beyond, to 1 %.
+std::optional<double> planned_relaxation(const ProfileRequest& request, const Knob& knob, double value) {
+  constexpr double kBeyond[] = {1e-3, 1e-2, 0.1, 0.5, 2};
+  constexpr double kClose = 0.01;
+  const auto possible = [&](double tried) { return plans(changed(request, knob, tried)); };
+  if (possible(value)) return value;
+  for (const double share : kBeyond) {
+    double bad = value, good = knob.rate != nullptr ? value / (1 + share) : value * (1 + share);
+    if (!possible(good)) continue;
+    while (std::abs(good - bad) > kClose * std::abs(good)) {
+      const double middle = 0.5 * (good + bad);
+      (possible(middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+  return std::nullopt;
 }
 
 const Knob* knob_named(std::string_view name) {
@@ -140,7 +170,8 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   for (std::string_view candidate : relaxations_to_try(request, problem, blocked, name)) {
     const Knob* knob = knob_named(candidate);
     if (knob == nullptr) continue;
-    const std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
+    std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
+    if (value) value = planned_relaxation(request, *knob, *value);
     if (!value) continue;
     double s = problem.s[blocked.node];
     if (candidate == "end_speed") s = problem.s.back();
@@ -152,6 +183,21 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
     return verdict;
   }
   return too_slow_there(request, name, problem.s[blocked.node], blocked);
+}
+
+void offer_what_plans(const ProfileRequest& request, Infeasibility& verdict) {
+  for (const Knob& knob : knobs()) {
+    const auto offered = verdict.relaxation.find(std::string(knob.key));
+    if (offered == verdict.relaxation.end()) continue;
+    if (const auto value = planned_relaxation(request, knob, offered->second)) {
+      offered->second = *value;
+      verdict.amount = std::abs(*value - value_of(request, knob));
+    } else {
+      verdict.relaxation.erase(offered);
+    }
+    verdict.message = sentence(verdict);
+    return;
+  }
 }
 
 Infeasibility explain_long(const ProfileRequest& request, double possible_s) {

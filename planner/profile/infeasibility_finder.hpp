@@ -6,9 +6,13 @@
 namespace joulepath {
 
 /// The verdict for a request whose rate envelope is blocked: which limit, where, by how much, and the
-/// smallest value of it for which a profile exists (found by bisection on the envelope).
+/// smallest value of it for which a profile exists (found by bisection on the envelope, then planned).
 [[nodiscard]] Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                                             const nlp::Blocked& blocked);
+
+/// Keeps what a verdict of the same request with fewer limits offers only as far as the planner finds a
+/// profile with it.
+void offer_what_plans(const ProfileRequest& request, Infeasibility& verdict);
 
 /// The verdict for a time that is longer than the slowest profile takes.
 [[nodiscard]] Infeasibility explain_long(const ProfileRequest& request, double possible_s);

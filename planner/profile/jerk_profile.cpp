@@ -139,6 +139,19 @@ ProfileRequest with_enough_jerk(ProfileRequest request) {
   return request;
 }
 
+/// A verdict of the problem without the jerk limit. It holds with the limit; what it offers is planned with
+/// it, too.
+ProfileResult also_with_jerk(const ProfileRequest& request, ProfileResult refused, bool by_time) {
+  Infeasibility& verdict = *refused.infeasibility;
+  const std::optional<double> least_s = by_time ? least_time_found_s(request) : std::nullopt;
+  if (!by_time)
+    offer_what_plans(request, verdict);
+  else if (least_s && *least_s > request.time.duration_s)
+    verdict = explain_long(request, *least_s);
+  refused.summary.message = verdict.message;
+  return refused;
+}
+
 /// The verdict for a time before the fastest drive that the jerk limit allows. It offers that drive, and the
 /// jerk limit with which it is fast enough, if all other limits are kept.
 ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
@@ -171,14 +184,30 @@ ProfileResult too_soon(const ProfileRequest& request, const Profile& fastest) {
   return result;
 }
 
+/// The shortest way (m) from start to end speed with the jerk limit and the limit of acceleration: the mean
+/// of both speeds for as long as the change takes, without acceleration at both ends.
+double least_change_m(const ProfileRequest& request) {
+  const double from = request.start_rate, to = request.end_rate, change = std::abs(to - from);
+  const double jerk = request.limits.jerk_m_s3;
+  const double most = to > from ? request.limits.acceleration_m_s2 : request.limits.deceleration_m_s2;
+  const double lasts_s =
+      change * jerk <= most * most ? 2 * std::sqrt(change / jerk) : change / most + most / jerk;
+  return 0.5 * (from + to) * lasts_s;
+}
+
 /// Decides why no profile was found. A deadline that no bound excludes is not refused.
 ProfileResult explain(const ProfileRequest& request, ProfileResult failed) {
   const std::optional<Profile> fastest = fastest_found(request, request.limits.jerk_m_s3);
   std::ostringstream text;
   text.precision(7);
-  if (!fastest) {
-    failed.summary.message = "no profile is found within the jerk limit from start to end speed";
+  if (!fastest && least_change_m(request) > piece_length(request.piece)) {
+    failed.summary.message = "no profile leads from start to end speed within the jerk limit";
     return blame_jerk(request, std::move(failed));
+  }
+  if (!fastest) {
+    failed.summary.status = SolveStatus::failed;
+    failed.summary.message = "no profile is found within the jerk limit; whether there is one is not known";
+    return failed;
   }
   const double late_s = fastest->duration_s() - request.time.duration_s;
   if (has_deadline(request) && late_s > 0) {
@@ -220,7 +249,8 @@ ProfileResult solve_with_jerk_limit(const ProfileRequest& request) {
     const bool by_time =
         has_deadline(request) && bound.infeasibility &&
         (bound.infeasibility->constraint == "deadline" || bound.infeasibility->constraint == "duration");
-    return by_time && soon ? too_soon(request, *fastest) : bound;
+    if (by_time && soon) return too_soon(request, *fastest);
+    return bound.infeasibility ? also_with_jerk(request, std::move(bound), by_time) : bound;
   }
   if (!(request.limits.jerk_m_s3 > 0)) {
     ProfileResult none;

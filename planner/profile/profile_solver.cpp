@@ -14,6 +14,7 @@
 #include "planner/profile/first_guess.hpp"
 #include "planner/profile/infeasibility_finder.hpp"
 #include "planner/profile/jerk_profile.hpp"
+#include "planner/profile/jerk_solver.hpp"
 #include "planner/profile/request_check.hpp"
 #include "planner/profile/solve_tolerances.hpp"
 #include "planner/values/profile.hpp"
@@ -47,7 +48,9 @@ constexpr const char* kFastestSolver = "forward_backward";
 
 class ProfileSolver {
  public:
-  explicit ProfileSolver(const ProfileRequest& request) : request_(request), motion_(path_motion(request)) {}
+  /// `explains`: a path that no profile passes gets a verdict; otherwise the status alone says so.
+  explicit ProfileSolver(const ProfileRequest& request, bool explains = true)
+      : request_(request), motion_(path_motion(request)), explains_(explains) {}
 
   ProfileResult solve() {
     std::vector<double> s =
@@ -63,10 +66,11 @@ class ProfileSolver {
         --round;
         continue;
       }
-      if (!solve_on(problem)) {
+      if (!solve_on(problem, !tightenings.empty())) {
         if (kept_ || result_.infeasibility || halvings_++ == kGridHalvings) return answer();
         given_over_ = false;
-        s = nlp::cut_segments(s, std::vector<bool>(problem.segment_count(), true));
+        if (blocked_) tightenings.clear();
+        s = halved(problem);
         continue;
       }
       if (request_.draft) return sketch();
@@ -133,11 +137,36 @@ class ProfileSolver {
     return excess_s;
   }
 
+  static std::vector<double> halved(const Problem& problem) {
+    return nlp::cut_segments(problem.s, std::vector<bool>(problem.segment_count(), true));
+  }
+
+  /// A grid that nothing passes is a verdict only with the limits as they are, and if nothing passes a finer
+  /// grid either.
+  bool stop_at(const Problem& problem, const nlp::Blocked& blocked, bool tightened) {
+    blocked_ = true;
+    const auto passes_finer = [&] {
+      const Problem finer = nlp::transcribe(request_, motion_, halved(problem), {}, nullptr);
+      return !nlp::rate_envelope(finer).blocked;
+    };
+    if (tightened || (!request_.draft && passes_finer())) {
+      result_.summary.status = SolveStatus::failed;
+      result_.summary.message = "no profile passes " + std::string(blocked.limit) +
+                                " on the grids tried; whether there is one is not known";
+      return false;
+    }
+    if (explains_) return give_up(explain_blocked(request_, problem, blocked));
+    result_.summary.status = SolveStatus::infeasible;
+    halvings_ = kGridHalvings;
+    return false;
+  }
+
   /// Sets best_; false when the request is infeasible or the solver failed (result_ then contains the
   /// reason).
-  bool solve_on(const Problem& problem) {
+  bool solve_on(const Problem& problem, bool tightened) {
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    if (envelope.blocked) return give_up(explain_blocked(request_, problem, *envelope.blocked));
+    blocked_ = false;
+    if (envelope.blocked) return stop_at(problem, *envelope.blocked, tightened);
     const double minimum_s = duration_of(problem, envelope.fastest);
     const bool limited = problem.duration_row != nlp::DurationRow::none;
     if (std::isnan(problem.duration_s)) return give_up(explain_late(request_, minimum_s));
@@ -199,6 +228,7 @@ class ProfileSolver {
 
   bool take(const Problem& problem, const std::vector<double>& b, const char* solver) {
     result_.summary.solver = solver;
+    result_.summary.message.clear();
     best_b_ = b;
     best_ = profile_from_squares(problem.s, b);
     return true;
@@ -257,6 +287,7 @@ class ProfileSolver {
 
   const ProfileRequest& request_;
   PathMotion motion_;
+  bool explains_{};
   ProfileResult result_{};
   std::vector<double> best_b_{};  ///< squares of the rate
   std::optional<Profile> best_{};
@@ -264,13 +295,27 @@ class ProfileSolver {
   nlp::Solution solution_{};
   bool given_over_{};  ///< the fast solver did not converge: Ipopt solves the rest
   bool settling_{};    ///< Ipopt solves on the last grid
+  bool blocked_{};     ///< nothing passed the last grid
   double last_ratio_{};
   double least_gap_{kNoLimit};
   int sharpened_{};
   int halvings_{};
 };
 
+bool jerk_limited(const ProfileRequest& request) {
+  return std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) && !request.draft;
+}
+
 }  // namespace
+
+std::optional<double> least_time_found_s(ProfileRequest request) {
+  if (senseless(request)) return std::nullopt;
+  request.time = {.mode = TimeMode::minimum_time};
+  request.solver = SolverChoice::fast;
+  const ProfileResult found = jerk_limited(request) ? find_profile_with_jerk_limit(request)
+                                                    : ProfileSolver(request, false).solve();
+  return found.profile ? std::optional(found.profile->duration_s()) : std::nullopt;
+}
 
 ProfileResult solve_profile(const ProfileRequest& request) {
   stop_if_asked();
@@ -281,8 +326,7 @@ ProfileResult solve_profile(const ProfileRequest& request) {
     result.infeasibility = std::move(verdict);
     return result;
   }
-  if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) && !request.draft)
-    return solve_with_jerk_limit(request);
+  if (jerk_limited(request)) return solve_with_jerk_limit(request);
   return ProfileSolver(request).solve();
 }
 

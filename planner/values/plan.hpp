@@ -70,6 +70,7 @@ struct LegPlan {
   std::vector<PathPart> parts{};           ///< named by the mission: edges of an order
   std::optional<Trajectory> prescribed{};  ///< a prescribed motion, sampled; no stretches then
   double start_s{};                        ///< departure, from the mission's start
+  Pose start_pose{};                       ///< where the robot stands then; a leg without motion stays there
   EffectMemory memory{};                   ///< of the effects, at the departure
   double duration_s{};                     ///< driving
   double dwell_s{};

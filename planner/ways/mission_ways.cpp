@@ -100,7 +100,7 @@ LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
 LegStart MissionWays::after(std::size_t leg, const LegPath& path, const LegStart& start) const {
   if (mission_.legs[leg].motion) {
     const Trajectory motion = *prescribed_leg(mission_.legs[leg], plant_, start.pose).prescribed;
-    return {.pose = end_pose(motion), .heading_free = start.heading_free};
+    return {.pose = end_pose(motion), .heading_free = false};
   }
   if (path.path.pieces.empty()) return start;
   return {.pose = path.path.end(), .heading_free = false};

@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "scenarios/bags/sqlite_bag.hpp"
 #include "scenarios/bags/state_lines.hpp"
+#include "scenarios/bags/unpacked_bytes.hpp"
 
 namespace joulepath {
 namespace {
@@ -28,6 +30,7 @@ std::vector<std::string> files_of(const std::string& folder, const NamedBy& name
     const std::string file = resolve_file(name, {.untrusted = true});
     if (!is_bag(file) || is_folder(file))
       name.fail("a file that ends with .mcap or .db3", "decompress the file: zstd -d " + name.text());
+    if (std::ranges::count(files, file) > 0) name.fail("each file once");
     files.push_back(file);
   }
   return files;
@@ -43,15 +46,30 @@ constexpr std::uint64_t kMostMessageBytes = 64u << 20;
 
 /// rosbag2 can compress each message by itself; neither CDR nor JSON begins as a zstd frame. False if the
 /// frame is broken.
-bool unpack(std::string_view& data, std::string& unpacked) {
+bool unpack(std::string_view& data, std::string& unpacked, UnpackedBytes& sum) {
   if (!data.starts_with(kZstdMagic)) return true;
   const std::uint64_t size = ZSTD_getFrameContentSize(data.data(), data.size());
   if (size > kMostMessageBytes) return false;  // unknown and broken sizes are greater
+  sum.add(size);
   unpacked.resize(size);
   if (ZSTD_decompress(unpacked.data(), size, data.data(), data.size()) != size) return false;
   data = unpacked;
   return true;
 }
+
+std::uint64_t bytes_in(const std::vector<std::string>& files) {
+  std::uint64_t bytes = 0;
+  for (const std::string& file : files) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
+/// Beside its size in bytes, the most messages of a bag: each has a time of its own, which takes 3 bytes in
+/// the best compressed chunk.
+constexpr std::uint64_t kAlwaysMessages = 100'000;
 
 }  // namespace
 
@@ -66,7 +84,11 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
   std::map<std::pair<std::string, std::string>, std::size_t> topics;
   BagDamage damage;
   std::string unpacked;
-  for (const std::string& part : is_folder(file) ? files_of(file, named_by) : std::vector{file}) {
+  const std::vector<std::string> parts = is_folder(file) ? files_of(file, named_by) : std::vector{file};
+  const std::uint64_t bytes = bytes_in(parts);
+  std::uint64_t messages_left = bytes + kAlwaysMessages;
+  UnpackedBytes sum(file, named_by, bytes);
+  for (const std::string& part : parts) {
     std::vector<std::size_t> channels;
     const auto open = [&](const BagChannel& channel) {
       const auto [topic, added] = topics.try_emplace({channel.topic, channel.type}, topics.size());
@@ -74,8 +96,11 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
       if (added) on_channel(channel);
     };
     const auto take = [&](BagMessage message) {
+      if (messages_left-- == 0)
+        throw named_by.error(file, "more messages than " + std::to_string(bytes) + " bytes record",
+                             "a bag with a message for a byte at most");
       message.channel = channels[message.channel];
-      if (unpack(message.data, unpacked))
+      if (unpack(message.data, unpacked, sum))
         on_message(message);
       else
         ++damage.broken_records;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "model/text_of_list.hpp"
 #include "scenarios/bags/byte_reader.hpp"
 #include "scenarios/bags/message_numbers.hpp"
 #include "scenarios/bags/state_lines.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -59,7 +59,7 @@ class Suggestion {
 
   /// The columns that the schema of power messages names, under their own names.
   void power(const BagTopic& topic) {
-    const auto schema = nlohmann::json::parse(topic.channel.schema, nullptr, false);
+    const auto schema = shallow_json(topic.channel.schema);
     if (!schema.is_object() || !schema.contains("properties") || !schema["properties"].is_object()) return;
     for (const auto& [name, value] : schema["properties"].items()) {
       const bool has_heading = name == "heading_rad" && columns_.contains("orientation_w");

@@ -1,9 +1,9 @@
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "scenarios/bags/byte_reader.hpp"
 #include "scenarios/bags/field_path.hpp"
 #include "scenarios/bags/message_numbers.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -42,12 +42,7 @@ double value_at(const json& message, const std::vector<FieldStep>& path) {
 }
 
 json parsed(std::string_view data) {
-  constexpr int kMostDepth = 32;
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > kMostDepth) throw BytesEnd();
-    return true;
-  };
-  json message = json::parse(data, shallow, false);
+  json message = shallow_json(data);
   if (message.is_discarded()) throw BytesEnd();
   return message;
 }

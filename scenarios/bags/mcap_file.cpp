@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "scenarios/bags/byte_reader.hpp"
+#include "scenarios/bags/unpacked_bytes.hpp"
 
 // Format: https://mcap.dev/spec, version 0
 namespace joulepath {
@@ -49,6 +50,7 @@ class McapReader {
     if (!in_) throw named_by.error(file, "no readable file", "a bag in the MCAP format");
     in_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(in_.tellg(), 0));
+    unpacked_.emplace(file, named_by, size_);
     in_.seekg(0);
     std::string magic(kMcapMagic.size(), '\0');
     if (!in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) || magic != kMcapMagic)
@@ -143,6 +145,7 @@ class McapReader {
       return;
     }
     if (size > kMostChunkBytes) throw BytesEnd();
+    unpacked_->add(size);
     chunk_.resize(size);
     if (compression == "lz4")
       decompress_lz4(records, chunk_);
@@ -166,6 +169,7 @@ class McapReader {
 
   std::ifstream in_;
   std::uint64_t size_{};
+  std::optional<UnpackedBytes> unpacked_{};
   const std::function<void(const BagChannel&)>& on_channel_;
   const std::function<void(const BagMessage&)>& on_message_;
   std::map<std::uint16_t, BagChannel> schemas_{};

@@ -57,7 +57,7 @@ struct BagDamage {
 
 /// Reads an MCAP file from start to end, without its index: chunks uncompressed, lz4 or zstd. Broken parts
 /// are skipped and counted; an announced size is checked before memory is allocated. Throws ConfigError if
-/// the file cannot be read or is not an MCAP file.
+/// the file cannot be read, is not an MCAP file, or unpacks without bound (UnpackedBytes).
 [[nodiscard]] BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
                                   const std::function<void(const BagChannel&)>& on_channel,
                                   const std::function<void(const BagMessage&)>& on_message);

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
+
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
@@ -14,6 +15,25 @@ using nlohmann::json;
 
 constexpr std::size_t kMostLineBytes = 16u << 20;
 constexpr std::size_t kMostRobots = 4096;
+
+/// The next line. Of a longer one than kMostLineBytes, which is no state, the rest is left out.
+bool next_line(std::istream& in, std::string& line) {
+  line.clear();
+  std::streambuf& bytes = *in.rdbuf();
+  for (int c = bytes.sbumpc(); c != '\n'; c = bytes.sbumpc()) {
+    if (c == std::char_traits<char>::eof()) {
+      in.setstate(std::ios::eofbit);
+      return !line.empty();
+    }
+    if (line.size() <= kMostLineBytes) line.push_back(static_cast<char>(c));
+  }
+  return true;
+}
+
+/// The state in a line; discarded where the line is none.
+json state_in(const std::string& line) {
+  return line.size() > kMostLineBytes ? json(json::value_t::discarded) : shallow_json(line);
+}
 
 /// A number with exactly this many digits.
 std::optional<int> digits(std::string_view text, std::size_t from, std::size_t count) {
@@ -56,8 +76,8 @@ bool is_state_lines(const std::string& file) {
   if (extension != ".jsonl" && extension != ".ndjson") return false;
   std::ifstream in(file, std::ios::binary);
   std::string line;
-  if (!in || !std::getline(in, line) || line.size() > kMostLineBytes) return false;
-  const json first = json::parse(line, nullptr, false);
+  if (!in || !next_line(in, line)) return false;
+  const json first = state_in(line);
   return first.is_object() && first.contains("timestamp") && first.contains("serialNumber") &&
          (first.contains("batteryState") || first.contains("powerSupply"));
 }
@@ -69,9 +89,9 @@ BagDamage read_state_lines(const std::string& file, const NamedBy& named_by,
   if (!in) throw named_by.error(file, "a file that cannot be read", "VDA 5050 states, one per line");
   BagDamage damage;
   std::map<std::string, std::size_t> robots;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; next_line(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const json state = line.size() > kMostLineBytes ? json() : json::parse(line, nullptr, false);
+    const json state = state_in(line);
     const auto time_ns = state.is_object() ? utc_nanoseconds(text_at(state, "timestamp")) : std::nullopt;
     if (!time_ns || robots.size() > kMostRobots) {
       ++damage.broken_records;

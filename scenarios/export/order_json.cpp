@@ -132,7 +132,6 @@ Json order_with_speeds(const ExportInput& input, const PartSpeeds& speeds) {
 Json order_of_plan(const ExportInput& input, const PartSpeeds& speeds) {
   const std::string map = std::filesystem::path(input.mission.map_file).stem().string();
   OrderWriter writer(map.empty() ? "map" : map);
-  const Pose& start = input.mission.start.pose;
   bool begun = false;
   for (std::size_t k = 0; k < input.plan.legs.size(); ++k) {
     const LegPlan& leg = input.plan.legs[k];
@@ -140,10 +139,9 @@ Json order_of_plan(const ExportInput& input, const PartSpeeds& speeds) {
       throw ConfigError({input.mission.marks.at("legs"), "legs[" + std::to_string(k) + "].motion",
                          "a prescribed motion", "legs with to: or path:", "an order has paths, not motions"});
     if (!begun) {
-      const bool open = leg.stretches.empty();
-      const Pose first = open ? start : piece_point(leg.stretches.front().request.piece, 0).pose;
-      writer.node(input.mission.start.station.empty() ? "start" : input.mission.start.station, first);
-      writer.face(first.heading_rad);
+      writer.node(input.mission.start.station.empty() ? "start" : input.mission.start.station,
+                  leg.start_pose);
+      writer.face(leg.start_pose.heading_rad);
       begun = true;
     }
     write_leg(writer, leg, speeds[k]);

@@ -1,11 +1,23 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "planner/mission/mission.hpp"
+#include "scenarios/shallow_json.hpp"
 
 namespace joulepath::studio {
+
+/// The object that a page sent. Throws ConfigError.
+template <class Json>
+[[nodiscard]] Json question_from(const std::string& text) {
+  Json question = shallow_json<Json>(text);
+  if (question.is_object()) return question;
+  throw ConfigError({{},
+                     "question",
+                     "no JSON object, or one that is nested more than 64 deep",
+                     "a question of the page",
+                     ""});
+}
 
 /// The mission and the robot of a question. Throws ConfigError as the readers of their files do. File names
 /// are relative to `folder`.

@@ -49,7 +49,7 @@ json legs_json(const Plan& plan, const RouteSpace* space) {
     std::optional<Infeasibility> blocked;
     if (space)
       blocked = leg.prescribed ? blocked_motion(*leg.prescribed, *space) : blocked_path(path, *space);
-    const Pose start = path.pieces.empty() ? Pose{} : path.start();
+    const Pose& start = leg.start_pose;
     legs.push_back({{"path", leg.prescribed ? json(nullptr) : path_json(path)},
                     {"start", {start.x_m, start.y_m, start.heading_rad}},
                     {"blocked", verdict_json(blocked)}});
@@ -160,7 +160,7 @@ std::string Session::checked_answer(const json& question) const {
 }
 
 std::string Session::answer(const std::string& question) const try {
-  return checked_answer(json::parse(question));
+  return checked_answer(question_from<json>(question));
 } catch (const ConfigError& error) {
   return error_json(error).dump(-1, ' ', false, json::error_handler_t::replace);
 } catch (const std::exception& error) {  // no question may end a program that others ask, too

@@ -30,12 +30,16 @@ class MissionFiles {
 
   /// Saves {mission, robot, base} and replaces only the text of changed values. Returns {conflict: file}
   /// where a file no longer equals `base`, else the result of load(). Throws ConfigError for values that the
-  /// readers reject, and writes nothing then.
+  /// readers reject and for other names of files, and writes nothing then.
   [[nodiscard]] nlohmann::ordered_json save(const nlohmann::ordered_json& question);
 
  private:
   [[nodiscard]] std::string robot_file() const;
-  [[nodiscard]] std::string robot_target() const;
+  /// The file in the mission's folder for a robot that lies elsewhere.
+  [[nodiscard]] std::string copied_robot() const;
+  /// load() of these texts.
+  [[nodiscard]] nlohmann::ordered_json state(const std::string& mission_text, const std::string& robot,
+                                             const std::string& robot_text) const;
 
   std::string mission_file_;
   Writer write_;

@@ -1,23 +1,20 @@
 #include "studio/server/server.hpp"
 
-#include <httplib.h>
-
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <system_error>
 
 #include "model/stop.hpp"
 #include "scenarios/schema.hpp"
+#include "studio/answer/asked.hpp"
 #include "studio/answer/grid_json.hpp"
+#include "studio/server/http.hpp"
 #include "studio/server/page.hpp"
 
 namespace joulepath::studio {
 namespace {
 
 using nlohmann::json;
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-
 std::string random_token() {
   std::random_device random;
   std::string token;
@@ -58,71 +55,62 @@ class Newest {
 class Studio {
  public:
   Studio(MissionFiles& files, const ServerOptions& options)
-      : files_(files), options_(options), floor_(files.read_floor()), session_(floor_, files.folder()) {}
+      : files_(files),
+        options_(options),
+        floor_(files.read_floor()),
+        session_(floor_, files.folder()),
+        server_(options.port) {}
 
-  void run(const std::function<void(const std::string&)>& ready) {
-    const std::string base = "/" + random_token() + "/";
-    server_.set_payload_max_length(kMostBytes);
-    server_.set_tcp_nodelay(true);
-    server_.set_pre_routing_handler([this](const auto& request, auto& response) {
-      return refused(request, response) ? httplib::Server::HandlerResponse::Handled
-                                        : httplib::Server::HandlerResponse::Unhandled;
-    });
-    server_.set_default_headers({{"Cache-Control", "no-store"},
-                                 {"X-Content-Type-Options", "nosniff"},
-                                 {"Referrer-Policy", "no-referrer"},
-                                 {"X-Frame-Options", "DENY"},
-                                 {"Cross-Origin-Resource-Policy", "same-origin"}});
-    server_.Get(base, [this](const auto&, auto& response) {
-      guarded(response, "text/html; charset=utf-8", [&] {
-        return studio::page(page_data(files_, floor_, "", options_.diagnosis), options_.page_folder);
-      });
-    });
-    server_.Get(base + "files", [this](const auto&, auto& response) {
-      guarded(response, kJson, [&] { return files_.load().dump(); });
-    });
-    server_.Post(base + "answer", [this](const auto& request, auto& response) {
-      guarded(response, kJson, [&] { return answer(request.body); });
-    });
-    server_.Post(base + "save", [this](const auto& request, auto& response) {
-      guarded(response, kJson,
-              [&] { return files_.save(nlohmann::ordered_json::parse(request.body)).dump(); });
-    });
-    const bool bound = options_.port > 0 ? server_.bind_to_port("127.0.0.1", options_.port)
-                                         : (port_ = server_.bind_to_any_port("127.0.0.1")) > 0;
-    if (!bound) throw std::system_error(std::make_error_code(std::errc::address_in_use), "port");
-    if (options_.port > 0) port_ = options_.port;
-    ready("http://127.0.0.1:" + std::to_string(port_) + base);
-    server_.listen_after_bind();
+  [[noreturn]] void run(const std::function<void(const std::string&)>& ready) {
+    ready("http://127.0.0.1:" + std::to_string(server_.port()) + base_);
+    server_.run([this](const HttpRequest& request) { return refusal(request); },
+                [this](const HttpRequest& request) { return guarded(request); });
   }
 
  private:
   static constexpr const char* kJson = "application/json";
 
-  /// Rejects requests of another site's page, whatever name it gave to this address.
-  bool refused(const httplib::Request& request, httplib::Response& response) const {
-    const std::string port = std::to_string(port_), host = request.get_header_value("Host");
+  /// Refuses requests of another site's page, whatever name it gave to this address, and those without the
+  /// token.
+  [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const {
+    const std::string port = std::to_string(server_.port()), host = request.header("host");
     const bool own_host = host == "127.0.0.1:" + port || host == "localhost:" + port;
-    const std::string origin = request.get_header_value("Origin");
+    const std::string origin = request.header("origin");
     const bool own_origin = origin == "http://" + host || (origin.empty() && request.method == "GET");
-    if (own_host && own_origin) return false;
-    response.status = 403;
-    response.set_content("refused: the request comes from another site\n", "text/plain");
-    return true;
+    if (!own_host || !own_origin)
+      return HttpResponse{.status = 403, .body = "refused: the request comes from another site\n"};
+    if (is_known(request)) return std::nullopt;
+    return HttpResponse{.status = 404, .body = "nothing is here\n"};
   }
 
-  template <class Make>
-  static void guarded(httplib::Response& response, const char* type, const Make& make) {
+  [[nodiscard]] bool is_known(const HttpRequest& request) const {
+    const std::string& target = request.target;
+    if (request.method == "GET") return target == base_ || target == base_ + "files";
+    return request.method == "POST" && (target == base_ + "answer" || target == base_ + "save");
+  }
+
+  HttpResponse guarded(const HttpRequest& request) {
     try {
-      response.set_content(make(), type);
+      return response_to(request);
     } catch (const Superseded&) {
-      response.set_content(R"({"superseded": true})", kJson);
+      return {.type = kJson, .body = R"({"superseded": true})"};
     } catch (const std::exception& error) {
-      response.status = 400;
-      response.set_content(
-          json{{"error", {{"message", error.what()}}}}.dump(-1, ' ', true, json::error_handler_t::replace),
-          kJson);
+      return {.status = 400,
+              .type = kJson,
+              .body = json{{"error", {{"message", error.what()}}}}.dump(-1, ' ', true,
+                                                                        json::error_handler_t::replace)};
     }
+  }
+
+  /// Of a request that refusal() admits.
+  HttpResponse response_to(const HttpRequest& request) {
+    const std::string what = request.target.substr(base_.size());
+    if (what.empty())
+      return {.type = "text/html; charset=utf-8",
+              .body = studio::page(page_data(files_, floor_, "", options_.diagnosis), options_.page_folder)};
+    if (what == "files") return {.type = kJson, .body = files_.load().dump()};
+    if (what == "answer") return {.type = kJson, .body = answer(request.body)};
+    return {.type = kJson, .body = files_.save(question_from<nlohmann::ordered_json>(request.body)).dump()};
   }
 
   /// An order is the one file that planning reads: which one is the mission file's to say, not the page's.
@@ -135,7 +123,7 @@ class Studio {
   }
 
   std::string answer(const std::string& question) {
-    const json asked = json::parse(question);
+    const json asked = question_from<json>(question);
     refuse_other_order(asked);
     const Newest::Key key{asked.value("page", ""), asked.value("mode", "")};
     const long number = newest_.next(key);
@@ -150,8 +138,8 @@ class Studio {
   MissionWorld floor_;
   Session session_;
   Newest newest_{};
-  httplib::Server server_{};
-  int port_{};
+  HttpServer server_;
+  const std::string base_ = "/" + random_token() + "/";
 };
 
 }  // namespace

@@ -15,10 +15,16 @@ constexpr int kMostEdits = 4000;
 /// Compares values; the order of keys has no meaning.
 bool same(const Json& a, const Json& b) { return nlohmann::json(a) == nlohmann::json(b); }
 
+/// As the first line of a text ends.
+std::string line_break_of(const std::string& text) {
+  const std::size_t end = text.find('\n');
+  return end != std::string::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
 /// One step towards the wanted values: the first difference in the order of the file.
 class Edit {
  public:
-  explicit Edit(const std::string& text) : text_(text), spans_(text_) {}
+  explicit Edit(const std::string& text) : text_(text), spans_(text_), break_(line_break_of(text)) {}
 
   /// The text after one edit; absent where this value is already as wanted.
   std::optional<std::string> towards(const Value& value, const Json& wanted, bool in_flow) const {
@@ -59,13 +65,13 @@ class Edit {
     if (in_flow) return replaced({last, last}, ", " + entry);
     const std::size_t first = key_begin(map.entries.front());
     const std::string indent(first - spans_.line_begin(first), ' ');
-    return with_line(spans_.line_end(last), indent + entry + "\n");
+    return with_line(spans_.line_end(last), indent + entry + break_);
   }
 
   /// Inserts a line at the beginning of a line, or at the end of a text without a final line break.
   std::string with_line(std::size_t at, const std::string& line) const {
     const bool broken = at == 0 || text_[at - 1] == '\n';
-    return replaced({at, at}, (broken ? "" : "\n") + line);
+    return replaced({at, at}, (broken ? "" : break_) + line);
   }
 
   std::string without_entry(const Value& map, std::size_t k, bool in_flow) const {
@@ -119,7 +125,7 @@ class Edit {
                   : replaced({beside.begin, beside.begin}, item + ", ");
     }
     const Span lines = item_lines(list, last ? k - 1 : k);
-    return with_line(last ? lines.end : lines.begin, dash(list) + item + "\n");
+    return with_line(last ? lines.end : lines.begin, dash(list) + item + break_);
   }
 
   std::string without_item(const Value& list, std::size_t k, bool in_flow) const {
@@ -136,13 +142,14 @@ class Edit {
     const Span item = in_flow ? spans_.of(list.items[from], true) : item_lines(list, from);
     const Span place = in_flow ? spans_.of(list.items[to], true) : item_lines(list, to);
     std::string moved = text_.substr(item.begin, item.end - item.begin);
-    if (!in_flow && moved.back() != '\n') moved += '\n';
+    if (!in_flow && moved.back() != '\n') moved += break_;
     const std::string rest = without_item(list, from, in_flow);
     return rest.substr(0, place.begin) + moved + (in_flow ? ", " : "") + rest.substr(place.begin);
   }
 
   const std::string& text_;
   TextSpans spans_;
+  std::string break_;
 };
 
 }  // namespace

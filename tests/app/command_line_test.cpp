@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +49,63 @@ TEST(CommandLine, ANumberOfAnOptionIsFinite) {
       EXPECT_NE(result.err.find("found " + value + ", accepted: a finite number"), std::string::npos)
           << option << value << result.err;
     }
+}
+
+/// A name cannot forge a line: what is printed of a file stands in the lines of the program.
+TEST(CommandLine, ANameOfSeveralLinesIsPrintedInOne) {
+  const ScratchDirectory scratch;
+  const std::string robot = text_of(kBroken + "good/robot.yaml");
+  for (const std::string mark : {"\\r", "\\n", "\\t", "\\u2028", "\\u202e"}) {
+    const std::string name = "name: \"x" + mark + "robot.yaml: ok (checked by the maker)\"\n";
+    std::string text = robot;
+    const auto at = text.find("name:");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, text.find('\n', at) + 1 - at, name);
+    const auto result = run_program(scratch, "check " + scratch.write("robot.yaml", text));
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(std::ranges::count(result.out, '\n'), 1) << result.out;
+    for (const char* raw : {"\r", "\t", "\u2028", "\u202e"})
+      EXPECT_EQ(result.out.find(raw), std::string::npos) << result.out;
+  }
+}
+
+/// Logs too short for the smoothing: named, and an error where there are no others.
+TEST(CommandLine, AShortLogIsLeftOutOrAnError) {
+  const ScratchDirectory scratch;
+  scratch.write("robot.yaml", text_of(kBroken + "good/robot.yaml"));
+  const auto log = [&](const std::string& name, double period_s, int samples, double clock) {
+    std::string text =
+        "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,motor_current_left_A,motor_current_right_A\n";
+    for (int k = 0; k < samples; ++k) {
+      const double t = k * period_s, speed = 2 - 2 * std::cos(t), current = 0.3 + 0.14 * std::sin(t);
+      for (const double value : {clock * t, speed, speed, current + 1e-3 * (k % 7), current + 1e-3 * (k % 5)})
+        text += std::to_string(value) + ",";
+      text.back() = '\n';
+    }
+    scratch.write(name, text);
+  };
+  log("short.csv", 0.005, 74, 1);
+  log("good.csv", 0.02, 400, 1);
+  log("micro.csv", 0.02, 400, 1e-4);
+  const std::string alone =
+      scratch.write("a.yaml", "robot: robot.yaml\nruns: [{file: short.csv, payload_kg: 0}]\n");
+  const std::string both = scratch.write(
+      "b.yaml",
+      "robot: robot.yaml\nruns: [{file: good.csv, payload_kg: 0}, {file: short.csv, payload_kg: 0}]\n");
+  const std::string micro =
+      scratch.write("c.yaml", "robot: robot.yaml\nruns: [{file: micro.csv, payload_kg: 0}]\n");
+  for (const std::string& command :
+       {std::string("check "), "diagnose --force --out " + scratch.at("out") + " "}) {
+    const auto refused = run_program(scratch, command + alone);
+    EXPECT_EQ(refused.code, 2) << refused.out;
+    EXPECT_NE(refused.err.find("74 samples in 0.365 s"), std::string::npos) << refused.err;
+    const auto clock = run_program(scratch, command + micro);
+    EXPECT_EQ(clock.code, 2);
+    EXPECT_NE(clock.err.find("is the stamp in ms (scale 1.0e-3)"), std::string::npos) << clock.err;
+    const auto told = run_program(scratch, command + both);
+    EXPECT_EQ(told.code, 0) << told.out << told.err;
+    EXPECT_NE((told.out + told.err).find("short.csv: too short, left out"), std::string::npos) << told.err;
+  }
 }
 
 TEST(CommandLine, AnEmptyTextIsNoValue) {

@@ -73,6 +73,20 @@ TEST(OutputFile, IsReplacedOnlyByForce) {
   EXPECT_EQ(content(file), "two");
 }
 
+TEST(EditedFile, KeepsItsLinkAndItsMode) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.write("real/robot.yaml", "one"), link = scratch.at("robot.yaml");
+  fs::create_symlink("real/robot.yaml", link);
+  for (const unsigned mode : {0600u, 0640u, 0755u}) {
+    fs::permissions(file, fs::perms{mode});
+    replace_file(link, "two " + std::to_string(mode));
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(content(file), "two " + std::to_string(mode));
+    EXPECT_EQ(fs::status(file).permissions(), fs::perms{mode});
+    EXPECT_EQ(entries(scratch.at("real")), 1u);
+  }
+}
+
 TEST(Figure, KeepsSignificantDigitsWithoutExponents) {
   EXPECT_EQ(figure(1942.2345), "1942");
   EXPECT_EQ(figure(0.0123456), "0.01235");

@@ -109,6 +109,33 @@ TEST(Gap, OfTheTrueModelIsSmallInEveryChannel) {
   EXPECT_LT(before_J, report.energy.before_J * 1.05);
 }
 
+/// Standby power is drawn from the battery and not by the motors: the gap of one says nothing of the other's.
+TEST(Gap, OfTheBatteryIsStatedBesideThatOfTheMotors) {
+  std::vector<RunSignals> signals = three_runs();
+  EXPECT_FALSE(gap_between(signals, nomad(), worn()).battery_energy.has_value());
+  Robot thirsty = worn();
+  thirsty.power.standby_W += 8.9;
+  double standby_J = 0, battery_J = 0;
+  for (RunSignals& run : signals) {
+    run.battery_power_W = predict(run, {.robot = thirsty}).battery_power_W;
+    standby_J += 8.9 * run.period_s * static_cast<double>(run.size());
+    battery_J += run.battery_power_W.sum() * run.period_s;
+  }
+  const GapReport report = gap_between(signals, worn(), thirsty);
+  EXPECT_LT(report.energy.before_percent, 0.1);
+  ASSERT_TRUE(report.battery_energy.has_value());
+  EXPECT_NEAR(report.battery_energy->before_percent, 100 * standby_J / battery_J, 1e-9);
+  EXPECT_NEAR(report.battery_energy->bias_before_percent, -100 * standby_J / battery_J, 1e-9);
+  EXPECT_LT(report.battery_energy->after_percent, 1e-9);
+  EXPECT_NEAR(report.battery_energy->shrink_fraction, 1.0, 1e-9);
+  signals[1].battery_power_W = {};
+  EXPECT_NEAR(gap_between(signals, worn(), thirsty).battery_energy->shrink_fraction, 1.0, 1e-9)
+      << "a run without it takes no part";
+  for (RunSignals& run : signals) run.motor_power_W = {};
+  EXPECT_FALSE(gap_between(signals, worn(), thirsty).battery_energy.has_value())
+      << "without motors the headline is the battery's";
+}
+
 /// Runs that are all alike leave nothing to chance but another day.
 TEST(Gap, OfEqualRunsShrinksByAnIntervalAroundTheShrink) {
   const std::vector<RunSignals> signals(3, three_runs()[1]);

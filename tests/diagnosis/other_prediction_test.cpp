@@ -7,7 +7,10 @@
 
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
+#include "scenarios/diagnosis_sentence.hpp"
+#include "tests/support/nomad.hpp"
 #include "tests/support/practice_sets.hpp"
+#include "tests/support/synthetic_log.hpp"
 
 namespace joulepath {
 namespace {
@@ -39,20 +42,89 @@ TEST(OtherPrediction, LocationRefersToTheOtherSimulatorAndCausesToOurs) {
   }));
 }
 
-/// 10 J too much of 100 J in one run and 60 J too little of 300 J in the other.
-TEST(OtherPrediction, TellsGapAndBiasOfAllItsRuns) {
-  const auto constant_W = [](double both_W) {
-    const Eigen::VectorXd one = Eigen::VectorXd::Constant(20, both_W / 2);
-    return Sided<Eigen::VectorXd>{one, one};
-  };
-  std::vector<RunSignals> signals(2);
-  for (RunSignals& run : signals) run.period_s = 0.5, run.time_s = Eigen::VectorXd::LinSpaced(20, 0, 9.5);
-  signals[0].motor_power_W = constant_W(10);
-  signals[1].motor_power_W = constant_W(30);
-  const std::string told =
-      told_by_others(signals, {{.power_W = constant_W(11)}, {.power_W = constant_W(24)}});
-  EXPECT_NE(told.find("2 of 2 runs"), std::string::npos) << told;
-  EXPECT_NE(told.find("energy gap 17.5 %, bias -12.5 %"), std::string::npos) << told;
+Sided<Eigen::VectorXd> constant_W(double both_W) {
+  const Eigen::VectorXd one = Eigen::VectorXd::Constant(20, both_W / 2);
+  return {one, one};
+}
+
+/// Runs of 10 s with these powers (W) of both motors together.
+std::vector<RunSignals> runs_with_power(const std::vector<double>& powers_W) {
+  std::vector<RunSignals> signals(powers_W.size());
+  for (std::size_t r = 0; r < signals.size(); ++r) {
+    signals[r].period_s = 0.5, signals[r].time_s = Eigen::VectorXd::LinSpaced(20, 0, 9.5);
+    signals[r].motor_power_W = constant_W(powers_W[r]);
+  }
+  return signals;
+}
+
+/// 10 J too much of 100 J in one run and 60 J too little of 300 J in the other; the third has no prediction.
+TEST(SimulatorGap, IsThatOfTheRunsItPredicts) {
+  const SimulatorGap gap = simulator_gap(runs_with_power({10, 30, 50}),
+                                         {{.power_W = constant_W(11)}, {.power_W = constant_W(24)}, {}}, 0.5);
+  EXPECT_EQ(gap.runs, 2u);
+  EXPECT_EQ(gap.of_runs, 3u);
+  EXPECT_NEAR(gap.gap_percent, 17.5, 1e-9);
+  EXPECT_NEAR(gap.bias_percent, -12.5, 1e-9);
+}
+
+TEST(SimulatorGap, IsAtTheBatteryWhereNothingMeasuresTheMotors) {
+  std::vector<RunSignals> signals = runs_with_power({0});
+  signals[0].motor_power_W = {};
+  signals[0].battery_power_W = Eigen::VectorXd::Constant(20, 20.0);
+  const SimulatorGap gap =
+      simulator_gap(signals, {{.battery_power_W = Eigen::VectorXd::Constant(20, 14.0)}}, 0.5);
+  EXPECT_EQ(gap.runs, 1u);
+  EXPECT_NEAR(gap.bias_percent, -30, 1e-9);
+  EXPECT_EQ(simulator_gap(signals, {{.power_W = constant_W(11)}}, 0.5).runs, 0u) << "not of the same place";
+}
+
+/// Beyond noise and 1 %, no verdict calls the simulator sound, and none calls it explained.
+TEST(SimulatorGap, IsNeverGoodWhereItExceedsItsFloor) {
+  for (std::size_t k = 0; k < kVerdicts.size(); ++k)
+    for (const double gap_percent : {0.2, 0.9, 1.1, 2.9, 3.1, 40.0})
+      for (const double floor_percent : {0.1, 3.0}) {
+        SimulatorGap gap{.runs = 5, .gap_percent = gap_percent, .noise_floor_percent = floor_percent,
+                         .model_verdict = static_cast<Verdict>(k)};
+        const bool beyond = gap_percent > 1 && gap_percent > floor_percent;
+        const Verdict both = verdict_on_both(gap);
+        EXPECT_EQ(gap.exceeds(), beyond);
+        if (beyond)
+          EXPECT_FALSE(words_of(both).good) << gap_percent << ' ' << kVerdicts[k].name;
+        else
+          EXPECT_EQ(both, gap.model_verdict);
+        gap.runs = 0;
+        EXPECT_EQ(verdict_on_both(gap), gap.model_verdict) << "no prediction";
+      }
+}
+
+/// Eight runs of a robot as its file says, and a simulator whose currents are too high or too low by a factor.
+Diagnosis with_simulator(double factor) {
+  Dataset dataset{.robot = testing::nomad()};
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const double kind = seed % 4;
+    dataset.runs.push_back(testing::synthetic_run(
+        dataset.robot, "run_" + std::to_string(seed), 12, kind,
+        testing::swinging(0.3 + 0.1 * kind, 0.1, 1, 0.2 * kind),
+        {0.002, 0.005, 0.01}, seed));
+    Trajectory& other = dataset.runs.back().predicted.emplace(dataset.runs.back().log);
+    for (Side side : kSides)
+      for (double& current_A : other.motor_current_A[side]) current_A *= factor;
+  }
+  return diagnose(dataset, {.bootstrap = 20});
+}
+
+TEST(SimulatorGap, OfARobotWhoseFileIsRightIsTheVerdict) {
+  for (const double factor : {0.7, 1.4}) {
+    const Diagnosis d = with_simulator(factor);
+    EXPECT_EQ(d.verdict, Verdict::unexplained) << verdict_name(d.verdict);
+    EXPECT_EQ(d.simulator.model_verdict, Verdict::no_gap) << verdict_name(d.simulator.model_verdict);
+    EXPECT_NEAR(d.simulator.bias_percent, 100 * (factor - 1), 1.0);
+    const std::string said = diagnosis_sentence(d);
+    EXPECT_EQ(said.rfind("Unexplained: the simulator's energy gap is ", 0), 0u) << said;
+  }
+  const Diagnosis sound = with_simulator(1.002);
+  EXPECT_EQ(sound.verdict, Verdict::no_gap) << verdict_name(sound.verdict);
+  EXPECT_EQ(diagnosis_sentence(sound).rfind("No gap of the simulator: ", 0), 0u) << diagnosis_sentence(sound);
 }
 
 }  // namespace

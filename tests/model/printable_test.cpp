@@ -31,6 +31,18 @@ TEST(Printable, ControlCharactersAreEscapedAndNamed) {
   EXPECT_EQ(first_control_character("\xc2\x85"), "U+0085");
 }
 
+/// Separators of lines and marks that turn the direction of writing move what is printed after them.
+TEST(Printable, MarksOfLayoutAreEscaped) {
+  for (const auto& [text, shown] :
+       {std::pair{"a\nb", "a\\x0ab"}, std::pair{"a\r\tb", "a\\x0d\\x09b"}, std::pair{"\u2028", "\\u2028"},
+        std::pair{"\u2029", "\\u2029"}, std::pair{"\u202e", "\\u202e"},
+        std::pair{"\u2066x\u2069", "\\u2066x\\u2069"}, std::pair{"\u200f", "\\u200f"},
+        std::pair{"\u061c", "\\u061c"}})
+    EXPECT_EQ(printable(text), shown);
+  for (const std::string text : {"\u2027", "\u202f", "\u2065", "\u206a", "\u05d0", "\u200d"})
+    EXPECT_EQ(printable(text), text);
+}
+
 TEST(Printable, ACutIsBetweenCharacters) {
   EXPECT_EQ(printable_start("abcdefgh", 8), "abcdefgh");
   EXPECT_EQ(printable_start("abcdefghi", 8), "abcde...");

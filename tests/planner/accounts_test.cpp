@@ -29,24 +29,18 @@ TEST(PlanAccounts, ABaselineOfAPlanIsTheSumOverItsLegs) {
   EXPECT_DOUBLE_EQ(plan.baselines[0].later_s, 3.0);
 }
 
-/// The standby of a wait is in the energy but not in the bound, which may use the wait at the price of time.
+/// A slower drive may use the waiting time, so the bound counts a second of it at the price of time.
 TEST(PlanAccounts, AWaitCostsTheBoundItsPriceOfTime) {
-  const Plant plant = make_plant(testing::nomad());
-  const double wait_s = 5, price_W = 2, standby_W = plant.robot.power.standby_W;
-  StretchPlan stretch{.request = {.piece = TurnInPlace{}}};
+  const double wait_s = 5, price_W = 2;
+  StretchPlan stretch{.request = {.piece = TurnInPlace{}, .plant = make_plant(testing::nomad())}};
+  const double standby_W = stretch.request.plant.robot.power.standby_W;
   stretch.energy.copper_J = 100, stretch.energy.standby_J = standby_W * wait_s;
   stretch.profile.wait_s = wait_s;
   stretch.summary.lower_bound_J = 99;
-  LegPlan leg;
-  leg.status = SolveStatus::feasible;
-  leg.energy = stretch.energy, leg.price_of_time_W = price_W, leg.duration_s = wait_s;
-  leg.stretches = {stretch};
-  Plan plan;
-  plan.legs = {leg};
-  sum_up(plan, plant, 1e-6);
+  bound_wait(stretch, wait_s, price_W);
   const double gap_J = 1 + (price_W + standby_W) * wait_s;
-  EXPECT_NEAR(plan.legs[0].lower_bound_J, leg.energy.total_J() - gap_J, 1e-9);
-  EXPECT_NEAR(plan.legs[0].gap_percent, 100 * gap_J / leg.energy.total_J(), 1e-9);
+  EXPECT_NEAR(stretch.summary.lower_bound_J, stretch.energy.total_J() - gap_J, 1e-9);
+  EXPECT_NEAR(stretch.summary.gap_percent, 100 * gap_J / stretch.energy.total_J(), 1e-9);
 }
 
 /// Standby power is uncertain while a prescribed motion drives and while it waits.

@@ -37,6 +37,12 @@ Plan plan_of(const MissionRequest& mission, const Robot& robot = patient_nomad()
   return plan_mission(mission, {.robot = robot}, {.solver = SolverChoice::fast, .nodes = 60});
 }
 
+/// The same without the trapezoids beside it.
+Plan lone_plan_of(const MissionRequest& mission, const Robot& robot = patient_nomad()) {
+  return plan_mission(mission, {.robot = robot},
+                      {.solver = SolverChoice::fast, .nodes = 60, .baselines = false});
+}
+
 double cause_sum_J(const EnergyByCause& energy) {
   double sum_J = energy.copper_J + energy.coulomb_friction_J + energy.viscous_friction_J + energy.kinetic_J +
                  energy.not_recovered_J + energy.standby_J;
@@ -186,6 +192,105 @@ TEST(Mission, DurationOfALegIsKeptShortOrLong) {
   }
 }
 
+/// Energies, bounds and times of stretches add up to those of their leg, those of legs to the plan's; waits
+/// within a leg count everywhere, in the battery's loss, too.
+TEST(Mission, PartsAddUpToTheWhole) {
+  const double free_s = lone_plan_of(two_legs()).legs[0].duration_s;
+  for (const double factor : {0.95, 6.0}) {
+    MissionRequest mission = two_legs();
+    mission.legs[0].duration_s = factor * free_s;
+    const Robot robot = patient_nomad();
+    const Plan plan = lone_plan_of(mission, robot);
+    ASSERT_EQ(plan.legs.size(), 2u) << plan.message;
+    const double standby_W = robot.power.standby_W;
+    double all_J = 0, all_bound_J = 0, all_s = 0, driving_loss_J = 0, resting_s = 0;
+    for (const LegPlan& leg : plan.legs) {
+      double sum_J = standby_W * leg.dwell_s, bound_J = sum_J, sum_s = 0;
+      for (const StretchPlan& stretch : leg.stretches) {
+        sum_J += stretch.energy.total_J();
+        bound_J += stretch.summary.lower_bound_J;
+        sum_s += stretch.profile.duration_s();
+        driving_loss_J += stretch.battery_loss_J;
+        resting_s += stretch.profile.wait_s;
+        EXPECT_LE(stretch.summary.lower_bound_J, stretch.energy.total_J());
+        EXPECT_NEAR(stretch.replay.energy_J, stretch.energy.total_J(), 1e-5 * sum_J);
+      }
+      EXPECT_NEAR(sum_J, leg.energy.total_J(), 1e-9 * sum_J) << factor;
+      EXPECT_NEAR(bound_J, leg.lower_bound_J, 1e-9 * sum_J) << factor;
+      EXPECT_NEAR(sum_s, leg.duration_s, 1e-9 * sum_s) << factor;
+      all_J += sum_J, all_bound_J += bound_J, all_s += sum_s + leg.dwell_s, resting_s += leg.dwell_s;
+    }
+    EXPECT_NEAR(all_J, plan.energy.total_J(), 1e-9 * all_J);
+    EXPECT_NEAR(all_bound_J, plan.lower_bound_J, 1e-9 * all_J);
+    EXPECT_NEAR(all_s, plan.duration_s, 1e-9 * all_s);
+    const double resting_W = battery_load(robot.battery, standby_W).loss_W;
+    EXPECT_NEAR(driving_loss_J + resting_W * resting_s, plan.battery->loss_J, 1e-9 * plan.battery->loss_J);
+  }
+}
+
+/// Only viscous friction: the speed of least energy in a given time is a constant less a cosh, and
+/// E = A L^2 / (T - 2/k tanh(k T/2)) with A = b + R b^2/K^2 per wheel (angle L/r), C = R J^2/K^2,
+/// k = sqrt(A/C), K = torque constant times gear ratio.
+TEST(Mission, OnlyViscousFrictionTakesTheClosedFormsEnergyInAGivenTime) {
+  Robot robot = testing::nomad();
+  robot.power = {.standby_W = 0, .regeneration_efficiency = 1};
+  for (const Side side : kSides) {
+    robot.motor[side].friction_torque_Nm = 0;
+    robot.motor[side].viscous_friction_Nm_s_rad = 0.039;
+  }
+  const Motor& motor = robot.motor.left;
+  const Inertia& inertia = robot.inertia;
+  const double radius_m = robot.geometry.wheel_radius_m.left;
+  const double mass_kg = inertia.chassis_mass_kg + 2 * inertia.wheel_mass_kg;
+  const double wheel_kg_m2 = 0.5 * mass_kg * radius_m * radius_m + inertia.wheel_axle_inertia_kg_m2;
+  const double gain = motor.resistance_ohm / std::pow(motor.torque_constant_Nm_A * motor.gear_ratio, 2);
+  const double b = motor.viscous_friction_Nm_s_rad;
+  const double A = b + gain * b * b, C = gain * wheel_kg_m2 * wheel_kg_m2, k = std::sqrt(A / C);
+  MissionRequest mission{.name = "viscous", .legs = {leg_along(kStraight, 0.0)}};
+  EXPECT_THROW(lone_plan_of(mission, robot), ConfigError);
+  for (const double time_s : {20.0, 30.0, 60.0}) {
+    const double angle_rad = 6 / radius_m;
+    const double exact_J = 2 * A * angle_rad * angle_rad / (time_s - 2 / k * std::tanh(0.5 * k * time_s));
+    mission.objective.deadline_s = time_s;
+    const Plan by_deadline = lone_plan_of(mission, robot);
+    ASSERT_LE(by_deadline.status, SolveStatus::feasible) << by_deadline.message;
+    EXPECT_NEAR(by_deadline.energy.total_J(), exact_J, 2e-4 * exact_J) << time_s;
+    EXPECT_NEAR(by_deadline.duration_s, time_s, 1e-5 * time_s);
+    EXPECT_NEAR(by_deadline.legs[0].price_of_time_W, exact_J / time_s, 0.3 * exact_J / time_s);
+    MissionRequest by_duration{.name = "viscous", .legs = mission.legs};
+    by_duration.legs[0].duration_s = time_s;
+    EXPECT_NEAR(lone_plan_of(by_duration, robot).energy.total_J(), exact_J, 2e-4 * exact_J) << time_s;
+  }
+}
+
+/// A deadline of the last leg bounds all of them; one of the first leaves the last one open.
+TEST(Mission, WhereSlowerIsAlwaysCheaperEveryLegNeedsATime) {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 0;
+  for (const Side side : kSides) {
+    robot.motor[side].friction_torque_Nm = 0;
+    robot.motor[side].viscous_friction_Nm_s_rad = 0.039;
+  }
+  MissionRequest mission{.name = "two", .legs = {leg_along(kStraight, 0.0), leg_along(kStraight, 2.0)}};
+  mission.legs[0].deadline_s = 20;
+  try {
+    (void)lone_plan_of(mission, robot);
+    ADD_FAILURE() << "the last leg has no time";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.detail().key, "power.standby_W");
+    EXPECT_NE(error.detail().found.find("legs[1]"), std::string::npos) << error.what();
+  }
+  mission.legs[1].deadline_s = 45;
+  const Plan plan = lone_plan_of(mission, robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  EXPECT_NEAR(plan.duration_s, 45, 1e-3);
+  mission.legs[0].deadline_s.reset();
+  const Plan shared = lone_plan_of(mission, robot);
+  EXPECT_LE(shared.energy.total_J(), plan.energy.total_J() * (1 + 1e-6));
+  EXPECT_NEAR(shared.legs[0].price_of_time_W, shared.legs[1].price_of_time_W,
+              1e-3 * shared.legs[0].price_of_time_W);
+}
+
 /// Without standby a second costs nothing, and the price at which the robot waits is zero.
 TEST(Mission, ALegThatWaitsWithoutStandbyIsCertifiedAtNoPrice) {
   Robot robot = patient_nomad();
@@ -246,8 +351,27 @@ TEST(Mission, AnEmptyBatteryIsFoundBeforeTheDrive) {
   const Plan plan = plan_of(mission);
   ASSERT_TRUE(plan.infeasibility);
   EXPECT_EQ(plan.infeasibility->reason.constraint, "battery_reserve");
-  mission.start.battery_fraction = plan.infeasibility->reason.relaxation.at("battery_fraction") + 1e-9;
+  mission.start.battery_fraction = plan.infeasibility->reason.relaxation.at("battery_fraction");
   EXPECT_FALSE(plan_of(mission).infeasibility);
+}
+
+/// A full battery that is too small: no charge above 1 is offered, but the capacity that is enough.
+TEST(Mission, ABatteryThatIsTooSmallWhenFullIsToldTheCapacity) {
+  Robot robot = patient_nomad();
+  for (const double start : {1.0, 0.3}) {
+    robot.battery.capacity_Wh = 0.02;
+    MissionRequest mission = two_legs();
+    mission.start.battery_fraction = start;
+    const Plan plan = lone_plan_of(mission, robot);
+    ASSERT_TRUE(plan.infeasibility);
+    const auto& offered = plan.infeasibility->reason.relaxation;
+    ASSERT_EQ(offered.size(), 1u);
+    ASSERT_EQ(offered.begin()->first, "capacity_Wh");
+    robot.battery.capacity_Wh = offered.begin()->second;
+    EXPECT_FALSE(lone_plan_of(mission, robot).infeasibility) << start;
+    robot.battery.capacity_Wh *= 0.999;
+    EXPECT_TRUE(lone_plan_of(mission, robot).infeasibility) << start;
+  }
 }
 
 TEST(Mission, PrescribedMotionPassesThrough) {

@@ -117,6 +117,9 @@ TEST(PrescribedLimits, NoFiniteJerkLimitAllowsAJumpOfAcceleration) {
     ASSERT_NE(verdict_of(plan), nullptr);
     EXPECT_EQ(verdict_of(plan)->constraint, "jerk");
     EXPECT_TRUE(verdict_of(plan)->relaxation.empty());
+    EXPECT_NEAR(verdict_of(plan)->amount, *motion.acceleration_m_s2, 1e-4);
+    EXPECT_EQ(plan.message.find("inf"), std::string::npos) << plan.message;
+    EXPECT_NE(plan.message.find("S-curve"), std::string::npos) << plan.message;
   }
   using enum MotionProfile;
   for (const PrescribedMotion& motion :

@@ -25,11 +25,30 @@ TimeSplitRequest request_of(const std::vector<Leg>& legs, std::vector<double> la
                            ? legs[k].shortest_s
                            : std::max(legs[k].shortest_s, std::sqrt(legs[k].c / (2.0 + price_W)));
               },
+          .least_s = [legs](std::size_t k) { return legs[k].shortest_s; },
           .latest_arrival_s = std::move(latest_s),
           .earliest_arrival_s = std::vector<double>(legs.size(), 0.0),
           .dwell_s = std::vector<double>(legs.size(), 0.0),
           .lowest_price_W = 0.0,
           .waiting_price_W = -1.999};
+}
+
+/// Each price costs a solve of every profile: a deadline before the proven least time is refused without any.
+TEST(TimeSplit, TheLeastTimeDecidesBeforeAnyPriceIsSearched) {
+  TimeSplitRequest request = request_of({{1000, 5}}, {5 * (1 - 5e-4)});
+  int searched = 0;
+  const auto duration_s = request.duration_s;
+  request.duration_s = [&](std::size_t leg, double price_W) {
+    searched += price_W > 0 && std::isfinite(price_W);
+    return duration_s(leg, price_W);
+  };
+  ASSERT_TRUE(split_time(request).late);
+  EXPECT_EQ(searched, 0);
+  request.least_s = [](std::size_t) { return 4.9; };  // not proven: one price decides
+  ASSERT_TRUE(split_time(request).late);
+  EXPECT_LE(searched, 2);
+  request.latest_arrival_s = {6.0};
+  EXPECT_FALSE(split_time(request).late);
 }
 
 TEST(TimeSplit, WithoutDeadlinesThePriceOfTimeIsTheLowest) {

@@ -166,6 +166,31 @@ TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   EXPECT_EQ(plan_of(mission, kCoarse, robot).infeasibility->reason.constraint, "battery_reserve");
 }
 
+/// The charger is at the start and far from all other stops, between which the robot drives short ways until
+/// its battery is empty: only a stop before the first leg helps.
+TEST(Charging, AStopFarAheadOfTheLegThatFailsIsFound) {
+  MissionRequest mission = round_of_three();
+  mission.stations["one"] = {.x_m = 20, .y_m = 20};
+  mission.stations["two"] = {.x_m = 18, .y_m = 20};
+  mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
+  mission.legs = {{.to = "one"}, {.to = "two"}, {.to = "one"}, {.to = "two"}, {.to = "one"}};
+  PlanOptions options = kCoarse;
+  options.steps.corners = options.steps.refinement = false;
+  Robot robot = testing::nomad();
+  const Plan whole = plan_of(mission, options, robot);
+  ASSERT_EQ(whole.legs.size(), 5u) << whole.message;
+  const auto energy_Wh = [&](std::size_t leg) { return whole.legs[leg].energy.total_J() / 3600; };
+  robot.battery.capacity_Wh = 1.1 * whole.energy.total_J() / 3600 / 0.8;
+  const double until_third_Wh = energy_Wh(0) + energy_Wh(1) + energy_Wh(2) + 0.5 * energy_Wh(3);
+  mission.start.battery_fraction =
+      robot.battery.reserve_fraction + until_third_Wh / robot.battery.capacity_Wh;
+  const Plan charged = plan_of(mission, options, robot);
+  ASSERT_LE(charged.status, SolveStatus::feasible) << charged.message;
+  EXPECT_GT(charged.legs[0].charged_J, 0.0);
+  for (const double fraction : charged.battery->fraction_after_leg)
+    EXPECT_GE(fraction, robot.battery.reserve_fraction);
+}
+
 /// What stands at it takes 10 W.
 TEST(Charging, AChargerOfLessThanStandbyChargesNothing) {
   for (const double charger_W : {5.0, 50.0}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "diagnosis/values/constant_payload.hpp"
+#include "model/log_columns.hpp"
 #include "scenarios/run_log.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -126,11 +128,101 @@ TEST(DatasetFile, SeveralFilesAreAlignedByTimeWhereTheyOverlap) {
       "d.yaml", dataset_yaml("runs: [{files: [odom.csv, power.csv], payload_kg: [{from_s: 0, kg: 0}, "
                              "{from_s: 2, kg: 8.25}], surface: marble, use: validation}]")));
   const auto& run = dataset.runs[0];
-  EXPECT_EQ(run.log.time_s, (std::vector<double>{1, 2}));
-  EXPECT_EQ(run.log.battery_voltage_V, (std::vector<double>{24.5, 25.5}));
-  EXPECT_EQ(run.log.payload_kg, (std::vector<double>{0, 8.25}));
+  EXPECT_EQ(run.log.time_s, (std::vector<double>{0, 1, 2, 3}));  // a sample stands for its period
+  EXPECT_EQ(run.log.battery_voltage_V, (std::vector<double>{24, 24.5, 25.5, 26}));
+  EXPECT_EQ(run.log.payload_kg, (std::vector<double>{0, 0, 8.25, 8.25}));
   EXPECT_EQ(run.use, RunUse::validation);
   EXPECT_EQ(run.surface, "marble");
+}
+
+/// Rows of a file: its times, and the same value in each of its columns.
+std::string file_of(const std::string& columns, double from_s, double to_s, double step_s, double value) {
+  std::string text = "time_s," + columns + "\n";
+  for (int k = 0; from_s + step_s * k <= to_s + 1e-9; ++k) {
+    text += std::to_string(from_s + step_s * k);
+    for (auto n = 1 + std::ranges::count(columns, ','); n > 0; --n)
+      text += "," + std::to_string(value + 0.01 * k);
+    text += "\n";
+  }
+  return text;
+}
+
+/// A channel that is late, early-ending, slow, or in the first file: the drive keeps its length.
+TEST(SeveralFiles, NoChannelCutsADrive) {
+  const std::string wheels = "wheel_speed_left_rad_s,wheel_speed_right_rad_s",
+                    power = "battery_voltage_V,battery_current_A";
+  for (const auto& [from_s, to_s, step_s] :
+       {std::tuple{12.0, 20.0, 1.0}, std::tuple{0.0, 7.0, 0.1}, std::tuple{5.0, 11.0, 0.5},
+        std::tuple{3.0, 18.0, 5.0}, std::tuple{-4.0, 30.0, 1.0}})
+    for (const bool first : {false, true}) {
+      const ScratchDirectory scratch;
+      scratch.write("odom.csv", file_of(wheels, 0, 20, 0.1, 1));
+      scratch.write("power.csv", file_of(power, from_s, to_s, step_s, 24));
+      const std::string file =
+          scratch.write("d.yaml", dataset_yaml(first ? "runs: [{files: [power.csv, odom.csv]}]"
+                                                     : "runs: [{files: [odom.csv, power.csv]}]"));
+      const std::string named =
+          std::to_string(from_s) + " to " + std::to_string(to_s) + (first ? ", first" : "");
+      const auto length_s = [](const joulepath::Run& run) {
+        return run.log.time_s.back() - run.log.time_s.front();
+      };
+      const bool whole = from_s - step_s <= 0 && to_s + step_s >= 20;
+      const Dataset kept = read_dataset(file, {.keep_whole_drives = true});
+      ASSERT_EQ(kept.runs.size(), 1u) << named;
+      EXPECT_NEAR(length_s(kept.runs[0]), 20, step_s) << named;
+      EXPECT_EQ(kept.runs[0].log.battery_voltage_V.empty(), !whole) << named;
+      EXPECT_EQ(artifact(kept, "partial_channel", "battery_voltage_V") != nullptr, !whole) << named;
+      const Dataset parts = read_dataset(file);
+      double sum_s = 0;
+      for (const joulepath::Run& run : parts.runs) {
+        sum_s += length_s(run);
+        for (const LogColumn& column : log_columns())
+          for (const double value : column.of(run.log))
+            ASSERT_FALSE(std::isnan(value)) << named << column.name;
+      }
+      EXPECT_NEAR(sum_s, 20, 0.1 * static_cast<double>(parts.runs.size()) + step_s) << named;
+      EXPECT_EQ(std::ranges::count_if(
+                    parts.runs, [](const joulepath::Run& run) { return !run.log.battery_voltage_V.empty(); }),
+                1)
+          << named;
+    }
+}
+
+/// Where the motion is not known there is no drive; what is left out is said.
+TEST(SeveralFiles, WhatIsCutIsSaid) {
+  const ScratchDirectory scratch;
+  scratch.write("left.csv", file_of("wheel_speed_left_rad_s", 0, 20, 0.1, 1));
+  scratch.write("right.csv", file_of("wheel_speed_right_rad_s", 3, 15, 0.1, 1));
+  const Dataset dataset =
+      read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{files: [left.csv, right.csv]}]")));
+  ASSERT_EQ(dataset.runs.size(), 1u);
+  ASSERT_TRUE(artifact(dataset, "cut"));
+  EXPECT_NE(artifact(dataset, "cut")->description.find("2.9 s at the beginning and 4.9 s at the end"),
+            std::string::npos)
+      << artifact(dataset, "cut")->description;
+}
+
+/// A log shorter than any stretch that would stay is kept, without the channel.
+TEST(SeveralFiles, AShortLogIsKeptWhole) {
+  const ScratchDirectory scratch;
+  scratch.write("odom.csv", file_of("wheel_speed_left_rad_s,wheel_speed_right_rad_s", 0, 3, 0.1, 1));
+  scratch.write("power.csv", file_of("battery_voltage_V", 1.6, 3, 0.1, 24));
+  const Dataset dataset = read_dataset(
+      scratch.write("d.yaml", dataset_yaml("runs: [{files: [odom.csv, power.csv], payload_kg: 0}]")));
+  ASSERT_EQ(dataset.runs.size(), 1u);
+  EXPECT_EQ(dataset.runs[0].log.size(), 31u);
+  EXPECT_TRUE(dataset.runs[0].log.battery_voltage_V.empty());
+}
+
+TEST(SeveralFiles, AMeasuredEnergyKeepsTheRunWhole) {
+  const ScratchDirectory scratch;
+  scratch.write("odom.csv", file_of("wheel_speed_left_rad_s,wheel_speed_right_rad_s", 0, 20, 0.1, 1));
+  scratch.write("power.csv", file_of("battery_voltage_V", 12, 20, 1, 24));
+  const Dataset dataset = read_dataset(scratch.write(
+      "d.yaml", dataset_yaml("runs: [{files: [odom.csv, power.csv], battery_energy_Wh: 0.1}]")));
+  ASSERT_EQ(dataset.runs.size(), 1u);
+  EXPECT_TRUE(dataset.runs[0].log.battery_voltage_V.empty());
+  EXPECT_TRUE(artifact(dataset, "partial_channel"));
 }
 
 TEST(DatasetFile, WheelSpeedsComeFromBodySpeedsWithTheHalfTrack) {
@@ -282,6 +374,43 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {
   EXPECT_EQ(artifact(dataset, "missing_values", "battery_voltage_V")->description,
             "15 % of the rows are empty, filled by interpolation");
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
+}
+
+/// A battery's current at 10 Hz in steps of 5 mA, at rest and in motion, beside wheels at 50 Hz; as empty cells
+/// or as a second file, from 0.5 s on, on two clocks: the rows between its readings are the reader's. A sensor
+/// that stops is still found.
+TEST(DatasetFile, WhatFillsTheRowsBetweenReadingsIsNoHeldValue) {
+  const auto artifacts_of = [](bool second_file, double start_s, double step_A, bool stops) {
+    const ScratchDirectory scratch;
+    std::string wheels = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s",
+                battery = "time_s,battery_current_A\n";
+    wheels += second_file ? "\n" : ",battery_current_A\n";
+    for (int i = 0; i <= 1500; ++i) {
+      const std::string time = std::to_string(start_s + 0.02 * i + 0.004 * std::sin(2.3 * i));
+      wheels += time + "," + std::to_string(4 + std::sin(0.37 * i)) + "," +
+                std::to_string(4 + std::cos(0.41 * i));
+      const int held = stops && i > 600 && i < 800 ? 600 : i;
+      const double amperes =
+          i < 300 && !stops ? 0.4 : 1.2 + 0.7 * std::sin(0.013 * held) + 0.1 * std::sin(1.9 * held);
+      const std::string reading =
+          i % 5 == 0 && i >= 25 ? std::to_string(step_A * std::round(amperes / step_A)) : "";
+      if (second_file && !reading.empty()) battery += time + "," + reading + "\n";
+      wheels += second_file ? "\n" : "," + reading + "\n";
+    }
+    scratch.write("a.csv", wheels), scratch.write("b.csv", battery);
+    const std::string runs = second_file ? "runs: [{files: [a.csv, b.csv]}]" : "runs: [{file: a.csv}]";
+    return read_dataset(scratch.write("d.yaml", dataset_yaml(runs)));
+  };
+  for (const bool second_file : {false, true})
+    for (const double start_s : {0.0, 1.7e9}) {
+      const Dataset sound = artifacts_of(second_file, start_s, 5e-3, false),
+                    stopped = artifacts_of(second_file, start_s, 1e-5, true);
+      EXPECT_FALSE(artifact(sound, "held_value")) << second_file;
+      EXPECT_FALSE(artifact(sound, "slow_channel")) << second_file;
+      ASSERT_TRUE(artifact(stopped, "held_value", "battery_current_A")) << second_file;
+      EXPECT_NEAR(artifact(stopped, "held_value")->first_time_s, 12.0, 0.51) << "since the log's first row";
+      EXPECT_EQ(artifact(stopped, "held_value")->count, 40u) << "readings, not rows";
+    }
 }
 
 TEST(DatasetFile, ASlowLocalizationIsReportedAndASmoothDriveIsNot) {

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
 #include "scenarios/next_step.hpp"
+#include "scenarios/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {
@@ -18,6 +23,7 @@ Diagnosis with_gap(Verdict verdict, double before_percent, double after_percent)
 
 Cause dragging(Side side) {
   return {.effect = {.name = "dragging_wheel", .side = side},
+          .probability = 0.97,
           .parameters = {{"torque_Nm", 0.2413, {0.22, 0.26}}}};
 }
 
@@ -25,8 +31,18 @@ TEST(DiagnosisSentence, NamesTheCauseItsSizeAndWhatBecomesOfTheGap) {
   Diagnosis d = with_gap(Verdict::explained, 26.04, 0.302);
   d.causes = {dragging(Side::left)};
   EXPECT_EQ(diagnosis_sentence(d),
-            "Explained: dragging wheel (left), 0.241 N m. The energy gap shrinks from 26 % to 0.302 % (noise "
-            "floor 0.1 %).");
+            "Explained: dragging wheel (left), 0.241 N m (probability 0.97). The energy gap shrinks from 26 % to "
+            "0.302 % (noise floor 0.1 %).");
+}
+
+/// A wrong standby power is nothing of the motors': both gaps are stated.
+TEST(DiagnosisSentence, StatesTheGapOfMotorsAndBattery) {
+  Diagnosis d = with_gap(Verdict::explained, 0.716, 0.716);
+  d.causes = {{.effect = {.name = "standby_power_error"}, .parameters = {{"power_W", 8.9, {8.8, 9.0}}}}};
+  d.gap.battery_energy = with_gap(Verdict::explained, 16.8, 0.31).gap.energy;
+  EXPECT_EQ(diagnosis_sentence(d),
+            "Explained: standby power error, 8.9 W. The energy gap at the motors is 0.716 % (noise floor 0.1 %). "
+            "The energy gap at the battery shrinks from 16.8 % to 0.31 % (noise floor 0.1 %).");
 }
 
 TEST(DiagnosisSentence, BeginsWithTheTitleOfItsVerdict) {
@@ -37,11 +53,23 @@ TEST(DiagnosisSentence, BeginsWithTheTitleOfItsVerdict) {
 }
 
 TEST(DiagnosisSentence, SaysNoShrinkWhereThereIsNone) {
-  Diagnosis d = with_gap(Verdict::explained, 1.2, 1.3);
-  d.causes = {dragging(Side::right)};
-  const std::string said = diagnosis_sentence(d);
-  EXPECT_EQ(said.find("shrinks"), std::string::npos) << said;
-  EXPECT_NE(said.find("The energy gap is 1.2 %"), std::string::npos) << said;
+  for (const double after_percent : {1.3, 1.15}) {
+    Diagnosis d = with_gap(Verdict::explained, 1.2, after_percent);
+    d.causes = {dragging(Side::right)};
+    const std::string said = diagnosis_sentence(d);
+    EXPECT_EQ(said.find("shrinks"), std::string::npos) << said;
+    EXPECT_NE(said.find("The energy gap is 1.2 %"), std::string::npos) << said;
+  }
+}
+
+TEST(DiagnosisSentence, SaysWhatBecomesOfThePose) {
+  Diagnosis d = with_gap(Verdict::explained, 0.306, 0.288);
+  d.causes = {dragging(Side::left)};
+  d.gap.position_m = {.before_rms = 0.0684, .after_rms = 0.0121, .noise_floor_rms = 0.003, .present = true};
+  EXPECT_NE(diagnosis_sentence(d).find("The position gap shrinks from 68.4 to 12.1 mm."), std::string::npos)
+      << diagnosis_sentence(d);
+  d.gap.position_m.noise_floor_rms = 0.1;
+  EXPECT_EQ(diagnosis_sentence(d).find("position"), std::string::npos) << diagnosis_sentence(d);
 }
 
 TEST(DiagnosisSentence, WithoutMeasuredEnergySaysNothingOfIt) {
@@ -71,7 +99,7 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
   group.causes = {dragging(Side::left)};
   group.causes[0].indistinguishable_from = {"coulomb_friction", "rolling_resistance"};
   EXPECT_EQ(diagnosis_sentence(group).rfind("Ambiguous: these runs cannot tell dragging wheel (left), 0.241 "
-                                            "N m from coulomb friction, rolling resistance.",
+                                            "N m (probability 0.97) from coulomb friction, rolling resistance.",
                                             0),
             0u)
       << diagnosis_sentence(group);
@@ -80,6 +108,100 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
       .data_checks = {{.run = "run_03.csv", .channel = "gyro_yaw_rate_rad_s", .kind = "inverted"}}};
   EXPECT_EQ(diagnosis_sentence(suspect),
             "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
+}
+
+/// Numbers of all orders, so that every branch is met.
+struct RandomDiagnosis {
+  std::mt19937_64 random;
+
+  bool coin() { return random() % 2 == 0; }
+  double fraction() { return std::uniform_real_distribution(0.0, 1.0)(random); }
+  double size() { return std::pow(10, std::uniform_real_distribution(-3.0, 2.0)(random)); }
+  double after(double before) { return before * std::pow(10, std::uniform_real_distribution(-1.5, 0.3)(random)); }
+
+  SignalGap signal() {
+    const double before = 0.01 * size();
+    return {.before_rms = before, .after_rms = after(before), .noise_floor_rms = after(before), .present = coin()};
+  }
+
+  Diagnosis draw() {
+    Diagnosis d{.verdict = static_cast<Verdict>(random() % kVerdicts.size())};
+    const double before = size();
+    d.gap.energy = {.before_percent = before, .after_percent = after(before), .noise_floor_percent = after(before),
+                    .before_J = coin() ? 10.0 : 0.0};
+    d.gap.position_m = signal(), d.gap.heading_rad = signal();
+    const bool names = d.verdict == Verdict::explained || d.verdict == Verdict::partly_explained ||
+                       d.verdict == Verdict::ambiguous;
+    for (std::size_t k = 0; names && k < 1 + random() % 3; ++k) {
+      d.causes.push_back(dragging(k % 2 == 0 ? Side::left : Side::right));
+      d.causes.back().probability = fraction();
+      if (coin()) d.causes.back().indistinguishable_from = {"coulomb_friction", "rolling_resistance"};
+    }
+    d.leftover_significant = d.verdict == Verdict::partly_explained || d.verdict == Verdict::unexplained;
+    d.leftover_description = d.leftover_significant ? "goes with payload" : "";
+    if (d.leftover_significant && coin())
+      d.unknowns = {{.depends_on = "speed (current)", .probability = 0.9, .share = fraction()}};
+    if (coin()) d.runs_apart = {{"run_3", 100 * (fraction() - 0.5), fraction()}};
+    if (coin()) {
+      d.simulator = {.runs = 3, .of_runs = 4, .gap_percent = size(), .bias_percent = -1,
+                     .noise_floor_percent = size(), .model_verdict = d.verdict};
+      if (d.simulator.exceeds() && d.verdict == Verdict::no_gap) d.verdict = Verdict::unexplained;
+    }
+    return d;
+  }
+};
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+bool says(const std::string& sentence, const std::string& part) { return sentence.find(part) != std::string::npos; }
+
+/// A gap is said to shrink where the numbers of the answer do so by a tenth and began above their floor.
+void expect_shrink(const std::string& said, const std::string& subject, double before, double after, double floor,
+                   const std::string& numbers) {
+  const bool shrinks = after <= 0.9 * before && before > floor;
+  EXPECT_EQ(says(said, subject + " gap shrinks from " + numbers), shrinks) << said;
+  EXPECT_EQ(says(said, subject + " gap shrinks"), shrinks) << said;
+}
+
+TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
+  RandomDiagnosis random{std::mt19937_64(5)};
+  for (int k = 0; k < 1000; ++k) {
+    const Diagnosis d = random.draw();
+    const nlohmann::json json = nlohmann::json::parse(diagnosis_json(d));
+    const std::string said = json["sentence"];
+    EXPECT_EQ(says(said, "Left out: "), !json["runs_apart"].empty()) << said;
+    for (const auto& apart : json["runs_apart"])
+      EXPECT_TRUE(says(said, apart["run"].get<std::string>() + ", whose energy is " +
+                                 digits(std::abs(apart["over_model_percent"].get<double>())) + " %"))
+          << said;
+    EXPECT_EQ(says(said, "simulator's energy gap is"), json.contains("simulator")) << said;
+    if (d.causes.empty()) {
+      EXPECT_FALSE(says(said, "shrinks")) << said;
+      continue;
+    }
+    if (d.verdict != Verdict::ambiguous)
+      for (const auto& cause : json["causes"]) {
+        EXPECT_TRUE(says(said, "(probability " + digits(cause["probability"]))) << said;
+        for (const auto& other : cause["indistinguishable_from"])
+          EXPECT_TRUE(says(said, other == "coulomb_friction" ? "coulomb friction" : "rolling resistance")) << said;
+      }
+    const auto& energy = json["gap"]["energy"];
+    const double before = energy["before_percent"], after = energy["after_percent"];
+    if (d.gap.energy.before_J > 0)
+      expect_shrink(said, "energy", before, after, energy["noise_floor_percent"],
+                    digits(before) + " % to " + digits(after) + " %");
+    const auto& motion = json["gap"]["motion"];
+    if (motion.contains("before_rms_m"))
+      expect_shrink(said, "position", motion["before_rms_m"], motion["after_rms_m"], motion["noise_floor_rms_m"],
+                    digits(1000 * d.gap.position_m.before_rms) + " to " + digits(1000 * d.gap.position_m.after_rms) +
+                        " mm");
+    for (const auto& unknown : json["unknowns"])
+      EXPECT_TRUE(says(said, digits(100 * unknown["share"].get<double>()) + " % of the explained gap")) << said;
+  }
 }
 
 TEST(NextStep, OfEachVerdictIsASentence) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "model/printable.hpp"
@@ -32,7 +33,7 @@ TEST(JsonDocument, ValuesKeepTheirPlaceTheirDigitsAndTheirPointer) {
   EXPECT_EQ(list.items()[3].kind(), Value::Kind::null);
   EXPECT_EQ(list.items()[4].path(), "/a/4");
   EXPECT_EQ(list.items()[1].mark().column, 14);
-  EXPECT_EQ(text.text(), "\u00e4\n");
+  EXPECT_EQ(text.text(), "\u00e4\\x0a");
   EXPECT_EQ(text.path(), "/b~1c/d~0e");
   EXPECT_EQ(text.mark().line, 2);
   EXPECT_EQ(text.mark().column, 17);
@@ -92,6 +93,26 @@ TEST(Document, TextIsUtf8WithoutControlCharacters) {
   EXPECT_TRUE(
       holds(refusal("a.json", "{\"a\": [1, \"\\u009b\"]}"), "/a/1: found the control character U+009B"));
   EXPECT_EQ(refusal("a.yaml", "name: \"\\u00e4\\t\\n\""), "");
+}
+
+/// No text of a document forges a line where it is printed: values, keys, aliases, headers of tables.
+TEST(Document, TextsAreOfOneLine) {
+  const auto lines = [](const std::string& text) {
+    return std::ranges::count_if(text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
+  };
+  for (const std::string mark : {"\\n", "\\r", "\\t", "\\u2028", "\\u202e"}) {
+    const Document yaml =
+        Document::parse("name: &n \"x" + mark + "y\"\nagain: *n\n\"k" + mark + "\": 1\n", "a.yaml");
+    const Document json = Document::parse("{\"name\": \"x" + mark + "y\", \"k" + mark + "\": 1}", "a.json");
+    for (const Document* document : {&yaml, &json})
+      for (const auto& [key, value] : document->root().entries())
+        for (const std::string& text : {key, value.text(), value.path()}) {
+          EXPECT_EQ(printable(text), text);
+          EXPECT_EQ(lines(text), 0) << key;
+        }
+  }
+  const Document block = Document::parse("name: |\n  x\n  robot.yaml: ok\n", "a.yaml");
+  EXPECT_EQ(lines(block.root()["name"].text()), 0);
 }
 
 TEST(Printable, ControlCharactersAndBrokenBytesAreEscaped) {

@@ -31,6 +31,23 @@ TEST(LogLines, CsvAndJsonGiveTheSameRow) {
   }
 }
 
+/// As in a file: which of the two would count is open.
+TEST(LogLines, ADoubledColumnIsAnErrorAndADoubledKeyABrokenRow) {
+  LogLines csv(kGeometry, "a.csv");
+  EXPECT_THROW((void)csv.row("time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,wheel_speed_left_rad_s"),
+               ConfigError);
+  LogLines unknown(kGeometry, "b.csv");
+  EXPECT_FALSE(unknown.row("time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,note,note"));
+  LogLines json(kGeometry, "a.jsonl");
+  const auto row = json.row(
+      R"({"time_s": 1, "wheel_speed_left_rad_s": 3, "wheel_speed_right_rad_s": 3, "wheel_speed_left_rad_s": 9})");
+  ASSERT_TRUE(row);
+  EXPECT_TRUE(std::isnan(row->time_s));
+  const auto nested = json.row(R"({"time_s": 2, "a": {"time_s": 1, "b": 1}, "b": 2})");
+  ASSERT_TRUE(nested);
+  EXPECT_EQ(nested->time_s, 2);
+}
+
 TEST(LogLines, BodySpeedsGiveWheelSpeeds) {
   LogLines lines(kGeometry, "a.jsonl");
   const auto row = lines.row(R"({"time_s": 0, "linear_speed_m_s": 0.5, "angular_speed_rad_s": 1})");

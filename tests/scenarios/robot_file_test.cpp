@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+
+#include "scenarios/implausible_constants.hpp"
 #include "scenarios/robot_check.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -35,6 +39,35 @@ TEST(RobotFile, OddButPossibleFiguresAreNoted) {
   EXPECT_NE(robot_notes(robot).front().find("outside of the footprint"), std::string::npos);
   robot.motor.left.torque_constant_Nm_A = 0.85 * robot.motor.left.voltage_constant_V_s_rad;
   EXPECT_EQ(robot_notes(robot).size(), 2u);
+}
+
+/// A slip of a unit in one constant is noted with its key; no shipped robot has a note of the kind.
+TEST(RobotFile, ConstantsThatMassAndSizeContradictAreNoted) {
+  struct Slip {
+    const char* key;
+    void (*make)(Robot&);
+  };
+  const Slip slips[] = {
+      {"chassis_yaw_inertia_kg_m2", [](Robot& r) { r.inertia.chassis_yaw_inertia_kg_m2 *= 1e4; }},
+      {"chassis_yaw_inertia_kg_m2", [](Robot& r) { r.inertia.chassis_yaw_inertia_kg_m2 *= 1e-3; }},
+      {"yaw_rate_rad_s", [](Robot& r) { r.limits->yaw_rate_rad_s *= 57.3; }},
+      {"yaw_acceleration_rad_s2", [](Robot& r) { r.limits->yaw_acceleration_rad_s2 *= 57.3; }},
+      {"capacity_Wh", [](Robot& r) { r.battery.capacity_Wh *= 1000; }},
+      {"standby_W", [](Robot& r) { r.power.standby_W *= 1000; }}};
+  for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/robots")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const Robot robot = read_robot(entry.path());
+    EXPECT_TRUE(implausible_constants(robot).empty()) << entry.path() << implausible_constants(robot).front();
+    for (const Slip& slip : slips) {
+      Robot wrong = robot;
+      if (!wrong.limits && std::string(slip.key).starts_with("yaw_")) continue;
+      if (!std::isfinite(wrong.battery.capacity_Wh) && std::string(slip.key) == "capacity_Wh") continue;
+      slip.make(wrong);
+      const std::vector<std::string> notes = implausible_constants(wrong);
+      ASSERT_EQ(notes.size(), 1u) << entry.path() << slip.key;
+      EXPECT_NE(notes[0].find(slip.key), std::string::npos) << notes[0];
+    }
+  }
 }
 
 TEST(RobotFile, TextReadsBackAsTheSameRobot) {

@@ -158,6 +158,96 @@ TEST(ControllerFile, AbsurdSizesAndWrongSignsAreRefused) {
   EXPECT_EQ(read("a: {max_decel: [-0.4, 0.0, -1.0], max_velocity: [0.0, 0.0, 1.0]}").deceleration_m_s2, 0.4);
 }
 
+/// The message of a refusal; empty for a file that is read.
+std::string refusal_of(const std::string& text) {
+  const ScratchDirectory directory;
+  try {
+    (void)read_controller_settings(directory.write("p.yaml", text));
+    return "";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
+constexpr const char* kSmoother =
+    "velocity_smoother: {ros__parameters: {max_velocity: [0.5, 0.0, 2.0], max_accel: [0.5, 0.0, 2.0], "
+    "max_decel: [-0.5, 0.0, -2.0]}}\n";
+
+/// A limit under a name that this reader does not know would leave the robot's own limit in force.
+TEST(ControllerFile, ASpeedOfAnUnknownNameIsNamed) {
+  for (const std::string key :
+       {"max_linear_vel: 0.3", "v_linear_max: 0.3", "max_linear_decel: -0.4", "cruise_speed: 0.3",
+        "deceleration_max: 0.5", "max_trans_vel: 0.3", "linear_velocity: 0.3", "rotational_acc_lim: 1.0"}) {
+    const std::string name = key.substr(0, key.find(':'));
+    for (const std::string text :
+         {kSmoother +
+              ("controller_server:\n  ros__parameters:\n    FollowPath:\n      plugin: some::Controller\n"
+               "      " +
+               key + "\n"),
+          "FollowPath: {vx_max: 0.4, " + key + "}\n"}) {
+      EXPECT_NE(refusal_of(text).find(name), std::string::npos) << text << refusal_of(text);
+    }
+  }
+  EXPECT_NE(
+      refusal_of("velocity_smoother: {ros__parameters: {max_velocity: [0.5, 0.0, 2.0], max_speed: [0.1, 0.0, "
+                 "1.0]}}\n")
+          .find("max_speed"),
+      std::string::npos);
+}
+
+/// Keys that limit no drive forward are no reason to refuse the defaults of a controller.
+TEST(ControllerFile, KeysOfOtherPurposesAreNotAsked) {
+  for (const char* keys :
+       {"desired_linear_vel: 0.4, min_approach_linear_velocity: 0.05, approach_velocity_scaling_dist: 1.0, "
+        "regulated_linear_scaling_min_speed: 0.25, max_allowed_time_to_collision_up_to_carrot: 1.0, "
+        "use_velocity_scaled_lookahead_dist: false",
+        "max_vel_x: 0.4, min_vel_x: 0.0, max_vel_y: 0.0, max_speed_xy: 0.4, min_speed_xy: 0.0, "
+        "min_speed_theta: "
+        "0.0, acc_lim_y: 0.0, decel_lim_y: 0.0, trans_stopped_velocity: 0.25, vx_samples: 20",
+        "vx_max: 0.4, vx_min: -0.35, vy_max: 0.5, vx_std: 0.2, wz_max: 1.9, temperature: 0.3"}) {
+    const ScratchDirectory directory;
+    const std::string text =
+        "controller_server: {ros__parameters: {min_x_velocity_threshold: 0.001, "
+        "controller_plugins: [FollowPath], goal_checker: {plugin: "
+        "nav2_controller::StoppedGoalChecker, trans_stopped_velocity: 0.1}, FollowPath: {plugin: "
+        "a::B, " +
+        std::string(keys) + "}}}\n";
+    EXPECT_EQ(refusal_of(text), "");
+    EXPECT_EQ(read_controller_settings(directory.write("p.yaml", text)).speed_m_s, 0.4) << keys;
+  }
+}
+
+TEST(ControllerFile, SeveralControllersThatDriveAreListed) {
+  const std::string two = "FollowPath: {plugin: a::B, vx_max: 0.8}, Docking: {plugin: a::B, vx_max: 0.05}";
+  for (const std::string text :
+       {"controller_server: {ros__parameters: {controller_plugins: [FollowPath, Docking], " + two + "}}\n",
+        "robot1: {controller_server: {ros__parameters: {" + two + "}}}\n", "{" + two + "}\n"}) {
+    EXPECT_NE(refusal_of(text).find("FollowPath"), std::string::npos) << text;
+    EXPECT_NE(refusal_of(text).find("Docking"), std::string::npos) << text;
+  }
+  const ScratchDirectory directory;
+  const std::string one =
+      "controller_server: {ros__parameters: {controller_plugins: [FollowPath], " + two + "}}\n";
+  EXPECT_EQ(read_controller_settings(directory.write("p.yaml", one)).speed_m_s, 0.8);
+}
+
+/// Nodes that do not drive the robot have keys of the same names.
+TEST(ControllerFile, OtherNodesAreLeftOut) {
+  const ScratchDirectory directory;
+  for (const char* other : {"dwb_unused: {ros__parameters: {max_vel_x: 0.05}}",
+                            "arm_controller: {ros__parameters: {max_velocity: [0.1, "
+                            "0.1, 0.1]}}",
+                            "docking_server: {ros__parameters: {controller: {v_linear_max: 0.15}}}",
+                            "behavior_server: {ros__parameters: {max_rotational_vel: 0.1, FollowPath: "
+                            "{desired_linear_vel: 0.01}}}"}) {
+    const std::string text = std::string(kSmoother) + other + "\n";
+    EXPECT_EQ(refusal_of(text), "") << other;
+    const ControllerFile file = read_controller_settings(directory.write("p.yaml", text));
+    EXPECT_EQ(file.speed_m_s, 0.5) << other;
+    EXPECT_EQ(file.yaw_rate_rad_s, 2.0) << other;
+  }
+}
+
 TEST(ControllerFile, AFileWithoutSpeedsIsRefused) {
   const ScratchDirectory directory;
   EXPECT_THROW((void)read_controller_settings(directory.write("p.yaml", "amcl: {alpha1: 0.2}\n")),

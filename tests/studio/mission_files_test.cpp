@@ -100,5 +100,30 @@ TEST_F(MissionFolder, ValuesThatNoReaderTakesAreRefusedBeforeAnythingIsWritten) 
   EXPECT_TRUE(written_.empty());
 }
 
+TEST_F(MissionFolder, APageCannotNameOtherFiles) {
+  MissionFiles files = files_with("robot.yaml");
+  write((folder_ / "missions" / "other.yaml").string(), nomad_);
+  for (const auto& [key, name] : {std::pair<const char*, Json>{"robot", "other.yaml"},
+                                  {"robot", "gone.yaml"},
+                                  {"map", "map.yaml"},
+                                  {"speed_mask", {{"file", "mask.yaml"}}}}) {
+    Json state = files.load();
+    state["mission"][key] = name;
+    EXPECT_THROW(static_cast<void>(files.save(state)), ConfigError) << key;
+  }
+  EXPECT_TRUE(written_.empty());
+}
+
+TEST_F(MissionFolder, WhatIsSavedIsWhatIsReadAgain) {
+  for (const char* robot : {"robot.yaml", "../robot.yaml"}) {
+    MissionFiles files = files_with(robot);
+    Json state = files.load();
+    state["robot"]["limits"]["speed_m_s"] = 0.75;
+    state["mission"]["legs"][0]["payload_kg"] = 2.5;
+    const Json saved = files.save(state);
+    EXPECT_EQ(saved, files.load()) << robot;
+  }
+}
+
 }  // namespace
 }  // namespace joulepath::studio

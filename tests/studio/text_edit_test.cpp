@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -129,6 +130,30 @@ TEST(TextEdit, RejectsNotationsThatItCannotKeep) {
   Json wanted = values_of(text);
   wanted["b"]["k"] = 2;
   EXPECT_THROW(static_cast<void>(with_values(text, "mission.yaml", wanted)), ConfigError);
+}
+
+std::string with_crlf(const std::string& text) {
+  std::string lines;
+  for (const char c : text) lines += c == '\n' ? "\r\n" : std::string(1, c);
+  return lines;
+}
+
+TEST(TextEdit, AFileOfOtherLineEndsIsEditedAsTheSame) {
+  const std::vector<std::function<void(Json&)>> edits{
+      [](Json& mission) {
+        mission["legs"].push_back({{"to", "dock"}, {"payload_kg", 1.5}});
+      },
+      [](Json& mission) {
+        mission["legs"].insert(mission["legs"].begin(), {{"to", "dock"}});
+      },
+      [](Json& mission) { std::reverse(mission["legs"].begin(), mission["legs"].end()); },
+      [](Json& mission) { mission["legs"].erase(1); },
+      [](Json& mission) { mission["clearance_m"] = 0.2; },
+      [](Json& mission) { mission["stations"]["dock"]["x_m"] = 2.5; },
+      [](Json& mission) { mission.erase("start"); }};
+  for (const std::string& text :
+       {std::string(kMission), std::string(kMission).substr(0, std::string(kMission).size() - 1)})
+    for (const auto& edit : edits) EXPECT_EQ(edited(with_crlf(text), edit), with_crlf(edited(text, edit)));
 }
 
 }  // namespace

@@ -32,19 +32,21 @@ jp.cause_cards = function (d) {
 };
 
 jp.diagnosis_tiles = function (d) {
-  const energy = (d.gap || {}).energy || {}, interval = energy.shrink_interval_95;
+  const {energy = {}, battery_energy: battery} = d.gap || {}, interval = energy.shrink_interval_95, simulator = d.simulator;
+  const at_battery = battery && is_number(battery.before_percent) ? jp.tile("At the battery", (d.causes || []).length ? `${percent(battery.before_percent)} → ${percent(battery.after_percent)}` : percent(battery.before_percent), `energy gap at the battery's terminals; noise floor ${percent(battery.noise_floor_percent)}`) : null;
   return h("div", {class: "tiles"}, [
-    jp.tile("Energy gap before", percent(energy.before_percent), is_number(energy.bias_before_percent) ? `bias ${percent(energy.bias_before_percent)} (negative: the model predicts too little)` : with_unit(energy.before_J, "J")),
+    simulator ? jp.tile("Simulator's energy gap", percent(simulator.gap_percent), `bias ${percent(simulator.bias_percent)}, ${simulator.runs} of ${simulator.of_runs} runs`) : null,
+    jp.tile(battery ? "Motors' energy gap before" : "Energy gap before", percent(energy.before_percent), is_number(energy.bias_before_percent) ? `bias ${percent(energy.bias_before_percent)} (negative: the model predicts too little)` : with_unit(energy.before_J, "J")),
     !(d.causes || []).length ? jp.tile("After", "–", "nothing is corrected") : is_number(energy.after_percent) ? jp.tile("After the correction", percent(energy.after_percent), with_unit(energy.after_J, "J")) : null,
     is_number(energy.noise_floor_percent) ? jp.tile("Noise floor", percent(energy.noise_floor_percent), "scatter of the runs: a model need not get below it") : null,
-    (d.causes || []).length && is_number(energy.shrink_fraction) ? jp.tile("Gap closed", fraction(energy.shrink_fraction), interval ? `95 %: ${fraction(interval[0])} to ${fraction(interval[1])}` : null) : null].filter(Boolean));
+    (d.causes || []).length && is_number(energy.shrink_fraction) ? jp.tile("Gap closed", fraction(energy.shrink_fraction), interval ? `95 %: ${fraction(interval[0])} to ${fraction(interval[1])}` : null) : null, at_battery].filter(Boolean));
 };
 
 /** Pairs before_X / after_X of one channel of `gap`, with their noise floor; X carries the unit. */
 jp.before_after = function (channel, entry) {
   return Object.keys(entry).flatMap((key) => {
     const found = key.match(/^(.*)before_(.+)$/);
-    if (!found || found[1] === "bias_" || (channel === "energy" && found[2] === "J") || !is_number(entry[key])) return [];
+    if (!found || found[1] === "bias_" || (channel.endsWith("energy") && found[2] === "J") || !is_number(entry[key])) return [];
     const [, prefix, rest] = found;
     const {words: rest_words, unit} = split_key("x_" + rest);
     return [{title: words(prefix || (channel === "motion" ? "position" : channel)) + (rest_words.includes("rms") ? " (root mean square)" : ""), unit,

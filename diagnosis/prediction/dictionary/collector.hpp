@@ -80,7 +80,7 @@ class DictionaryCollector {
         if (signals_->motor_current_A[side].size() == 0) continue;
         const double current_A = size_A(j, side);
         entry_rows(j, column(kCurrentLeft, side)) = current_A;
-        entry_rows(j, column(kWindingLeft, side)) = -robot_->motor[side].resistance_ohm * current_A;
+        entry_rows(j, column(kWindingLeft, side)) = -prediction->reading_resistance_ohm[side][j] * current_A;
         const double counted_W =
             supply.sharing == PowerSharing::bus ? power_W.left[j] + power_W.right[j] : power_W[side][j];
         entry_rows(j, kDriverPower) -= (counted_W >= 0 ? 1.0 : supply.regeneration_efficiency) *

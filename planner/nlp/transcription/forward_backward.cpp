@@ -9,7 +9,7 @@ namespace {
 constexpr double kLargest = 1e6;       ///< square of a rate that nothing reaches
 constexpr double kStandstill = 1e-15;  ///< a square of the rate that is rounding
 constexpr int kSweeps = 12;
-constexpr int kSlowings = 8;  ///< halvings of the rate
+constexpr int kSlowings = 20;  ///< halvings of the rate
 
 /// Whether a half plane bounds b0 alone, but for rounding.
 bool ignores_next(const HalfPlane& p) { return std::abs(p.beta) <= 1e-6 * std::abs(p.alpha) + 1e-14; }
@@ -77,6 +77,28 @@ SquareSpan step(std::span<const HalfPlane> planes, double b0, const SquareSpan& 
       span.raise(gamma / p.beta, p.limit);
   }
   return span;
+}
+
+/// Largest b1 behind a given b0; below 0 if there is none.
+double highest_behind(std::span<const HalfPlane> planes, double b0, const SquareSpan& next) {
+  const SquareSpan span = step(planes, b0, next);
+  return span.high < span.low ? -1.0 : span.high;
+}
+
+/// The b0 with the largest sum of both squares, where the largest b0 leaves only a standstill behind it: rows
+/// of voltage and power do that on long segments, as a rate above the steady one needs hard braking. The sum
+/// is concave in b0.
+double balanced(std::span<const HalfPlane> planes, double low, double high, const SquareSpan& next) {
+  constexpr int kCuts = 60;
+  const auto sum = [&](double b0) { return b0 + highest_behind(planes, b0, next); };
+  for (int i = 0; i < kCuts; ++i) {
+    const double third = (high - low) / 3;
+    if (sum(low + third) < sum(high - third))
+      low += third;
+    else
+      high -= third;
+  }
+  return 0.5 * (low + high);
 }
 
 Blocked blocked_at(std::size_t node, const SquareSpan& span) {
@@ -151,7 +173,11 @@ std::optional<Blocked> EnvelopeSweeps::sweep_forward(const Problem& problem, Rat
   envelope.fastest.assign(1, problem.b_start);
   envelope.slowest.assign(1, problem.b_start);
   for (std::size_t k = 0; k < last; ++k) {
-    const SquareSpan up = step(planes(k), envelope.fastest[k], span_[k + 1]);
+    SquareSpan up = step(planes(k), envelope.fastest[k], span_[k + 1]);
+    if (k > 0 && k + 1 < last && !(up.high > kStandstill)) {
+      envelope.fastest[k] = balanced(planes(k), envelope.slowest[k], envelope.fastest[k], span_[k + 1]);
+      up = step(planes(k), envelope.fastest[k], span_[k + 1]);
+    }
     const SquareSpan down = step(planes(k), envelope.slowest[k], span_[k + 1]);
     const double fast = std::clamp(up.high, span_[k + 1].low, span_[k + 1].high);
     if (k + 1 < last && !(fast > kStandstill)) return blocked_at(k + 1, up);

@@ -320,6 +320,62 @@ TEST(Monitor, NoRowStopsIt) {
   EXPECT_GT(rows.missing, 0u);
 }
 
+/// One sample that no robot has, in any channel: a broken row, and the same answer as without it.
+TEST(Monitor, OneBadSampleChangesNothing) {
+  const Day quiet = day(4);
+  const Trajectory log = drive(quiet, {}).log;
+  using Spoil = void (*)(MonitorRow&);
+  const Spoil spoils[] = {[](MonitorRow& r) { r.wheel_speed_rad_s.left = 1e6; },
+                          [](MonitorRow& r) { r.wheel_speed_rad_s.right = -3000; },
+                          [](MonitorRow& r) { r.battery_voltage_V = 24, r.battery_current_A = -1e5; },
+                          [](MonitorRow& r) { r.motor_current_A.left = 500; },
+                          [](MonitorRow& r) { r.motor_voltage_V.right = -24000; },
+                          [](MonitorRow& r) {
+                            r.motor_power_W = {9e4, 9e4};
+                          },
+                          [](MonitorRow& r) { r.payload_kg = 5e4; }};
+  Monitor clean(nomad(), course_of(quiet), {});
+  for (std::size_t k = 0; k < log.size(); ++k) (void)clean.add(row_of(log, k, quiet.payload_kg));
+  for (const Spoil& spoil : spoils) {
+    Monitor spoilt(nomad(), course_of(quiet), {});
+    for (std::size_t k = 0; k < log.size(); ++k) {
+      MonitorRow row = row_of(log, k, quiet.payload_kg);
+      if (k == 500) spoil(row);
+      (void)spoilt.add(row);
+    }
+    EXPECT_EQ(spoilt.status().rows.broken, 1u);
+    EXPECT_FALSE(spoilt.implausible());
+    EXPECT_NEAR(spoilt.status().executed_J, clean.status().executed_J, 2e-3 * clean.status().executed_J);
+    EXPECT_NEAR(*spoilt.status().payload_kg, *clean.status().payload_kg, 0.2);
+  }
+}
+
+void scale(Sided<double>& values, double factor) { values.left *= factor, values.right *= factor; }
+
+/// A unit that is wrong in every row is no glitch: mA, mV, ms, degrees of the wheels.
+TEST(Monitor, AnotherUnitIsTold) {
+  const Day quiet = day(2);
+  const Trajectory log = drive(quiet, {}).log;
+  struct Case {
+    const char* channel;
+    void (*spoil)(MonitorRow&);
+  };
+  for (const Case& c : {Case{"motor_current", [](MonitorRow& r) { scale(r.motor_current_A, 1e3); }},
+                        Case{"motor_voltage", [](MonitorRow& r) { scale(r.motor_voltage_V, 1e3); }},
+                        Case{"wheel_speed", [](MonitorRow& r) { scale(r.wheel_speed_rad_s, 57.3); }},
+                        Case{"time_s", [](MonitorRow& r) { r.time_s *= 1e3; }},
+                        Case{"time_s", [](MonitorRow& r) { r.time_s = 1.76e12 + 1e3 * r.time_s; }}}) {
+    Monitor monitor(nomad(), course_of(quiet), {});
+    for (std::size_t k = 0; k < log.size() && !monitor.implausible(); ++k) {
+      MonitorRow row = row_of(log, k, quiet.payload_kg);
+      c.spoil(row);
+      (void)monitor.add(row);
+    }
+    ASSERT_TRUE(monitor.implausible()) << c.channel;
+    EXPECT_TRUE(monitor.implausible()->channel.starts_with(c.channel)) << monitor.implausible()->channel;
+  }
+}
+
 /// Single rows on another clock, and a clock that is set anew: the same energy at the same place.
 TEST(Monitor, AnotherClockMovesNothing) {
   const Day quiet = day(6);

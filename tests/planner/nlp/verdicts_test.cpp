@@ -172,6 +172,84 @@ TEST(Verdicts, TheStartSpeedOfferedIsTheGreatest) {
   }
 }
 
+/// A heavy robot with strong motors at a voltage that holds it far below its speed limit: from rest to rest a
+/// slow drive keeps everything, so no grid is a reason to refuse. On long segments a rate above the steady one
+/// needs hard braking, and the tangents of the voltage leave little.
+TEST(Verdicts, NoGridRefusesWhatASlowDriveKeeps) {
+  ProfileRequest request = straight_run(2);
+  Robot& robot = request.plant.robot;
+  robot.inertia.chassis_mass_kg = 168;
+  for (const Side side : kSides) {
+    Motor& motor = robot.motor[side];
+    motor = {.gear_ratio = 20,
+             .resistance_ohm = 0.12,
+             .torque_constant_Nm_A = 0.115,
+             .voltage_constant_V_s_rad = 0.115,
+             .viscous_friction_Nm_s_rad = 0.02,
+             .friction_torque_Nm = 2.2};
+  }
+  request.limits = {.speed_m_s = 1.5, .acceleration_m_s2 = 0.8, .deceleration_m_s2 = 0.8};
+  const double standing_V = 2.2 / (20 * 0.115) * 0.12;
+  for (const double jerk_m_s3 : {kNoLimit, 1.0})
+    for (const double voltage_V : {1.3 * standing_V, 4.2, 6.0})
+      for (const std::size_t nodes : {22u, 30u, 60u, 90u}) {
+        set_both_motors(request, &Motor::max_voltage_V, voltage_V);
+        request.limits.jerk_m_s3 = jerk_m_s3;
+        request.nodes = nodes;
+        request.time = {TimeMode::minimum_time};
+        const ProfileResult result = solve_profile(request);
+        ASSERT_TRUE(result.profile.has_value())
+            << voltage_V << " V, jerk " << jerk_m_s3 << ", " << nodes << " nodes: " << result.summary.message;
+        EXPECT_TRUE(replay(request, *result.profile).valid()) << voltage_V << " V, " << nodes << " nodes";
+      }
+}
+
+/// Braking from v without acceleration at both ends takes v/2 (v/d + d/j) at least.
+TEST(Verdicts, ASpeedThatTheJerkLimitCannotStopInTimeIsRefused) {
+  for (const double length_m : {1.2, 1.7}) {
+    ProfileRequest request = straight_run(length_m);
+    request.start_rate = 1;
+    request.limits.deceleration_m_s2 = 0.5;
+    request.limits.jerk_m_s3 = 0.5;
+    const double needed_m = 0.5 * (1 / 0.5 + 0.5 / 0.5);
+    const ProfileResult result = solve_profile(request);
+    ASSERT_EQ(result.profile.has_value(), length_m > needed_m) << length_m << ": " << result.summary.message;
+    if (result.profile) continue;
+    EXPECT_EQ(result.summary.status, SolveStatus::infeasible);
+    request.limits.jerk_m_s3 = result.infeasibility->relaxation.at("jerk_m_s3");
+    EXPECT_TRUE(solve_profile(request).profile.has_value());
+  }
+}
+
+/// What is offered for the problem without the jerk limit is planned with it.
+TEST(Verdicts, WhatIsOfferedUnderAJerkLimitIsPlannedWithIt) {
+  ProfileRequest request = straight_run(0.8);
+  request.start_rate = 1;  // stops within 1 m without a jerk limit
+  request.limits.jerk_m_s3 = 1;
+  const ProfileResult result = solve_profile(request);
+  ASSERT_EQ(result.summary.status, SolveStatus::infeasible) << result.summary.message;
+  ASSERT_FALSE(result.infeasibility->relaxation.empty()) << result.summary.message;
+  const auto& [key, value] = *result.infeasibility->relaxation.begin();
+  ASSERT_TRUE(relax(request, key, value));
+  EXPECT_TRUE(solve_profile(request).profile.has_value()) << key << " = " << value;
+}
+
+/// Only viscous friction, no standby: every longer time takes less, down to nothing.
+TEST(Verdicts, WhereSlowerIsAlwaysCheaperAnOpenTimeIsRefusedAtOnce) {
+  for (ProfileRequest request : {straight_run(), bezier_run(), turn_run()}) {
+    request.plant.robot.power.standby_W = 0;
+    EXPECT_TRUE(solve_profile(request).profile.has_value()) << "dry friction heats the motors";
+    for (const Side side : kSides) request.plant.robot.motor[side].friction_torque_Nm = 0;
+    const ProfileResult result = solve_profile(request);
+    EXPECT_EQ(result.summary.status, SolveStatus::infeasible);
+    EXPECT_EQ(result.summary.iterations, 0);
+    EXPECT_NE(result.summary.message.find("slower is always cheaper"), std::string::npos);
+    EXPECT_TRUE(solve_profile(within(request, TimeMode::time_budget, 40)).profile.has_value());
+    request.plant.robot.power.standby_W = 1;
+    EXPECT_TRUE(solve_profile(request).profile.has_value());
+  }
+}
+
 TEST(Verdicts, DegenerateButPossibleInputsArePlanned) {
   std::vector<HopelessRequest> cases;
   const auto add = [&](std::string name, ProfileRequest request) {

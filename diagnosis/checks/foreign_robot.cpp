@@ -1,0 +1,142 @@
+#include "diagnosis/checks/foreign_robot.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/thresholds.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kSureSigmas = 5.0;  ///< of a least-squares fit whose errors are not white
+
+/// Normal equations of a few coefficients.
+template <int N>
+class SmallFit {
+ public:
+  using Row = Eigen::Matrix<double, N, 1>;
+
+  void add(const Row& row, double value) {
+    gram_ += row * row.transpose(), right_ += row * value, square_ += value * value, ++count_;
+  }
+
+  /// The first `K` coefficients with their standard errors; false where the rows do not determine them.
+  template <std::size_t K>
+  bool solve(std::array<double, K>& value, std::array<double, K>& error) const {
+    if (count_ < 10 + N) return false;
+    const Eigen::LDLT<Eigen::Matrix<double, N, N>> solved(gram_);
+    if (!solved.isPositive() || solved.rcond() < 1e-12) return false;
+    const Row fit = solved.solve(right_);
+    const Eigen::Matrix<double, N, N> inverse = solved.solve(Eigen::Matrix<double, N, N>::Identity());
+    const double variance = std::max(0.0, square_ - fit.dot(right_)) / static_cast<double>(count_ - N);
+    for (std::size_t k = 0; k < K; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      value[k] = fit[at], error[k] = std::sqrt(variance * inverse(at, at));
+    }
+    return true;
+  }
+
+ private:
+  Eigen::Matrix<double, N, N> gram_{Eigen::Matrix<double, N, N>::Zero()};
+  Row right_{Row::Zero()};
+  double square_{};
+  int count_{};
+};
+
+/// A constant as the runs have it over the file's, in logarithms.
+struct LogRatio {
+  ForeignConstant constant{};
+  double ratio{}, least{}, most{};  ///< most likely, and at the ends of what is sure
+  double box{};                     ///< that effects and calibration errors may use up
+
+  [[nodiscard]] bool is_foreign() const { return least > box || most < -box; }
+};
+
+bool add_ratio(std::string name, std::string unit, double file, double value, double error, double box,
+               std::vector<LogRatio>& ratios) {
+  const double low = value - kSureSigmas * error, high = value + kSureSigmas * error;
+  if (!(low > 0) || !(file > 0)) return false;
+  ratios.push_back({{std::move(name), std::move(unit), file, value},
+                    std::log(value / file), std::log(low / file), std::log(high / file), std::log(box)});
+  return true;
+}
+
+bool measures_windings(const RunSignals& run) {
+  return std::ranges::all_of(kSides, [&](Side side) {
+    return run.size() > 0 && run.motor_voltage_V[side].size() == run.size() &&
+           run.motor_current_A[side].size() == run.size();
+  });
+}
+
+/// V = R i + Kv n w of both wheels.
+bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
+  SmallFit<2> fit;
+  for (const RunSignals& run : runs)
+    for (Side side : kSides)
+      for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j)
+        if (run.conducting[side][static_cast<std::size_t>(j)])
+          fit.add({run.motor_current_A[side][j], run.wheel_speed_rad_s[side][j]},
+                  run.motor_voltage_V[side][j]);
+  std::array<double, 2> value{}, error{};
+  const Motor& motor = robot.motor.left;
+  return fit.solve(value, error) &&
+         add_ratio("winding resistance", "ohm", motor.resistance_ohm, value[0], error[0],
+                   kMostMeasuredFactor, ratios) &&
+         add_ratio("voltage per wheel speed", "V s/rad", motor.volts_per_speed_V_s_rad(), value[1], error[1],
+                   kMostScale, ratios);
+}
+
+/// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous friction, the payload's part taken off; the jerk's
+/// column takes up a delay. The torque per ampere differs from the file's as the voltage per speed does.
+bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
+  SmallFit<4> fit;
+  const double radius_m = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right),
+               torque_Nm_A = robot.motor.left.torque_per_ampere_Nm_A() * std::exp(ratios.back().ratio);
+  for (const RunSignals& run : runs)
+    for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j) {
+      const auto mean = [j](const Sided<Eigen::VectorXd>& of) { return 0.5 * (of.left[j] + of.right[j]); };
+      const double speed = mean(run.wheel_speed_rad_s), rate = mean(run.wheel_acceleration_rad_s2),
+                   jerk = run.wheel_jerk_rad_s3.left.size() > 0 ? mean(run.wheel_jerk_rad_s3) : 0.0;
+      const auto k = static_cast<std::size_t>(j);
+      const bool forward = run.wheel_speed_rad_s.left[j] > 0;
+      if (!run.turning.left[k] || !run.turning.right[k]) continue;
+      if (forward != (run.wheel_speed_rad_s.right[j] > 0)) continue;
+      const double torque_Nm = torque_Nm_A * (run.motor_current_A.left[j] + run.motor_current_A.right[j]);
+      fit.add({rate, forward ? 1.0 : -1.0, speed, jerk},
+              torque_Nm - run.payload_kg[j] * radius_m * radius_m * rate);
+    }
+  std::array<double, 1> value{}, error{};
+  const double file_kg =
+      robot.total_mass_kg(0.0) + 2 * robot.inertia.wheel_axle_inertia_kg_m2 / (radius_m * radius_m);
+  return fit.solve(value, error) &&
+         add_ratio("mass that the wheels accelerate", "kg", file_kg, value[0] / (radius_m * radius_m),
+                   error[0] / (radius_m * radius_m), kMostInertia, ratios);
+}
+
+/// Whether one factor on voltages, currents or wheel speeds brings all constants into their boxes.
+bool is_scaled_channel(const std::vector<LogRatio>& ratios) {
+  const Eigen::Vector3d found(ratios[0].ratio, ratios[1].ratio, ratios[2].ratio),
+      box(ratios[0].box, ratios[1].box, ratios[2].box);
+  const std::array<Eigen::Vector3d, 3> scaled{Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(-1, 0, 1),
+                                              Eigen::Vector3d(0, -1, -2)};
+  return std::ranges::any_of(scaled, [&](const Eigen::Vector3d& by) {
+    const Eigen::Vector3d left = found - found.dot(by) / by.squaredNorm() * by;
+    return (left.array().abs() <= box.array()).all();
+  });
+}
+
+}  // namespace
+
+std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs) {
+  std::vector<LogRatio> ratios;
+  if (!add_windings(robot, runs, ratios) || !add_mass(robot, runs, ratios)) return {};
+  if (is_scaled_channel(ratios)) return {};
+  std::vector<ForeignConstant> foreign;
+  for (const LogRatio& one : ratios)
+    if (one.is_foreign()) foreign.push_back(one.constant);
+  return foreign;
+}
+
+}  // namespace joulepath

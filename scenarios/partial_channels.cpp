@@ -1,0 +1,101 @@
+#include "scenarios/partial_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/log_columns.hpp"
+#include "model/printable.hpp"
+#include "scenarios/clock_jumps.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr double kShortestStretch_s = 2.0;  ///< of one manoeuvre
+
+bool is_known(double value) { return !std::isnan(value); }
+
+/// First sample in which a partial channel is known, and the one after its last.
+std::pair<std::size_t, std::size_t> known_samples(const std::vector<double>& channel) {
+  const auto first = std::ranges::find_if(channel, is_known);
+  const auto last = std::find_if(channel.rbegin(), channel.rend(), is_known);
+  return {static_cast<std::size_t>(first - channel.begin()), static_cast<std::size_t>(channel.rend() - last)};
+}
+
+/// The columns that are known in a part of the log alone, with that part.
+void tell_partial(const Trajectory& log, const std::string& run, const std::string& consequence,
+                  std::vector<LogArtifact>& artifacts) {
+  for (const LogColumn& column : log_columns()) {
+    const std::vector<double>& channel = column.of(log);
+    if (!is_partial(channel)) continue;
+    const auto [first, end] = known_samples(channel);
+    artifacts.push_back({"partial_channel", run, column.name,
+                         "known from " + four_digits(log.time_s[first]) + " s to " +
+                             four_digits(log.time_s[end - 1]) + " s of a log from " +
+                             four_digits(log.time_s.front()) + " s to " + four_digits(log.time_s.back()) +
+                             " s; " + consequence,
+                         end - first, log.time_s[first]});
+  }
+}
+
+/// First samples of the stretches in which the same channels are known, and the end.
+std::vector<std::size_t> bounds_of(const Trajectory& log) {
+  std::set<std::size_t> bounds{0, log.size()};
+  for (const LogColumn& column : log_columns())
+    if (const std::vector<double>& channel = column.of(log); is_partial(channel)) {
+      const auto [first, end] = known_samples(channel);
+      bounds.insert({first, end});
+    }
+  return {bounds.begin(), bounds.end()};
+}
+
+/// Whether no value belongs to the whole of the run, and a stretch is long enough to stay.
+bool may_be_cut(const Run& run, const std::vector<std::size_t>& bounds) {
+  if (run.predicted || run.measured_energy_J || run.battery_energy_Wh) return false;
+  for (std::size_t k = 0; k + 1 < bounds.size(); ++k)
+    if (run.log.time_s[bounds[k + 1] - 1] - run.log.time_s[bounds[k]] >= kShortestStretch_s) return true;
+  return false;
+}
+
+}  // namespace
+
+bool is_partial(const std::vector<double>& channel) {
+  return !channel.empty() && (std::isnan(channel.front()) || std::isnan(channel.back()));
+}
+
+void drop_partial_channels(Trajectory& log, const std::string& run, std::vector<LogArtifact>& artifacts) {
+  tell_partial(log, run, "left out, to keep the whole log", artifacts);
+  for (const LogColumn& column : log_columns())
+    if (std::vector<double>& channel = column.channel(log); is_partial(channel))
+      channel = std::vector<double>();
+}
+
+std::vector<Run> split_at_partial_channels(Run run, std::vector<LogArtifact>& artifacts) {
+  std::vector<std::size_t> bounds = bounds_of(run.log);
+  if (bounds.size() > 2 && !may_be_cut(run, bounds)) {
+    drop_partial_channels(run.log, run.name, artifacts);
+    bounds.clear();
+  }
+  std::vector<Run> kept;
+  if (bounds.size() <= 2) {
+    kept.push_back(std::move(run));
+    return kept;
+  }
+  tell_partial(run.log, run.name, "a separate run begins and ends there", artifacts);
+  for (Run& stretch : stretches_between(std::move(run), bounds)) {
+    Trajectory& log = stretch.log;
+    for (const LogColumn& column : log_columns())
+      if (std::vector<double>& channel = column.channel(log); is_partial(channel)) channel.clear();
+    const double length_s = log.time_s.back() - log.time_s.front();
+    if (length_s < kShortestStretch_s)
+      artifacts.push_back({"cut", stretch.name, "",
+                           "a stretch of " + four_digits(length_s) +
+                               " s in which other channels are known than in the rest is left out",
+                           log.size(), log.time_s.front()});
+    else
+      kept.push_back(std::move(stretch));
+  }
+  return kept;
+}
+
+}  // namespace joulepath
