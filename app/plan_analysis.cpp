@@ -34,7 +34,9 @@ nlohmann::json baseline_json(const BaselineTotal& total) {
                       {"reason", total.reason},
                       {"energy_J", total.energy_J},
                       {"motion_energy_J", total.motion_energy_J},
-                      {"duration_s", total.duration_s}};
+                      {"duration_s", total.duration_s},
+                      {"optimum_J", total.optimum_J},
+                      {"optimum_motion_J", total.optimum_motion_J}};
   if (total.feasible && total.late()) json["later_s"] = total.later_s;
   return json;
 }

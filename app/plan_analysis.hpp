@@ -35,7 +35,8 @@ void write_analysis(OutputDirectory& out, const std::string& result_file, const 
 /// Prints the result under --json. Returns true if the caller must print the table.
 [[nodiscard]] bool prints_analysis_table(const AnalysisOptions& options, const nlohmann::json& result);
 
-/// {name, feasible, reason, energy_J, motion_energy_J, duration_s, later_s}; the last only if it is late.
+/// {name, feasible, reason, energy_J, motion_energy_J, duration_s, optimum_J, optimum_motion_J, later_s}; the
+/// optimum is the least energy in the same time, later_s is there only if it is late.
 [[nodiscard]] nlohmann::json baseline_json(const BaselineTotal& total);
 
 }  // namespace joulepath

@@ -31,13 +31,6 @@ std::vector<std::string> energy_cells(const EnergyByCause& energy) {
           figure(energy.standby_J),          figure(energy.total_J(), 5)};
 }
 
-std::string saving_cell(const BaselineTotal& baseline, const EnergyByCause& energy, bool motion_only) {
-  if (!baseline.feasible) return "infeasible";
-  const double saving = motion_only ? saving_percent(energy.motion_J(), baseline.motion_energy_J)
-                                    : saving_percent(energy.total_J(), baseline.energy_J);
-  return figure(saving, 3) + " %";
-}
-
 void print_legs(std::ostream& stream, const Plan& plan) {
   Table table({"leg", "payload kg", "m", "s", "copper", "Coulomb", "viscous", "kinetic", "not recov.",
                "effects", "standby", "total J", "Wh"});
@@ -59,14 +52,18 @@ void print_legs(std::ostream& stream, const Plan& plan) {
 }
 
 void print_baselines(std::ostream& stream, const Plan& plan) {
-  Table table({"same path, same time", "total J", "saved", "motion J", "saved of motion"});
-  for (const BaselineTotal& baseline : plan.baselines)
-    table.row({baseline_name(baseline), baseline.feasible ? figure(baseline.energy_J, 5) : "-",
-               saving_cell(baseline, plan.energy, false),
-               baseline.feasible ? figure(baseline.motion_energy_J, 5) : "-",
-               saving_cell(baseline, plan.energy, true)});
-  table.row({"this plan", figure(plan.energy.total_J(), 5), "", figure(plan.energy.motion_J(), 5), ""});
+  Table table(baseline_header());
+  for (const BaselineTotal& baseline : plan.baselines) table.row(baseline_cells(baseline));
+  table.row({"this plan", figure(plan.duration_s), figure(plan.energy.total_J(), 5), "", "",
+             figure(plan.energy.motion_J(), 5), ""});
   table.print(stream);
+}
+
+/// Status and gap, with what the bound is about: the chosen paths, for a robot with a jerk limit without it.
+std::string optimality_text(const Plan& plan) {
+  return std::string(solve_status_name(plan.status)) + " on these paths" + (plan.local ? " (local)" : "") +
+         ", gap to the bound " + (limits_jerk(plan) ? "without the jerk limit" : "there") + " <= " +
+         figure(plan.gap_percent, 2) + " %";
 }
 
 void print_battery(std::ostream& stream, const BatteryAccount& battery) {
@@ -77,12 +74,13 @@ void print_battery(std::ostream& stream, const BatteryAccount& battery) {
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
 }
 
-/// Five significant digits, rounded to the feasible side: down for speeds at the ends and clearances, up for
-/// limits and times. Positions keep all digits: a rounded one may be blocked.
+/// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and
+/// resistances, up for limits and times. Positions keep all digits: a rounded one may be blocked.
 std::string relaxed_figure(const std::string& key, double value) {
   if (key == "x_m" || key == "y_m" || value == 0) return figure(value, 10);
   const bool lower =
-      key.rfind("start_speed", 0) == 0 || key.rfind("end_speed", 0) == 0 || key == "clearance_m";
+      key.rfind("start_speed", 0) == 0 || key.rfind("end_speed", 0) == 0 || key == "clearance_m" ||
+      key == "internal_resistance_ohm";
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4);
   return figure(lower ? std::floor(value / step) * step : std::ceil(value / step) * step, 5);
 }
@@ -99,9 +97,24 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
 
 }  // namespace
 
-std::string baseline_name(const BaselineTotal& baseline) {
-  if (!baseline.feasible || !baseline.late()) return baseline.name;
-  return baseline.name + ", " + figure(baseline.later_s, 2) + " s later";
+std::string later_text(const BaselineTotal& baseline) { return figure(baseline.later_s, 2) + " s later"; }
+
+std::vector<std::string> baseline_header() {
+  return {"same path, same time", "s",        "total J",        "least J",
+          "saved",                "motion J", "saved of motion"};
+}
+
+std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
+  if (!baseline.feasible) return {baseline.name, "-", "-", "-", "infeasible", "-", "infeasible"};
+  const double saved = saving_percent(baseline.optimum_J, baseline.energy_J),
+               saved_of_motion = saving_percent(baseline.optimum_motion_J, baseline.motion_energy_J);
+  return {baseline.late() ? baseline.name + ", " + later_text(baseline) : baseline.name,
+          figure(baseline.duration_s),
+          figure(baseline.energy_J, 5),
+          figure(baseline.optimum_J, 5),
+          figure(saved, 3) + " %",
+          figure(baseline.motion_energy_J, 5),
+          figure(saved_of_motion, 3) + " %"};
 }
 
 void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {
@@ -114,8 +127,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
     stream << "\n";
     print_baselines(stream, plan);
     stream << "\n"
-           << solve_status_name(plan.status) << (plan.local ? " (local)" : "")
-           << ", optimality gap <= " << figure(plan.gap_percent, 2) << " %, replay "
+           << optimality_text(plan) << ", replay "
            << figure(plan.replay_energy_J, 6) << " J, worst violation " << figure(plan.worst_violation, 2)
            << "\n";
     if (plan.battery) print_battery(stream, *plan.battery);

@@ -68,10 +68,12 @@ std::string method_of(const RunsByUse& runs) {
 }
 
 /// Laws and unknown terms with evidence below the materiality floor.
-std::vector<SmallEffect> below_materiality(const Examination& x, const Names& names) {
+std::vector<SmallEffect> below_materiality(const Examination& x, const Names& names,
+                                           const Validation& validation) {
   if (x.runs.few) return {};
   std::vector<SmallEffect> small = x.id.below_materiality;
-  small.insert(small.end(), names.small_unknowns.begin(), names.small_unknowns.end());
+  for (const std::vector<SmallEffect>* more : {&names.small_unknowns, &validation.listed})
+    small.insert(small.end(), more->begin(), more->end());
   return small;
 }
 
@@ -91,7 +93,7 @@ Verdict shown_verdict(Verdict verdict, const GapReport& gap) {
 /// What the held-out runs say of the named causes: verdict, gap, causes, and what they are worth.
 Diagnosis conclusion(const Examination& x, const Names& names, const Validation& validation,
                      std::size_t bootstrap) {
-  const auto& [judged, named, unknowns, depends_on, judgment_notes] = validation.judgment;
+  const auto& [judged, named, unknowns, depends_on, judgment_notes, sizes] = validation.judgment;
   GapReport gap = held_out_gap(x, validation, bootstrap);
   const auto [verdict, detectable_percent, all_clear_note] =
       examine_all_clear(x, shown_verdict(judged, gap), gap.energy);
@@ -103,7 +105,7 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
           .causes = causes.causes,
           .ranking = rank_effects(names.probabilities, names.surest),
           .unknowns = unknowns,
-          .below_materiality = below_materiality(x, names),
+          .below_materiality = below_materiality(x, names, validation),
           .leftover_significant = !depends_on.empty(),
           .leftover_share = share_of(unknowns, verdict),
           .leftover_description = depends_on,

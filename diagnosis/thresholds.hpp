@@ -296,6 +296,9 @@ inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;
 /// The same as kSmallEffectEvidence for pliable effects at just material size; grows as 1/sqrt(size). Chosen
 /// (0504).
 inline constexpr double kSmallPliableEvidence = 13.0;
+/// Error of the model itself, the same in every run, over the materiality floor, 1-sigma: a tenth of what a user
+/// would notice. The evidence for a smaller effect does not grow beyond it with the number of runs. Declared.
+inline constexpr double kModelError = 0.1;
 /// Effects below this share of the materiality floor are not named. Chosen (0504): guards logs without noise.
 inline constexpr double kLeastSize = 0.03;
 /// Share of all evidence that inexact forms of the other effects make up. Chosen (0504): without it, practice

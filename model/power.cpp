@@ -1,6 +1,9 @@
 #include "model/power.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "model/battery_power.hpp"
 
 namespace joulepath {
 namespace {
@@ -84,16 +87,28 @@ PowerByCause power_by_cause(const Plant& plant, const BodyMotion<double>& motion
   return watts;
 }
 
+double most_battery_power_W(const Battery& battery) {
+  const double U = battery.open_circuit_voltage_V, R = battery.internal_resistance_ohm;
+  return std::isfinite(U) && R > 0.0 ? U * U / (4 * R) : kNoLimit;
+}
+
+double planned_battery_power_W(const Battery& battery) {
+  constexpr double kWithin = 1 - 2e-6;  // a plan may exceed a limit by rounding
+  return kWithin * most_battery_power_W(battery);
+}
+
 BatteryLoad battery_load(const Battery& battery, double terminal_power_W) {
   const double U = battery.open_circuit_voltage_V;
   const double R = battery.internal_resistance_ohm;
   if (!std::isfinite(U)) return {.terminal_voltage_V = U};
   if (R == 0.0) return {.current_A = terminal_power_W / U, .terminal_voltage_V = U};
-  const double discriminant = U * U - 4 * R * terminal_power_W;
-  if (discriminant < 0) return {.possible = false};
-  const double current_A = 2 * terminal_power_W / (U + std::sqrt(discriminant));
-  return {
-      .current_A = current_A, .terminal_voltage_V = U - R * current_A, .loss_W = R * current_A * current_A};
+  const bool possible = terminal_power_W <= most_battery_power_W(battery);
+  const double power_W = std::min(terminal_power_W, most_battery_power_W(battery));
+  const double current_A = 2 * power_W / (U + std::sqrt(std::max(0.0, U * U - 4 * R * power_W)));
+  return {.possible = possible,
+          .current_A = current_A,
+          .terminal_voltage_V = U - R * current_A,
+          .loss_W = R * current_A * current_A};
 }
 
 }  // namespace joulepath

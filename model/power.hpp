@@ -44,7 +44,7 @@ struct PowerByCause {
 
 /// State of the battery at a power taken from its terminals.
 struct BatteryLoad {
-  bool possible{true};  ///< false: the battery cannot supply this power
+  bool possible{true};  ///< false: the battery cannot supply this power; the rest is at the most that it can
   double current_A{};
   double terminal_voltage_V{};
   double loss_W{};  ///< in the internal resistance

@@ -56,7 +56,7 @@ void EnergySum::add(const EnergyNode& node) {
   }
   const BatteryLoad load = battery_load(robot.battery, watts.total_W());
   battery_loss_J_ += load.loss_W * weight_s;
-  if (load.possible) lowest_voltage_V_ = std::min(lowest_voltage_V_, load.terminal_voltage_V);
+  lowest_voltage_V_ = std::min(lowest_voltage_V_, load.terminal_voltage_V);
   distance_m_ += std::abs(node.instant.motion.speed_m_s) * weight_s;
 }
 

@@ -28,8 +28,10 @@ Schema baselines_schema() {
       open(map({required("name", text()), optional("feasible", boolean()), optional("energy_J", result()),
                 optional("motion_energy_J", result()), optional("duration_s", result()),
                 optional("later_s", result(), "delay beyond the plan's time, which no such profile meets"),
-                optional("saving_percent", result()), optional("motion_saving_percent", result()),
-                optional("parameters", dictionary(result()))})));
+                optional("optimum_J", result(), "least energy on this path in this profile's time"),
+                optional("optimum_motion_J", result(), "without standby"),
+                optional("saving_percent", result(), "of the optimum in the same time"),
+                optional("motion_saving_percent", result()), optional("parameters", dictionary(result()))})));
 }
 
 Schema alternatives_schema() {
@@ -46,6 +48,8 @@ Schema improvements_schema() {
 
 constexpr const char* kBoundMeans =
     "no profile of these paths within the limits takes less; null where one is driven in the least time";
+constexpr const char* kWithoutJerk =
+    "the bound, drafts and the choice of ways leave the jerk limit out: the gap holds its price, too";
 
 Schema leg_result_schema() {
   return open(
@@ -53,7 +57,8 @@ Schema leg_result_schema() {
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("lower_bound_J", result(), kBoundMeans),
            optional("optimality_gap_percent", result(),
-                    "relative to the energy; for least time, relative to the time"),
+                    "on this path, relative to the energy; for least time, relative to the time"),
+           optional("bound_without_jerk", boolean(), kWithoutJerk),
            optional("charged_J", result(), "at the charger of an inserted stop"),
            required("duration_s", result(), "without dwell"), required("distance_m", result()),
            required("payload_kg",
@@ -186,7 +191,9 @@ Schema plan_schema() {
        optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
        optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
        optional("duration_s", result()), optional("distance_m", result()),
-       optional("lower_bound_J", result(), kBoundMeans), optional("optimality_gap_percent", result()),
+       optional("lower_bound_J", result(), kBoundMeans),
+       optional("optimality_gap_percent", result(), "on these paths; other paths are not bounded"),
+       optional("bound_without_jerk", boolean(), kWithoutJerk),
        optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
        optional("solver", open(map({required("name", text()), required("iterations", number())}))),
        optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),

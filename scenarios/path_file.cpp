@@ -56,18 +56,6 @@ std::vector<double> column_of(const CsvTable& table, const char* name, std::opti
   return cells;
 }
 
-std::vector<double> radii_of(const CsvTable& table) {
-  const std::vector<double> radius_m = column_of(table, "corner_radius_m", 0.0);
-  for (std::size_t row = 0; row < radius_m.size(); ++row)
-    if (radius_m[row] < 0)
-      throw ConfigError({{table.file, table.line_of_row[row], 1},
-                         "corner_radius_m",
-                         std::to_string(radius_m[row]),
-                         "a number >= 0",
-                         "0: the robot turns on the spot"});
-  return radius_m;
-}
-
 }  // namespace
 
 Schema path_schema() {
@@ -128,7 +116,8 @@ Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& 
   for (std::size_t row = 0; row < x_m.size(); ++row) waypoints_m.push_back({x_m[row], y_m[row]});
   const bool lines = table.find("corner_radius_m") != nullptr;
   WaypointPath along =
-      lines ? lines_between(waypoints_m, radii_of(table)) : curve_through(waypoints_m, tolerance_m);
+      lines ? lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0))
+            : curve_through(waypoints_m, tolerance_m);
   if (!along.defect) return std::move(along.path);
   const std::size_t row = along.defect->waypoint;
   const int line = row < table.rows() ? table.line_of_row[row] : 1;

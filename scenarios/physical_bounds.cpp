@@ -22,6 +22,10 @@ constexpr const char* kShaft = "seen at the motor's shaft, in SI units";
 /// The first matching row applies: names before units, longer units before shorter ones.
 constexpr Bounds kBounds[] = {
     {"wheel_radius_m", 1e-3, 5, "a radius in meters"},
+    {"radius_m", 1e-3, kFarthest_m, "a radius in meters"},
+    {"distance_m", 1e-3, kFarthest_m, "a length in meters"},
+    {"to_m", 1e-3, kFarthest_m, "meters along the leg"},
+    {"angle_rad", 1e-6, 1e4, "an angle in radians"},
     {"half_track_m", 1e-3, 10, "half of the track in meters"},
     {"heading_rad", 0, kFullTurn_rad, "a heading is within one turn; is it in degrees?"},
     {"chassis_mass_kg", 1e-3, 1e5, "a mass in kilograms"},

@@ -36,9 +36,9 @@ Json cause_json(const EnergyByCause& energy) {
           {"not_recovered", joules(energy.not_recovered_J)}};
 }
 
-/// A baseline and its difference to the plan. `parameters` are the settings on the longest stretch;
-/// `stretches` has them for every stretch.
-Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, std::size_t longest) {
+/// A baseline and its difference to the least energy in its own time. `parameters` are the settings on the
+/// longest stretch; `stretches` has them for every stretch.
+Json baseline_json(const BaselineTotal& baseline, std::size_t longest) {
   Json json{{"name", baseline.name}, {"feasible", baseline.feasible}};
   if (!baseline.feasible) {
     json["reason"] = baseline.reason;
@@ -48,8 +48,10 @@ Json baseline_json(const BaselineTotal& baseline, const EnergyByCause& planned, 
   json["motion_energy_J"] = baseline.motion_energy_J;
   json["duration_s"] = baseline.duration_s;
   if (baseline.late()) json["later_s"] = baseline.later_s;
-  json["saving_percent"] = saving_percent(planned.total_J(), baseline.energy_J);
-  json["motion_saving_percent"] = saving_percent(planned.motion_J(), baseline.motion_energy_J);
+  json["optimum_J"] = number(baseline.optimum_J);
+  json["optimum_motion_J"] = number(baseline.optimum_motion_J);
+  json["saving_percent"] = number(saving_percent(baseline.optimum_J, baseline.energy_J));
+  json["motion_saving_percent"] = number(saving_percent(baseline.optimum_motion_J, baseline.motion_energy_J));
   if (longest < baseline.settings.size()) {
     json["parameters"] = baseline.settings[longest];
     json["stretches"] = baseline.settings;
@@ -116,6 +118,7 @@ Json leg_json(const LegPlan& leg) {
             {"motion_energy_J", leg.energy.motion_J()},
             {"lower_bound_J", number(leg.lower_bound_J)},
             {"optimality_gap_percent", number(leg.gap_percent)},
+            {"bound_without_jerk", limits_jerk(leg)},
             {"start_s", leg.start_s},
             {"duration_s", leg.duration_s},
             {"dwell_s", leg.dwell_s},
@@ -136,7 +139,7 @@ Json leg_json(const LegPlan& leg) {
   for (const WayImprovement& improvement : leg.improvements)
     json["improvements"].push_back(improvement_json(improvement));
   for (const BaselineTotal& baseline : leg.baselines)
-    json["baselines"].push_back(baseline_json(baseline, leg.energy, longest_stretch(leg)));
+    json["baselines"].push_back(baseline_json(baseline, longest_stretch(leg)));
   return json;
 }
 
@@ -176,6 +179,7 @@ void add_results(const Plan& plan, Json& json) {
   json["distance_m"] = plan.distance_m;
   json["lower_bound_J"] = number(plan.lower_bound_J);
   json["optimality_gap_percent"] = number(plan.gap_percent);
+  json["bound_without_jerk"] = limits_jerk(plan);
   json["local"] = plan.local;
   json["energy_by_cause_J"] = cause_json(plan.energy);
   json["solver"] = {{"name", plan.solver}, {"iterations", plan.iterations}};
@@ -193,7 +197,7 @@ void add_results(const Plan& plan, Json& json) {
   for (const LegPlan& leg : plan.legs) json["legs"].push_back(leg_json(leg));
   json["baselines"] = Json::array();
   for (const BaselineTotal& baseline : plan.baselines)
-    json["baselines"].push_back(baseline_json(baseline, plan.energy, 0));
+    json["baselines"].push_back(baseline_json(baseline, 0));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/limit_table.hpp"
+#include "planner/legs/stretch.hpp"
 #include "scenarios/plan_robot.hpp"
 #include "scenarios/planned_trajectory.hpp"
 
@@ -111,7 +111,7 @@ PlannedDrive drive_of(const Samples& t, std::size_t first, std::size_t last, int
   PlannedDrive drive{.request = {.piece = turn ? PathPiece(TurnInPlace{t.pose(first), angle})
                                                : curve_of(t, first, last, kind < 0),
                                  .plant = make_plant(robot),
-                                 .limits = limits_between_payloads(robot, payload_kg, to_kg),
+                                 .limits = limits_along(robot, {payload_kg, to_kg}),
                                  .payload = {payload_kg, to_kg},
                                  .time_of_day_s = t.time_s(first)},
                      .plan = profile_of(t, first, last, turn),

@@ -31,19 +31,19 @@ BaselineTotal total_of(const Plan& plan) {
   return {.name = "plan",
           .energy_J = plan.energy.total_J(),
           .motion_energy_J = plan.energy.motion_J(),
-          .duration_s = plan.duration_s};
+          .duration_s = plan.duration_s,
+          .optimum_J = plan.energy.total_J(),
+          .optimum_motion_J = plan.energy.motion_J()};
 }
 
 void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared) {
-  Table table({"same path, same time", "total J", "plan saves", "motion J", "plan saves", ""});
+  std::vector<std::string> header = baseline_header();
+  header.emplace_back();
+  Table table(header);
   const auto row = [&](const BaselineTotal& total) {
-    const bool counted = total.feasible;
-    table.row(
-        {baseline_name(total), counted ? figure(total.energy_J, 5) : "-",
-         counted ? figure(saving_percent(plan.energy.total_J(), total.energy_J), 3) + " %" : "-",
-         counted ? figure(total.motion_energy_J, 5) : "-",
-         counted ? figure(saving_percent(plan.energy.motion_J(), total.motion_energy_J), 3) + " %" : "-",
-         total.reason});
+    std::vector<std::string> cells = baseline_cells(total);
+    cells.push_back(total.reason);
+    table.row(cells);
   };
   row(total_of(plan));
   table.rule();
@@ -55,7 +55,7 @@ class CompareCommand : public Command {
  public:
   CompareCommand()
       : Command({.name = "compare",
-                 .says = "compare a plan with every classic profile on the same path in the same time",
+                 .says = "compare a plan with every classic profile on the same path, each in its own time",
                  .examples =
                      "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
                      "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/plan_analysis.hpp"
 #include "app/plan_options.hpp"
+#include "app/plan_summary.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
@@ -60,10 +61,14 @@ class FrontCommand : public Command {
       leg.duration_s.reset();
     }
     const Plan plan = plan_mission(mission, world, options_.plan);
-    const std::vector<ProfileRequest> stretches = planned_stretches(plan);
+    if (plan.status > SolveStatus::feasible) {
+      std::cerr << "no front: " << plan.message << "\n";
+      return kInfeasibleOrFailed;
+    }
+    const std::vector<FrontStretch> stretches = planned_stretches(plan);
     Front front = energy_time_front(stretches, points_);
     if (front.points.empty()) {
-      const std::string& why = plan.message.empty() ? front.summary.message : plan.message;
+      const std::string& why = front.summary.message;
       std::cerr << "no front: " << (why.empty() ? "the mission has no stretch to optimize" : why) << "\n";
       return kInfeasibleOrFailed;
     }
@@ -92,16 +97,15 @@ class FrontCommand : public Command {
   }
 
   static std::vector<BaselineTotal> baselines_at(const FrontPoint& point,
-                                                 const std::vector<ProfileRequest>& stretches,
+                                                 const std::vector<FrontStretch>& stretches,
                                                  const FrontPoint& rest) {
     std::vector<TimedStretch> timed;
-    for (std::size_t k = 0; k < stretches.size(); ++k) timed.push_back({&stretches[k], point.stretch_s[k]});
+    for (std::size_t k = 0; k < stretches.size(); ++k)
+      timed.push_back({&stretches[k].request, point.stretch_s[k]});
     std::vector<BaselineTotal> totals;
     for (ComparedProfile& profile : compare_baselines(timed)) {
       totals.push_back(std::move(profile.total));
-      totals.back().energy_J += rest.energy_J;
-      totals.back().motion_energy_J += rest.motion_energy_J;
-      totals.back().duration_s += rest.duration_s;
+      add_rest(totals.back(), rest.duration_s, rest.energy_J, rest.motion_energy_J);
     }
     return totals;
   }
@@ -114,10 +118,7 @@ class FrontCommand : public Command {
                              {"baselines", nlohmann::json::array()}};
     for (const FrontPoint& point : front.points) result["points"].push_back(point_json(point));
     for (const auto& [k, baselines] : beside)
-      for (const BaselineTotal& total : baselines) {
-        result["baselines"].push_back(baseline_json(total));
-        result["baselines"].back()["optimum_J"] = front.points[k].energy_J;
-      }
+      for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
     if (writes_analysis(options_))
       write_analysis(out, kResult, result, report::front_report_html(result, {}, title));
     if (prints_analysis_table(options_, result)) {
@@ -127,17 +128,18 @@ class FrontCommand : public Command {
   }
 
   static void print_points(const Front& front) {
-    Table table({"duration s", "energy J", "without standby J", "price of a second W"});
+    Table table({"duration s", "energy J", "without standby J", "price of a second W", "on these paths"});
     for (const FrontPoint& point : front.points)
       table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
-                 std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-"});
+                 std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
+                 solve_status_name(point.status)});
     table.print(std::cout);
   }
 
   /// A row per profile, a column per point.
   static void print_baselines(const Front& front, const std::vector<Beside>& beside) {
     if (beside.empty()) return;
-    std::vector<std::string> header{"energy J in"}, optimum{"optimum"};
+    std::vector<std::string> header{"energy J (above the optimum in the same time)"}, optimum{"optimum"};
     for (const auto& [k, baselines] : beside) {
       header.push_back(figure(front.points[k].duration_s, 5) + " s");
       optimum.push_back(figure(front.points[k].energy_J, 6));
@@ -155,7 +157,8 @@ class FrontCommand : public Command {
 
   static std::string energy_cell(const BaselineTotal& total) {
     if (!total.feasible) return "-";
-    return figure(total.energy_J, 6) + (total.late() ? " (" + figure(total.later_s, 2) + " s later)" : "");
+    const std::string more = figure(100 * (total.energy_J / total.optimum_J - 1), 2) + " %";
+    return figure(total.energy_J, 6) + " (+" + more + (total.late() ? ", " + later_text(total) : "") + ")";
   }
 
   static constexpr const char* kResult = "front.json";

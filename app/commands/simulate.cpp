@@ -36,8 +36,8 @@ Json balance_json(const EnergyBalance& balance) {
 }
 
 /// The summary of one run: planned against executed, and the energy by cause.
-Json run_json(const std::string& file, const SimulationInput& input, const SimulationResult& result,
-              double standby_W) {
+Json run_json(const std::string& file, const SimulationInput& input, const SimulationRequest& request,
+              const SimulationResult& result, double standby_W) {
   const Pose& to = result.planned_pose;
   const Pose& end = result.final_pose;
   const double planned_motion_J =
@@ -46,6 +46,7 @@ Json run_json(const std::string& file, const SimulationInput& input, const Simul
   return {
       {"file", file},
       {"input", input.name},
+      {"seed", request.seed},
       {"planned",
        {{"energy_J", input.planned_energy_J},
         {"motion_energy_J", planned_motion_J},
@@ -121,7 +122,7 @@ class SimulateCommand : public Command {
         .repeatable();
     line.option("--repeat", repeat_, "number of runs of each input, each with its own noise")
         .between(1, 1000);
-    line.option("--seed", seed_, "seed of the sensors' noise").shows_default();
+    line.option("--seed", seed_, "seed of the sensors' noise; each run has its own").shows_default();
     line.option("--time-of-day-s", time_of_day_s_,
                 "operating time of the robot before the first run (heating)")
         .between(0.0, 1e9);
@@ -162,13 +163,13 @@ class SimulateCommand : public Command {
       }
       if (k == 0) out.write("robot.yaml", robot_text(input.robot));
       for (std::size_t i = 0; i < repeat_; ++i) {
-        const SimulationRequest request = request_for(input, effects, hour_s, seed_ + k++);
+        const SimulationRequest request = request_for(input, effects, hour_s, seed_of_run(seed_, k++));
         const SimulationResult result = simulate(request);
         const double standby_W = make_plant(request.robot, effects).robot.power.standby_W;
         out.write(numbered("run", k), run_log_text(result.log));
         out.write(numbered("executed", k), run_log_text(result.executed));
         dataset += "  - {file: " + numbered("run", k) + ", start_time_s: " + figure(hour_s, 12) + "}\n";
-        report["runs"].push_back(run_json(numbered("run", k), input, result, standby_W));
+        report["runs"].push_back(run_json(numbered("run", k), input, request, result, standby_W));
         hour_s += result.duration_s;
       }
     }

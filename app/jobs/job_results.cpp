@@ -120,7 +120,8 @@ void finish_batch(OutputDirectory& out, const std::string& title, const std::vec
     std::cout << results;
   } else if (!common.quiet) {
     std::cout << counted(lines.size(), "mission") << ":";
-    for (const auto& [status, number] : count) std::cout << " " << number << " " << status;
+    for (const auto& [status, number] : count)
+      std::cout << " " << number << " " << status << (status == "optimal" ? " on their paths" : "");
     std::cout << ", " << figure(energy_J, 6) << " J in all\nresults in " << out.path() << "\n";
   }
 }

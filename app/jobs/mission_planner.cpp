@@ -37,7 +37,7 @@ Json plan_line(const Plan& plan) {
   json["optimality_gap_percent"] = plan.gap_percent;
   for (const BaselineTotal& baseline : plan.baselines)
     if (baseline.name == "trapezoid_best_tuned" && baseline.feasible)
-      json["saving_percent"] = saving_percent(plan.energy.total_J(), baseline.energy_J);
+      json["saving_percent"] = saving_percent(baseline.optimum_J, baseline.energy_J);
   if (plan.battery) json["battery_end_fraction"] = plan.battery->end_fraction;
   return json;
 }

@@ -185,7 +185,7 @@ std::string front_section(const Campaign& campaign) {
   Sample ms;
   for (std::size_t i = 0; i < std::min<std::size_t>(campaign.kept.size(), 40); ++i) {
     const double start = cpu_ms();
-    const Front front = energy_time_front({campaign.kept[i]}, 50);
+    const Front front = energy_time_front({{campaign.kept[i]}}, 50);
     if (front.points.size() == 50) ms.add(cpu_ms() - start);
   }
   return format(

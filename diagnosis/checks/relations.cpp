@@ -10,8 +10,8 @@
 #include "diagnosis/thresholds.hpp"
 #include "model/dynamics.hpp"
 #include "model/kinematics.hpp"
+#include "model/mean_power.hpp"
 #include "model/motor.hpp"
-#include "model/power.hpp"
 // Design: docs/decisions/0500-data-checks.md
 namespace joulepath {
 namespace {
@@ -167,30 +167,48 @@ std::optional<Relation> position_and_wheels(const RunSignals& run, const Geometr
                    {stacked(-y, x), -kGreatestHeadingOffset_rad, kGreatestHeadingOffset_rad}});
 }
 
+/// How much each sample changes within the smoothing kernel (1 sigma).
+VectorXd kernel_change(const RunSignals& run, const VectorXd& values) {
+  const Eigen::Index last = values.size() - 1;
+  VectorXd change = VectorXd::Zero(values.size());
+  for (Eigen::Index j = 0; j <= last; ++j) {
+    const Eigen::Index before = std::max<Eigen::Index>(j - 1, 0), after = std::min(j + 1, last);
+    if (after > before)
+      change[j] = run.kernel_sigma_s * (values[after] - values[before]) / (run.time_s[after] - run.time_s[before]);
+  }
+  return change;
+}
+
+/// What the motors draw and return by the motion alone.
+SupplyAccount expected_account(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected) {
+  SupplyAccount account{VectorXd::Zero(run.size()), VectorXd::Zero(run.size()), {}};
+  for (Side side : kSides) {
+    const VectorXd current = expected.current_A(side),
+                   voltage = robot.motor[side].resistance_ohm * current +
+                             robot.motor[side].volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side];
+    const VectorXd power = voltage.cwiseProduct(current) +
+                           kernel_change(run, voltage).cwiseProduct(kernel_change(run, current));
+    account.draw_W += power.binaryExpr(kernel_change(run, power), &mean_positive_W);
+    account.return_W += power;
+  }
+  account.return_W -= account.draw_W;
+  return account;
+}
+
 /// Battery power = motor power + standby. Without measured motors, the factor of the predicted motor power
 /// may be large.
 std::optional<Relation> battery(const RunSignals& run, const Robot& robot, const ExpectedMotors& expected,
                                 double freedom) {
   if (!has(run, run.battery_power_W) || !moves(run)) return {};
   const bool measured = has(run, run.motor_power_W.left) && has(run, run.motor_power_W.right);
-  VectorXd drive = VectorXd::Zero(run.size()), brake = VectorXd::Zero(run.size());
-  for (Side side : kSides) {
-    VectorXd power = run.motor_power_W[side];
-    if (!measured) {
-      const VectorXd current = expected.current_A(side);
-      power = (robot.motor[side].resistance_ohm * current +
-               robot.motor[side].volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side])
-                  .cwiseProduct(current);
-    }
-    drive += power.cwiseMax(0.0), brake += power.cwiseMin(0.0);
-  }
+  const SupplyAccount motors = measured ? run.motors_at_supply : expected_account(run, robot, expected);
   const double least = measured ? kLeastMeasuredFactor : kLeastPredictedFactor,
                most = measured ? kMostMeasuredFactor : kMostPredictedPower;
   const double standby_W = robot.power.standby_W > 0 ? kMostStandby * robot.power.standby_W : kInfinity;
   return relation("battery power = motor power + standby",
                   measured ? kBattery : Bounds{kSoundBattery, kSoundBattery}, run.battery_power_W,
-                  {factor(drive, least, most, freedom),
-                   {brake, -kGreatestBrakeDraw, kGreatestBrakeFactor * most},
+                  {factor(motors.draw_W, least, most, freedom),
+                   {motors.return_W, -kGreatestBrakeDraw, kGreatestBrakeFactor * most},
                    {VectorXd::Ones(run.size()), 0.0, standby_W}});
 }
 

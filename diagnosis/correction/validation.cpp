@@ -159,6 +159,19 @@ double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
 }
 
+/// A gap that is no more than noise, of causes that are all below the materiality floor, is none: they are
+/// listed, however sure they are.
+bool is_no_gap(const Examination& x, double before, const Validation& v) {
+  return v.judgment.verdict != Verdict::no_gap && v.judgment.sizes.greatest < 1 &&
+         before < 100 * kMaterialEnergy && before <= kFloorsLeft * noise_floor_percent(x, v.fitted);
+}
+
+void list_what_is_no_gap(const Examination& x, Validation& v) {
+  v = {.judgment = {.verdict = Verdict::no_gap}, .listed = v.judgment.sizes.of_names};
+  v.fitted = fit_names(x, {});
+  v.model = judged_model(x, v.fitted);
+}
+
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.
 void judge_what_is_left(const Examination& x, double before, Validation& v) {
   const bool named = !v.judgment.named.empty();
@@ -204,6 +217,7 @@ Validation validate(const Examination& x, const Judgment& by_race) {
   v.model = judged_model(x, v.fitted);
   if (v.judgment.verdict == Verdict::too_little_data) return v;
   const double before = nominal_gap_percent(x);
+  if (is_no_gap(x, before, v)) list_what_is_no_gap(x, v);
   if (!v.judgment.named.empty() && v.judgment.verdict != Verdict::ambiguous) choose_correction(x, before, v);
   judge_what_is_left(x, before, v);
   return v;

@@ -129,7 +129,7 @@ bool beyond_doubt(const LinearProblem& problem, const Equations& equations, cons
       evidence_needed(equations.candidates[static_cast<std::size_t>(candidate)], size, options) +
       ghost_share(problem, equations, explanation, candidate) * kShareOfFormError *
           std::max(0.0, explanation.score);
-  return explanation.score - without >= needed;
+  return evidence_beyond_model_error(explanation.score - without, size) >= needed;
 }
 
 void insert_sorted(std::vector<int>& set, int member) {
@@ -177,6 +177,11 @@ std::vector<Explanation> grown_by_one(const Equations& equations, const std::vec
 }
 
 }  // namespace
+
+double evidence_beyond_model_error(double evidence, double size) {
+  const double most = 0.5 * size * size / (kModelError * kModelError);
+  return evidence > 0 ? evidence * most / (evidence + most) : evidence;
+}
 
 double ghost_share(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
                    int candidate) {

@@ -36,6 +36,11 @@ struct SearchOptions {
   std::vector<double> cost_of_unknown{};  ///< log odds against each; the search sets them
 };
 
+/// What log evidence is worth for an effect of a size below the materiality floor. Noise averages out over the
+/// runs, the model's own error does not: in ln LR = a^2/(2 s^2) the variance s^2 of the amplitude has a part
+/// kModelError^2 that no further run makes smaller, so the evidence ends at size^2/(2 kModelError^2).
+[[nodiscard]] double evidence_beyond_model_error(double evidence, double size);
+
 /// Options of a search on this many runs. Of effects below the materiality floor few runs name firm ones
 /// alone.
 [[nodiscard]] SearchOptions search_options(double dispersion, std::size_t runs,

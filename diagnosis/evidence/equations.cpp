@@ -199,7 +199,7 @@ RunRows rows_of(const RunSignals& signals, const RunSignals& moves, const Robot&
   const ModelPoint point = model_point(robot, nuisances, state);
   const Prediction base = predict(moves, point);
   RunRows rows{
-      .residual = residual_rows(signals, point, &moves == &signals ? base : predict(signals, point)),
+      .residual = residual_rows(signals, point, predict(signals, point)),
       .columns = signatures(moves, robot, nuisances, state, equations.candidates, equations.columns, base),
       .own = run_signatures(moves, robot, base)};
   if (payload_column) rows.own.push_back(payload_signature(moves, point, base));
@@ -277,7 +277,7 @@ Equations build_equations(const std::vector<RunSignals>& signals, const Robot& r
     const auto rows_for = [&](const RunSignals& moves) {
       return rows_of(signals[r], moves, robot, nuisances, state, equations, layout, chosen, payload_column);
     };
-    rows[r] = straight ? rows_for(straightened(signals[r])) : rows_for(signals[r]);
+    rows[r] = rows_for(straight ? straightened(signals[r]) : straightened_where_straight(signals[r]));
   });
   std::vector<RawRunEquations> raw;
   if (options.noise) {

@@ -121,6 +121,16 @@ std::map<std::string, double> Inclusion::of_each() const {
   return probability;
 }
 
+double evidence_for(const Equations& equations, const std::vector<Explanation>& explanations,
+                    const std::string& label) {
+  const auto without = std::ranges::find_if(explanations, [&](const Explanation& e) {  // the best one first
+    return std::ranges::none_of(e.candidates, [&](int c) {
+      return equations.candidates[static_cast<std::size_t>(c)].label() == label;
+    });
+  });
+  return without == explanations.end() ? 0.0 : explanations.front().score - without->score;
+}
+
 std::vector<StandIn> stand_ins(const LinearProblem& problem, const Equations& equations,
                                const std::vector<Explanation>& explanations, int candidate, double dispersion,
                                const Robot& robot) {

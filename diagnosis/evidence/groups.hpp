@@ -32,6 +32,10 @@ class Inclusion {
   std::vector<WeightedSet> sets_{};
 };
 
+/// Log evidence of the best explanation beyond the best one without an effect.
+[[nodiscard]] double evidence_for(const Equations& equations, const std::vector<Explanation>& explanations,
+                                  const std::string& label);
+
 /// An effect that could stand in for a named one, the rest kept.
 struct StandIn {
   std::string label{};

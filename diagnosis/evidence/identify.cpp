@@ -51,10 +51,7 @@ std::vector<SmallEffect> small_effects(const Equations& equations,
     const std::string label = equations.candidates[static_cast<std::size_t>(best.candidates[k])].label();
     const double probability = inclusion.of(label);
     if (probability < kLeastProbabilityNamed) continue;
-    double without = -1e300;
-    for (const Explanation& e : explanations)
-      if (std::ranges::count(labels_of(equations, e), label) == 0) without = std::max(without, e.score);
-    small.push_back({label, probability, best.score - without, best.size[k]});
+    small.push_back({label, probability, evidence_for(equations, explanations, label), best.size[k]});
   }
   return small;
 }

@@ -55,7 +55,8 @@ Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& b
     changed.current_A[side] += current_A;
     changed.voltage_V[side] +=
         rows.col(kWindingLeft + s) + base.reading_resistance_ohm[side].cwiseProduct(current_A);
-    changed.power_W[side] = changed.voltage_V[side].cwiseProduct(changed.current_A[side]);
+    changed.power_W[side] += changed.voltage_V[side].cwiseProduct(changed.current_A[side]) -
+                             base.voltage_V[side].cwiseProduct(base.current_A[side]);
   }
   for (Eigen::Index j = 0; j < changed.battery_power_W.size(); ++j)
     changed.battery_power_W[j] += logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);

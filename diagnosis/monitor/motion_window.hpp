@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct WindowMean {
   Sided<double> current_A{kAbsent, kAbsent};
   double battery_power_W{kAbsent};
   double heading_rad{};
+
+  /// Standard deviation of the weights below in time.
+  [[nodiscard]] double sigma_s() const { return (end_s - begin_s) / std::sqrt(20.0); }
 };
 
 /// Cuts a stream of rows into windows. A window begins where both wheels turn; a standstill, a gap or a

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/mean_power.hpp"
 #include "model/operating_point.hpp"
-#include "model/power.hpp"
 
 namespace joulepath {
 namespace {
@@ -64,8 +64,12 @@ Eigen::VectorXd Signatures::predicted(const Plant& plant, const WindowMean& wind
   if (!std::isnan(window.current_A.left + window.current_A.right))
     return Eigen::Vector2d(wheels.left.current_A, wheels.right.current_A);
   const PowerSupply& supply = plant.robot.power;
+  const Sided<WheelChange> change = change_within(plant, motion, {}, site, window.sigma_s());
+  const auto mean_W = [&](Side side) { return wheels[side].power_W + change[side].product_W(); };
   return Eigen::VectorXd::Constant(
-      1, supply_power_W(supply, {wheels.left.power_W, wheels.right.power_W}) + supply.standby_W);
+      1, mean_supply_power_W(supply, {mean_W(Side::left), mean_W(Side::right)},
+                             {change.left.power_W, change.right.power_W}) +
+             supply.standby_W);
 }
 
 std::optional<WindowEquations> Signatures::equations(const WindowMean& window, double payload_kg) const {

@@ -6,6 +6,7 @@
 
 #include "diagnosis/evidence/linear_fit.hpp"
 #include "diagnosis/numerics/indices.hpp"
+#include "model/mean_power.hpp"
 
 namespace joulepath {
 namespace {
@@ -70,6 +71,20 @@ double loss_of(const std::vector<RunEquations>& runs, const Equations& equations
   return solve(problem, all_columns(equations), dispersion, false).loss;
 }
 
+/// What the motors of a predicted run take and return.
+SupplyAccount account_of_prediction(const Prediction& shown, PowerSharing sharing) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(shown.battery_power_W.size());
+  SupplyAccount account{zero, zero, zero};
+  for (Eigen::Index j = 0; j < zero.size(); ++j) {
+    const SupplyShares shares = supply_shares(sharing, {shown.power_W.left[j], shown.power_W.right[j]},
+                                              {shown.power_change_W.left[j], shown.power_change_W.right[j]});
+    account.draw_W[j] = shares.draw_W;
+    account.return_W[j] = shares.return_W;
+    account.mixed_W[j] = shares.mixed_W;
+  }
+  return account;
+}
+
 /// Whether any present run has a channel.
 template <class Has>
 bool any_run(const Identification& id, Has&& has) {
@@ -119,6 +134,7 @@ RunSignals expected_signals(const Identification& id, const Robot& robot, RunSig
     if (any_run(id, [&](const RunSignals& r) { return r.motor_power_W[side].size() > 0; }))
       run.motor_power_W[side] = shown.power_W[side];
   }
+  if (measures_motors(run)) run.motors_at_supply = account_of_prediction(shown, robot.power.sharing);
   mark_conducting(run, robot);
   if (any_run(id, [](const RunSignals& r) { return r.gyro_yaw_rate_rad_s.size() > 0; }))
     run.gyro_yaw_rate_rad_s = shown.yaw_rate_rad_s;

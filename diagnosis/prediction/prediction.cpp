@@ -10,8 +10,8 @@
 #include "diagnosis/prediction/region_edge.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
 #include "model/channel_delay.hpp"
+#include "model/mean_power.hpp"
 #include "model/operating_point.hpp"
-#include "model/power.hpp"
 
 namespace joulepath {
 namespace {
@@ -89,9 +89,11 @@ void distort(const std::vector<Effect>& instruments, double channel_delay_s, con
   if (channel_delay_s != 0) delay_motor_channels(log, channel_delay_s);
   for (Side side : kSides)
     for (Eigen::Index j = 0; j < signals.size(); ++j) {
-      prediction.current_A[side][j] = log.motor_current_A[side][static_cast<std::size_t>(j)];
-      prediction.voltage_V[side][j] = log.motor_voltage_V[side][static_cast<std::size_t>(j)];
-      prediction.power_W[side][j] = prediction.current_A[side][j] * prediction.voltage_V[side][j];
+      double &current_A = prediction.current_A[side][j], &voltage_V = prediction.voltage_V[side][j];
+      prediction.power_W[side][j] -= current_A * voltage_V;
+      current_A = log.motor_current_A[side][static_cast<std::size_t>(j)];
+      voltage_V = log.motor_voltage_V[side][static_cast<std::size_t>(j)];
+      prediction.power_W[side][j] += current_A * voltage_V;
     }
 }
 
@@ -118,7 +120,7 @@ Sided<Eigen::VectorXd> reading_resistance_ohm(const SplitModel& split, const Run
 Prediction empty_prediction(Eigen::Index n) {
   Prediction out;
   const Resizer resize{n};
-  resize(out.current_A), resize(out.voltage_V), resize(out.power_W);
+  resize(out.current_A), resize(out.voltage_V), resize(out.power_W), resize(out.power_change_W);
   resize(out.battery_power_W), resize(out.battery_voltage_V), resize(out.yaw_rate_rad_s);
   resize(out.heading_rad), resize(out.x_m), resize(out.y_m);
   return out;
@@ -135,17 +137,29 @@ struct Slip {
   }
 };
 
+Sided<WheelChange> change_at(const Plant& plant, const RunSignals& signals, Eigen::Index j,
+                             const BodyMotion<double>& motion, const Site& site) {
+  Twist<double> jerk{};
+  const Sided<Eigen::VectorXd>& wheels = signals.wheel_jerk_rad_s3;
+  if (wheels.left.size() == signals.size())
+    jerk = body_twist(plant.robot.geometry, Sided<double>{wheels.left[j], wheels.right[j]});
+  return change_within(plant, motion, jerk, site, signals.kernel_sigma_s);
+}
+
 void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index j,
-                     Sided<WheelState<double>> state, Prediction& out) {
+                     Sided<WheelState<double>> state, const Sided<WheelChange>& change, Prediction& out) {
   const Robot& robot = plant.robot;
   for (Side side : kSides) {
     blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
     out.current_A[side][j] = state[side].current_A;
     out.voltage_V[side][j] = state[side].voltage_V;
-    out.power_W[side][j] = state[side].power_W;
+    out.power_W[side][j] = state[side].power_W + change[side].product_W();
+    out.power_change_W[side][j] = change[side].power_W;
   }
   out.battery_power_W[j] =
-      supply_power_W(robot.power, {state.left.power_W, state.right.power_W}) + robot.power.standby_W;
+      mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
+                          {out.power_change_W.left[j], out.power_change_W.right[j]}) +
+      robot.power.standby_W;
   if (signals.battery_current_A.size() > 0)
     out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
                                robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
@@ -215,7 +229,7 @@ Prediction predict(const RunSignals& signals, const ModelPoint& point) {
       slip.add(creep->along_m_s(j) * signals.period_s, creep->turn_rad_s(j) * signals.period_s,
                site.pose.heading_rad);
     }
-    write_electrics(plant, signals, j, state, out);
+    write_electrics(plant, signals, j, state, change_at(plant, signals, j, motion, site), out);
     out.yaw_rate_rad_s[j] = motion.yaw_rate_rad_s;
     write_pose(plant.robot.geometry, signals, j, slip, out);
     return motion;

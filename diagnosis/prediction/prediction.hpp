@@ -21,7 +21,9 @@ struct ModelPoint {
 struct Prediction {
   Sided<Eigen::VectorXd> current_A{};  ///< as a sensor reads them, effects of instruments included
   Sided<Eigen::VectorXd> voltage_V{};
-  Sided<Eigen::VectorXd> power_W{};  ///< voltage times current, in the convention of the log
+  /// Mean over the smoothing kernel of voltage times current, in the convention of the log.
+  Sided<Eigen::VectorXd> power_W{};
+  Sided<Eigen::VectorXd> power_change_W{};  ///< of it within the kernel, 1 sigma
   /// What one more ampere of the reading adds to the winding's voltage: the resistance with its effects, over
   /// the reading's gain.
   Sided<Eigen::VectorXd> reading_resistance_ohm{};

@@ -1,12 +1,16 @@
 #include "diagnosis/prediction/rows.hpp"
 
 #include <cmath>
+#include <numbers>
 
-#include "model/power.hpp"
+#include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/thresholds.hpp"
+#include "model/mean_power.hpp"
 
 namespace joulepath {
 double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
-  return supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]});
+  return mean_supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]},
+                             {prediction.power_change_W.left[j], prediction.power_change_W.right[j]});
 }
 
 namespace {
@@ -41,24 +45,61 @@ void fill_motor(const RunSignals& signals, const Prediction& prediction, Side si
   }
 }
 
+/// Whether each wheel turns in one direction within the whole kernel, or stands: slow and without an acceleration
+/// above its noise. Where one reverses, starts or stops, dry friction takes a power that the smoothed motion
+/// does not tell.
+bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
+  for (Side side : kSides) {
+    const bool stands = signals.wheel_acceleration_rad_s2[side][j] == 0 &&
+                        std::abs(signals.wheel_speed_rad_s[side][j]) < kBlurredWheel_rad_s;
+    if (!stands && !signals.turning[side][static_cast<std::size_t>(j)]) return false;
+  }
+  return true;
+}
+
+/// Doubt about the motor power as the supply counts it: of its sign, where it changes within the kernel or the
+/// current is below its ripple; and of its mean, where the acceleration may jump. The variance of a jump of
+/// size 1 is 1/4, its slope tells 1/(2 pi).
+double doubtful_W(const PowerSupply& supply, const Prediction& prediction, Eigen::Index j) {
+  constexpr double kOfAJump = std::numbers::pi / 2 - 1;
+  Sided<double> mean_W, change_W;
+  double product_W = 0;
+  for (Side side : kSides) {
+    const double voltage_V = prediction.voltage_V[side][j];
+    mean_W[side] = prediction.power_W[side][j];
+    change_W[side] = std::hypot(prediction.power_change_W[side][j], kBlurredCurrent_A * voltage_V);
+    product_W += std::abs(mean_W[side] - voltage_V * prediction.current_A[side][j]);
+  }
+  return kOfAJump * product_W +
+         (1 - supply.regeneration_efficiency) * supply_shares(supply.sharing, mean_W, change_W).mixed_W;
+}
+
+/// The battery's power less standby and what the motors take, which the log shows, or else the model. Rows
+/// count where doubt about what the motors take changes it by less than its resolution.
+void fill_driver(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction,
+                 ResidualRows& rows) {
+  const Eigen::Index n = signals.size();
+  const SupplyAccount& motors = signals.motors_at_supply;
+  const bool shown = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
+                     signals.motor_current_A.left.size() == n && signals.motor_current_A.right.size() == n;
+  if (!shown && measures_motors(signals)) return;
+  const double recovered = point.robot.power.regeneration_efficiency,
+               least_W = kResolution * rms(signals.battery_power_W);
+  Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
+  if (shown) driver_W -= motors.draw_W + recovered * motors.return_W;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (shown) driver_W[j] += logged_supply_W(point, prediction, j);
+    const double doubt_W = shown ? (1 - recovered) * motors.mixed_W[j]
+                                 : doubtful_W(point.robot.power, prediction, j);
+    rows.present(j, kDriverPower) = doubt_W <= least_W && (shown || moves_steadily(signals, j));
+  }
+  rows.value.col(kDriverPower) = driver_W;
+}
+
 void fill_supply(const RunSignals& signals, const ModelPoint& point, const Prediction& prediction,
                  ResidualRows& rows) {
   const Eigen::Index n = signals.size();
-  const bool motors = rows.present.col(kWindingLeft).any() && rows.present.col(kWindingRight).any() &&
-                      signals.motor_current_A.left.size() == n && signals.motor_current_A.right.size() == n;
-  const bool battery = signals.battery_power_W.size() == n && n > 0;
-  if (battery && !measures_motors(signals))
-    fill(kDriverPower, signals.battery_power_W - prediction.battery_power_W, rows);
-  if (battery && motors) {
-    Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Sided<double> measured_W;
-      for (Side side : kSides)
-        measured_W[side] = signals.motor_voltage_V[side][j] * signals.motor_current_A[side][j];
-      driver_W[j] -= supply_power_W(point.robot.power, measured_W) - logged_supply_W(point, prediction, j);
-    }
-    fill(kDriverPower, driver_W, rows);
-  }
+  if (signals.battery_power_W.size() == n && n > 0) fill_driver(signals, point, prediction, rows);
   if (signals.battery_voltage_V.size() == n && signals.battery_current_A.size() == n && n > 0 &&
       std::isfinite(point.robot.battery.open_circuit_voltage_V))
     fill(kSupplyVoltage, signals.battery_voltage_V - prediction.battery_voltage_V, rows);

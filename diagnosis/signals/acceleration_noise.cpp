@@ -35,6 +35,8 @@ Eigen::VectorXd above_noise(const Eigen::VectorXd& mode, double third_difference
   return kept;
 }
 
+Eigen::Index half_window(double period_s) { return std::lround(kAccelerationWindow_s / period_s); }
+
 Sided<Eigen::VectorXd> modes_above_noise(const Sided<Eigen::VectorXd>& wheels, double third_difference_gain,
                                          Eigen::Index half_width, double over_noise) {
   const auto kept = [&](const Eigen::VectorXd& mode) {
@@ -50,13 +52,21 @@ Sided<Eigen::VectorXd> modes_above_noise(const Sided<Eigen::VectorXd>& wheels, d
 void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, double third_difference_gain,
                                double period_s) {
   if (period_s > kLongestNoisePeriod_s) return;
-  const auto half_width = static_cast<Eigen::Index>(std::lround(kAccelerationWindow_s / period_s));
-  acceleration_rad_s2 =
-      modes_above_noise(acceleration_rad_s2, third_difference_gain, half_width, kAccelerationOverNoise);
+  acceleration_rad_s2 = modes_above_noise(acceleration_rad_s2, third_difference_gain,
+                                          half_window(period_s), kAccelerationOverNoise);
 }
 
 void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain) {
   jerk_rad_s3 = modes_above_noise(jerk_rad_s3, third_difference_gain, 1, kJerkOverNoise);
+}
+
+std::vector<bool> beyond_noise(const Eigen::VectorXd& signal, double third_difference_gain, double period_s) {
+  std::vector<bool> beyond(static_cast<std::size_t>(signal.size()), true);
+  if (period_s > kLongestNoisePeriod_s) return beyond;
+  const Eigen::VectorXd kept =
+      above_noise(signal, third_difference_gain, half_window(period_s), kAccelerationOverNoise);
+  for (std::size_t j = 0; j < beyond.size(); ++j) beyond[j] = kept[static_cast<Eigen::Index>(j)] != 0;
+  return beyond;
 }
 
 }  // namespace joulepath

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "model/sided.hpp"
 
@@ -17,5 +18,10 @@ void remove_acceleration_noise(Sided<Eigen::VectorXd>& acceleration_rad_s2, doub
 
 /// The same for jerks, which come in short peaks: three samples count.
 void remove_jerk_noise(Sided<Eigen::VectorXd>& jerk_rad_s3, double third_difference_gain);
+
+/// Samples at which a signal stands out of its noise, by the same measure as accelerations; all where samples
+/// are too far apart.
+[[nodiscard]] std::vector<bool> beyond_noise(const Eigen::VectorXd& signal, double third_difference_gain,
+                                             double period_s);
 
 }  // namespace joulepath

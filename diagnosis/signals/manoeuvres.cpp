@@ -49,6 +49,16 @@ RunSignals straightened(RunSignals run) {
   return run;
 }
 
+RunSignals straightened_where_straight(RunSignals run) {
+  Sided<Eigen::VectorXd>& speed = run.wheel_speed_rad_s;
+  for (std::size_t k = 0; k < run.yawing.size(); ++k) {
+    if (run.yawing[k]) continue;
+    const auto j = static_cast<Eigen::Index>(k);
+    speed.left[j] = speed.right[j] = 0.5 * (speed.left[j] + speed.right[j]);
+  }
+  return run;
+}
+
 bool has_two_payloads(const std::vector<RunSignals>& signals) {
   std::set<double> payloads;
   for (const RunSignals& run : signals)

@@ -23,6 +23,8 @@ struct Manoeuvres {
 /// signature that follows it finds it again in the measured heading, which does not follow it (errors in
 /// variables), and moves the half track or an unknown cause.
 [[nodiscard]] RunSignals straightened(RunSignals run);
+/// The same of runs that turn elsewhere: the wheels' speeds alone, where their difference is noise.
+[[nodiscard]] RunSignals straightened_where_straight(RunSignals run);
 
 /// Whether the runs state at least two payloads.
 [[nodiscard]] bool has_two_payloads(const std::vector<RunSignals>& signals);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "diagnosis/numerics/smoothing.hpp"
 #include "diagnosis/signals/acceleration_noise.hpp"
@@ -46,16 +48,18 @@ class Thinner {
   Thinner(const Trajectory& log, const SignalOptions& options) : log_(log), grid_(uniform_grid(log.time_s)) {
     sigma_s_ = std::max(options.kernel_sigma_s, kLeastKernelPeriods * grid_.period_s);
     kernel_ = gaussian_kernel(sigma_s_, grid_.period_s);
-    stride_ =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options.period_s / grid_.period_s)));
+    set_strides(options.period_s);
     const std::size_t margin = kernel_.half_width();
-    for (std::size_t c = margin; c + margin < grid_.time_s.size(); c += stride_) centers_.push_back(c);
+    for (std::size_t c = margin; c + margin < grid_.time_s.size(); c += fine_) fine_centers_.push_back(c);
+    for (std::size_t k = 0; k < fine_centers_.size(); k += thinning_) centers_.push_back(fine_centers_[k]);
   }
 
   const Samples& grid_time_s() const { return grid_.time_s; }
   double sigma_s() const { return sigma_s_; }
   double grid_period_s() const { return grid_.period_s; }
-  double period_s() const { return grid_.period_s * static_cast<double>(stride_); }
+  double period_s() const { return fine_period_s() * static_cast<double>(thinning_); }
+  /// Of the samples by which noise is judged: a long dataset's own are too far apart.
+  double fine_period_s() const { return grid_.period_s * static_cast<double>(fine_); }
   const std::vector<std::size_t>& centers() const { return centers_; }
   std::size_t half_width() const { return kernel_.half_width(); }
 
@@ -80,27 +84,49 @@ class Thinner {
     return result;
   }
 
-  Eigen::VectorXd smooth(const Samples& on_grid) const { return thin(on_grid, kernel_.weight); }
-  Eigen::VectorXd slope(const Samples& on_grid) const { return thin(on_grid, kernel_.slope_weight); }
-  Eigen::VectorXd curvature(const Samples& on_grid) const { return thin(on_grid, kernel_.curvature_weight); }
-  /// Variance of the third differences of slopes over that of the slopes, both of white noise of the channel.
-  double third_difference_gain() const { return third_difference_gain(kernel_.slope_weight); }
-  double third_difference_gain_of_jerk() const { return third_difference_gain(kernel_.curvature_weight); }
-
- private:
+  const SmoothingKernel& kernel() const { return kernel_; }
+  Eigen::VectorXd smooth(const Samples& on_grid) const { return at(centers_, on_grid, kernel_.weight); }
+  /// Convolved with weights of the kernel, at the fine samples.
+  Sided<Eigen::VectorXd> fine(const Sided<Samples>& on_grid, const Samples& weights) const {
+    return {at(fine_centers_, on_grid.left, weights), at(fine_centers_, on_grid.right, weights)};
+  }
+  /// Of values at the fine samples, those that count.
+  Eigen::VectorXd thinned(const Eigen::VectorXd& fine) const {
+    return fine(Eigen::seqN(0, std::ssize(centers_), static_cast<Eigen::Index>(thinning_)));
+  }
+  std::vector<bool> thinned(const std::vector<bool>& fine) const {
+    std::vector<bool> result(centers_.size());
+    for (std::size_t j = 0; j < result.size(); ++j) result[j] = fine[j * thinning_];
+    return result;
+  }
+  /// Variance of the third differences over that of the values, at the fine samples, both of white noise of a
+  /// channel convolved with these weights.
   double third_difference_gain(const Samples& weights) const {
     const auto correlation = [&](std::size_t lag) {
-      const std::size_t shift = std::min(lag * stride_, weights.size());
+      const std::size_t shift = std::min(lag * fine_, weights.size());
       return std::inner_product(weights.begin() + static_cast<std::ptrdiff_t>(shift), weights.end(),
                                 weights.begin(), 0.0);
     };
     return 20 - (30 * correlation(1) - 12 * correlation(2) + 2 * correlation(3)) / correlation(0);
   }
-  Eigen::VectorXd thin(const Samples& on_grid, const Samples& weights) const {
+
+ private:
+  /// Rows are about `period_s` apart: every so many fine samples, which are at most about kPeriod_s apart.
+  void set_strides(double period_s) {
+    const auto steps = [&](double length_s) {
+      return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length_s / grid_.period_s)));
+    };
+    const std::size_t stride = steps(period_s);
+    thinning_ = (stride + steps(kPeriod_s) - 1) / steps(kPeriod_s);
+    fine_ = (stride + thinning_ - 1) / thinning_;
+  }
+
+  static Eigen::VectorXd at(const std::vector<std::size_t>& centers, const Samples& on_grid,
+                            const Samples& weights) {
     if (on_grid.empty()) return {};
-    Eigen::VectorXd result(static_cast<Eigen::Index>(centers_.size()));
-    for (std::size_t j = 0; j < centers_.size(); ++j)
-      result[static_cast<Eigen::Index>(j)] = convolve_at(on_grid, weights, centers_[j]);
+    Eigen::VectorXd result(static_cast<Eigen::Index>(centers.size()));
+    for (std::size_t j = 0; j < centers.size(); ++j)
+      result[static_cast<Eigen::Index>(j)] = convolve_at(on_grid, weights, centers[j]);
     return result;
   }
 
@@ -108,8 +134,9 @@ class Thinner {
   UniformLog grid_;
   double sigma_s_{};
   SmoothingKernel kernel_{};
-  std::size_t stride_{1};
-  std::vector<std::size_t> centers_{};
+  std::size_t fine_{1};      ///< grid steps between fine samples
+  std::size_t thinning_{1};  ///< fine samples between rows
+  std::vector<std::size_t> fine_centers_{}, centers_{};
 };
 
 /// Poses at the middle of each sample. Means over a sample's period belong to its middle, logged poses to its
@@ -165,13 +192,26 @@ Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const
   return power;
 }
 
+/// Accelerations and jerks without noise, and where the body turns.
+void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels) {
+  const SmoothingKernel& kernel = thinner.kernel();
+  Sided<Eigen::VectorXd> rate = thinner.fine(wheels, kernel.slope_weight),
+                         jerk = thinner.fine(wheels, kernel.curvature_weight);
+  remove_acceleration_noise(rate, thinner.third_difference_gain(kernel.slope_weight),
+                            thinner.fine_period_s());
+  remove_jerk_noise(jerk, thinner.third_difference_gain(kernel.curvature_weight));
+  for (Side side : kSides) {
+    signals.wheel_acceleration_rad_s2[side] = thinner.thinned(rate[side]);
+    signals.wheel_jerk_rad_s3[side] = thinner.thinned(jerk[side]);
+  }
+  const Sided<Eigen::VectorXd> speed = thinner.fine(wheels, kernel.weight);
+  signals.yawing = thinner.thinned(beyond_noise(
+      speed.right - speed.left, thinner.third_difference_gain(kernel.weight), thinner.fine_period_s()));
+}
+
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
                  const Samples& heading, double least_speed_rad_s) {
-  signals.wheel_acceleration_rad_s2 = {thinner.slope(wheels.left), thinner.slope(wheels.right)};
-  remove_acceleration_noise(signals.wheel_acceleration_rad_s2, thinner.third_difference_gain(),
-                            thinner.period_s());
-  signals.wheel_jerk_rad_s3 = {thinner.curvature(wheels.left), thinner.curvature(wheels.right)};
-  remove_jerk_noise(signals.wheel_jerk_rad_s3, thinner.third_difference_gain_of_jerk());
+  fill_rates(signals, thinner, wheels);
   for (Side side : kSides) {
     const Samples& speed = wheels[side];
     signals.wheel_speed_rad_s[side] = thinner.smooth(speed);
@@ -214,18 +254,45 @@ void fill_circumstances(RunSignals& signals, const Thinner& thinner, const Run& 
     signals.payload_kg = Eigen::VectorXd::Constant(signals.size(), constant_payload_kg(run));
 }
 
+/// The account of both motors' powers (W) in the log's samples.
+SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, const Thinner& thinner,
+                         double delay_s) {
+  if (power.left.empty() || power.right.empty()) return {};
+  std::vector<Samples> counted{power.left, power.right};
+  if (sharing == PowerSharing::bus) {
+    std::ranges::transform(power.left, power.right, counted[0].begin(), std::plus<>{});
+    counted.pop_back();
+  }
+  const auto zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(thinner.centers().size()));
+  SupplyAccount account{zero, zero, zero};
+  for (Samples& drawn_W : counted) {
+    Samples returned_W = drawn_W;
+    for (double& power_W : drawn_W) power_W = std::max(0.0, power_W);
+    for (double& power_W : returned_W) power_W = std::min(0.0, power_W);
+    const Eigen::VectorXd draw_W = thinner.smooth(thinner.on_grid(drawn_W, delay_s)),
+                          return_W = thinner.smooth(thinner.on_grid(returned_W, delay_s));
+    account.draw_W += draw_W;
+    account.return_W += return_W;
+    account.mixed_W += draw_W.cwiseMin(-return_W);
+  }
+  return account;
+}
+
 /// Voltage, current and power of both motors; the power by the winding where no voltage is logged.
 void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Robot& robot,
                  const Sided<Samples>& logged_wheels, double delay_s) {
+  Sided<Samples> counted;  // V i where it is logged: what the driver row compares
   for (Side side : kSides) {
     signals.motor_voltage_V[side] = thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], delay_s));
     signals.motor_current_A[side] = thinner.smooth(thinner.on_grid(log.motor_current_A[side], delay_s));
-    Samples power = log.motor_power_W[side];
-    if (power.empty()) power = product(log.motor_voltage_V[side], log.motor_current_A[side]);
+    counted[side] = product(log.motor_voltage_V[side], log.motor_current_A[side]);
+    Samples power = log.motor_power_W[side].empty() ? counted[side] : log.motor_power_W[side];
     if (power.empty())
       power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
     signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, delay_s));
+    if (counted[side].empty()) counted[side] = std::move(power);
   }
+  signals.motors_at_supply = account_of(counted, robot.power.sharing, thinner, delay_s);
   mark_conducting(signals, robot);
 }
 

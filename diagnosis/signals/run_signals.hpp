@@ -11,6 +11,16 @@
 
 namespace joulepath {
 
+/// What the motors draw from the supply and return to it (negative) as the supply counts it, of the samples of
+/// a log: the power of a mean is not the mean of a power that changes its sign, nor of two factors that
+/// change. Empty where the log does not show both motors.
+struct SupplyAccount {
+  Eigen::VectorXd draw_W{}, return_W{};
+  /// What draw and return have in common within the kernel: of a power that changes its sign, or that is below
+  /// its noise, nobody knows which it is.
+  Eigen::VectorXd mixed_W{};
+};
+
 /// One run, smoothed and downsampled for the diagnosis.
 ///
 /// Every measured channel is convolved with the same Gaussian kernel before downsampling; a wheel's
@@ -39,6 +49,7 @@ struct RunSignals {
   Sided<Eigen::VectorXd> motor_voltage_V{};
   Sided<Eigen::VectorXd> motor_current_A{};
   Sided<Eigen::VectorXd> motor_power_W{};  ///< logged; or V i of each sample; or (R i + Kv n q') i
+  SupplyAccount motors_at_supply{};
   Eigen::VectorXd battery_power_W{};
   Eigen::VectorXd battery_voltage_V{};
   Eigen::VectorXd battery_current_A{};
@@ -48,6 +59,8 @@ struct RunSignals {
   Eigen::VectorXd heading_rad{};  ///< unwrapped; integrated from wheels and gyro where the log has no heading
   bool heading_measured{};
   bool time_of_day_known{};
+  /// Samples in which the wheels' difference stands out of its noise: the body turns. Empty: all.
+  std::vector<bool> yawing{};
   /// Samples in which a wheel turns in one direction within the whole kernel, so that dry friction has a
   /// known sign.
   Sided<std::vector<bool>> turning{};

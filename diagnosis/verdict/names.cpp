@@ -95,8 +95,8 @@ double evidence_of(const Examination& x, const UnknownTerm& term) {
 
 /// A term below the materiality floor is a cause only if it brings as much evidence as a pliable law must.
 bool is_cause_though_small(const Examination& x, double size, double evidence) {
-  return size >= kLeastSize &&
-         evidence - kUnknownCost >= x.id.options.small_pliable_evidence / std::sqrt(size);
+  return size >= kLeastSize && evidence_beyond_model_error(evidence - kUnknownCost, size) >=
+                                   x.id.options.small_pliable_evidence / std::sqrt(size);
 }
 
 /// The unknown terms of the best set that are sure enough: causes, or small effects below the materiality
@@ -109,12 +109,16 @@ void name_unknowns(const Examination& x, const Inclusion& inclusion, Names& name
     const double probability = inclusion.of_any(of_same_channel(x.id.equations, term.label)),
                  share = share_lost(x, nothing, term.columns), size = size_of(x, term),
                  evidence = evidence_of(x, term);
+    names.sizes.greatest = std::max(names.sizes.greatest, size);
     if (probability < kLeastProbabilityNamed || share < kLeastUnknownShare) continue;
     const double stated = std::min(names.surest, probability);
-    if (size >= 1 || is_cause_though_small(x, size, evidence))
-      names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
-    else
-      names.small_unknowns.push_back({"unknown, " + term.label, stated, evidence, size});
+    const SmallEffect small{"unknown, " + term.label, stated, evidence, size};
+    if (size < 1 && !is_cause_though_small(x, size, evidence)) {
+      names.small_unknowns.push_back(small);
+      continue;
+    }
+    names.unknowns.push_back({.depends_on = term.label, .probability = stated, .share = share});
+    names.sizes.of_names.push_back(small);
   }
   std::ranges::stable_sort(names.unknowns, std::ranges::greater{}, &UnknownCause::share);
 }
@@ -184,6 +188,14 @@ Inclusion inclusion_of(const Examination& x) {
   return inclusion;
 }
 
+/// Size of an effect of the best set over the materiality floor; infinite where the set lacks it.
+double size_of(const Examination& x, const std::string& label) {
+  for (std::size_t k = 0; k < x.best().size.size(); ++k)
+    if (x.id.equations.candidates[static_cast<std::size_t>(x.best().candidates[k])].label() == label)
+      return x.best().size[k];
+  return std::numeric_limits<double>::infinity();
+}
+
 /// Whether an effect is one of the best set that is listed, not named.
 bool is_small(const Examination& x, const std::string& label) {
   return std::ranges::any_of(x.best().small, [&](int c) {
@@ -202,6 +214,7 @@ Names choose_names(const Examination& x) {
   const Inclusion inclusion = inclusion_of(x);
   Names names{.probabilities = inclusion.of_each(), .something = inclusion.of_something()};
   names.surest = x.runs.diagnosis.runs.size() < kRunsForSmallEffects ? kSurestOfFewRuns : kSurest;
+  for (double size : x.best().size) names.sizes.greatest = std::max(names.sizes.greatest, size);
   name_unknowns(x, inclusion, names);
   for (const UnknownTerm& term : x.id.equations.unknowns) names.probabilities.erase(term.label);
   share_probabilities(x, inclusion, names);
@@ -211,7 +224,10 @@ Names choose_names(const Examination& x) {
     std::set<std::string> group{label};
     if (const auto others = names.stand_ins.find(label); others != names.stand_ins.end())
       group.insert(others->second.begin(), others->second.end());
-    if (inclusion.of_any(group) >= kLeastProbabilityNamed) names.named.push_back(effect);
+    if (inclusion.of_any(group) < kLeastProbabilityNamed) continue;
+    names.named.push_back(effect);
+    names.sizes.of_names.push_back({label, probability_of(names, effect),
+                              evidence_for(x.id.equations, x.id.explanations, label), size_of(x, label)});
   }
   name_inexact_forms(x, names);
   return names;

@@ -5,12 +5,19 @@
 
 namespace joulepath {
 
+/// How large the causes are over the materiality floor.
+struct Sizes {
+  double greatest{};                   ///< of the best set's effects and terms
+  std::vector<SmallEffect> of_names{};  ///< what is named, as it is listed where it is no gap
+};
+
 /// Outcome of the race between the catalog's laws and unknown terms.
 struct Names {
   std::vector<ActiveEffect> named{};
   std::vector<UnknownCause> unknowns{};           ///< the greatest share first
   std::vector<SmallEffect> small_unknowns{};      ///< below the materiality floor
   std::map<std::string, double> probabilities{};  ///< of effects by label
+  Sizes sizes{};
   double something{};  ///< probability that there is any cause that matters, named or not
   double surest{
       1.0};  ///< the greatest probability that is stated: share of correct names on development cases

@@ -1,6 +1,7 @@
 #include "diagnosis/verdict/verdict.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "diagnosis/evidence/boxed_fit.hpp"
 #include "diagnosis/thresholds.hpp"
@@ -8,6 +9,8 @@
 // Design: docs/decisions/0506-verdict.md
 namespace joulepath {
 namespace {
+
+constexpr double kBeyondCalibration = std::numeric_limits<double>::infinity();  ///< a finding of any size
 
 /// "depends on wheel speed (current), then payload (current)".
 std::string in_words(const std::vector<UnknownCause>& unknowns) {
@@ -39,11 +42,12 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
   if (const int candidate = effect_of_constant(x.id, column); candidate >= 0) {
     const ActiveEffect effect{x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}};
     if (probability_of(names, effect) >= kLeastProbabilityOfConstant)
-      return {.verdict = Verdict::explained, .named = {effect}};
+      return {.verdict = Verdict::explained, .named = {effect}, .sizes = {.greatest = kBeyondCalibration}};
   }
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +
-                        ", further from its value than calibration errors"};
+                        ", further from its value than calibration errors",
+          .sizes = {.greatest = kBeyondCalibration}};
 }
 
 }  // namespace
@@ -52,7 +56,10 @@ Judgment judge(const Examination& x, const Names& names) {
   if (x.runs.few)
     return {.notes = {"fewer than " + std::to_string(kLeastRunsToName) +
                       " runs: candidates only; add runs with two payloads, both directions and turns"}};
-  Judgment judgment{.named = names.named, .unknowns = names.unknowns, .depends_on = in_words(names.unknowns)};
+  Judgment judgment{.named = names.named,
+                    .unknowns = names.unknowns,
+                    .depends_on = in_words(names.unknowns),
+                    .sizes = names.sizes};
   const bool nothing_won = names.named.empty() && names.unknowns.empty();
   if (const int column = constant_that_wins(x, nothing_won); column >= 0)
     return judge_constant(x, names, column);

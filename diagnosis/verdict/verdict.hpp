@@ -11,6 +11,7 @@ struct Judgment {
   std::vector<UnknownCause> unknowns{};
   std::string depends_on{};  ///< what no effect explains, in words; empty: nothing
   std::vector<std::string> notes{};
+  Sizes sizes{};
 };
 
 /// The verdict that follows from what won the race.

@@ -29,12 +29,9 @@ void Drive::integrals(const DriveState& state, const Forces& forces, double hot,
   const double terminals_W = supply_power_W(robot.power, power_W) + robot.power.standby_W;
   const BatteryLoad battery = battery_load(robot.battery, terminals_W);
   instant.battery_gives_way = !battery.possible;
-  instant.battery_voltage_V =
-      battery.possible ? battery.terminal_voltage_V : robot.battery.open_circuit_voltage_V / 2;
+  instant.battery_voltage_V = battery.terminal_voltage_V;
   rate[kBatteryVoltSeconds] = std::isfinite(instant.battery_voltage_V) ? instant.battery_voltage_V : 0.0;
-  rate[kBatteryCharge] =
-      battery.possible ? battery.current_A
-                       : robot.battery.open_circuit_voltage_V / (2 * robot.battery.internal_resistance_ohm);
+  rate[kBatteryCharge] = battery.current_A;
   rate[kBatteryEnergy] = terminals_W;
   rate[kBatteryLoss] = battery.loss_W;
 }

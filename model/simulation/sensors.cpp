@@ -18,7 +18,7 @@ double rounded_to(double value, double resolution) {
 class Readings {
  public:
   Readings(const SensorSettings& settings, bool has_battery, std::uint64_t seed)
-      : settings_(settings), has_battery_(has_battery), random_(seed) {}
+      : settings_(settings), has_battery_(has_battery), random_(seed), phase_(encoder_phase(seed)) {}
 
   void add(const Snapshot& before, const Snapshot& now) {
     log_.time_s.push_back(now.time_s);
@@ -45,13 +45,23 @@ class Readings {
                                  : 0.0;
     for (Side side : kSides) {
       const std::size_t k = static_cast<std::size_t>(side == Side::right);
-      const double turned_rad = rounded_to(now.state[kAngleLeft + k], count_rad) -
-                                rounded_to(before.state[kAngleLeft + k], count_rad);
+      const auto counted_rad = [&](const Snapshot& at) {
+        return rounded_to(phase_[side] * count_rad + at.state[kAngleLeft + k], count_rad);
+      };
+      const double turned_rad = counted_rad(now) - counted_rad(before);
       log_.wheel_speed_rad_s[side].push_back(
           noisy(turned_rad / (now.time_s - before.time_s), settings_.wheel_speed_noise_rad_s));
       log_.motor_voltage_V[side].push_back(voltage_V(mean(before, now, kVoltSeconds + k)));
       log_.motor_current_A[side].push_back(current_A(mean(before, now, kCharge + k)));
     }
+  }
+
+  /// Where in a count each encoder begins, 0 to 1: repeated runs do not share their rounding.
+  static Sided<double> encoder_phase(std::uint64_t seed) {
+    std::mt19937_64 random(~seed);  // apart from the noise
+    std::uniform_real_distribution<double> phase;
+    const double left = phase(random);
+    return {left, phase(random)};
   }
 
   static double mean(const Snapshot& before, const Snapshot& now, std::size_t index) {
@@ -69,11 +79,22 @@ class Readings {
   const SensorSettings& settings_;
   bool has_battery_{};
   std::mt19937_64 random_;
+  Sided<double> phase_{};
   std::normal_distribution<double> normal_{};
   Trajectory log_{};
 };
 
 }  // namespace
+
+std::uint64_t seed_of_run(std::uint64_t seed, std::uint64_t run) {
+  if (run == 0) return seed;
+  const auto spread = [](std::uint64_t x) {  // the finalizer of splitmix64, of public domain
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return x ^ (x >> 31);
+  };
+  return spread(spread(seed) + run) >> 11;
+}
 
 SensorSettings typical_sensors() {
   return {.encoder_counts_per_revolution = 20000,

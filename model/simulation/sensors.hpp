@@ -8,6 +8,10 @@
 
 namespace joulepath {
 
+/// Seed of a further run of a dataset, below 2^53: neighboring seeds of datasets share no run. The first run
+/// has the dataset's own.
+[[nodiscard]] std::uint64_t seed_of_run(std::uint64_t seed, std::uint64_t run);
+
 /// Properties of the instruments. The default is ideal: exact means over the sample period (pose: the value
 /// at its end), without noise. Noise is white and Gaussian, one sigma per sample.
 struct SensorSettings {

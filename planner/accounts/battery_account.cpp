@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "model/battery_power.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
+#include "planner/values/verdict_text.hpp"
 
 namespace joulepath {
 namespace {
@@ -37,7 +40,6 @@ LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
   const double rest_s = resting_s(leg);
   if (rest_s == 0) return loss;
   const BatteryLoad load = battery_load(plant.robot.battery, plant.robot.power.standby_W);
-  if (!load.possible) return loss;
   loss.loss_J += load.loss_W * rest_s;
   loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
   return loss;
@@ -153,6 +155,42 @@ std::map<std::string, double> enough_charge(const BatteryAccount& account, const
 }
 
 }  // namespace
+
+std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& pose) {
+  const double standby_W = robot.power.standby_W, most_W = planned_battery_power_W(robot.battery);
+  if (standby_W <= most_W) return std::nullopt;
+  Infeasibility verdict{.constraint = "battery_power",
+                        .x_m = pose.x_m,
+                        .y_m = pose.y_m,
+                        .amount = standby_W - most_W,
+                        .unit = "W",
+                        .relaxation = {{"battery_power_W", standby_W}}};
+  verdict.message = sentence(verdict);
+  return verdict;
+}
+
+void blame_battery(Plan& plan, const Robot& robot) {
+  if (!plan.infeasibility) return;
+  Infeasibility& verdict = plan.infeasibility->reason;
+  const auto power = verdict.relaxation.find("battery_power_W");
+  const double most_W = planned_battery_power_W(robot.battery);
+  const double stated_W = robot.limits ? robot.limits->battery_power_W : kNoLimit;
+  if (verdict.constraint != "battery_power" || most_W >= stated_W) return;
+  const std::string told = sentence(verdict);
+  if (power != verdict.relaxation.end()) {
+    const double needed_W = power->second;
+    verdict.relaxation.erase(power);
+    // Power is inverse to the resistance.
+    if (needed_W <= stated_W)
+      verdict.relaxation["internal_resistance_ohm"] =
+          robot.battery.internal_resistance_ohm * most_W / needed_W;
+  }
+  std::ostringstream text;
+  text.precision(4);
+  text << "the battery supplies at most " << most_W << " W at its terminals; " << sentence(verdict);
+  if (verdict.message.rfind(told, 0) == 0) text << verdict.message.substr(told.size());
+  plan.message = verdict.message = text.str();
+}
 
 std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant) {
   if (!plan.battery || !plan.battery->fails_on_leg) return std::nullopt;

@@ -17,6 +17,13 @@ namespace joulepath {
 /// The verdict where the state of charge falls below the reserve.
 [[nodiscard]] std::optional<Infeasibility> battery_too_small(const Plan& plan, const Plant& plant);
 
+/// The verdict on a battery that cannot feed a robot that only stands (W of standby); nothing if it can.
+[[nodiscard]] std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& pose);
+
+/// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), names its internal resistance
+/// as the change that works.
+void blame_battery(Plan& plan, const Robot& robot);
+
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
 /// of `uncertainty:`, each propagated through the power model along the planned motion by central
 /// differences. Errors of the legs are correlated, so the plan's sigma is above the root sum of squares of

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planner/motion/motion_energy.hpp"
+#include "planner/path/shape/corner_blend.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
 #include "planner/profile/profile_solver.hpp"
 

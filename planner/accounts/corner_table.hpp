@@ -6,7 +6,6 @@
 
 namespace joulepath {
 
-inline constexpr double kLeastCornerRadius_m = 0.01;  ///< smaller arcs are turns in place
 
 /// Cost of a corner between two straight legs by its angle, in addition to driving their length straight on:
 /// planned every 5 degrees, linear between. Up to 5 degrees the robot does not stop.

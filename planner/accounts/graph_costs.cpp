@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "model/limit_table.hpp"
 #include "planner/accounts/corner_table.hpp"
+#include "planner/legs/stretch.hpp"
 #include "planner/motion/motion_energy.hpp"
 
 // Method: [Brent1973]
@@ -26,7 +26,7 @@ class GraphPricer {
   GraphPricer(const RouteGraph& graph, const Robot& robot, double payload_kg, double corner_radius_m)
       : graph_(graph),
         plant_(make_plant(robot)),
-        limits_(limits_for_payload(robot, payload_kg)),
+        limits_(limits_along(robot, {payload_kg, payload_kg})),
         payload_kg_(payload_kg),
         leg_m_(typical_leg_m(graph)),
         corners_(plant_, limits_, payload_kg, corner_radius_m, leg_m_) {}

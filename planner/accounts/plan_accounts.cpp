@@ -20,6 +20,8 @@ void add_leg(BaselineTotal& total, const BaselineTotal& leg) {
   total.motion_energy_J += leg.motion_energy_J;
   total.duration_s += leg.duration_s;
   total.later_s += leg.later_s;
+  total.optimum_J += leg.optimum_J;
+  total.optimum_motion_J += leg.optimum_motion_J;
 }
 
 void add_replay(Plan& plan, const LegPlan& leg, double standby_W) {
@@ -54,6 +56,15 @@ void judge_leg(LegPlan& leg, double accuracy) {
     leg.status = leg.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
 }
 
+/// What the replay found, as a sentence.
+std::string breach(const Plan& plan) {
+  if (plan.worst_limit == "path")
+    return "the replay ends at another pose than the path: a turn is shorter than the path's resolution";
+  if (std::isinf(plan.worst_violation)) return "the replay found " + plan.worst_limit + " without a bound";
+  return "the replay found " + plan.worst_limit + " exceeded by " +
+         std::to_string(100 * plan.worst_violation) + " %";
+}
+
 std::string seconds(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", value);
@@ -69,18 +80,28 @@ double saving_percent(double energy_J, double baseline_J) {
 void add_baselines(LegPlan& leg) {
   leg.baselines = {{.name = "trapezoid_max_acceleration"}, {.name = "trapezoid_best_tuned"}};
   for (StretchPlan& stretch : leg.stretches) {
-    const double planned_s = stretch.profile.duration_s();
+    const TimedStretch planned = timed(stretch);
     for (const auto make : {trapezoid_max_acceleration, trapezoid_best_tuned})
-      stretch.baselines.push_back(soonest(make, stretch.request, planned_s));
+      stretch.baselines.push_back(soonest(make, stretch.request, planned.duration_s));
     for (std::size_t b = 0; b < leg.baselines.size(); ++b)
-      add_result(leg.baselines[b], stretch.baselines[b], planned_s);
+      add_result(leg.baselines[b], stretch.baselines[b], planned);
   }
   if (leg.prescribed)  // a prescribed motion is the same in every plan
     for (BaselineTotal& baseline : leg.baselines) {
-      baseline.energy_J = leg.energy.total_J();
-      baseline.motion_energy_J = leg.energy.motion_J();
+      baseline.energy_J = baseline.optimum_J = leg.energy.total_J();
+      baseline.motion_energy_J = baseline.optimum_motion_J = leg.energy.motion_J();
       baseline.duration_s = leg.duration_s;
     }
+}
+
+bool limits_jerk(const LegPlan& leg) {
+  return std::any_of(leg.stretches.begin(), leg.stretches.end(), [](const StretchPlan& stretch) {
+    return std::isfinite(stretch.request.limits.jerk_m_s3) && !is_turn(stretch.request.piece);
+  });
+}
+
+bool limits_jerk(const Plan& plan) {
+  return std::any_of(plan.legs.begin(), plan.legs.end(), [](const LegPlan& leg) { return limits_jerk(leg); });
 }
 
 void sum_up(Plan& plan, const Plant& plant, double accuracy) {
@@ -99,7 +120,10 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
       if (plan.solver.empty()) plan.solver = stretch.summary.solver;
     for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
       BaselineTotal& of_leg = leg.baselines[b];
-      if (!leg.prescribed) of_leg.energy_J += standby_W * leg.dwell_s;
+      if (!leg.prescribed) {
+        of_leg.energy_J += standby_W * leg.dwell_s;
+        of_leg.optimum_J += standby_W * leg.dwell_s;
+      }
       if (plan.baselines.size() <= b) plan.baselines.emplace_back();
       add_leg(plan.baselines[b], of_leg);
       plan.baselines[b].duration_s += leg.dwell_s;
@@ -109,10 +133,12 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
   plan.gap_percent = std::isnan(plan.lower_bound_J)
                          ? slowest_percent
                          : 100 * (energy_J - plan.lower_bound_J) / std::max(1e-9, std::abs(energy_J));
-  if (plan.worst_violation > 1e-6) {
+  if (!std::isfinite(energy_J)) {
     plan.status = SolveStatus::failed;
-    plan.message = "the replay found " + plan.worst_limit + " exceeded by " +
-                   std::to_string(100 * plan.worst_violation) + " %";
+    plan.message = "the energy is not a number";
+  } else if (!(plan.worst_violation <= 1e-6)) {
+    plan.status = SolveStatus::failed;
+    plan.message = breach(plan);
   } else if (plan.status <= SolveStatus::feasible) {
     plan.status = plan.gap_percent <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
   }

@@ -10,6 +10,11 @@ void add_baselines(LegPlan& leg);
 /// Totals over the legs: energy by cause, time, gap, replay, baselines, status.
 void sum_up(Plan& plan, const Plant& plant, double accuracy);
 
+/// Whether a curve of a leg has a jerk limit. The choice of ways, drafts and bounds leave it out
+/// (jerk_profile.cpp), so that a gap holds the price of the jerk limit, too.
+[[nodiscard]] bool limits_jerk(const LegPlan& leg);
+[[nodiscard]] bool limits_jerk(const Plan& plan);
+
 /// The verdicts on times that are too short.
 [[nodiscard]] Infeasibility late_arrival(const MissionRequest& mission, std::size_t leg, double amount_s,
                                          double s_m, const Pose& pose);

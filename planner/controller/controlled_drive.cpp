@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "planner/baselines/comparison.hpp"
 #include "planner/baselines/finish.hpp"
 #include "planner/baselines/rounded.hpp"
 #include "planner/motion/motion_energy.hpp"
@@ -57,12 +58,8 @@ BaselineResult drive_under_jerk(const ProfileRequest& request, const TrapezoidSe
 
 /// Least energy of a stretch in a time; `otherwise` if no profile is as fast.
 double optimum_J(const StretchPlan& stretch, double duration_s, double otherwise_J) {
-  ProfileRequest request = stretch.request;
-  request.time = {.mode = TimeMode::fixed_time, .duration_s = duration_s};
-  request.solver = SolverChoice::fast;
-  const ProfileResult result = solve_profile(request);
-  if (!result.profile) return otherwise_J;
-  return energy_by_cause(path_motion(request), *result.profile).total_J();
+  const std::optional<EnergyByCause> least = least_energy(stretch.request, duration_s);
+  return least ? least->total_J() : otherwise_J;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/battery_power.hpp"
 #include "model/limit_table.hpp"
 #include "planner/motion/path_motion.hpp"
 
@@ -46,7 +47,9 @@ void append_mask_caps(const Curve& curve, const SpeedMask& mask, double speed_li
 }  // namespace
 
 Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload) {
-  return limits_between_payloads(robot, payload.from_kg, payload.to_kg);
+  Limits limits = limits_between_payloads(robot, payload.from_kg, payload.to_kg);
+  limits.battery_power_W = std::min(limits.battery_power_W, planned_battery_power_W(robot.battery));
+  return limits;
 }
 
 std::vector<SpeedCap> speed_caps_on(const PathPiece& piece, double offset_m, std::size_t leg,

@@ -28,7 +28,8 @@ struct PlanOptions {
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible
 };
 
-/// Limits that hold for all payloads of a leg: per key the least over the payloads on the way.
+/// Limits that hold for all payloads of a leg: per key the least over the payloads on the way,
+/// with the battery's own greatest power.
 [[nodiscard]] Limits limits_along(const Robot& robot, const PayloadAlongLeg& payload);
 
 /// The speed caps of a piece that begins `offset_m` into its leg: the mission's zones on that leg, and the

@@ -299,6 +299,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const bool visits = !asked.visit.empty() && asked.legs.empty();
   if (!visits && asked.legs.empty()) refuse_empty(asked);
   Plan answer = (visits ? plan_visits : plan_with_stops)(asked, world, options, space, plant, known);
+  blame_battery(answer, world.robot);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;

@@ -1,11 +1,15 @@
 #include "planner/mission/plan_front.hpp"
 
+#include <algorithm>
+
 namespace joulepath {
 
-std::vector<ProfileRequest> planned_stretches(const Plan& plan) {
-  std::vector<ProfileRequest> stretches;
+std::vector<FrontStretch> planned_stretches(const Plan& plan) {
+  std::vector<FrontStretch> stretches;
   for (const LegPlan& leg : plan.legs)
-    for (const StretchPlan& stretch : leg.stretches) stretches.push_back(stretch.request);
+    for (const StretchPlan& stretch : leg.stretches)
+      stretches.push_back(
+          {stretch.request, stretch.profile.s, std::max(stretch.summary.status, plan.status)});
   return stretches;
 }
 

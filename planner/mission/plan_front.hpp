@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// The requests of a plan's stretches, in the order of driving.
-[[nodiscard]] std::vector<ProfileRequest> planned_stretches(const Plan& plan);
+/// The stretches of a plan, in the order of driving.
+[[nodiscard]] std::vector<FrontStretch> planned_stretches(const Plan& plan);
 
 /// What a plan takes beside its stretches (dwell, prescribed motions): the same at every point of its front.
 [[nodiscard]] FrontPoint rest_of(const Plan& plan);

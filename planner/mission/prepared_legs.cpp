@@ -6,6 +6,7 @@
 
 #include "model/config_error.hpp"
 #include "model/limit_table.hpp"
+#include "planner/accounts/battery_account.hpp"
 #include "planner/legs/leg_motion.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/legs/prescribed_limits.hpp"
@@ -63,8 +64,9 @@ class LegPreparation {
     if (auto reason = payload_too_heavy(world_.robot, leg, here_)) return reason;
     if (way.infeasibility) return std::move(way.infeasibility);
     if (leg.motion) return add_prescribed(leg, k);
+    const bool only_stands = way.path.pieces.empty() && !leg.charges;
     add_path(leg, k, std::move(way));
-    return std::nullopt;
+    return only_stands ? battery_too_weak(world_.robot, here_) : std::nullopt;
   }
 
   PreparedLegs legs() && { return std::move(prepared_); }

@@ -7,6 +7,7 @@
 
 #include "model/operating_point.hpp"
 #include "model/power.hpp"
+#include "planner/motion/driven_pose.hpp"
 #include "planner/motion/limit_check.hpp"
 #include "planner/motion/path_motion.hpp"
 
@@ -55,17 +56,28 @@ struct Replayer {
   void check(const ProfileState& state, double jerk) {
     for_each_limit_use(motion, request.limits, request.speed_caps, state, jerk,
                        [&](std::string_view name, double ratio) {
-                         if (ratio - 1 <= result.worst_violation) return;
-                         result.worst_violation = ratio - 1;
+                         const double excess = std::isnan(ratio) ? kNoLimit : ratio - 1;
+                         if (excess <= result.worst_violation) return;
+                         result.worst_violation = excess;
                          result.limit = name;
                          result.s = state.s;
                        });
   }
 
-  void mark_unresolved(double s) {
+  /// A breach that has no size.
+  void mark(const char* limit, double s) {
     result.worst_violation = kNoLimit;
-    result.limit = "yaw_acceleration";
+    result.limit = limit;
     result.s = s;
+  }
+
+  /// The drive must end where the path ends, at the pose to which its curvature led.
+  void check_end(double end_s) {
+    constexpr double kSameEnd = 1e-6;
+    if (std::isinf(result.worst_violation)) return;  // it says more
+    const double length = piece_length(request.piece);
+    if (!(std::abs(end_s - length) <= kSameEnd * length) || !leads_to_its_end(request.piece))
+      mark("path", end_s);
   }
 
   /// Integrates one segment, in which the acceleration is a smooth function of time.
@@ -86,9 +98,10 @@ struct Replayer {
       double step_s = to_s - from_s;
       for (double t = from_s; to_s - t > least_step_s;) {
         step_s = std::min(step_s, to_s - t);
-        if (stepper.try_step(system, state, t, step_s) == odeint::success) continue;
-        if (step_s > least_step_s) continue;
-        mark_unresolved(state[0]);
+        const bool moves = t + step_s > t;
+        if (moves && stepper.try_step(system, state, t, step_s) == odeint::success) continue;
+        if (moves && step_s > least_step_s) continue;
+        mark("yaw_acceleration", state[0]);
         return false;
       }
       return true;
@@ -136,11 +149,9 @@ ReplayResult replay(const ProfileRequest& request, const Profile& profile) {
   result.end_s = state[0];
   double jump_s = 0;
   if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
-      acceleration_jumps(profile, jump_s)) {
-    result.worst_violation = kNoLimit;
-    result.limit = "jerk";
-    result.s = jump_s;
-  }
+      acceleration_jumps(profile, jump_s))
+    replayer.mark("jerk", jump_s);
+  replayer.check_end(result.end_s);
   const Pose pose = piece_point(request.piece, result.s).pose;
   result.x_m = pose.x_m;
   result.y_m = pose.y_m;

@@ -19,14 +19,17 @@ namespace {
 struct Sum {
   double duration_s{};
   double motion_energy_J{};
+  SolveStatus status{};
 };
 
 /// One stretch, transcribed once and solved for any price of a second.
-class FrontStretch {
+class PricedStretch {
  public:
-  explicit FrontStretch(const ProfileRequest& request) : request_(request), motion_(path_motion(request_)) {
+  explicit PricedStretch(const FrontStretch& stretch)
+      : request_(stretch.request), status_(stretch.status), motion_(path_motion(request_)) {
     request_.time = {.mode = TimeMode::free_time};
-    const std::vector<double> grid = nlp::make_grid(motion_, request_, request_.nodes);
+    const std::vector<double> grid =
+        stretch.grid.empty() ? nlp::make_grid(motion_, request_, request_.nodes) : stretch.grid;
     std::vector<nlp::Tightening> tightenings;
     constexpr int kRounds = 3;
     for (int round = 0; round < kRounds; ++round) {
@@ -43,8 +46,8 @@ class FrontStretch {
     for (std::size_t k = 1; k + 1 < start_.size(); ++k)
       start_[k] = 0.7 * envelope_.fastest[k] + 0.3 * envelope_.slowest[k];
   }
-  FrontStretch(const FrontStretch&) = delete;
-  FrontStretch& operator=(const FrontStretch&) = delete;
+  PricedStretch(const PricedStretch&) = delete;
+  PricedStretch& operator=(const PricedStretch&) = delete;
 
   bool blocked() const { return envelope_.blocked.has_value(); }
   const ProfileRequest& request() const { return request_; }
@@ -70,16 +73,19 @@ class FrontStretch {
     const ProfileResult result = solve_profile(request);
     if (!result.profile) return std::nullopt;
     const double energy_J = energy_by_cause(motion_, *result.profile).motion_J();
-    return Sum{.duration_s = result.profile->duration_s(), .motion_energy_J = energy_J};
+    return Sum{.duration_s = result.profile->duration_s(),
+               .motion_energy_J = energy_J,
+               .status = result.summary.status};
   }
 
   Sum sum_of(const std::vector<double>& b) const {
-    Sum sum{.duration_s = duration_of(problem_, b)};
+    Sum sum{.duration_s = duration_of(problem_, b), .status = status_};
     for (double energy_J : nlp::counted_energy_J(problem_, b)) sum.motion_energy_J += energy_J;
     return sum;
   }
 
   ProfileRequest request_;
+  SolveStatus status_;
   PathMotion motion_;
   nlp::Problem problem_{};
   nlp::RateEnvelope envelope_{};
@@ -109,7 +115,7 @@ std::size_t widest_gap(const std::vector<FrontPoint>& points) {
 }
 
 /// All stretches at one price of a second; nothing where one of them could not be solved.
-std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<FrontStretch>>& parts, double price_W,
+std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<PricedStretch>>& parts, double price_W,
                                    double standby_W) {
   FrontPoint point{.price_of_time_W = price_W, .status = SolveStatus::optimal};
   for (const auto& part : parts) {
@@ -118,6 +124,7 @@ std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<FrontStretc
     point.duration_s += sum->duration_s;
     point.stretch_s.push_back(sum->duration_s);
     point.motion_energy_J += sum->motion_energy_J;
+    point.status = std::max(point.status, sum->status);
   }
   point.energy_J = point.motion_energy_J + standby_W * point.duration_s;
   return point;
@@ -125,13 +132,13 @@ std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<FrontStretc
 
 }  // namespace
 
-Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_t points) {
+Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points) {
   Front front;
-  std::vector<std::unique_ptr<FrontStretch>> parts;
+  std::vector<std::unique_ptr<PricedStretch>> parts;
   double standby_W = 0;
-  for (const ProfileRequest& request : stretches) {
-    parts.push_back(std::make_unique<FrontStretch>(request));
-    standby_W = request.plant.robot.power.standby_W;
+  for (const FrontStretch& stretch : stretches) {
+    parts.push_back(std::make_unique<PricedStretch>(stretch));
+    standby_W = stretch.request.plant.robot.power.standby_W;
     if (!parts.back()->blocked()) continue;
     ProfileResult result = solve_profile(parts.back()->request());
     front.summary = result.summary;

@@ -8,13 +8,20 @@
 
 namespace joulepath {
 
+/// A stretch of a front. With the grid and the status of its plan, the front agrees with the plan.
+struct FrontStretch {
+  ProfileRequest request;
+  std::vector<double> grid{};                  ///< path coordinates of nodes; empty: a grid of its own
+  SolveStatus status{SolveStatus::feasible};  ///< proven for the plan; a front has no bounds of its own
+};
+
 /// One point of the energy-time front: the least energy (J, standby included) for its duration.
 struct FrontPoint {
   double duration_s{};
   double energy_J{};
   double motion_energy_J{};
   double price_of_time_W{};  ///< exact slope -dE/dT: the price at which this point is optimal
-  SolveStatus status{SolveStatus::failed};
+  SolveStatus status{SolveStatus::failed};  ///< the worst of its stretches
   std::vector<double> stretch_s{};  ///< duration of each stretch
 };
 
@@ -28,6 +35,6 @@ struct Front {
 /// the time of least energy. All stretches have the same price of a second, which is optimal for their sum.
 /// Each stretch is transcribed once, with limits tightened as for its plan; new prices are chosen in the
 /// widest gaps of the front. The fastest point has an infinite price.
-[[nodiscard]] Front energy_time_front(const std::vector<ProfileRequest>& stretches, std::size_t points);
+[[nodiscard]] Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points);
 
 }  // namespace joulepath

@@ -30,7 +30,7 @@ struct StretchPlan {
 };
 
 /// A baseline over several stretches, on the same path in the same time; in a later time where no such
-/// profile keeps the plan's time.
+/// profile keeps the plan's time. It is compared at its own time: with the least energy in that time.
 struct BaselineTotal {
   std::string name{};
   bool feasible{true};
@@ -38,7 +38,9 @@ struct BaselineTotal {
   double energy_J{};
   double motion_energy_J{};
   double duration_s{};
-  double later_s{};  ///< delay after the plan's time
+  double later_s{};           ///< delay after the plan's time
+  double optimum_J{};         ///< least energy on the same path in this baseline's own time
+  double optimum_motion_J{};  ///< without standby
   bool late() const { return later_s > 1e-3; }
   std::vector<std::map<std::string, double>> settings{};  ///< per stretch, in order
 };

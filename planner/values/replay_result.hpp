@@ -11,7 +11,8 @@ struct ReplayResult {
   double duration_s{};
   double end_s{};            ///< where the integration ended
   double worst_violation{};  ///< relative: value/limit - 1, never below 0
-  std::string limit{};       ///< the limit violated worst, a key of Limits without its unit; empty if none
+  std::string limit{};       ///< the limit violated worst, a key of Limits without its unit, or path: it
+                             ///< ends elsewhere; empty if none
   double s{};                ///< where
   double x_m{};
   double y_m{};

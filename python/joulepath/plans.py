@@ -39,7 +39,7 @@ class Plan(Value):
 
     @property
     def status(self) -> str:
-        """``optimal`` (proven), ``feasible``, ``infeasible`` or ``failed``."""
+        """``optimal`` (proven for its paths), ``feasible``, ``infeasible`` or ``failed``."""
         return self._value.status
 
     @property

@@ -1,4 +1,5 @@
 """The package and the program give the same bytes for the same input."""
+import json
 import subprocess
 
 import joulepath as jp
@@ -48,14 +49,15 @@ def test_simulation_and_diagnosis(program, scenarios, robot, tmp_path):
         (tmp_path / f"path_{k}.csv").write_text(f"x_m,y_m\n0,0\n2,0\n{end_m},1\n")
         plans.append(jp.plan(tmp_path / f"path_{k}.csv", robot=robot))
         plans[-1].save(tmp_path / f"plan_{k}")
-    logs = []
-    hour_s = 0.0
-    for k, plan in enumerate(plans):
-        logs.append(jp.simulate(plan, robot, effects={"rolling_resistance": {"coefficient": 0.02}}, seed=3 + k,
-                                time_of_day_s=hour_s))
-        hour_s += logs[-1].duration_s
     run(program, "simulate", *(tmp_path / f"plan_{k}" for k in range(4)), "--robot", file, "--effect",
         "rolling_resistance:coefficient=0.02", "--seed", 3, "--out", tmp_path / "logs")
+    simulated = json.loads((tmp_path / "logs" / "simulation.json").read_text())["runs"]
+    logs = []
+    hour_s = 0.0
+    for plan, from_cli in zip(plans, simulated):
+        logs.append(jp.simulate(plan, robot, effects={"rolling_resistance": {"coefficient": 0.02}}, seed=from_cli["seed"],
+                                time_of_day_s=hour_s))
+        hour_s += logs[-1].duration_s
     for k, log in enumerate(logs):
         assert log.text() == (tmp_path / "logs" / f"run_0{k + 1}.csv").read_text()
 

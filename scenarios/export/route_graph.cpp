@@ -11,6 +11,7 @@
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
 #include "planner/accounts/corner_table.hpp"
+#include "planner/path/shape/corner_blend.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/quoted.hpp"

@@ -92,6 +92,7 @@ json classics_json(const Plan& plan, const Plant& plant, std::size_t samples) {
       entry["motion_energy_J"] = classic.total.motion_energy_J;
       entry["duration_s"] = classic.total.duration_s;
       entry["later_s"] = classic.total.later_s;
+      entry["optimum_J"] = classic.total.optimum_J;
       Plan driven = plan;
       std::size_t next = 0;
       for (LegPlan& leg : driven.legs)

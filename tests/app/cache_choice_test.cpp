@@ -77,5 +77,30 @@ TEST(Plan, DoesNotDependOnThreadsOrCache) {
   EXPECT_EQ(text(1, &kept), plan) << "from kept answers";
 }
 
+/// Other plans on the same floor, with the same cache and the same searched routes, change no byte.
+TEST(Plan, DoesNotDependOnWhatWasPlannedBefore) {
+  const MissionRequest mission = read_mission(JOULEPATH_SOURCE_DIR "/scenarios/missions/depot_round.yaml");
+  const MissionWorld world = read_world(mission);
+  const std::optional<RouteSpace> space = route_space(mission, world);
+  AnswerCache kept;
+  const auto text = [&](const MissionRequest& asked, unsigned seed, const RouteSpace* floor,
+                        AnswerCache* cache) {
+    PlanOptions options{
+        .solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-2, .seed = seed, .baselines = false};
+    options.answers.cache = cache;
+    return plan_json_text(plan_mission(asked, world, options, floor));
+  };
+  const std::string cold = text(mission, 1, nullptr, nullptr);
+  MissionRequest heavier = mission, sooner = mission;
+  for (LegRequest& leg : heavier.legs) leg.payload.from_kg *= 1.1, leg.payload.to_kg *= 1.1;
+  sooner.objective.minimize = Objective::Minimize::time;
+  EXPECT_NE(text(heavier, 1, &*space, &kept), cold);
+  EXPECT_NE(text(mission, 2, &*space, &kept), cold);
+  EXPECT_NE(text(sooner, 1, &*space, &kept), cold);
+  EXPECT_EQ(text(mission, 1, &*space, &kept), cold) << "after other plans";
+  EXPECT_EQ(text(mission, 1, &*space, &kept), cold) << "from kept answers";
+  EXPECT_EQ(text(mission, 1, &*space, nullptr), cold) << "from kept routes";
+}
+
 }  // namespace
 }  // namespace joulepath

@@ -309,12 +309,25 @@ TEST(CommandLine, TheFrontOfAPathFallsFromTheFastestToTheMostEconomical) {
     if (!profile["feasible"].get<bool>()) continue;
     ++beside;
     const double optimum_J = profile["optimum_J"], energy_J = profile["energy_J"];
-    if (!profile.contains("later_s")) {  // later is another point of the front
-      EXPECT_GE(energy_J, optimum_J * (1 - 1e-4)) << profile;
-    }
+    EXPECT_GE(energy_J, optimum_J * (1 - 1e-4)) << profile;
     EXPECT_GE(profile["duration_s"].get<double>(), points[0]["duration_s"].get<double>() * (1 - 1e-6));
   }
   EXPECT_GE(beside, 3 * 8u) << "three points, most of the ten profiles";
+}
+
+TEST(CommandLine, AProofIsToldWithWhatItIsAbout) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n");
+  const auto told = [&](const std::string& robot, const std::string& out) {
+    const auto result = run_program(scratch, "plan " + path + " --nodes 40 --solver fast --robot " + robot +
+                                                 " --out " + scratch.at(out));
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_NE(told(kRobot, "a").find("optimal on these paths, gap to the bound there <= "), std::string::npos);
+  const std::string jerk = told(JOULEPATH_SOURCE_DIR "/scenarios/robots/amr_150kg.yaml", "b");
+  EXPECT_NE(jerk.find(" on these paths"), std::string::npos) << jerk;
+  EXPECT_NE(jerk.find("gap to the bound without the jerk limit <= "), std::string::npos) << jerk;
 }
 
 TEST(CommandLine, BadInputIsOneLineOnStandardError) {

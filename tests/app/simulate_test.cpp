@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/app/program_result.hpp"
 #include "tests/support/locations.hpp"
@@ -86,6 +87,28 @@ TEST(SimulateCommand, TheSameSeedGivesTheSameBytes) {
   const std::string a = log("a", 5);
   EXPECT_EQ(a, log("b", 5));
   EXPECT_NE(a, log("c", 6));
+}
+
+/// Days of neighboring seeds share no run, and each run's own seed is stated.
+TEST(SimulateCommand, NeighboringSeedsShareNoRun) {
+  const ScratchDirectory scratch;
+  std::set<std::string> logs;
+  std::set<std::uint64_t> seeds;
+  for (const int seed : {1, 2, 3}) {
+    const std::string out = scratch.at("day_" + std::to_string(seed));
+    ASSERT_EQ(run_program(scratch, "simulate " + mission(scratch) + " --repeat 4 --seed " +
+                                       std::to_string(seed) + " --out " + out)
+                  .code,
+              0);
+    for (const auto& run : parsed(out + "/simulation.json")["runs"]) {
+      std::ifstream stream(out + "/" + run["file"].get<std::string>());
+      logs.insert({std::istreambuf_iterator<char>(stream), {}});
+      seeds.insert(run["seed"].get<std::uint64_t>());
+    }
+    EXPECT_EQ(parsed(out + "/simulation.json")["runs"][0]["seed"], seed);
+  }
+  EXPECT_EQ(logs.size(), 12u);
+  EXPECT_EQ(seeds.size(), 12u);
 }
 
 TEST(SimulateCommand, WrongInputsAreToldInOneLine) {

@@ -82,6 +82,39 @@ TEST(AccelerationNoise, SteadyMotionHasNoAcceleration) {
   for (Side side : kSides) EXPECT_GT(share_without(steady.wheel_acceleration_rad_s2[side]), 0.97);
 }
 
+/// A long dataset is thinned after its noise is judged.
+TEST(AccelerationNoise, ALongDatasetsSteadyMotionHasNoneEither) {
+  const Robot robot = testing::nomad();
+  const Run run =
+      testing::synthetic_run(robot, "run", 60, 0, testing::constant_speed(0.6), kEncoderNoise, 1);
+  const RunSignals often = make_run_signals(run, 0, robot),
+                   rarely = make_run_signals(run, 0, robot, {.period_s = kCoarsestPeriod_s});
+  EXPECT_NEAR(rarely.period_s, kCoarsestPeriod_s, 1e-9);
+  ASSERT_EQ(rarely.size(), (often.size() + 3) / 4);
+  for (Side side : kSides) EXPECT_GT(share_without(rarely.wheel_acceleration_rad_s2[side]), 0.97);
+  for (Eigen::Index j = 0; j < rarely.size(); ++j)
+    EXPECT_EQ(rarely.wheel_acceleration_rad_s2.left[j], often.wheel_acceleration_rad_s2.left[4 * j]);
+}
+
+/// A run that turns for a while: where it does not, the wheels' difference is noise and has no yaw rate.
+TEST(AccelerationNoise, AStraightPartOfARunThatTurnsHasNoYawRate) {
+  const Geometry geometry = testing::nomad().geometry;
+  const RunSignals found = signals_of([](double t) {
+    return BodyMotion<double>{.speed_m_s = 0.5, .yaw_rate_rad_s = t > 12 ? 0.6 : 0.0};
+  });
+  const RunSignals moves = straightened_where_straight(found);
+  double share = 0, straight = 0;
+  for (Eigen::Index j = 0; j < found.size(); ++j) {
+    if (found.time_s[j] > 13) {
+      EXPECT_EQ(moves.rolled_motion(geometry, j).yaw_rate_rad_s, found.rolled_motion(geometry, j).yaw_rate_rad_s);
+    } else if (found.time_s[j] < 11) {
+      straight += 1, share += std::abs(moves.rolled_motion(geometry, j).yaw_rate_rad_s) < 1e-12;
+    }
+    EXPECT_NEAR(moves.rolled_motion(geometry, j).speed_m_s, found.rolled_motion(geometry, j).speed_m_s, 1e-12);
+  }
+  EXPECT_GT(share / straight, 0.97);
+}
+
 /// The robot speeds up and slows down straight ahead: the wheels' mean accelerates, their difference does
 /// not.
 TEST(AccelerationNoise, DrivingAndTurningAreJudgedEachByItself) {

@@ -5,6 +5,8 @@
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/numerics/indices.hpp"
+#include "diagnosis/thresholds.hpp"
+#include "model/effects/catalog.hpp"
 
 namespace joulepath {
 namespace {
@@ -13,7 +15,7 @@ constexpr int kRuns = 12, kSamples = 40, kCalibrations = 3, kEffects = 20;
 
 /// One drawn day at the level of the statistics: whitened rows, calibration errors from their prior, effects
 /// with columns that overlap with them, and (not in a null) one effect of a known size.
-Equations draw_day(std::mt19937& engine, double amplitude) {
+Equations draw_day(std::mt19937& engine, double amplitude, std::size_t runs = kRuns) {
   std::normal_distribution<double> normal;
   Equations equations;
   for (int k = 0; k < kCalibrations; ++k)
@@ -21,7 +23,9 @@ Equations draw_day(std::mt19937& engine, double amplitude) {
   for (int c = 0; c < kEffects; ++c) {
     equations.columns.push_back({Column::Kind::amplitude, c, 0, 1.0, 0.0});
     equations.candidates.push_back(
-        {.shape = {.name = "effect_" + std::to_string(c)}, .amplitude = {"size"}, .step = {0.25}});
+        {.shape = {.name = std::string(effect_catalog()[static_cast<std::size_t>(c)].info.name)},
+         .amplitude = {"size"},
+         .step = {0.25}});
   }
   constexpr int kColumns = kCalibrations + kEffects;
   equations.prior_sd.resize(kColumns);
@@ -30,7 +34,7 @@ Equations draw_day(std::mt19937& engine, double amplitude) {
   Eigen::VectorXd truth = Eigen::VectorXd::Zero(kColumns);
   for (int k = 0; k < kCalibrations; ++k) truth[k] = 0.05 * normal(engine);
   truth[kCalibrations] = amplitude;
-  for (int r = 0; r < kRuns; ++r) {
+  for (std::size_t r = 0; r < runs; ++r) {
     Eigen::MatrixXd rows(kSamples, kColumns + 1);
     for (int t = 0; t < kSamples; ++t) {
       for (int k = 0; k < kColumns; ++k) rows(t, k) = normal(engine);
@@ -53,6 +57,25 @@ TEST(NullDraws, RaiseAtMostOneAlarmInAHundred) {
     alarms += !explanations.front().candidates.empty();
   }
   EXPECT_LE(alarms, kDraws / 100);
+}
+
+/// Whether the first effect, of `share` of the just material amplitude in every run, is beyond doubt.
+bool is_beyond_doubt(double share, std::size_t runs) {
+  constexpr double kLeast = 0.35;
+  std::mt19937 engine(2026);
+  const Equations day = draw_day(engine, share * kLeast, runs);
+  SearchOptions options = search_options(1.0, runs, std::vector<double>(kEffects, kLeast));
+  options.most_effects = 1;
+  for (const Explanation& e : search_explanations(without_calibration(day, every(runs)), day, options))
+    if (e.candidates == std::vector<int>{0}) return e.small.empty();
+  return false;
+}
+
+/// An error of the model, the same in all runs, is no effect, however many runs repeat it.
+TEST(NullDraws, MoreRunsDoNotTurnAnErrorOfTheModelIntoAName) {
+  for (const std::size_t runs : {12u, 120u, 1200u})
+    for (const double share : {0.1, 0.2, 0.3}) EXPECT_FALSE(is_beyond_doubt(share, runs)) << share << ' ' << runs;
+  EXPECT_TRUE(is_beyond_doubt(0.8, 120));
 }
 
 TEST(EffectDraws, AreFoundAndTheirIntervalsCoverTheTruth) {

@@ -6,6 +6,7 @@
 
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/legs/leg_timing.hpp"
+#include "planner/mission/plan_front.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -407,6 +408,22 @@ TEST(Mission, SpeedMayNotJumpBetweenLegs) {
   EXPECT_LE(plan.worst_violation, 1e-6);
   mission.legs[0].dwell_s = 1.0;
   EXPECT_THROW(plan_of(mission), ConfigError);
+}
+
+/// One mission has one answer: the front's most economical point is the plan, with its status word.
+TEST(Mission, TheFrontEndsAtThePlan) {
+  for (const double jerk_m_s3 : {kNoLimit, 0.6}) {
+    Robot robot = testing::nomad();
+    robot.limits->jerk_m_s3 = jerk_m_s3;
+    const Plan plan = plan_of(two_legs(), robot);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    const Front front = energy_time_front(planned_stretches(plan), 3);
+    ASSERT_EQ(front.points.size(), 3u);
+    const FrontPoint cheapest = sum_of(front.points.back(), rest_of(plan));
+    EXPECT_NEAR(cheapest.energy_J, plan.energy.total_J(), 2e-5 * plan.energy.total_J());
+    EXPECT_NEAR(cheapest.duration_s, plan.duration_s, 2e-3 * plan.duration_s);
+    for (const FrontPoint& point : front.points) EXPECT_EQ(point.status, plan.status);
+  }
 }
 
 }  // namespace

@@ -44,14 +44,13 @@ jp.dwell_text = function (listed, profiles) {
 jp.draw_compare = function (data) {
   const listed = (data.compare.profiles || []);
   const counted = listed.filter((one) => one.feasible !== false && is_number(one.energy_J));
-  const least = counted.reduce((least, one) => Math.min(least, one.energy_J), Infinity);
   const over = jp.overlaid_profiles(data.profiles || []);
-  const more = (name) => { const with_it = counted.filter((one) => is_number(one[name])); return jp.difference_rows(with_it.map((one) => ({label: jp.profile_name(one), value: one[name]})), with_it.reduce((low, one) => Math.min(low, one[name]), Infinity), "J"); };
-  jp.page(jp.header(data.title || "Comparison", (data.subtitle || "Same path, same time.") + jp.dwell_text(listed, data.profiles || []), null, true),
-    jp.section("Energy", h("div", {class: "columns"}, h("div", {}, h("h3", {}, "Motion, without standby: more than the least"), more("motion_energy_J")), h("div", {}, h("h3", {}, "At the battery, with standby: more than the least"), more("energy_J"))),
-      jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least"}, "settings"], listed.map((one) => one.feasible === false
+  const more = (name, optimum) => { const plan = (listed[0] || {})[name], with_it = counted.filter((one) => is_number(one[name]) && is_number(one[optimum])); return jp.difference_rows(with_it.map((one) => ({label: jp.profile_name(one), value: plan + one[name] - one[optimum]})), plan, "J"); };
+  jp.page(jp.header(data.title || "Comparison", (data.subtitle || "Same path. A profile that is later than the plan is compared in its own time.") + jp.dwell_text(listed, data.profiles || []), null, true),
+    jp.section("Energy", h("div", {class: "columns"}, h("div", {}, h("h3", {}, "Motion, without standby: more than the least in the same time"), more("motion_energy_J", "optimum_motion_J")), h("div", {}, h("h3", {}, "At the battery, with standby: more than the least in the same time"), more("energy_J", "optimum_J"))),
+      jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "more than the least in it"}, "settings"], listed.map((one) => one.feasible === false
         ? [words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
-        : [jp.profile_name(one), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s)}, {n: percent(100 * (one.energy_J / least - 1), 3)}, jp.settings_text(one.parameters)]))),
+        : [jp.profile_name(one), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s)}, {n: percent(100 * (one.energy_J / one.optimum_J - 1), 3)}, jp.settings_text(one.parameters)]))),
     over);
 };
 
@@ -74,7 +73,7 @@ jp.draw_front = function (data) {
   const over = jp.overlaid_profiles(data.profiles || []);
   const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, same time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "more than the optimum"}], others.map((one) => [jp.profile_name(one), {n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: percent(100 * (one.energy_J / one.optimum_J - 1), 3)}]))) : null;
   const least = points.reduce((best, one) => (one.energy_J < best.energy_J ? one : best), points[0]);
-  jp.page(jp.header(data.title || "Energy against time", data.subtitle || "Each point is the least energy for its duration. The slope is the price of a second.", null, true),
+  jp.page(jp.header(data.title || "Energy against time", data.subtitle || "Each point is the least energy for its duration on the planned paths. The slope is the price of a second.", null, true),
     points.length ? h("div", {class: "tiles"}, jp.tile("Least energy", with_unit(least.energy_J, "J"), `at ${with_unit(least.duration_s, "s")}`), jp.tile("Fastest", with_unit(points[0].duration_s, "s"), with_unit(points[0].energy_J, "J")), jp.tile("Points", String(points.length))) : null,
     jp.section("The front", cursor.element, h("div", {class: "plots"}, plots.map((plot) => plot.element))), over,
     jp.section("Numbers", jp.table([{n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "value of a second, W"}, "status"], points.map((one) => [{n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.price_of_time_W, 4)}, words(one.status || "")]))), beside);

@@ -33,16 +33,19 @@ jp.time_text = function (plan) {
   return dwell_s > 0 ? `${with_unit(plan.duration_s - dwell_s, "s")} driving, ${with_unit(dwell_s, "s")} dwell` : "no dwell";
 };
 
+/** What the bound leaves out. */
+jp.bound_text = (plan) => (plan.bound_without_jerk ? " without the jerk limit" : "");
+
 /** The first row: what it takes, what that saves and by which causes, how long it lasts, how good it is. */
 jp.plan_tiles = function (plan, savings) {
   const against = (plan.baselines || []).filter((one) => is_number(one.saving_percent) && one.feasible !== false);
   const tiles = [jp.tile("Energy at the battery", with_unit(plan.energy_J, "J"), `${with_unit(plan.energy_Wh, "Wh")}; motion alone ${with_unit(plan.motion_energy_J, "J")}`)];
   against.forEach((one) => {
     const saving = savings.find((entry) => entry.name === one.name);
-    tiles.push(jp.tile("Saved against " + words(one.name), with_unit(one.energy_J - plan.energy_J, "J", 3), [h("div", {}, `${percent(one.saving_percent)}; ${percent(one.motion_saving_percent)} of motion energy`), saving ? h("div", {}, jp.saved_text(saving)) : null]));
+    tiles.push(jp.tile("Saved against " + words(one.name), with_unit(one.energy_J - one.optimum_J, "J", 3), [h("div", {}, `${percent(one.saving_percent)}; ${percent(one.motion_saving_percent)} of motion energy` + (one.later_s ? `, both in ${with_unit(one.duration_s, "s")}` : "")), saving ? h("div", {}, jp.saved_text(saving)) : null]));
   });
   tiles.push(jp.tile("Duration", with_unit(plan.duration_s, "s"), jp.time_text(plan)), jp.tile("Distance", with_unit(plan.distance_m, "m")));
-  if (is_number(plan.optimality_gap_percent)) tiles.push(jp.tile("Optimality gap", percent(plan.optimality_gap_percent, 2), "at most this far from the optimum"));
+  if (is_number(plan.optimality_gap_percent)) tiles.push(jp.tile("Gap on these paths", percent(plan.optimality_gap_percent, 2), "at most this far from their optimum" + jp.bound_text(plan)));
   const battery = plan.battery;
   if (battery && is_number(battery.end_fraction)) tiles.push(jp.tile("Battery left", fraction(battery.end_fraction, 4), "from " + fraction(battery.start_fraction, 4)));
   return h("div", {class: "tiles"}, tiles);
@@ -86,11 +89,11 @@ jp.baseline_section = function (plan) {
   if (!baselines.length) return null;
   const counted = baselines.filter((one) => one.feasible !== false && is_number(one.energy_J));
   const rows = [{name: "this plan", energy_J: plan.energy_J, motion_energy_J: plan.motion_energy_J, duration_s: plan.duration_s}, ...baselines];
-  return jp.section("Against classic profiles", h("p", {class: "soft"}, `Same path, same time (or the least time of that profile); times are ${jp.time_text(plan)}. Savings are of the model's energy; a diagnosis measures the model's own error.`),
-    h("h3", {}, "More than this plan, of motion energy"), jp.difference_rows(counted.map((one) => ({label: jp.profile_name(one), value: one.motion_energy_J})), plan.motion_energy_J, "J"),
-    jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
-      ? [words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
-      : [words(one.name), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s)}, {n: percent(one.saving_percent)}, {n: percent(one.motion_saving_percent)},
+  return jp.section("Against classic profiles", h("p", {class: "soft"}, `Same path, same time: a profile that is later than the plan is compared with the least energy in its own time. The plan's time is ${jp.time_text(plan)}. Savings are of the model's energy; a diagnosis measures the model's own error.`),
+    h("h3", {}, "More than the least in the same time, of motion energy"), jp.difference_rows(counted.map((one) => ({label: jp.profile_name(one), value: plan.motion_energy_J + one.motion_energy_J - one.optimum_motion_J})), plan.motion_energy_J, "J"),
+    jp.table(["profile", {n: "energy J"}, {n: "motion J"}, {n: "time s"}, {n: "least J in it"}, {n: "saving"}, {n: "of motion"}, ""], rows.map((one) => one.feasible === false
+      ? [words(one.name), {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, {n: "–"}, "infeasible: " + (one.reason || "exceeds a limit")]
+      : [words(one.name), {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: number(one.duration_s)}, {n: number(one.optimum_J, 6)}, {n: percent(one.saving_percent)}, {n: percent(one.motion_saving_percent)},
         [one.later_s ? number(one.later_s, 2) + " s later than the plan (the plan's time is infeasible for this profile)" : null, ...Object.entries(one.parameters || {}).map(([key, value]) => jp.key_value(key, value))].filter(Boolean).join(", ")])), jp.settings_details(plan));
 };
 
@@ -107,9 +110,15 @@ jp.legs_section = function (plan) {
   const payload = (value) => (value && typeof value === "object" ? `${number(value.from)} to ${number(value.to)}` : number(value));
   const weighed = legs.flatMap((leg, k) => (leg.alternatives || []).map((way) => [jp.leg_name(leg, k), words(way.name) + (way.chosen ? " (chosen)" : ""), {n: number(way.energy_J, 5)}, {n: number(way.duration_s)}, {n: number(way.distance_m)}]));
   const band = (ends) => (ends && is_number(ends[0]) && ends[1] > ends[0] ? `${number(ends[0], 5)} to ${number(ends[1], 5)}` : "");
-  return jp.section("Legs", jp.table(["leg", "status", {n: "payload kg"}, {n: "distance m"}, {n: "driving s"}, {n: "dwell s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "value of a second, W"}],
+  return jp.section("Legs", jp.table(["leg", "on its path", {n: "payload kg"}, {n: "distance m"}, {n: "driving s"}, {n: "dwell s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "value of a second, W"}],
     legs.map((leg, k) => [jp.leg_name(leg, k), words(leg.status), {n: payload(leg.payload_kg)}, {n: number(leg.distance_m)}, {n: number(leg.duration_s)}, {n: leg.dwell_s > 0 ? number(leg.dwell_s) : "–"}, {n: number(leg.energy_J, 5)}, {n: band(leg.energy_interval_95_J)}, {n: number(leg.price_of_time_W, 3)}])),
     weighed.length ? h("details", {}, h("summary", {}, "Candidate ways"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
+};
+
+/** The same legs as planned, with all limits. */
+jp.planned_row = function (legs) {
+  const sum = (of) => legs.reduce((all, leg) => all + (leg.stretches || []).reduce((part, one) => part + of(one, leg), 0), 0), J = sum((one) => one.energy_J);
+  return ["the plan, with all limits", {n: number(J, 5)}, {n: number(sum((one) => one.duration_s))}, {n: number(J + sum((one, leg) => leg.price_of_time_W * one.duration_s), 5)}];
 };
 
 /* The mission after each step of choosing its ways: sums over the legs, at their prices of a second. */
@@ -119,8 +128,8 @@ jp.ways_section = function (plan) {
   const says = {shortest_route: "shortest route, stop, turn, go", corners: "arcs at corners", routes: "route by energy", stops: "arcs at stops", refinement: "control points moved"};
   const sum = (step, key) => legs.reduce((all, leg) => all + ((leg.improvements.find((one) => one.step === step) || {})[key] || 0), 0);
   const steps = legs[0].improvements.map((one) => one.step);
-  return jp.section("Choice of ways", h("p", {class: "soft"}, `Sums over the ${legs.length} legs whose way was searched, driving alone, without dwell.`), jp.table(["after", {n: "energy J"}, {n: "driving s"}, {n: "energy plus time at its price, J"}],
-    steps.map((step) => [says[step] || words(step), {n: number(sum(step, "energy_J"), 5)}, {n: number(sum(step, "duration_s"))}, {n: number(sum(step, "cost_J"), 5)}])));
+  return jp.section("Choice of ways", h("p", {class: "soft"}, `Sums over the ${legs.length} legs whose way was searched, driving alone, without dwell.${plan.bound_without_jerk ? " These steps leave the jerk limit out: the plan, which keeps it, takes more." : ""}`), jp.table(["after", {n: "energy J"}, {n: "driving s"}, {n: "energy plus time at its price, J"}],
+    [...steps.map((step) => [says[step] || words(step), {n: number(sum(step, "energy_J"), 5)}, {n: number(sum(step, "duration_s"))}, {n: number(sum(step, "cost_J"), 5)}]), jp.planned_row(legs)]));
 };
 
 jp.battery_section = function (plan) {
@@ -136,8 +145,8 @@ jp.battery_section = function (plan) {
 };
 
 jp.trust_section = function (plan) {
-  const rows = [["status", words(plan.status)]];
-  if (is_number(plan.optimality_gap_percent)) rows.push(["optimality gap", percent(plan.optimality_gap_percent, 2)]);
+  const rows = [["status on these paths", words(plan.status)]];
+  if (is_number(plan.optimality_gap_percent)) rows.push(["gap to their optimum" + jp.bound_text(plan), percent(plan.optimality_gap_percent, 2)]);
   if (plan.replay) rows.push(["energy by the replay (its own integrator)", with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${words(plan.replay.limit)})` : "")]);
   if (plan.solver) rows.push(["solver", `${plan.solver.name}, ${plan.solver.iterations} iterations`]);

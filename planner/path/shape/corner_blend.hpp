@@ -33,6 +33,9 @@ inline constexpr double kNoCorner_rad = 1e-9;
 /// A corner with a larger turn is too sharp for a blend.
 inline constexpr double kSharpestBlend_rad = 2.7;
 
+/// A blend has at least this radius: shorter arcs are turns in place.
+inline constexpr double kLeastCornerRadius_m = 0.01;
+
 /// Turn of a polyline at its point i, 0 at its ends.
 [[nodiscard]] double corner_angle_rad(const std::vector<Point2>& polyline_m, std::size_t i);
 

@@ -80,6 +80,15 @@ std::vector<BezierPoints> spline_m(const std::vector<Point2>& points_m) {
   return curves;
 }
 
+/// The verdict on a radius that is none.
+std::optional<WaypointDefect> no_radius(const std::vector<double>& radius_m) {
+  for (std::size_t i = 0; i < radius_m.size(); ++i)
+    if (radius_m[i] != 0 && !(radius_m[i] >= kLeastCornerRadius_m))
+      return WaypointDefect{i, true, metres(radius_m[i]),
+                            "at least " + metres(kLeastCornerRadius_m) + ", or 0 to turn on the spot"};
+  return std::nullopt;
+}
+
 /// The verdict on a corner whose blend does not fit between the neighboring blends.
 std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
                                        const std::vector<double>& radius_m) {
@@ -212,6 +221,7 @@ WaypointPath curve_through(const std::vector<Point2>& waypoints_m, double tolera
 
 WaypointPath lines_between(const std::vector<Point2>& waypoints_m, const std::vector<double>& radius_m) {
   if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
+  if (auto defect = no_radius(radius_m)) return {.defect = std::move(defect)};
   if (auto defect = too_wide(waypoints_m, radius_m)) return {.defect = std::move(defect)};
   return {.path = blended_polyline(waypoints_m, radius_m)};
 }

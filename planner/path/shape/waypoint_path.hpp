@@ -38,7 +38,8 @@ inline constexpr double kWaypointTolerance_m = 0.01;
                                          double tolerance_m = kWaypointTolerance_m);
 
 /// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of
-/// smallest radius radius_m[i]; 0: the robot stops and turns there. The ends' radii are ignored.
+/// smallest radius radius_m[i], at least kLeastCornerRadius_m; 0: the robot stops and turns there. The ends'
+/// radii are ignored.
 [[nodiscard]] WaypointPath lines_between(const std::vector<Point2>& waypoints_m,
                                          const std::vector<double>& radius_m);
 

@@ -41,11 +41,11 @@ export function classics_panel() {
     emit("view");
   });
   const show = () => {
-    if (!store.classics) { body.replaceChildren(h("p", {class: "soft small"}, "Each on the same path in the same time, or in the next feasible time.")); return; }
+    if (!store.classics) { body.replaceChildren(h("p", {class: "soft small"}, "Each on the same path in the same time. A later one is compared with the least energy in its own time.")); return; }
     const plan = store.answer.plan;
     body.replaceChildren(h("table", {}, h("caption", {class: "unseen"}, "Classic profiles"), h("thead", {}, h("tr", {}, ["profile", "J", "more", "s later"].map((text, k) => h("th", {scope: "col", class: k ? "n" : null}, text)), h("th", {scope: "col"}, h("span", {class: "unseen"}, "plan A")))),
       h("tbody", {}, store.classics.map((classic, k) => h("tr", {}, h("td", {}, classic.feasible ? h("label", {}, h("input", {type: "checkbox", checked: classic.shown, onchange: (event) => { classic.shown = event.target.checked; emit("view"); }, id: "classic" + k}), " ", key(words(classic.name), `var(--${classic.color})`, classic.dash)) : words(classic.name)),
-        classic.feasible ? [h("td", {class: "n"}, number(classic.energy_J, 5)), h("td", {class: "n"}, `${number(100 * (classic.energy_J - plan.energy_J) / plan.energy_J, 2)} %`), h("td", {class: "n"}, classic.later_s > 1e-3 ? number(classic.later_s, 3) : "–"), h("td", {}, button("A", () => keep(classic), {class: "link", "aria-label": `keep ${words(classic.name)} as plan A`}))]
+        classic.feasible ? [h("td", {class: "n"}, number(classic.energy_J, 5)), h("td", {class: "n"}, `${number(100 * (classic.energy_J / classic.optimum_J - 1), 2)} %`), h("td", {class: "n"}, classic.later_s > 1e-3 ? number(classic.later_s, 3) : "–"), h("td", {}, button("A", () => keep(classic), {class: "link", "aria-label": `keep ${words(classic.name)} as plan A`}))]
           : h("td", {colspan: 4, class: "soft small"}, classic.reason))))));
   };
   on("view", show);

@@ -18,7 +18,7 @@ export function status_text() {
 const tile = (what, id) => { const value = h("div", {class: "value", id}), more = h("div", {class: "more"}); return {element: h("div", {class: "tile"}, h("div", {class: "what"}, what), value, more), value, more}; };
 
 export function tiles() {
-  const energy = tile("Energy", "energy"), time = tile("Time", "time"), price = tile("Price of a second", "price"), battery = tile("Battery at the end", "battery"), gap = tile("Optimality gap", "gap");
+  const energy = tile("Energy", "energy"), time = tile("Time", "time"), price = tile("Price of a second", "price"), battery = tile("Battery at the end", "battery"), gap = tile("Gap on these paths", "gap");
   const show = () => {
     if (!store.answer) return;
     const plan = store.answer.plan, kept = store.kept && store.kept.answer.plan, draft = store.state === "draft";
@@ -33,7 +33,7 @@ export function tiles() {
     battery.value.textContent = fraction(end, 4);
     battery.more.textContent = plan.battery ? `${short(Math.floor(plan.battery.missions_per_charge), 7)} missions per charge` : "no capacity in the robot file";
     gap.value.textContent = draft ? "–" : with_unit(plan.optimality_gap_percent, "%", 2);
-    gap.more.textContent = draft ? "drafts have no bound" : `bound ${with_unit(plan.lower_bound_J, "J", 6)}`;
+    gap.more.textContent = draft ? `drafts have no bound${plan.bound_without_jerk ? " and no jerk limit" : ""}` : `bound${plan.bound_without_jerk ? " without jerk" : ""} ${with_unit(plan.lower_bound_J, "J", 6)}`;
   };
   on("answer", show);
   on("view", show);

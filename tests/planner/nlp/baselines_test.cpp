@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/baselines/baseline.hpp"
+#include "planner/baselines/comparison.hpp"
 #include "planner/motion/replay.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
 #include "planner/profile/profile_solver.hpp"
@@ -197,6 +198,33 @@ TEST(Baselines, ARoundedTrapezoidOnAStraightLineIsTheSCurve) {
   ASSERT_TRUE(rounded.feasible) << rounded.reason;
   EXPECT_NEAR(rounded.energy_J, named(all_baselines(request, T), "s_curve").energy_J,
               1e-6 * rounded.energy_J);
+}
+
+/// A profile that is later than the plan stands beside the least energy in its own time, one that keeps the
+/// plan's time beside the plan.
+TEST(Baselines, EachIsComparedAtItsOwnTime) {
+  for (const double jerk_m_s3 : {kNoLimit, 0.6})
+    for (const double slower : {1.0005, 1.3}) {
+      ProfileRequest request = corner();
+      request.limits.jerk_m_s3 = jerk_m_s3;
+      request.nodes = 60;
+      request.solver = SolverChoice::fast;
+      const double planned_s = slower * least_s(request);
+      const EnergyByCause planned = *least_energy(request, planned_s);
+      for (const Baseline& family : {Baseline(trapezoid_max_acceleration), Baseline(trapezoid_best_tuned)}) {
+        const BaselineResult result = soonest(family, request, planned_s);
+        if (!result.feasible) continue;
+        BaselineTotal total;
+        add_result(total, result, {&request, planned_s, planned});
+        EXPECT_DOUBLE_EQ(total.later_s, std::max(0.0, result.duration_s - planned_s));
+        request.time = {.mode = TimeMode::fixed_time, .duration_s = result.duration_s};
+        const ReplayResult optimum = replay(request, *solve_profile(request).profile);
+        EXPECT_NEAR(optimum.duration_s, total.duration_s, 1e-6 * total.duration_s);
+        EXPECT_NEAR(total.optimum_J, optimum.energy_J, 1e-4 * optimum.energy_J) << slower << " " << jerk_m_s3;
+        EXPECT_NEAR(total.optimum_motion_J, optimum.motion_energy_J, 2e-4 * optimum.energy_J);
+        EXPECT_GE(total.energy_J, total.optimum_J * (1 - 1e-4));
+      }
+    }
 }
 
 TEST(Baselines, ConstantSpeedIsABaselineBetweenEqualEndSpeeds) {

@@ -147,7 +147,7 @@ TEST(Front, SlopesAreThePricesAndEveryPointIsAPlan) {
   testing::RandomProfiles random(8);
   ProfileRequest request = random.next(testing::PathClass::bezier);
   request.solver = SolverChoice::fast;
-  const Front front = energy_time_front({request}, 40);
+  const Front front = energy_time_front({{request}}, 40);
   ASSERT_EQ(front.points.size(), 40u);
   for (std::size_t k = 1; k < front.points.size(); ++k) {
     EXPECT_GT(front.points[k].duration_s, front.points[k - 1].duration_s);

@@ -1,0 +1,146 @@
+// Rows of runs without an effect: what they leave is noise, so their mean over many runs is what noise leaves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/numerics/parallel.hpp"
+#include "diagnosis/prediction/rows.hpp"
+#include "diagnosis/values/diagnosis.hpp"
+#include "model/simulation/simulate.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+constexpr std::size_t kRuns = 200;
+
+/// Speed (m/s) and yaw rate (rad/s) over time (s), as smooth as a plan's.
+struct Drive {
+  const char* name{};
+  Twist<double> (*at)(double time_s){};
+  double duration_s{};
+  double payload_kg{};
+};
+
+double swell(double share) { return 0.5 * (1 - std::cos(2 * std::numbers::pi * share)); }
+
+std::vector<Drive> drives() {
+  return {{"there and back",
+           [](double t) {
+             const double swing = std::sin(2 * std::numbers::pi * t / 6);
+             return Twist<double>{0.5 * swing * std::abs(swing), 0.0};
+           },
+           6, 0},
+          {"loaded, straight and then round a bend",
+           [](double t) { return Twist<double>{0.5 * swell(t / 3), t > 3 ? 0.9 * swell(t / 3) : 0.0}; }, 6, 6}};
+}
+
+Trajectory reference_of(const Drive& drive) {
+  Trajectory reference;
+  for (int k = 0; 0.01 * k <= drive.duration_s; ++k) {
+    const Twist<double> twist = drive.at(0.01 * k);
+    reference.time_s.push_back(0.01 * k);
+    reference.linear_speed_m_s.push_back(twist.speed_m_s);
+    reference.angular_speed_rad_s.push_back(twist.yaw_rate_rad_s);
+  }
+  return reference;
+}
+
+/// The logs of one drive, which differ by the noise of the sensors alone.
+std::vector<Run> logs_of(const Drive& drive, const Robot& robot, std::size_t count, std::uint64_t seed,
+                         const std::vector<EffectSetting>& effects = {}) {
+  std::vector<Run> runs(count);
+  parallel_for(count, [&](std::size_t r) {
+    const SimulationRequest request{.robot = robot,
+                                    .effects = effects,
+                                    .reference = reference_of(drive),
+                                    .payload_kg = drive.payload_kg,
+                                    .sensors = typical_sensors(),
+                                    .seed = seed_of_run(seed, r)};
+    runs[r] = {.name = drive.name,
+               .log = simulate(request).log,
+               .payload = {{0, drive.payload_kg}},
+               .payload_known = true};
+  });
+  return runs;
+}
+
+/// Mean square of the rows' means over the runs, in sigmas of these means, per row of a channel; 0 without
+/// rows.
+Eigen::VectorXd chi_square_per_row(const std::vector<Run>& runs, const Robot& robot) {
+  std::vector<ResidualRows> rows(runs.size());
+  parallel_for(runs.size(), [&](std::size_t r) {
+    const RunSignals signals = make_run_signals(runs[r], r, robot);
+    rows[r] = residual_rows(signals, {.robot = robot}, predict(signals, {.robot = robot}));
+  });
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(kChannelCount);
+  for (int channel = 0; channel < kChannelCount; ++channel) {
+    double counted = 0;
+    for (Eigen::Index j = 0; j < rows.front().value.rows(); ++j) {
+      double n = 0, sum = 0, squares = 0;
+      for (const ResidualRows& run : rows) {
+        if (!run.present(j, channel)) continue;
+        const double value = run.value(j, channel);
+        n += 1, sum += value, squares += value * value;
+      }
+      if (n < kRuns / 2) continue;  // a mean over the runs that happen to show the row is no mean of noise
+      result[channel] += sum * sum / n / ((squares - sum * sum / n) / (n - 1));
+      counted += 1;
+    }
+    if (counted > 0) result[channel] /= counted;
+  }
+  return result;
+}
+
+Run without_motors(Run run) {
+  for (Side side : kSides) run.log.motor_voltage_V[side].clear(), run.log.motor_current_A[side].clear();
+  return run;
+}
+
+void expect_noise(const std::vector<Run>& runs, const Robot& robot, const std::string& what) {
+  const Eigen::VectorXd found = chi_square_per_row(runs, robot);
+  for (int channel = 0; channel < kChannelCount; ++channel)
+    EXPECT_LT(found[channel], 2.0) << kChannelNames[static_cast<std::size_t>(channel)] << ", " << what;
+  EXPECT_GT(found[kDriverPower], 0.0) << what;
+}
+
+class NullRows : public ::testing::TestWithParam<Drive> {};
+
+TEST_P(NullRows, AreNoiseInEveryChannel) {
+  const Robot robot = testing::nomad();
+  auto runs = logs_of(GetParam(), robot, kRuns, 7);
+  expect_noise(runs, robot, "all channels");
+  std::ranges::transform(runs, runs.begin(), without_motors);
+  expect_noise(runs, robot, "battery alone");
+}
+
+/// A day of both drives, each repeated.
+Diagnosis diagnosed_day(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
+  Dataset day{.robot = testing::nomad()};
+  for (const Drive& drive : drives())
+    for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects)) day.runs.push_back(std::move(run));
+  return diagnose(day);
+}
+
+TEST(NullDay, OfDrivesThatRepeatHasNoGap) {
+  for (const std::uint64_t seed : {100u, 200u}) {
+    const Diagnosis answer = diagnosed_day(seed);
+    EXPECT_EQ(answer.verdict, Verdict::no_gap);
+    EXPECT_TRUE(answer.causes.empty());
+  }
+}
+
+/// An effect far below what a user would notice, whose gap is that of noise, is listed at most.
+TEST(NullDay, AnEffectBelowTheFloorIsNoVerdict) {
+  const Diagnosis answer =
+      diagnosed_day(300, {{.name = "coulomb_friction", .parameters = {{"torque_Nm", 0.0015}}}});
+  EXPECT_EQ(answer.verdict, Verdict::no_gap);
+  EXPECT_TRUE(answer.causes.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, NullRows, ::testing::ValuesIn(drives()));
+
+}  // namespace
+}  // namespace joulepath
