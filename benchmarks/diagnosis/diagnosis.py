@@ -1,8 +1,9 @@
 """`./dev bench diagnosis`: the labelled practice sets, speed and memory of `joulepath diagnose`.
 
 usage: diagnosis.py [FOLDER OF PRACTICE SETS]
-Writes benchmarks/results/diagnosis.md. The practice sets (robot.yaml, dataset.yaml, truth.yaml each) are found by the
-argument, or beside the repository. Needs python3 (standard library only).
+Writes benchmarks/results/diagnosis.md. The practice sets (dataset.yaml and truth.yaml each) are those of
+tests/data/practice, or of the folder. Fails if a set does not get the names of its label. Needs python3 (standard
+library only).
 """
 import json
 import os
@@ -19,7 +20,7 @@ import workspace  # noqa: E402
 
 import sets  # noqa: E402
 
-PRACTICE = workspace.ROOT.parent / "shared" / "data" / "practice"
+PRACTICE = workspace.ROOT / "tests" / "data" / "practice"
 REPEATS = 3
 
 
@@ -53,16 +54,28 @@ def parameter_text(answer, truth):
     return "; ".join(texts) or "–"
 
 
+def is_as_labeled(truth, answer):
+    """A null set has no gap, a law outside the catalog is not explained, else exactly the label's effects are causes."""
+    if not truth:
+        return answer["verdict"] == "no_gap"
+    if truth[0][0] == "foreign":
+        return answer["verdict"] in ("unexplained", "partly_explained")
+    named = [{cause["effect"], *cause["indistinguishable_from"]} for cause in answer["causes"]]
+    return len(named) == len(truth) and all(any(name in names for names in named) for name, _ in truth)
+
+
 def practice_row(folder, scratch):
+    """(line of the table, whether the answer is as labeled)"""
     truth = truth_of(folder)
     answer, _, _, _ = diagnose(folder / "dataset.yaml", scratch / folder.name)
+    good = is_as_labeled(truth, answer)
     energy = answer["gap"]["energy"]
     names = ", ".join(f"{c['effect']} ({c['probability']:.2f})" for c in answer["causes"]) or "–"
     low, high = energy["shrink_interval_95"]
     shrink = f"{energy['shrink_fraction']:.2f} [{low:.2f}, {high:.2f}]" if answer["causes"] else "–"
-    return (f"| {folder.name} | {', '.join(name for name, _ in truth) or 'none'} | {answer['verdict']} | {names} | {parameter_text(answer, truth)} "
+    return (f"| {folder.name} | {', '.join(name for name, _ in truth) or 'none'} | {answer['verdict']}{'' if good else ' (wrong)'} | {names} | {parameter_text(answer, truth)} "
             f"| {energy['before_percent']:.2f} → {energy['after_percent']:.2f} | {energy['noise_floor_percent']:.2f} | {shrink} "
-            f"| {answer['ceiling']['shrink_fraction']:.2f} | {answer['decisions']['joules_lost_with_nominal_percent']:.2f} |")
+            f"| {answer['ceiling']['shrink_fraction']:.2f} | {answer['decisions']['joules_lost_with_nominal_percent']:.2f} |"), good
 
 
 def speed_row(name, dataset, samples, scratch):
@@ -85,22 +98,29 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         scratch = pathlib.Path(temporary)
         folders = sorted(folder for folder in practice.glob("*/") if (folder / "truth.yaml").exists())
-        lines += ["24 runs each from a plant that shares no code with this project. Energy gap, shrink with its interval and ceiling on held-out runs; joules lost: additional energy of plans "
+        if not folders:
+            sys.exit(f"{practice}: no practice sets (folders with dataset.yaml and truth.yaml)")
+        rows = [practice_row(folder, scratch) for folder in folders]
+        wrong = [folder.name for folder, (_, good) in zip(folders, rows) if not good]
+        source = "`tests/data/practice`" if practice == PRACTICE else "another folder"
+        lines += [f"Sets of {source}: runs of a plant that shares no code with this project. Energy gap, shrink with its interval and ceiling on held-out runs; joules lost: additional energy of plans "
                   "with the uncorrected robot.", "",
                   "| set | truth | verdict | names (probability) | error of the first parameter | energy gap %, before → after | noise floor % | shrink [95 %] | ceiling | joules lost % |",
-                  "|---|---|---|---|---|---|---|---|---|---|", *(practice_row(folder, scratch) for folder in folders)] if folders else ["The practice sets are not here."]
+                  "|---|---|---|---|---|---|---|---|---|---|", *(row for row, _ in rows)]
         lines += ["", "## Speed and memory", "", f"The whole program (reading, diagnosis, decisions, report), best of {REPEATS}; memory is the largest of them.",
                   "Wall time says something only on an idle machine (load average near 0 at the start); CPU time is the program's own, spread over the cores.", "",
                   "| dataset | samples | wall s | CPU s | peak MiB | verdict |", "|---|---|---|---|---|---|"]
-        for runs, rows in ((24, 1500), (50, 2000)):
+        for runs, samples in ((24, 1500), (50, 2000)):
             folder = scratch / f"set_{runs}"
-            lines.append(speed_row(f"{runs} runs × {rows}", *sets.many_runs(folder, runs, rows), scratch))
+            lines.append(speed_row(f"{runs} runs × {samples}", *sets.many_runs(folder, runs, samples), scratch))
         folder = scratch / "long"
         folder.mkdir()
         lines.append(speed_row("one log, an hour at 100 Hz", *sets.one_long_log(folder, 3600, 100), scratch))
     result = workspace.RESULTS / "diagnosis.md"
     result.write_text("\n".join(lines) + "\n")
     print(result.read_text())
+    if wrong:
+        sys.exit("not as labeled: " + ", ".join(wrong))
 
 
 main()

@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
-#include "tests/support/locations.hpp"
+#include "tests/support/practice_sets.hpp"
 
 namespace joulepath {
 namespace {
@@ -52,10 +51,7 @@ double mirror_parameter(const FoundParameter& parameter) {
 class Mirror : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Mirror, AMirroredDayGetsTheMirroredAnswer) {
-  const std::string file =
-      std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/" + GetParam() + "/dataset.yaml";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no practice sets beside the sources";
-  const Dataset dataset = read_dataset(file);
+  const Dataset dataset = read_dataset(testing::practice_file(GetParam()));
   const Diagnosis seen = diagnose(dataset, {.bootstrap = 20}),
                   glass = diagnose(mirrored(dataset), {.bootstrap = 20});
   EXPECT_EQ(seen.verdict, glass.verdict);

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/diagnosis_sentence.hpp"
-#include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"
+#include "tests/support/practice_sets.hpp"
 #include "tests/support/synthetic_log.hpp"
 
 namespace joulepath {
@@ -29,10 +28,7 @@ Trajectory wrong_in_reverse(const Trajectory& log) {
 }
 
 TEST(OtherPrediction, LocationRefersToTheOtherSimulatorAndCausesToOurs) {
-  const std::string file =
-      std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/p03_rolling_resistance/dataset.yaml";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no practice sets beside the sources";
-  Dataset dataset = read_dataset(file);
+  Dataset dataset = read_dataset(testing::practice_file("p03_rolling_resistance"));
   for (auto& run : dataset.runs) run.predicted = wrong_in_reverse(run.log);
   const Diagnosis d = diagnose(dataset, {.bootstrap = 50});
   const auto reverse = std::ranges::find_if(

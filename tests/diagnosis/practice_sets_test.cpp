@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -11,7 +10,7 @@
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/decision_cost.hpp"
 #include "scenarios/write_diagnosis.hpp"
-#include "tests/support/locations.hpp"
+#include "tests/support/practice_sets.hpp"
 #include "tests/support/practice_truth.hpp"
 
 namespace joulepath {
@@ -28,17 +27,13 @@ struct Practice {
 
 void PrintTo(const Practice& practice, std::ostream* out) { *out << practice.folder; }
 
-std::string path_of(const std::string& folder) {
-  return std::string(JOULEPATH_SOURCE_DIR) + "/../shared/data/practice/" + folder + "/dataset.yaml";
-}
-
 /// A corrected robot file gives better plans on the labelled robot (its true constants and effect), by at
 /// least half of the claimed saving; without a significant claim, plans must not get worse.
 void expect_better_plans(const std::string& folder, const Robot& nominal, const Diagnosis& d) {
   if (!d.corrected_robot) return;
-  const std::string label = std::filesystem::path(path_of(folder)).replace_filename("truth.yaml").string();
   const double claimed = decision_cost(nominal, *d.corrected_robot).joules_lost_percent;
-  const DecisionCost cost = decision_cost(nominal, *d.corrected_robot, testing::true_robot(nominal, label));
+  const Robot truth = testing::true_robot(nominal, testing::practice_file(folder, "truth.yaml"));
+  const DecisionCost cost = decision_cost(nominal, *d.corrected_robot, truth);
   EXPECT_EQ(cost.missions, 4u);
   if (claimed > kPlannersAccuracy_percent)
     EXPECT_GT(cost.joules_lost_percent, 0.5 * claimed);
@@ -50,9 +45,7 @@ class PracticeSet : public ::testing::TestWithParam<Practice> {};
 
 TEST_P(PracticeSet, GetsTheRightVerdict) {
   const Practice& practice = GetParam();
-  if (!std::filesystem::exists(path_of(practice.folder)))
-    GTEST_SKIP() << "no practice sets beside the sources";
-  const Dataset dataset = read_dataset(path_of(practice.folder));
+  const Dataset dataset = read_dataset(testing::practice_file(practice.folder));
   const Diagnosis d = diagnose(dataset, {.bootstrap = 50});
   expect_better_plans(practice.folder, dataset.robot, d);
   if (practice.foreign) {
@@ -111,9 +104,7 @@ TEST(DiagnosisJson, HasTheKeysThatAreDocumented) {
 }
 
 TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
-  if (!std::filesystem::exists(path_of("p04_dragging_wheel_rough")))
-    GTEST_SKIP() << "no practice sets beside the sources";
-  Dataset dataset = read_dataset(path_of("p04_dragging_wheel_rough"));
+  Dataset dataset = read_dataset(testing::practice_file("p04_dragging_wheel_rough"));
   const Diagnosis first = diagnose(dataset, {.bootstrap = 20});
   EXPECT_EQ(diagnosis_json(first), diagnosis_json(diagnose(dataset, {.bootstrap = 20})));
   std::reverse(dataset.runs.begin(), dataset.runs.end());
@@ -125,12 +116,11 @@ TEST(Diagnosis, DoesNotDependOnTheOrderOfTheRunsAndRepeatsToTheByte) {
 }
 
 TEST(Diagnosis, NeverNamesAnEffectRemovedFromTheCatalog) {
-  if (!std::filesystem::exists(path_of("p14_floor_patch_rough")))
-    GTEST_SKIP() << "no practice sets beside the sources";
   using SetAndEffect = std::pair<const char*, const char*>;
   for (const auto& [folder, effect] : {SetAndEffect{"p14_floor_patch_rough", "floor_patch"},
                                        SetAndEffect{"p10_time_misalignment", "time_misalignment"}}) {
-    const Diagnosis d = diagnose(read_dataset(path_of(folder)), {.bootstrap = 20, .without = {effect}});
+    const Diagnosis d =
+        diagnose(read_dataset(testing::practice_file(folder)), {.bootstrap = 20, .without = {effect}});
     for (const Cause& cause : d.causes) {
       EXPECT_NE(cause.effect.name, effect);
       EXPECT_EQ(std::ranges::count(cause.indistinguishable_from, effect), 0) << effect;
@@ -140,9 +130,7 @@ TEST(Diagnosis, NeverNamesAnEffectRemovedFromTheCatalog) {
 }
 
 TEST(Diagnosis, OfTooFewRunsNamesNothing) {
-  if (!std::filesystem::exists(path_of("p03_rolling_resistance")))
-    GTEST_SKIP() << "no practice sets beside the sources";
-  Dataset dataset = read_dataset(path_of("p03_rolling_resistance"));
+  Dataset dataset = read_dataset(testing::practice_file("p03_rolling_resistance"));
   dataset.runs.resize(2);
   const Diagnosis d = diagnose(dataset, {.bootstrap = 20});
   EXPECT_EQ(d.verdict, Verdict::too_little_data);

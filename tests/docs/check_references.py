@@ -9,7 +9,8 @@ import re
 import sys
 
 ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests",
-         "docs/decisions"]
+         "docs"]
+REFERENCES = "docs/references.md"
 CITING = {".hpp", ".cpp", ".py", ".js", ".md"}
 KEY = r"P1|[A-Z]\w*(?:19|20)\d\d[a-z]?"
 ENTRY = re.compile(rf"^- \*\*\[({KEY})\]\*\*(.*?)(?=^- |^#|\Z)", re.MULTILINE | re.DOTALL)
@@ -18,10 +19,10 @@ FILE = re.compile(r"`([\w/.]+\.(?:hpp|cpp|py|js))`")
 
 
 def citations(source):
-    """(file, keys) of all code and decisions that cite one."""
+    """(file, keys) of all code and pages that cite one."""
     for room in ROOMS:
         for file in sorted((source / room).rglob("*")):
-            if file.suffix not in CITING or file == pathlib.Path(__file__).resolve():
+            if file.suffix not in CITING or file in (pathlib.Path(__file__).resolve(), source / REFERENCES):
                 continue
             keys = set(CITED.findall(file.read_text(errors="replace")))
             if keys:
@@ -44,7 +45,7 @@ def complaints(entries, cited):
 
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
-    entries = ENTRY.findall((source / "docs/references.md").read_text())
+    entries = ENTRY.findall((source / REFERENCES).read_text())
     cited = dict(citations(source))
     problems = [*complaints(entries, cited), *([] if entries else ["docs/references.md: no entries"])]
     print("\n".join(problems) or f"references: {len(entries)} keys, cited by {len(cited)} files")

@@ -49,9 +49,6 @@ def copy_tree():
         if os.path.exists(source) and (not os.path.exists(target) or open(source, "rb").read() != open(target, "rb").read()):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
-    shared = os.path.join(ROOT, "../shared")  # data sets beside the sources: tests skip without them
-    if os.path.isdir(shared) and not os.path.islink(os.path.join(OUT, "shared")):
-        os.symlink(os.path.realpath(shared), os.path.join(OUT, "shared"))
     if not os.path.exists(os.path.join(BUILD, "build.ninja")):
         subprocess.run(["cmake", "--preset", "release", "-Wno-dev", "-DJOULEPATH_UNITY=ON", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], cwd=TREE, check=True, stdout=subprocess.DEVNULL)
 

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "scenarios/dataset_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
-#include "tests/support/locations.hpp"
+#include "tests/support/practice_sets.hpp"
 
 namespace joulepath {
 namespace {
@@ -87,9 +86,7 @@ TEST_F(CorrectedDataset, AddsTheDelayToOneThatTheFileHas) {
 }
 
 TEST(CorrectedPracticeSet, NoLongerHasTheInstrumentsError) {
-  const std::string file = JOULEPATH_SOURCE_DIR "/../shared/data/practice/p12_two_effects_rough/dataset.yaml";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no practice sets beside the sources";
-  const Dataset dataset = read_dataset(file);
+  const Dataset dataset = read_dataset(testing::practice_file("p12_two_effects_rough"));
   const Diagnosis first = diagnose(dataset, {.bootstrap = 20});
   ASSERT_FALSE(first.corrected_instruments.empty());
   const ScratchDirectory scratch;

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <set>
+#include <utility>
 
 #include "diagnosis/values/constant_payload.hpp"
 #include "model/log_columns.hpp"
@@ -17,7 +20,9 @@ namespace joulepath {
 namespace {
 
 const std::string kNomadFile = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
-const std::string kShared = JOULEPATH_SOURCE_DIR "/../shared/data";
+const std::string kDatasets = JOULEPATH_SOURCE_DIR "/scenarios/datasets/";
+/// Excerpts of measured logs; its README says where they come from.
+const std::string kRealLogs = JOULEPATH_SOURCE_DIR "/tests/data/real";
 
 std::string dataset_yaml(const std::string& rest) { return "robot: " + kNomadFile + "\n" + rest; }
 
@@ -449,32 +454,72 @@ TEST(DatasetFile, WrittenLogReadsBackToTheLastBit) {
 }
 
 TEST(DatasetFile, PracticeSetsReadWithoutArtifactsOfTheirOwn) {
-  const std::string practice = kShared + "/practice";
-  if (!std::filesystem::exists(practice)) GTEST_SKIP() << "the practice sets are not beside the repository";
-  for (const auto& folder : std::filesystem::directory_iterator(practice)) {
-    const Dataset dataset = read_dataset((folder.path() / "dataset.yaml").string());
-    EXPECT_EQ(dataset.runs.size(), 24u);
+  std::size_t sets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/tests/data/practice")) {
+    if (!entry.is_directory()) continue;
+    ++sets;
+    const Dataset dataset = read_dataset((entry.path() / "dataset.yaml").string());
+    EXPECT_GE(dataset.runs.size(), 12u);
     for (const auto& a : dataset.artifacts)
-      ADD_FAILURE() << folder.path() << " " << a.run << " " << a.kind << " " << a.channel << " "
+      ADD_FAILURE() << entry.path() << " " << a.run << " " << a.kind << " " << a.channel << " "
                     << a.description;
     for (const auto& run : dataset.runs) {
-      EXPECT_GT(run.log.size(), 100u);
+      EXPECT_GT(run.log.size(), 70u);  // 7 s at 10 Hz
       EXPECT_EQ(run.log.motor_current_A.left.size(), run.log.size());
     }
   }
+  EXPECT_EQ(sets, 14u);
 }
 
-TEST(DatasetFile, RealKobukiAndHuskyLogsRead) {
-  const std::string real = kShared + "/real";
-  if (!std::filesystem::exists(real)) GTEST_SKIP() << "the real logs are not beside the repository";
-  ASSERT_EQ(setenv("JOULEPATH_DATA_DIR", real.c_str(), 1), 0);
-  const Dataset kobuki = read_dataset(JOULEPATH_SOURCE_DIR "/scenarios/datasets/kobuki_wheelslip.yaml");
+/// Steps of the clock and speeds of the wheels stay within bounds: what wraps is unwrapped.
+void expect_continuous(const Run& run, double least_step_s, double largest_step_s, double largest_rad_s) {
+  const Trajectory& log = run.log;
+  ASSERT_GT(log.size(), 50u) << run.name;
+  for (std::size_t i = 1; i < log.size(); ++i) {
+    const double step_s = log.time_s[i] - log.time_s[i - 1];
+    ASSERT_TRUE(step_s > least_step_s && step_s < largest_step_s) << run.name << " row " << i;
+    for (Side side : kSides)
+      ASSERT_LT(std::abs(log.wheel_speed_rad_s[side][i]), largest_rad_s) << run.name << " row " << i;
+  }
+}
+
+TEST(DatasetFile, RealKobukiLogsReadOnWhereClockAndCountersWrap) {
+  ASSERT_EQ(setenv("JOULEPATH_DATA_DIR", kRealLogs.c_str(), 1), 0);
+  const Dataset kobuki = read_dataset(kDatasets + "kobuki_wheelslip.yaml");
   ASSERT_EQ(kobuki.runs.size(), 5u);
-  EXPECT_NEAR(kobuki.runs[0].log.time_s.back() - kobuki.runs[0].log.time_s.front(), 75.0, 1.0);
-  for (const auto& run : kobuki.runs)
-    for (const double speed : run.log.wheel_speed_rad_s.left) ASSERT_LT(std::abs(speed), 40.0) << run.name;
-  const Dataset husky = read_dataset(JOULEPATH_SOURCE_DIR "/scenarios/datasets/husky_borealtc.yaml");
-  EXPECT_EQ(husky.runs.size(), 71u);
+  for (const auto& run : kobuki.runs) expect_continuous(run, 0.019, 0.061, 40.0);
+}
+
+/// A dataset file's text with the runs whose logs the excerpt has, and how many it lists.
+std::pair<std::string, int> with_runs_of_the_excerpt(const std::string& file) {
+  const std::string variable = "${JOULEPATH_DATA_DIR}";
+  std::ifstream in(file);
+  std::pair<std::string, int> kept;
+  for (std::string line; std::getline(in, line);) {
+    if (const std::size_t at = line.find(variable); at != std::string::npos) {
+      ++kept.second;
+      const std::size_t from = at + variable.size();
+      if (!std::filesystem::exists(kRealLogs + line.substr(from, line.find('"', from) - from))) continue;
+    }
+    kept.first += line + "\n";
+  }
+  return kept;
+}
+
+TEST(DatasetFile, RealHuskyLogsReadOnEachTerrain) {
+  ASSERT_EQ(setenv("JOULEPATH_DATA_DIR", kRealLogs.c_str(), 1), 0);
+  auto [text, listed] = with_runs_of_the_excerpt(kDatasets + "husky_borealtc.yaml");
+  EXPECT_EQ(listed, 71);
+  text.replace(text.find("../robots"), 2, JOULEPATH_SOURCE_DIR "/scenarios");
+  const ScratchDirectory scratch;
+  const Dataset husky = read_dataset(scratch.write("d.yaml", text));
+  std::set<std::string> terrains;
+  for (const auto& run : husky.runs) {
+    terrains.insert(run.surface);
+    expect_continuous(run, 0.15, 0.16, 1.0 / 0.13);  // 6.5 Hz; the robot's top speed is 1 m/s
+    EXPECT_TRUE(run.current_sign_from_motion);
+  }
+  EXPECT_EQ(terrains, (std::set<std::string>{"asphalt", "flooring", "ice", "sandy_loam", "snow"}));
 }
 
 }  // namespace

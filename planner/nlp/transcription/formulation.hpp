@@ -1,5 +1,24 @@
 #pragma once
 
+// Direct collocation of a speed profile on a known path. u = ds/dt is the rate of the path coordinate s (arc
+// length, or the angle of a turn in place), a its acceleration. docs/nlp.md explains this table.
+//
+//                     without a jerk limit                       with one (jerk_program.hpp)
+//   state             b = u^2 at the nodes of s                  u and a at the nodes
+//   control           a, constant on each segment                jerk, constant on each segment
+//   dynamics          db/ds = 2 a, exact: b is linear in s       du/dt = a, da/dt = jerk, ds/dt = u, exact
+//   eliminated        a = (b1 - b0)/(2 ds), dt = 2 ds/(u0 + u1)  jerk = (a1 - a0)/dt
+//   unknowns          b at the inner nodes                       u, a at the inner nodes; dt of each segment
+//   dynamics' rows    none                                       two per segment: speed, distance
+//   path constraints  bounds on b at the nodes; rows at both     bounds on u and a at the nodes; the same
+//                     ends and the middle of each segment        rows; jerk; the cap between nodes
+//   quadrature        two Gauss-Legendre points in time per segment, exact for powers up to t^3
+//   order             2 in the number of segments, where no limit is active; 2 at least with jerk
+//
+// Why b: the dynamics are linear in it and finite at rest, so a and dt have closed forms. Jerk has none in b.
+//
+// Method: [Verscheure2009], [HargravesParis1987]
+
 #include <tuple>
 #include <type_traits>
 
@@ -14,7 +33,6 @@
 #include "planner/nlp/terms/wheel_energy.hpp"
 #include "planner/nlp/terms/yaw_acceleration.hpp"
 
-// Method: [Verscheure2009], [HargravesParis1987]
 namespace joulepath::nlp {
 
 /// The problem, for squares b_k of the rate at the nodes (b_k >= 0; speed, yaw rate, lateral acceleration

@@ -1,27 +1,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "diagnosis/calibration/calibration.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/robot_file.hpp"
-#include "tests/support/locations.hpp"
+#include "tests/support/practice_sets.hpp"
 
 namespace joulepath {
 namespace {
 
-const std::string kPractice = JOULEPATH_SOURCE_DIR "/../shared/data/practice/";
-
 class PracticeSet : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PracticeSet, CalibrationRecoversFrictionAndTorqueConstant) {
-  const std::string folder = kPractice + GetParam();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no practice sets at " << folder;
-  const Dataset dataset = read_dataset(folder + "/dataset.yaml");
+  const Dataset dataset = read_dataset(testing::practice_file(GetParam()));
   const CalibrationResult result = calibrate(dataset, CalibrationMethod::full);
-  const Document label = Document::load(folder + "/truth.yaml");
+  const Document label = Document::load(testing::practice_file(GetParam(), "truth.yaml"));
   const Node drawn = label.root()["parameters"];
   EXPECT_NEAR(result.robot.motor.left.friction_torque_Nm / drawn["friction_torque_Nm"]["left"].number(), 1,
               0.02);
@@ -31,9 +26,7 @@ TEST_P(PracticeSet, CalibrationRecoversFrictionAndTorqueConstant) {
 }
 
 TEST_P(PracticeSet, CalibratedRobotReadsBack) {
-  const std::string folder = kPractice + GetParam();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no practice sets at " << folder;
-  const CalibrationResult result = calibrate(read_dataset(folder + "/dataset.yaml"), CalibrationMethod::full);
+  const CalibrationResult result = calibrate(read_dataset(testing::practice_file(GetParam())), CalibrationMethod::full);
   const Robot again = robot_from(Document::parse(robot_text(result.robot), "robot.yaml"));
   EXPECT_EQ(again.motor.left.resistance_ohm, result.robot.motor.left.resistance_ohm);
   EXPECT_EQ(again.uncertainty, result.robot.uncertainty);

@@ -173,6 +173,25 @@ TEST(Modes, ProgramAndReplayAgreeToTheAccuracyAsked) {
   EXPECT_GT(coarse, 1e-4) << "a grid this coarse has to be refined";
 }
 
+/// The control is constant on each segment: direct collocation of order 2 in the number of segments. The time
+/// is so long that no limit is active: one that the path touches between nodes is held with a reserve.
+TEST(Modes, TwiceTheNodesLeaveAQuarterOfTheExcessOfEnergy) {
+  ProfileRequest request = request_for({.mode = TimeMode::fixed_time, .duration_s = 14});
+  request.accuracy = 0.1;  // no grid is refined
+  const auto energy_J = [&](std::size_t nodes) {
+    request.nodes = nodes;
+    return drive(request).energy_J;
+  };
+  const double least_J = energy_J(2000);
+  double before_J = energy_J(20) - least_J;
+  for (std::size_t nodes : {40, 80}) {
+    const double excess_J = energy_J(nodes) - least_J;
+    EXPECT_GT(before_J / excess_J, 3.0) << nodes;
+    EXPECT_LT(before_J / excess_J, 5.0) << nodes;
+    before_J = excess_J;
+  }
+}
+
 /// Downhill the battery takes energy up: the accuracy is relative to its size.
 TEST(Modes, AGridIsNotRefinedBecauseTheEnergyIsNegative) {
   ProfileRequest request = request_for({.mode = TimeMode::time_budget, .duration_s = 40});

@@ -76,10 +76,7 @@ std::optional<OccupancyGrid> pgm_grid(const std::string& file, double resolution
 namespace {
 
 std::optional<OccupancyGrid> nav2_map(const std::string& name, double resolution_m, const Pose& origin) {
-  for (const char* folder : {"/scenarios/maps/", "/../shared/data/maps/"})
-    if (auto grid = pgm_grid(std::string(JOULEPATH_SOURCE_DIR) + folder + name, resolution_m, origin))
-      return grid;
-  return std::nullopt;
+  return pgm_grid(JOULEPATH_SOURCE_DIR "/scenarios/maps/" + name, resolution_m, origin);
 }
 
 }  // namespace

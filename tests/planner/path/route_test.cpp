@@ -104,13 +104,13 @@ void random_routes(const OccupancyGrid& map, const OccupancyGrid* keepout, int c
 
 TEST(Route, HoldsItsClearanceOnTheNav2Warehouse) {
   const auto map = nav2_warehouse(), keepout = nav2_warehouse_keepout();
-  if (!map || !keepout) GTEST_SKIP() << "the Nav2 warehouse map is not here";
+  ASSERT_TRUE(map && keepout);
   random_routes(*map, &*keepout, 120, 31);
 }
 
 TEST(Route, HoldsItsClearanceOnTheNav2Depot) {
   const auto map = nav2_depot();
-  if (!map) GTEST_SKIP() << "the Nav2 depot map is not here";
+  ASSERT_TRUE(map);
   random_routes(*map, nullptr, 80, 32);
 }
 
