@@ -88,7 +88,7 @@ bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::
                    kMostScale, ratios);
 }
 
-/// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous friction, the payload's part taken off; the jerk's
+/// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous losses, the payload's part taken off; the jerk's
 /// column takes up a delay. The torque per ampere differs from the file's as the voltage per speed does.
 bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
   SmallFit<4> fit;

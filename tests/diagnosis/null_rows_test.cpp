@@ -14,7 +14,7 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kRuns = 200;
+constexpr std::size_t kRunsOfARow = 200;
 
 /// Speed (m/s) and yaw rate (rad/s) over time (s), as smooth as a plan's.
 struct Drive {
@@ -85,7 +85,7 @@ Eigen::VectorXd chi_square_per_row(const std::vector<Run>& runs, const Robot& ro
         const double value = run.value(j, channel);
         n += 1, sum += value, squares += value * value;
       }
-      if (n < kRuns / 2) continue;  // a mean over the runs that happen to show the row is no mean of noise
+      if (n < kRunsOfARow / 2) continue;  // a mean over the runs that happen to show the row is no mean of noise
       result[channel] += sum * sum / n / ((squares - sum * sum / n) / (n - 1));
       counted += 1;
     }
@@ -110,7 +110,7 @@ class NullRows : public ::testing::TestWithParam<Drive> {};
 
 TEST_P(NullRows, AreNoiseInEveryChannel) {
   const Robot robot = testing::nomad();
-  auto runs = logs_of(GetParam(), robot, kRuns, 7);
+  auto runs = logs_of(GetParam(), robot, kRunsOfARow, 7);
   expect_noise(runs, robot, "all channels");
   std::ranges::transform(runs, runs.begin(), without_motors);
   expect_noise(runs, robot, "battery alone");

@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 constexpr double kFastest_m_s = 1.0, kFastest_rad_s = 2.0;  // of the robot
 constexpr double kMostPower_W = 400;                        // 8 A at 24 V on both sides
 
-struct Planned {
+struct PlannedMission {
   std::string name{};
   MissionRequest mission{};
   MissionWorld world{};
@@ -39,8 +39,8 @@ OccupancyGrid floor_without_walls() {
   return grid;
 }
 
-Planned planned(const std::string& name, MissionRequest mission) {
-  Planned result{.name = name, .mission = std::move(mission), .world = {.robot = testing::nomad()}};
+PlannedMission planned(const std::string& name, MissionRequest mission) {
+  PlannedMission result{.name = name, .mission = std::move(mission), .world = {.robot = testing::nomad()}};
   if (!result.mission.stations.empty()) result.world.map = floor_without_walls();
   const PlanOptions options{
       .solver = SolverChoice::fast, .nodes = 40, .accuracy = 1e-3, .baselines = false};
@@ -98,8 +98,8 @@ MissionRequest motion_before_a_way() {
   return mission;
 }
 
-const std::vector<Planned>& plans() {
-  static const std::vector<Planned> all{
+const std::vector<PlannedMission>& plans() {
+  static const std::vector<PlannedMission> all{
       planned("given paths", stays_along_given_paths()),
       planned("prescribed", stays_beside_a_prescribed_motion()),
       planned("stations", stays_at_stations(true)),
@@ -151,7 +151,7 @@ std::vector<Row> rows_of(const Json& list) {
 
 TEST(ContinuousPlan, RowsOfEveryExportFollowEachOtherAndTheStartIsTheMissions) {
   const ScratchDirectory scratch;
-  for (const Planned& plan : plans()) {
+  for (const PlannedMission& plan : plans()) {
     ASSERT_LE(plan.plan.status, SolveStatus::feasible) << plan.name << ": " << plan.plan.message;
     const ExportInput input{plan.mission, plan.world, plan.plan, plan.plant, scratch.at("x.json"), {}};
     const double duration_s = plan.plan.duration_s;
@@ -173,7 +173,7 @@ TEST(ContinuousPlan, RowsOfEveryExportFollowEachOtherAndTheStartIsTheMissions) {
 }
 
 TEST(ContinuousPlan, RowsOfEdgesBeginWhereTheOnesBeforeEnd) {
-  for (const Planned& plan : plans()) {
+  for (const PlannedMission& plan : plans()) {
     const std::vector<EdgeEnergy> edges = edge_energies(plan.plan, plan.plant);
     ASSERT_FALSE(edges.empty());
     EXPECT_NEAR(edges[0].from.x_m, plan.mission.start.pose.x_m, 1e-9) << plan.name;
@@ -193,7 +193,7 @@ TEST(ContinuousPlan, RowsOfEdgesBeginWhereTheOnesBeforeEnd) {
 }
 
 TEST(ContinuousPlan, EnergyAndChargeFollowEachOther) {
-  for (const Planned& plan : plans()) {
+  for (const PlannedMission& plan : plans()) {
     const Trajectory motion = plan_trajectory(plan.plan, plan.plant);
     for (std::size_t k = 1; k < motion.size(); ++k)
       ASSERT_LE(std::abs(motion.energy_J[k] - motion.energy_J[k - 1]),
@@ -210,7 +210,7 @@ TEST(ContinuousPlan, EnergyAndChargeFollowEachOther) {
 
 TEST(ContinuousPlan, AnOrderBeginsWhereThePlanDoes) {
   const ScratchDirectory scratch;
-  for (const Planned& plan : plans()) {
+  for (const PlannedMission& plan : plans()) {
     if (std::any_of(plan.plan.legs.begin(), plan.plan.legs.end(),
                     [](const LegPlan& leg) { return leg.prescribed.has_value(); }))
       continue;
