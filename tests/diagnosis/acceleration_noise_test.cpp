@@ -85,7 +85,7 @@ TEST(AccelerationNoise, SteadyMotionHasNoAcceleration) {
 /// A long dataset is thinned after its noise is judged.
 TEST(AccelerationNoise, ALongDatasetsSteadyMotionHasNoneEither) {
   const Robot robot = testing::nomad();
-  const Run run =
+  const joulepath::Run run =
       testing::synthetic_run(robot, "run", 60, 0, testing::constant_speed(0.6), kEncoderNoise, 1);
   const RunSignals often = make_run_signals(run, 0, robot),
                    rarely = make_run_signals(run, 0, robot, {.period_s = kCoarsestPeriod_s});

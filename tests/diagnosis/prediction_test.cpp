@@ -135,7 +135,7 @@ TEST(Lagged, FollowsARampBehindItByTheLag) {
 /// difference are known.
 TEST(Prediction, OfThePowerIsTheMeanOfTheProduct) {
   for (const double rate_rad_s : {2.0, 4.0}) {
-    const Run drive =
+    const joulepath::Run drive =
         testing::synthetic_run(nomad(), "swinging", 15, 3.0, testing::swinging(0.6, 0.3, rate_rad_s, 0.8, 3.0));
     const RunSignals run = make_run_signals(drive, 0, nomad());
     const Prediction p = predict(run, {.robot = nomad()});

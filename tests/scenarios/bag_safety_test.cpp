@@ -13,7 +13,7 @@ namespace joulepath::testing {
 namespace {
 
 constexpr const char* kTopics = "topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT)";
-constexpr const char* kMessages = "messages(topic_id INTEGER, timestamp INTEGER, data BLOB)";
+constexpr const char* kMessageTable = "messages(topic_id INTEGER, timestamp INTEGER, data BLOB)";
 constexpr const char* kEndless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) ";
 
 /// The messages of a bag, and the words of the error that ends reading.
@@ -60,7 +60,7 @@ TEST_F(ForeignBags, ViewsInPlaceOfTablesAreRefused) {
   const std::vector<std::pair<std::string, std::string>> views{
       {table(kTopics),
        "CREATE VIEW messages" + rows + "SELECT 1 AS topic_id, x AS timestamp, zeroblob(100) AS data FROM c"},
-      {table(kMessages),
+      {table(kMessageTable),
        "CREATE VIEW Topics" + rows +
            "SELECT x AS id, 'n' || x AS name, 't' AS type, 'cdr' AS serialization_format FROM c"}};
   for (const auto& [first, view] : views) {
@@ -70,7 +70,7 @@ TEST_F(ForeignBags, ViewsInPlaceOfTablesAreRefused) {
   const std::string definitions =
       "CREATE VIEW message_definitions" + rows +
       "SELECT x AS topic_type, 'ros2msg' AS encoding, '' AS encoded_message_definition FROM c";
-  EXPECT_NE(reading(database({table(kTopics), table(kMessages), definitions})).error.find("is a view"),
+  EXPECT_NE(reading(database({table(kTopics), table(kMessageTable), definitions})).error.find("is a view"),
             std::string::npos);
 }
 
@@ -106,7 +106,7 @@ std::string with_repeated_children(std::string bytes, std::size_t page) {
 
 TEST_F(ForeignBags, PagesThatRepeatGiveNoMoreThanTheFileHolds) {
   const std::string file =
-      database({"PRAGMA page_size = 4096", table(kMessages), table(kTopics),
+      database({"PRAGMA page_size = 4096", table(kMessageTable), table(kTopics),
                 "INSERT INTO topics VALUES(1, 'a', 't', 'cdr')",
                 std::string("INSERT INTO messages ") + kEndless +
                     "SELECT 1, x, zeroblob(CASE x WHEN 1 THEN 1000000 ELSE 3000 END) FROM c LIMIT 200"});
@@ -119,7 +119,7 @@ TEST_F(ForeignBags, PagesThatRepeatGiveNoMoreThanTheFileHolds) {
 }
 
 TEST_F(ForeignBags, RowsComeInTheOrderOfTimeWithAndWithoutAnIndex) {
-  const std::vector<std::string> bag{table(kTopics), table(kMessages),
+  const std::vector<std::string> bag{table(kTopics), table(kMessageTable),
                                      "INSERT INTO topics VALUES(1, 'a', 't', 'cdr')",
                                      "INSERT INTO messages VALUES(1, 30, 'c'), (1, 10, 'a'), (1, 20, 'b')"};
   const std::vector<std::uint64_t> sorted{10, 20, 30};

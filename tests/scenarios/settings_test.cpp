@@ -179,7 +179,7 @@ TEST(ControllerFile, ASpeedOfAnUnknownNameIsNamed) {
        {"max_linear_vel: 0.3", "v_linear_max: 0.3", "max_linear_decel: -0.4", "cruise_speed: 0.3",
         "deceleration_max: 0.5", "max_trans_vel: 0.3", "linear_velocity: 0.3", "rotational_acc_lim: 1.0"}) {
     const std::string name = key.substr(0, key.find(':'));
-    for (const std::string text :
+    for (const std::string& text :
          {kSmoother +
               ("controller_server:\n  ros__parameters:\n    FollowPath:\n      plugin: some::Controller\n"
                "      " +
@@ -219,7 +219,7 @@ TEST(ControllerFile, KeysOfOtherPurposesAreNotAsked) {
 
 TEST(ControllerFile, SeveralControllersThatDriveAreListed) {
   const std::string two = "FollowPath: {plugin: a::B, vx_max: 0.8}, Docking: {plugin: a::B, vx_max: 0.05}";
-  for (const std::string text :
+  for (const std::string& text :
        {"controller_server: {ros__parameters: {controller_plugins: [FollowPath, Docking], " + two + "}}\n",
         "robot1: {controller_server: {ros__parameters: {" + two + "}}}\n", "{" + two + "}\n"}) {
     EXPECT_NE(refusal_of(text).find("FollowPath"), std::string::npos) << text;
