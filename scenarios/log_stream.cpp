@@ -5,10 +5,13 @@
 #include <set>
 
 #include "scenarios/document.hpp"
+#include "scenarios/next_line.hpp"
 #include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
 namespace {
+
+constexpr std::size_t kMostRowBytes = 1u << 20;
 
 std::string_view trimmed_cell(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n\"";
@@ -36,6 +39,8 @@ double at(const std::vector<double>& values, std::size_t k) {
 
 std::optional<MonitorRow> LogLines::row(std::string_view line) {
   ++line_;
+  if (line.size() > kMostRowBytes)
+    throw ConfigError({{file_, line_, 1}, "", "a line of more than 1 MiB", "a row of a log per line", ""});
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   const std::string_view text = trimmed_cell(line);
   if (text.empty() || text.front() == '#') return std::nullopt;
@@ -46,6 +51,11 @@ std::optional<MonitorRow> LogLines::row(std::string_view line) {
     return std::nullopt;
   }
   return csv_row(line);
+}
+
+void LogLines::follow(std::istream& stream, const std::function<void(const MonitorRow&)>& use) {
+  for (std::string line; next_line(stream, line, kMostRowBytes);)
+    if (const auto found = row(line)) use(*found);
 }
 
 void LogLines::read_header(std::string_view line) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,17 +15,22 @@
 namespace joulepath {
 
 /// Rows of a log that arrives line by line: CSV with a header, or one JSON object per line. Columns have the
-/// names of the run log format; others are ignored. A header without a time or without speeds is an error,
-/// and so is one with a column twice. Nothing in a later line is: a cell without a number is absent, a line
-/// without any known column, and an object with a key twice, give a row without a time.
+/// names of the run log format; others are ignored. A header without a time or without speeds is an error, so
+/// is one with a column twice, and so is a line of more than 1 MiB. Nothing else in a later line is: a cell
+/// without a number is absent, a line without any known column, and an object with a key twice, give a row
+/// without a time.
 class LogLines {
  public:
   /// `file`: the name of the log in errors.
   LogLines(const Geometry& geometry, std::string file) : geometry_(geometry), file_(std::move(file)) {}
 
   /// The row of a line; nothing for a header, a comment or an empty line. Throws ConfigError for a header
-  /// that no row can be used with.
+  /// that no row can be used with, and for a line that is too long.
   [[nodiscard]] std::optional<MonitorRow> row(std::string_view line);
+
+  /// Calls `use` with each row of a stream as it grows, until it ends. Throws as row() does, for a line that
+  /// is too long before it ends.
+  void follow(std::istream& stream, const std::function<void(const MonitorRow&)>& use);
 
  private:
   void read_header(std::string_view line);

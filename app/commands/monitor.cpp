@@ -69,9 +69,7 @@ class MonitorCommand : public Command {
   std::string log_name() const { return log_ == "-" ? "standard input" : log_; }
 
   void follow(Monitor& monitor, const Robot& robot, std::istream& stream) {
-    LogLines lines(robot.geometry, log_name());
-    for (std::string line; std::getline(stream, line);)
-      if (const auto row = lines.row(line)) add(monitor, *row);
+    LogLines(robot.geometry, log_name()).follow(stream, [&](const MonitorRow& row) { add(monitor, row); });
   }
 
   /// A log whose unit is wrong ends the answer: nothing that it says is true.

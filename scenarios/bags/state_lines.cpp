@@ -4,8 +4,10 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 
+#include "scenarios/next_line.hpp"
 #include "scenarios/shallow_json.hpp"
 
 namespace joulepath {
@@ -17,17 +19,10 @@ constexpr std::size_t kMostLineBytes = 16u << 20;
 constexpr std::size_t kMostRobots = 4096;
 
 /// The next line. Of a longer one than kMostLineBytes, which is no state, the rest is left out.
-bool next_line(std::istream& in, std::string& line) {
-  line.clear();
-  std::streambuf& bytes = *in.rdbuf();
-  for (int c = bytes.sbumpc(); c != '\n'; c = bytes.sbumpc()) {
-    if (c == std::char_traits<char>::eof()) {
-      in.setstate(std::ios::eofbit);
-      return !line.empty();
-    }
-    if (line.size() <= kMostLineBytes) line.push_back(static_cast<char>(c));
-  }
-  return true;
+bool next_state_line(std::istream& in, std::string& line) {
+  const bool found = next_line(in, line, kMostLineBytes);
+  if (line.size() > kMostLineBytes) in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  return found;
 }
 
 /// The state in a line; discarded where the line is none.
@@ -76,7 +71,7 @@ bool is_state_lines(const std::string& file) {
   if (extension != ".jsonl" && extension != ".ndjson") return false;
   std::ifstream in(file, std::ios::binary);
   std::string line;
-  if (!in || !next_line(in, line)) return false;
+  if (!in || !next_state_line(in, line)) return false;
   const json first = state_in(line);
   return first.is_object() && first.contains("timestamp") && first.contains("serialNumber") &&
          (first.contains("batteryState") || first.contains("powerSupply"));
@@ -89,7 +84,7 @@ BagDamage read_state_lines(const std::string& file, const NamedBy& named_by,
   if (!in) throw named_by.error(file, "a file that cannot be read", "VDA 5050 states, one per line");
   BagDamage damage;
   std::map<std::string, std::size_t> robots;
-  for (std::string line; next_line(in, line);) {
+  for (std::string line; next_state_line(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const json state = state_in(line);
     const auto time_ns = state.is_object() ? utc_nanoseconds(text_at(state, "timestamp")) : std::nullopt;

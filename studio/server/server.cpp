@@ -1,6 +1,7 @@
 #include "studio/server/server.hpp"
 
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -58,13 +59,16 @@ class Studio {
       : files_(files),
         options_(options),
         floor_(files.read_floor()),
-        session_(floor_, files.folder()),
-        server_(options.port) {}
+        session_(floor_, files.folder()) {}
 
   [[noreturn]] void run(const std::function<void(const std::string&)>& ready) {
-    ready("http://127.0.0.1:" + std::to_string(server_.port()) + base_);
-    server_.run([this](const HttpRequest& request) { return refusal(request); },
-                [this](const HttpRequest& request) { return guarded(request); });
+    serve_http(options_.port, {.ready =
+                                   [&](int port) {
+                                     port_ = std::to_string(port);
+                                     ready("http://127.0.0.1:" + port_ + base_);
+                                   },
+                               .refusal = [this](const HttpRequest& request) { return refusal(request); },
+                               .answer = [this](const HttpRequest& request) { return guarded(request); }});
   }
 
  private:
@@ -73,10 +77,9 @@ class Studio {
   /// Refuses requests of another site's page, whatever name it gave to this address, and those without the
   /// token.
   [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const {
-    const std::string port = std::to_string(server_.port()), host = request.header("host");
-    const bool own_host = host == "127.0.0.1:" + port || host == "localhost:" + port;
-    const std::string origin = request.header("origin");
-    const bool own_origin = origin == "http://" + host || (origin.empty() && request.method == "GET");
+    const bool own_host = request.host == "127.0.0.1:" + port_ || request.host == "localhost:" + port_;
+    const bool own_origin = request.origin == "http://" + request.host ||
+                            (request.origin.empty() && request.method == "GET");
     if (!own_host || !own_origin)
       return HttpResponse{.status = 403, .body = "refused: the request comes from another site\n"};
     if (is_known(request)) return std::nullopt;
@@ -138,7 +141,7 @@ class Studio {
   MissionWorld floor_;
   Session session_;
   Newest newest_{};
-  HttpServer server_;
+  std::string port_{};
   const std::string base_ = "/" + random_token() + "/";
 };
 

@@ -21,7 +21,7 @@ struct ServerOptions {
 
 /// Serves the studio of one mission on the loopback interface until the program ends. Every address begins
 /// with a random token. Requests of other sites (Host, Origin) and those without the token are refused before
-/// their bodies are read; HttpServer bounds what a request takes. `ready` is called with the address. Throws
+/// their bodies are read; serve_http bounds what a request takes. `ready` is called with the address. Throws
 /// std::system_error where no port is free.
 void serve(MissionFiles& files, const ServerOptions& options,
            const std::function<void(const std::string& address)>& ready);

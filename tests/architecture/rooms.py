@@ -15,7 +15,7 @@ HOUSE = ["model", "planner", "diagnosis", "scenarios", "app/report", "studio", "
 # Headers that take long to compile or that a replacement of the library must find in one place.
 # Design: docs/decisions/0800-build.md
 CONFINED = {"CLI/": "app/command_line.cpp", "yaml-cpp/": "scenarios/yaml_text.cpp", "png.h": "scenarios/image.cpp",
-            "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/", "sys/socket": "studio/server/"}
+            "Ip": "planner/nlp/ipopt/", "ompl/": "planner/path/search/", "boost/asio/": "studio/server/http.cpp", "boost/beast/": "studio/server/http.cpp"}
 
 
 # The studio's page is compiled from these by emscripten, whose standard library has no algorithms on ranges.

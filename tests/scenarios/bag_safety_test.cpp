@@ -183,13 +183,17 @@ TEST_F(ForeignBags, AFileIsReadOnceAsTheMetadataNamesIt) {
   EXPECT_NE(reading(scratch_.at("bag")).error.find("each file once"), std::string::npos);
 }
 
-TEST_F(ForeignBags, DeepLinesAreNoStates) {
+TEST_F(ForeignBags, DeepAndLongLinesAreNoStates) {
   const std::string state =
       R"({"timestamp": "2026-05-01T10:00:10Z", "serialNumber": "agv", "velocity": {"vx": 0.1}, "batteryState": {}})";
   std::string deep = state;
   deep.insert(deep.size() - 1, R"(, "x": )" + std::string(100'000, '[') + std::string(100'000, ']'));
-  const Reading seen = reading(written(state + "\n" + deep + "\n" + state + "\n", "run.jsonl"));
-  EXPECT_EQ(seen.messages, 2u) << seen.error;
+  const std::string longest = std::string((16u << 20) - state.size(), ' ') + state;
+  const std::string longer = std::string((16u << 20) + 1, ' ') + state;
+  for (const auto& [line, states] : {std::pair{deep, 2u}, {longest, 3u}, {longer, 2u}}) {
+    const Reading seen = reading(written(state + "\n" + line + "\n" + state + "\n", "run.jsonl"));
+    EXPECT_EQ(seen.messages, states) << seen.error;
+  }
 }
 
 TEST(ShallowJson, DepthIsCountedOutsideOfTexts) {

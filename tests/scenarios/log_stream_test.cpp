@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "model/config_error.hpp"
 #include "scenarios/write_monitor_event.hpp"
@@ -90,6 +91,29 @@ TEST(LogLines, AHeaderWithoutTimesOrSpeedsIsAnError) {
       EXPECT_EQ(error.detail().mark.file, "a.csv");
       EXPECT_EQ(error.detail().mark.line, 2);
     }
+  }
+}
+
+/// A line without an end is refused while it arrives; one that just fits is a row.
+TEST(LogLines, ALineIsBounded) {
+  constexpr std::size_t kMost = 1u << 20;
+  const std::string header = "# a comment\ntime_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s\n";
+  for (const std::string& start : {header + "1,2,3,", std::string("\n\n{\"time_s\": 1, \"x\": \"")}) {
+    const std::string line = start.substr(start.rfind('\n') + 1);
+    std::istringstream endless(start + std::string(4 * kMost, 'x'));
+    try {
+      LogLines(kGeometry, "a.csv").follow(endless, [](const MonitorRow&) { ADD_FAILURE(); });
+      ADD_FAILURE() << start;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.detail().mark.file, "a.csv");
+      EXPECT_EQ(error.detail().mark.line, 3);
+    }
+    EXPECT_LE(static_cast<std::size_t>(endless.tellg()), start.size() + kMost + 1);
+
+    std::istringstream longest(start + std::string(kMost - line.size(), 'x') + "\n" + line);
+    int rows = 0;
+    LogLines(kGeometry, "a.csv").follow(longest, [&](const MonitorRow&) { ++rows; });
+    EXPECT_EQ(rows, 2);
   }
 }
 

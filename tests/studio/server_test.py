@@ -3,6 +3,7 @@
 
 usage: server_test.py JOULEPATH
 """
+import json
 import pathlib
 import re
 import resource
@@ -11,6 +12,7 @@ import socket
 import stat
 import sys
 import tempfile
+import time
 import urllib.error
 
 from studio_page import Served, write_mission
@@ -65,16 +67,44 @@ def check_alive(served):
 
 
 def check_token_comes_first(served):
-    """Without the token nothing of a body is waited for; with it a body has an announced, bounded size."""
-    for fields in (("Transfer-Encoding: chunked",), ("Content-Length: 1000000",)):
+    """Without the token nothing of a body is waited for; with it the announced size is a bounded number."""
+    for fields in (("Transfer-Encoding: chunked",), ("Content-Length: 1000000",), ("Content-Length: 17000000",)):
         one = Raw(served)
         one.send(one.head("/nothing", *fields))
         assert one.status() == 404, fields
-    for field, status in (("Transfer-Encoding: chunked", 411), ("Content-Length: 17000000", 413), ("Content-Length: " + "9" * 40, 413), ("Content-Length: -1", 400),
-                          ("Content-Length: 1\r\nContent-Length: 2", 400), ("Content-Length : 1", 400)):
+    for field, status in (("Content-Length: 17000000", 413), ("Content-Length: " + "9" * 40, 400), ("Content-Length: -1", 400), ("Content-Length: 1\r\nContent-Length: 2", 400),
+                          ("Content-Length: 1\r\nTransfer-Encoding: chunked", 400), ("Content-Length : 1", 400), ("Host: other", 400)):
         one = Raw(served)
         one.send(one.head(one.base + "answer", field))
         assert one.status() == status, field
+
+
+def chunk(data):
+    return b"%x\r\n%s\r\n" % (len(data), data)
+
+
+def check_chunks(served):
+    """A body in chunks is read; its bound holds for their sum, and for what a chunk announces."""
+    question = json.dumps({key: value for key, value in served.files().items() if key in ("mission", "robot", "base")}).encode()
+    pieces = b"".join(chunk(question[at:at + 100]) for at in range(0, len(question), 100))
+    mebibyte = chunk(b" " * (1 << 20))
+    for body, status in ((pieces + b"0\r\n\r\n", 200), (15 * mebibyte + pieces + b"0\r\nX-Trailer: a\r\n\r\n", 200), (16 * mebibyte + chunk(b" "), 413), (b"1000001\r\n", 413),
+                         (b"fffffffffffffffff\r\n", 400), (b"-1\r\n", 400), (b"1;" + b"x" * 20_000, 400), (b"0\r\n" + b"x: y\r\n" * 4000, 400)):
+        one = Raw(served)
+        one.send(one.head(one.base + "save", "Transfer-Encoding: chunked") + body)
+        assert one.status() == status, (body[:100], status)
+
+
+def check_headers_in_pieces(served):
+    """The bound of the headers holds for their sum, however they arrive."""
+    for start, piece in ((b"x", b": y\r\nx" * 20), (b"", b"x: y\r\n" * 20), (b"", b"a" * 120)):
+        one = Raw(served)
+        one.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        one.send(b"GET / HTTP/1.1\r\n" + start)
+        for _ in range(200):
+            time.sleep(0.002)
+            one.send(piece)
+        assert one.status() == 431, piece[:10]
 
 
 def check_memory(served):
@@ -188,7 +218,7 @@ def check_line_ends(program, folder):
 def main():
     program = sys.argv[1]
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
-    for check in (check_token_comes_first, check_memory, check_deep_questions, check_slow_connections, check_other_files, check_links_and_modes, check_line_ends):
+    for check in (check_token_comes_first, check_chunks, check_headers_in_pieces, check_memory, check_deep_questions, check_slow_connections, check_other_files, check_links_and_modes, check_line_ends):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name) / "missions"
             folder.mkdir()
