@@ -100,21 +100,22 @@ void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict)
 std::string later_text(const BaselineTotal& baseline) { return figure(baseline.later_s, 2) + " s later"; }
 
 std::vector<std::string> baseline_header() {
-  return {"same path, same time", "s",        "total J",        "least J",
-          "saved",                "motion J", "saved of motion"};
+  return {"same path, own time", "s",        "total J",        "least J",
+          "saved",               "motion J", "saved of motion"};
 }
 
 std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
   if (!baseline.feasible) return {baseline.name, "-", "-", "-", "infeasible", "-", "infeasible"};
   const double saved = saving_percent(baseline.optimum_J, baseline.energy_J),
                saved_of_motion = saving_percent(baseline.optimum_motion_J, baseline.motion_energy_J);
+  const auto percent = [](double value) { return std::isfinite(value) ? figure(value, 3) + " %" : "-"; };
   return {baseline.late() ? baseline.name + ", " + later_text(baseline) : baseline.name,
           figure(baseline.duration_s),
           figure(baseline.energy_J, 5),
           figure(baseline.optimum_J, 5),
-          figure(saved, 3) + " %",
+          percent(saved),
           figure(baseline.motion_energy_J, 5),
-          figure(saved_of_motion, 3) + " %"};
+          percent(saved_of_motion)};
 }
 
 void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {

@@ -8,7 +8,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(SQLite3 REQUIRED)
+find_package(SQLite3 3.37 REQUIRED) # PRAGMA table_list tells views from tables
 find_package(Boost 1.74 REQUIRED) # headers: odeint (integration), math (distributions)
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)

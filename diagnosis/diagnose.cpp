@@ -224,10 +224,12 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   refuse_short_runs(dataset);
   const auto examined = [&]() -> Diagnosis {
     RunsByUse runs = sort_runs(dataset);
-    if (auto constants = foreign_constants(dataset.robot, runs.signals); !constants.empty())
-      return of_another_robot(dataset, runs, std::move(constants));
-    if (auto checks = check_data(dataset, runs); !checks.empty())
-      return stopped_by(dataset, runs, std::move(checks));
+    auto checks = check_data(dataset, runs);
+    // A fault of single runs is none of the file; one of all runs may be that of another robot's file.
+    if (std::ranges::all_of(checks, [](const DataCheck& check) { return check.run.empty(); }))
+      if (auto constants = foreign_constants(dataset.robot, runs.signals); !constants.empty())
+        return of_another_robot(dataset, runs, std::move(constants));
+    if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
     if (runs.signals.empty()) return diagnose_energies(dataset, options);
     return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);
   };

@@ -446,6 +446,9 @@ inline constexpr double kLawInexactness = 0.025;
 /// Of the diagnosis runs, to choose the ceiling's ridge. Chosen.
 inline constexpr std::size_t kRidgeFolds = 4;
 
+/// A part of the gap below this is none to tell: it prints as 0. Declared.
+inline constexpr double kLeastShownShare = 1e-3;
+
 // A run that no model of the others describes.
 
 /// Its gap over that of the next run, under the fit of the others. Chosen: a run of a payload, a place or a

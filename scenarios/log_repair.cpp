@@ -264,9 +264,10 @@ std::vector<LogArtifact> find_artifacts(Trajectory& trajectory, const HoldsOfCha
   if (wheels.left.empty() || wheels.right.empty()) return artifacts;
   for (const auto& column : log_columns()) {
     const std::vector<double>& values = column.channel(trajectory);
-    if (values.empty() || may_stay(column) || is_partial(values)) continue;
+    if (values.empty() || may_stay(column)) continue;
     const auto& witness = &values == &wheels.left ? wheels.right : wheels.left;
     const auto own = of_own_readings.find(column.name);
+    if (is_partial(values) && own == of_own_readings.end()) continue;
     find_stuck(trajectory, {.run = run, .channel = column.name},
                own == of_own_readings.end() ? holds_of(trajectory.time_s, values) : own->second, witness,
                artifacts);

@@ -49,6 +49,42 @@ std::vector<std::size_t> bounds_of(const Trajectory& log) {
   return {bounds.begin(), bounds.end()};
 }
 
+/// The samples in which every channel is known that misses less than a fiftieth of the log, and less than a
+/// manoeuvre, at its ends: channels of one log rarely begin with the same sample.
+std::pair<std::size_t, std::size_t> nearly_all(const Trajectory& log) {
+  constexpr double kShortEnds = 0.02;  // of the log
+  const double most_s = std::min(kShortestStretch_s, kShortEnds * (log.time_s.back() - log.time_s.front()));
+  std::pair<std::size_t, std::size_t> samples{0, log.size()};
+  for (const LogColumn& column : log_columns())
+    if (const std::vector<double>& channel = column.of(log); is_partial(channel)) {
+      const auto [first, end] = known_samples(channel);
+      if (first >= end) continue;
+      const double missing_s =
+          log.time_s[first] - log.time_s.front() + log.time_s.back() - log.time_s[end - 1];
+      if (missing_s < most_s)
+        samples = {std::max(samples.first, first), std::min(samples.second, end)};
+    }
+  return samples;
+}
+
+/// Cuts the log to them, and says so.
+void cut_short_ends(Trajectory& log, const std::string& run, std::vector<LogArtifact>& artifacts) {
+  if (log.size() < 2) return;
+  const auto [first, end] = nearly_all(log);
+  if (end - first == log.size()) return;
+  artifacts.push_back({"cut", run, "",
+                       four_digits(log.time_s[first] - log.time_s.front()) + " s at the beginning and " +
+                           four_digits(log.time_s.back() - log.time_s[end - 1]) +
+                           " s at the end are left out: channels begin later or end earlier",
+                       log.size() - (end - first), log.time_s.front()});
+  const auto keep = [first = first, end = end](std::vector<double>& values) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  for (const LogColumn& column : log_columns()) keep(column.channel(log));
+}
+
 /// Whether no value belongs to the whole of the run, and a stretch is long enough to stay.
 bool may_be_cut(const Run& run, const std::vector<std::size_t>& bounds) {
   if (run.predicted || run.measured_energy_J || run.battery_energy_Wh) return false;
@@ -64,6 +100,7 @@ bool is_partial(const std::vector<double>& channel) {
 }
 
 void drop_partial_channels(Trajectory& log, const std::string& run, std::vector<LogArtifact>& artifacts) {
+  cut_short_ends(log, run, artifacts);
   tell_partial(log, run, "left out, to keep the whole log", artifacts);
   for (const LogColumn& column : log_columns())
     if (std::vector<double>& channel = column.channel(log); is_partial(channel))
@@ -71,6 +108,7 @@ void drop_partial_channels(Trajectory& log, const std::string& run, std::vector<
 }
 
 std::vector<Run> split_at_partial_channels(Run run, std::vector<LogArtifact>& artifacts) {
+  cut_short_ends(run.log, run.name, artifacts);
   std::vector<std::size_t> bounds = bounds_of(run.log);
   if (bounds.size() > 2 && !may_be_cut(run, bounds)) {
     drop_partial_channels(run.log, run.name, artifacts);

@@ -11,7 +11,8 @@ namespace joulepath {
 /// the log. No reader of a dataset hands it on.
 [[nodiscard]] bool is_partial(const std::vector<double>& channel);
 
-/// Leaves partial channels out, so that all of the log is kept, and says so.
+/// Leaves partial channels out, so that all of the log is kept, and says so. Ends of less than a fiftieth of
+/// the log that a channel misses are cut instead.
 void drop_partial_channels(Trajectory& log, const std::string& run, std::vector<LogArtifact>& artifacts);
 
 /// The run as runs whose channels are known throughout: a new one begins where a channel does. Stretches too

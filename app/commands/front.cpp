@@ -55,11 +55,7 @@ class FrontCommand : public Command {
     const ReadOptions reading{.untrusted = options_.common.untrusted};
     MissionRequest mission = read_mission_source(options_.source, reading);
     const MissionWorld world = read_world(mission, reading);
-    mission.objective = {};
-    for (LegRequest& leg : mission.legs) {
-      leg.deadline_s.reset();
-      leg.duration_s.reset();
-    }
+    if (world.robot.power.standby_W > 0) drop_times(mission);  // else a second may cost nothing
     const Plan plan = plan_mission(mission, world, options_.plan);
     if (plan.status > SolveStatus::feasible) {
       std::cerr << "no front: " << plan.message << "\n";
@@ -82,6 +78,14 @@ class FrontCommand : public Command {
   }
 
  private:
+  static void drop_times(MissionRequest& mission) {
+    mission.objective = {};
+    for (LegRequest& leg : mission.legs) {
+      leg.deadline_s.reset();
+      leg.duration_s.reset();
+    }
+  }
+
   /// The classic profiles compared with one point of the front.
   struct Beside {
     std::size_t point{};
@@ -157,8 +161,9 @@ class FrontCommand : public Command {
 
   static std::string energy_cell(const BaselineTotal& total) {
     if (!total.feasible) return "-";
-    const std::string more = figure(100 * (total.energy_J / total.optimum_J - 1), 2) + " %";
-    return figure(total.energy_J, 6) + " (+" + more + (total.late() ? ", " + later_text(total) : "") + ")";
+    const double more = 100 * (total.energy_J / total.optimum_J - 1);
+    if (!std::isfinite(more)) return figure(total.energy_J, 6);
+    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" + (total.late() ? ", " + later_text(total) : "") + ")";
   }
 
   static constexpr const char* kResult = "front.json";

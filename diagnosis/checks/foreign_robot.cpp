@@ -95,7 +95,7 @@ bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vect
   const double radius_m = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right),
                torque_Nm_A = robot.motor.left.torque_per_ampere_Nm_A() * std::exp(ratios.back().ratio);
   for (const RunSignals& run : runs)
-    for (Eigen::Index j = 0; measures_windings(run) && j < run.size(); ++j) {
+    for (Eigen::Index j = 0; run.payload_known && measures_windings(run) && j < run.size(); ++j) {
       const auto mean = [j](const Sided<Eigen::VectorXd>& of) { return 0.5 * (of.left[j] + of.right[j]); };
       const double speed = mean(run.wheel_speed_rad_s), rate = mean(run.wheel_acceleration_rad_s2),
                    jerk = run.wheel_jerk_rad_s3.left.size() > 0 ? mean(run.wheel_jerk_rad_s3) : 0.0;

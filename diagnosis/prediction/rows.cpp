@@ -50,7 +50,8 @@ void fill_motor(const RunSignals& signals, const Prediction& prediction, Side si
 /// does not tell.
 bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
   for (Side side : kSides) {
-    const bool stands = signals.wheel_acceleration_rad_s2[side][j] == 0 &&
+    const bool has_noise_taken_off = signals.period_s <= kLongestNoisePeriod_s;
+    const bool stands = (!has_noise_taken_off || signals.wheel_acceleration_rad_s2[side][j] == 0) &&
                         std::abs(signals.wheel_speed_rad_s[side][j]) < kBlurredWheel_rad_s;
     if (!stands && !signals.turning[side][static_cast<std::size_t>(j)]) return false;
   }

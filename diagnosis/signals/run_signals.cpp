@@ -263,7 +263,7 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
     std::ranges::transform(power.left, power.right, counted[0].begin(), std::plus<>{});
     counted.pop_back();
   }
-  const auto zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(thinner.centers().size()));
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(thinner.centers().size()));
   SupplyAccount account{zero, zero, zero};
   for (Samples& drawn_W : counted) {
     Samples returned_W = drawn_W;

@@ -160,7 +160,7 @@ void name_inexact_forms(const Examination& x, Names& names) {
     if (!named || !form_is_told(x, columns[k])) continue;
     if (!is_inexact_form(posterior, static_cast<Eigen::Index>(k))) continue;
     const double share = share_lost(x, fit_within_calibration(x.id), {columns[k]});
-    if (share < kLeastUnknownShare) continue;
+    if (share < kLeastShownShare) continue;
     const auto variable = static_cast<std::size_t>(column.part) % kFormVariables.size();
     names.unknowns.push_back({.depends_on = std::string(kFormVariables[variable]) + " (" + law + ")",
                               .probability = names.surest,

@@ -115,8 +115,10 @@ class StopSearch {
   /// The best plan with a stop before one of these legs, or with more stops where one alone is not enough.
   std::optional<Plan> best_of(const Attempt& from, std::size_t first, std::size_t last, int stops) {
     std::vector<Attempt> attempts;
-    for (MissionRequest& longer : with_one_more_stop(from.mission, from.plan, plant_, first, last)) {
-      if (tried_++ >= kMostPlans) return std::nullopt;
+    std::vector<MissionRequest> candidates = with_one_more_stop(from.mission, from.plan, plant_, first, last);
+    if (!budget_) budget_ = kMostStops * static_cast<int>(candidates.size()) + kMostPlans;
+    for (MissionRequest& longer : candidates) {
+      if ((*budget_)-- <= 0) break;
       Plan plan = plan_legs_(longer);
       // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
       const bool further =
@@ -134,7 +136,7 @@ class StopSearch {
 
   const Plant& plant_;
   const PlanLegs& plan_legs_;
-  int tried_{};
+  std::optional<int> budget_{};  ///< plans: one descent to the most stops, and kMostPlans beside it
 };
 
 }  // namespace

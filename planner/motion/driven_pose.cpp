@@ -25,6 +25,7 @@ bool drive_segment(const PathPiece& piece, double from_m, double to_m, PoseState
   double step_m = length_m / kFirstSteps;
   for (double since_m = 0; length_m - since_m > least_m;) {
     step_m = std::min(step_m, length_m - since_m);
+    if (!(since_m + step_m > since_m)) return false;
     if (stepper.try_step(system, pose, since_m, step_m) == odeint::fail && step_m <= least_m) return false;
   }
   return true;

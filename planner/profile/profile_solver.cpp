@@ -151,7 +151,7 @@ class ProfileSolver {
     };
     if (tightened || (!request_.draft && passes_finer())) {
       result_.summary.status = SolveStatus::failed;
-      result_.summary.message = "no profile passes " + std::string(blocked.limit) +
+      result_.summary.message = "no profile passes " + std::string(blocked.limit.empty() ? "the path" : blocked.limit) +
                                 " on the grids tried; whether there is one is not known";
       return false;
     }

@@ -112,6 +112,9 @@ TEST_P(NullRows, AreNoiseInEveryChannel) {
   const Robot robot = testing::nomad();
   auto runs = logs_of(GetParam(), robot, kRunsOfARow, 7);
   expect_noise(runs, robot, "all channels");
+  const Eigen::VectorXd found = chi_square_per_row(runs, robot);
+  for (const int channel : {kCurrentLeft, kCurrentRight, kWindingLeft, kWindingRight})
+    EXPECT_GT(found[channel], 0.0) << "rows that count: " << kChannelNames[static_cast<std::size_t>(channel)];
   std::ranges::transform(runs, runs.begin(), without_motors);
   expect_noise(runs, robot, "battery alone");
 }

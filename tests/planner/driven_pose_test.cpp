@@ -51,6 +51,7 @@ bool believed_at_full_speed(const PathPiece& piece) {
 
 /// From a tenth of a meter down to the least number: no corner is passed at full speed.
 TEST(DrivenPose, NoRadiusHidesACornerFromTheReplay) {
+  int judged = 0;
   for (const double angle_rad : {0.5 * std::numbers::pi, -0.7})
     for (int decade = 1; decade <= 320; decade += decade < 24 ? 1 : 37) {
       const double radius_m = std::pow(10.0, -decade);
@@ -58,11 +59,14 @@ TEST(DrivenPose, NoRadiusHidesACornerFromTheReplay) {
       const std::optional<PathPiece> piece = cornered(angle_rad, radius_m);
       if (!piece) continue;
       EXPECT_FALSE(believed_at_full_speed(*piece));
+      ++judged;
     }
+  EXPECT_GE(judged, 12) << "radii whose curve is one";
 }
 
 /// The same kind of corner as a cubic that begins and ends without curvature.
 TEST(DrivenPose, ATinyCubicHidesNoCorner) {
+  int judged = 0;
   for (int decade = 1; decade <= 12; ++decade) {
     const double size_m = std::pow(10.0, -decade);
     SCOPED_TRACE(size_m);
@@ -72,7 +76,9 @@ TEST(DrivenPose, ATinyCubicHidesNoCorner) {
         {LinearCurvature({}, 3.0), BezierSegment(corner), LinearCurvature(behind, 3.0)});
     if (!piece) continue;
     EXPECT_FALSE(believed_at_full_speed(*piece));
+    ++judged;
   }
+  EXPECT_GE(judged, 3) << "cubics whose curve is one";
 }
 
 TEST(DrivenPose, CurvatureLeadsToTheEndOfEveryOrdinaryPath) {

@@ -71,7 +71,7 @@ jp.draw_front = function (data) {
   const plots = [make("Energy at the battery, with standby", "energy_J")];
   if (points.some((one) => is_number(one.motion_energy_J))) plots.push(make("Motion energy, without standby", "motion_energy_J"));
   const over = jp.overlaid_profiles(data.profiles || []);
-  const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, same time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "more than the optimum"}], others.map((one) => [jp.profile_name(one), {n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: percent(100 * (one.energy_J / one.optimum_J - 1), 3)}]))) : null;
+  const beside = others.length ? jp.section("Classic profiles", jp.table(["same path, own time", {n: "duration s"}, {n: "energy J"}, {n: "motion J"}, {n: "more than the optimum"}], others.map((one) => [jp.profile_name(one), {n: number(one.duration_s, 5)}, {n: number(one.energy_J, 6)}, {n: number(one.motion_energy_J, 6)}, {n: percent(100 * (one.energy_J / one.optimum_J - 1), 3)}]))) : null;
   const least = points.reduce((best, one) => (one.energy_J < best.energy_J ? one : best), points[0]);
   jp.page(jp.header(data.title || "Energy against time", data.subtitle || "Each point is the least energy for its duration on the planned paths. The slope is the price of a second.", null, true),
     points.length ? h("div", {class: "tiles"}, jp.tile("Least energy", with_unit(least.energy_J, "J"), `at ${with_unit(least.duration_s, "s")}`), jp.tile("Fastest", with_unit(points[0].duration_s, "s"), with_unit(points[0].energy_J, "J")), jp.tile("Points", String(points.length))) : null,
