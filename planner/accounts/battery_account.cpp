@@ -169,7 +169,28 @@ std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& po
   return verdict;
 }
 
-void blame_battery(Plan& plan, const Robot& robot) {
+namespace {
+
+/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th of
+/// it is not enough.
+std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithResistance& plans) {
+  constexpr int kHalvings = 8, kRefinements = 3;
+  double fails_ohm = most_ohm, works_ohm = most_ohm;
+  int halvings = 0;
+  for (; !plans(works_ohm); works_ohm *= 0.5, ++halvings) {
+    fails_ohm = works_ohm;
+    if (halvings == kHalvings) return std::nullopt;
+  }
+  for (int k = 0; halvings > 0 && k < kRefinements; ++k) {
+    const double between_ohm = std::sqrt(works_ohm * fails_ohm);
+    (plans(between_ohm) ? works_ohm : fails_ohm) = between_ohm;
+  }
+  return works_ohm;
+}
+
+}  // namespace
+
+void blame_battery(Plan& plan, const Robot& robot, const PlansWithResistance& plans) {
   if (!plan.infeasibility) return;
   Infeasibility& verdict = plan.infeasibility->reason;
   const auto power = verdict.relaxation.find("battery_power_W");
@@ -182,8 +203,9 @@ void blame_battery(Plan& plan, const Robot& robot) {
     verdict.relaxation.erase(power);
     // Power is inverse to the resistance.
     if (needed_W <= stated_W)
-      verdict.relaxation["internal_resistance_ohm"] =
-          robot.battery.internal_resistance_ohm * most_W / needed_W;
+      if (const auto ohm =
+              planned_resistance_ohm(robot.battery.internal_resistance_ohm * most_W / needed_W, plans))
+        verdict.relaxation["internal_resistance_ohm"] = *ohm;
   }
   std::ostringstream text;
   text.precision(4);

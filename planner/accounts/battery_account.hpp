@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "planner/accounts/stretch_account.hpp"
 #include "planner/values/plan.hpp"
 
@@ -20,9 +22,12 @@ namespace joulepath {
 /// The verdict on a battery that cannot feed a robot that only stands (W of standby); nothing if it can.
 [[nodiscard]] std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& pose);
 
-/// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), names its internal resistance
-/// as the change that works.
-void blame_battery(Plan& plan, const Robot& robot);
+/// Whether the whole mission is planned with a battery of this resistance (ohm).
+using PlansWithResistance = std::function<bool(double)>;
+
+/// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), names an internal resistance with
+/// which the mission was planned.
+void blame_battery(Plan& plan, const Robot& robot, const PlansWithResistance& plans);
 
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
 /// of `uncertainty:`, each propagated through the power model along the planned motion by central

@@ -298,8 +298,15 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const Plant plant = make_plant(world.robot);
   const bool visits = !asked.visit.empty() && asked.legs.empty();
   if (!visits && asked.legs.empty()) refuse_empty(asked);
-  Plan answer = (visits ? plan_visits : plan_with_stops)(asked, world, options, space, plant, known);
-  blame_battery(answer, world.robot);
+  const auto planned = [&](const MissionWorld& in, const Plant& by) {
+    return (visits ? plan_visits : plan_with_stops)(asked, in, options, space, by, known);
+  };
+  Plan answer = planned(world, plant);
+  blame_battery(answer, world.robot, [&](double resistance_ohm) {
+    MissionWorld other = world;
+    other.robot.battery.internal_resistance_ohm = resistance_ohm;
+    return planned(other, make_plant(other.robot)).status <= SolveStatus::feasible;
+  });
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;

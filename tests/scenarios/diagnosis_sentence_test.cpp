@@ -38,7 +38,9 @@ TEST(DiagnosisSentence, NamesTheCauseItsSizeAndWhatBecomesOfTheGap) {
 /// A wrong standby power is nothing of the motors': both gaps are stated.
 TEST(DiagnosisSentence, StatesTheGapOfMotorsAndBattery) {
   Diagnosis d = with_gap(Verdict::explained, 0.716, 0.716);
-  d.causes = {{.effect = {.name = "standby_power_error"}, .parameters = {{"power_W", 8.9, {8.8, 9.0}}}, .probability = 0.97}};
+  d.causes = {{.effect = {.name = "standby_power_error"},
+               .probability = 0.97,
+               .parameters = {{"power_W", 8.9, {8.8, 9.0}}}}};
   d.gap.battery_energy = with_gap(Verdict::explained, 16.8, 0.31).gap.energy;
   EXPECT_EQ(diagnosis_sentence(d),
             "Explained: standby power error, 8.9 W (probability 0.97). The energy gap at the motors is 0.716 % (noise floor 0.1 %). "
