@@ -63,10 +63,14 @@ bool add_ratio(std::string name, std::string unit, double file, double value, do
   return true;
 }
 
+/// Whether the channel is there and varies: a stuck one tells no constant.
+bool varies(const RunSignals& run, const Eigen::VectorXd& channel) {
+  return run.size() > 0 && channel.size() == run.size() && channel.maxCoeff() > channel.minCoeff() + 1e-9;
+}
+
 bool measures_windings(const RunSignals& run) {
   return std::ranges::all_of(kSides, [&](Side side) {
-    return run.size() > 0 && run.motor_voltage_V[side].size() == run.size() &&
-           run.motor_current_A[side].size() == run.size();
+    return varies(run, run.motor_voltage_V[side]) && varies(run, run.motor_current_A[side]);
   });
 }
 

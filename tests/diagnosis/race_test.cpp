@@ -139,11 +139,11 @@ TEST(SmallMembers, AreNotNamedBesideALargeOne) {
   EXPECT_EQ(names(10.0).front().candidate.label(), "viscous_friction");
 }
 
-/// Whether a law of a tenth of the floor is beyond doubt, were it told by this many runs.
-bool is_beyond_doubt(double strength, std::size_t runs, const std::string& law) {
+/// Whether a law of this size (over the floor) is beyond doubt, were it told by this many runs.
+bool is_beyond_doubt(double strength, std::size_t runs, const std::string& law, double size = 0.75) {
   Equations equations = drawn({.law = strength});
   equations.candidates.front().shape.name = law;
-  const double least = 10 * strength;
+  const double least = strength / size;
   return search_explanations(without_calibration(equations, every(kRaceRuns)), equations,
                              search_options(1.0, runs, {least, least}))
       .front()
@@ -153,10 +153,11 @@ bool is_beyond_doubt(double strength, std::size_t runs, const std::string& law) 
 /// 600 readings of unit noise give a law of strength s about 300 s^2 - 9 log units, 10 to 18 and 66 with this
 /// noise.
 TEST(SmallMembers, OfFewRunsNeedAFirmLawAndTwiceTheEvidence) {
-  EXPECT_TRUE(is_beyond_doubt(0.25, kRunsForSmallEffects, "viscous_friction"));
+  EXPECT_TRUE(is_beyond_doubt(0.5, kRunsForSmallEffects, "viscous_friction"));
   EXPECT_FALSE(is_beyond_doubt(0.25, 6, "viscous_friction"));
-  EXPECT_TRUE(is_beyond_doubt(0.5, 6, "viscous_friction"));
+  EXPECT_TRUE(is_beyond_doubt(1.0, 6, "viscous_friction"));
   EXPECT_FALSE(is_beyond_doubt(0.5, 6, "turning_scrub"));
+  EXPECT_FALSE(is_beyond_doubt(0.5, kRunsForSmallEffects, "viscous_friction", 0.1)) << "the model's own error";
 }
 
 /// A law of five hundred times its size that a term takes back fits the gap, and explains nothing.

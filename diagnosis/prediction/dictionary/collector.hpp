@@ -8,6 +8,7 @@
 
 #include "diagnosis/prediction/dictionary.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
+#include "model/mean_power.hpp"
 
 namespace joulepath {
 
@@ -74,20 +75,28 @@ class DictionaryCollector {
   template <class Function>
   void reading(const std::string& family, const Prediction* prediction, Function&& size_A) {
     entry(family, "current reading", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
-      const PowerSupply& supply = robot_->power;
-      const Sided<Eigen::VectorXd>& power_W = prediction->power_W;
       for (Side side : kSides) {
         if (signals_->motor_current_A[side].size() == 0) continue;
         const double current_A = size_A(j, side);
         entry_rows(j, column(kCurrentLeft, side)) = current_A;
         entry_rows(j, column(kWindingLeft, side)) = -prediction->reading_resistance_ohm[side][j] * current_A;
-        const double counted_W =
-            supply.sharing == PowerSharing::bus ? power_W.left[j] + power_W.right[j] : power_W[side][j];
-        entry_rows(j, kDriverPower) -= (counted_W >= 0 ? 1.0 : supply.regeneration_efficiency) *
-                                       prediction->voltage_V[side][j] * current_A;
+        entry_rows(j, kDriverPower) -=
+            counted_share(side, *prediction, j) * prediction->voltage_V[side][j] * current_A;
       }
     });
   }
+  /// How much of a motor's power the supply counts: the slope of its mean over the kernel.
+  [[nodiscard]] double counted_share(Side side, const Prediction& prediction, Eigen::Index j) const {
+    constexpr double kStep_W = 1e-4;
+    const Sided<double> change_W{prediction.power_change_W.left[j], prediction.power_change_W.right[j]};
+    const auto counted_W = [&](double step_W) {
+      Sided<double> power_W{prediction.power_W.left[j], prediction.power_W.right[j]};
+      power_W[side] += step_W;
+      return mean_supply_power_W(robot_->power, power_W, change_W);
+    };
+    return (counted_W(kStep_W) - counted_W(-kStep_W)) / (2 * kStep_W);
+  }
+
   /// The last entry has the rows of the catalog's effect with this EffectInfo::curve.
   void known_as(const std::string& curve) { entries.back().curve = curve; }
   /// A voltage in the winding's equation.

@@ -46,33 +46,6 @@ TEST(MotionWindows, AccelerationIsExactOnUnevenRows) {
   EXPECT_GT(seen, 5);
 }
 
-/// The battery's power of the model, sampled while a robot brakes: where the wheels begin to return power, the
-/// power of the mean motion is not the mean of what the supply counts.
-TEST(MotionWindows, MeanBatteryPowerIsThatOfTheSamples) {
-  const Plant plant = make_nominal_plant(nomad());
-  const PowerSupply& supply = nomad().power;
-  const Signatures signatures(nomad());
-  MotionWindows windows(nomad().geometry);
-  double error = 0, without_change = 0;
-  for (double t = 0; t < 30; t += 0.02) {
-    const BodyMotion<double> motion{.speed_m_s = 0.5 + 0.4 * std::cos(1.5 * t),
-                                    .acceleration_m_s2 = -0.6 * std::sin(1.5 * t)};
-    const auto power_W = [&](const BodyMotion<double>& m) {
-      const auto wheels = operating_point(plant, m, site_of(nomad().geometry, {}, 3, m.speed_m_s, 0));
-      return supply_power_W(supply, {wheels.left.power_W, wheels.right.power_W}) + supply.standby_W;
-    };
-    const auto wheels = wheel_speeds_rad_s(nomad().geometry, motion.speed_m_s, 0.0);
-    const auto window = windows.add({.time_s = t,
-                                     .wheel_speed_rad_s = wheels,
-                                     .battery_voltage_V = 20,
-                                     .battery_current_A = power_W(motion) / 20});
-    if (!window) continue;
-    error += std::pow(signatures.equations(*window, 3)->residual[0], 2);
-    without_change += std::pow(window->battery_power_W - power_W(window->motion), 2);
-  }
-  EXPECT_LT(std::sqrt(error), 0.5 * std::sqrt(without_change));
-}
-
 /// Current of the model, sampled along a motion whose acceleration changes within each window.
 TEST(MotionWindows, MeanCurrentBelongsToTheMeanMotionWhateverTheJerk) {
   const Plant plant = make_nominal_plant(nomad());
