@@ -268,7 +268,7 @@ Schema shard_schema() {
                    required("list", text(), "digest of the missions or designs"),
                    required("files", dictionary(text()), "digest of each file that was read"),
                    required("results", text(), "digest of results.jsonl"), optional("study_file", text()),
-                   optional("study_text", text())}));
+                   optional("study_text", list(text()), "its lines")}));
 }
 
 Schema drift_schema() {

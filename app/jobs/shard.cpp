@@ -3,14 +3,40 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/build_id.hpp"
 #include "app/command.hpp"
+#include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/output_schemas.hpp"
 
 namespace joulepath {
 namespace {
+
+/// A text of a file has no line breaks: a study is a list of its lines.
+std::vector<std::string> lines_in(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    lines.push_back(printable(line));
+  }
+  return lines;
+}
+
+std::string text_of(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::string study_of(const Node& root) {
+  std::vector<std::string> lines;
+  if (const auto study = root.find("study_text"))
+    for (const Node& line : study->items()) lines.push_back(line.text());
+  return text_of(lines);
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -37,7 +63,7 @@ std::vector<CommonValue> common_values(const ShardManifest& manifest) {
       {"command", manifest.command}, {"version", manifest.version}, {"build", manifest.build}};
   for (const auto& [option, value] : manifest.options) values.push_back({option, value});
   values.insert(values.end(), {{"of", std::to_string(manifest.shard.of)},
-                               {"study_text", manifest.study_text, "another study"},
+                               {"study_text", text_of(lines_in(manifest.study_text)), "another study"},
                                {"jobs", std::to_string(manifest.jobs)},
                                {"list", manifest.list_digest, "other missions or designs"}});
   return values;
@@ -89,7 +115,7 @@ std::string manifest_text(const ShardManifest& manifest) {
             {"files", manifest.files},        {"results", manifest.results_digest}};
   if (!manifest.study_file.empty()) {
     json["study_file"] = manifest.study_file;
-    json["study_text"] = manifest.study_text;
+    json["study_text"] = lines_in(manifest.study_text);
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -109,7 +135,7 @@ ShardManifest read_manifest(const std::string& directory) {
       .list_digest = root["list"].text(),
       .results_digest = root["results"].text(),
       .study_file = root.text_or("study_file", ""),
-      .study_text = root.text_or("study_text", ""),
+      .study_text = study_of(root),
   };
   if (manifest.shard.number > manifest.shard.of) root["shard"].fail("at most the number in `of`");
   for (const auto& [option, value] : root["options"].entries()) manifest.options[option] = value.text();

@@ -100,12 +100,13 @@ TEST(SimulateCommand, NeighboringSeedsShareNoRun) {
                                        std::to_string(seed) + " --out " + out)
                   .code,
               0);
-    for (const auto& run : parsed(out + "/simulation.json")["runs"]) {
+    const nlohmann::json simulation = parsed(out + "/simulation.json");
+    for (const auto& run : simulation["runs"]) {
       std::ifstream stream(out + "/" + run["file"].get<std::string>());
       logs.insert({std::istreambuf_iterator<char>(stream), {}});
       seeds.insert(run["seed"].get<std::uint64_t>());
     }
-    EXPECT_EQ(parsed(out + "/simulation.json")["runs"][0]["seed"], seed);
+    EXPECT_EQ(simulation["runs"][0]["seed"], seed);
   }
   EXPECT_EQ(logs.size(), 12u);
   EXPECT_EQ(seeds.size(), 12u);
