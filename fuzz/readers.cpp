@@ -1,5 +1,5 @@
 // One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. Datasets and
-// logs that are read are checked and diagnosed, too, where they are short. An input is right, or it is
+// logs that are read are checked and diagnosed, too, with FUZZ_DIAGNOSE=1 and where they are short. An input is right, or it is
 // refused with a ConfigError; anything else (crash, sanitizer report, other exception, more time or memory
 // than the limits of ./dev fuzz) is a finding. Another value lists the targets.
 #include <sys/resource.h>
@@ -142,7 +142,8 @@ void diagnose_as_commands_do(const std::string& input) {
 void read_as_chosen(const std::string& input) {
   read_as(chosen().kind, input);
   if (chosen().kind == "bag") read_as("run log", input);
-  if (chosen().kind == "dataset" || chosen().kind == "run log") diagnose_as_commands_do(input);
+  if (std::getenv("FUZZ_DIAGNOSE") && (chosen().kind == "dataset" || chosen().kind == "run log"))
+    diagnose_as_commands_do(input);
 }
 
 }  // namespace
