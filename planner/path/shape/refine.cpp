@@ -11,7 +11,6 @@
 namespace joulepath {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShortestMoved_m = 0.02;
 constexpr double kLongestHandle_m = 4.0;
 constexpr double kReach_m = 3.0;         // how far a vertex may move
