@@ -74,7 +74,7 @@ class Diagnosis(Value):
         """Properties of the logs that are not physics, and what was made of them: derived, missing and held values, ignored
         columns, jumps of the clock.
 
-        >>> diagnose(Robot.example(), [{"time_s": [0, 1], "linear_speed_m_s": [0, 1], "angular_speed_rad_s": [0, 0]}]).artifacts
+        >>> diagnose(Robot.example(), [{"time_s": [0.1 * k for k in range(50)], "linear_speed_m_s": [0.01 * k for k in range(50)], "angular_speed_rad_s": [0] * 50}]).artifacts
         ('logs[0]: derived in wheel_speed_left_rad_s, wheel_speed_right_rad_s: from linear and angular speed',)
         """
         return tuple(self.json.artifacts)
