@@ -38,7 +38,7 @@ struct CommandText {
   std::string examples{};  ///< shown below the options
 };
 
-/// One subcommand: one file in app/, one line in commands.hpp, one line in CMakeLists.txt. `declare` adds
+/// One subcommand. `declare` adds
 /// options bound to its members. `run` reads, calculates, prints results on stdout and messages on stderr,
 /// and returns the exit code. Errors are thrown; program.cpp reports them.
 class Command {
@@ -52,8 +52,13 @@ class Command {
   virtual void declare(CommandLine& line) = 0;
   [[nodiscard]] virtual int run() = 0;
 
+  /// The extension that adds the command; empty: the core.
+  [[nodiscard]] const std::string& extension() const { return extension_; }
+  void belongs_to(std::string extension) { extension_ = std::move(extension); }
+
  private:
   CommandText text_;
+  std::string extension_{};
 };
 
 /// The flags that most commands share.

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "scenarios/document.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 namespace {
@@ -30,6 +31,7 @@ std::unique_ptr<CLI::App> make_parser(const Commands& commands, Command*& chosen
   for (const auto& command : commands) {
     CLI::App* sub = app->add_subcommand(command->text().name, command->text().says);
     sub->footer("Examples:\n" + command->text().examples);
+    if (!command->extension().empty()) sub->group("Extension " + command->extension());
     CommandLine line(*sub);
     command->declare(line);
     sub->callback([&chosen, &command] { chosen = command.get(); });
@@ -42,12 +44,19 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 
+/// A word of an extension that this program was built without.
+std::string absent_text(const std::string& found, std::string_view extension) {
+  return "found " + found + ", accepted: " + accepted_extension(extension) + " (" + extension_hint(extension) + ")";
+}
+
 std::string unknown_command(int argc, const char* const* argv, const Commands& commands) {
   if (argc < 2 || argv[1][0] == '-') return "";
   std::vector<std::string> names;
   for (const auto& command : commands) names.push_back(command->text().name);
   for (const auto& name : names)
     if (name == argv[1]) return "";
+  if (const auto extension = absent_extension("command", argv[1]); !extension.empty())
+    return absent_text("command " + std::string(argv[1]), extension);
   return "no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names);
 }
 
@@ -59,6 +68,9 @@ std::string unknown_argument(const CLI::App& app) {
     for (const std::string& flag : flags_of(*command)) names.push_back(flag);
   if (std::find(names.begin(), names.end(), argument) != names.end())
     return "found " + argument + " before the command, accepted: options after the command's name";
+  for (const CLI::App* command : app.get_subcommands())
+    if (const auto extension = absent_extension("option", command->get_name() + " " + argument); !extension.empty())
+      return absent_text(argument, extension);
   return "unknown argument " + argument + did_you_mean(argument, names);
 }
 
@@ -124,8 +136,13 @@ OptionRules& OptionRules::existing_path() {
   return *this;
 }
 
-OptionRules& OptionRules::one_of(const std::vector<std::string>& words) {
-  option_->check(CLI::IsMember(words));
+OptionRules& OptionRules::one_of(const std::vector<std::string>& words, const std::string& part) {
+  const CLI::IsMember member(words);
+  const auto check = [member, part](std::string& text) {
+    const auto extension = absent_extension(part, text);
+    return extension.empty() ? member(text) : absent_text(text, extension);
+  };
+  option_->check(CLI::Validator(check, member.get_description()));
   return *this;
 }
 

@@ -26,7 +26,8 @@ class OptionRules {
   OptionRules& not_negative();
   OptionRules& positive();
   OptionRules& existing_path();
-  OptionRules& one_of(const std::vector<std::string>& words);
+  /// `part`: of an Addition, for the error of a word that an extension has which was not built.
+  OptionRules& one_of(const std::vector<std::string>& words, const std::string& part = {});
   OptionRules& comma_separated();  ///< of a list: values by comma, or the option again
   OptionRules& repeatable();       ///< of a list: one value each time that the option is given
 

@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 
 #include "app/command_line.hpp"
+#include "app/program_parts.hpp"
 
 namespace joulepath {
 
@@ -9,6 +10,8 @@ std::vector<std::unique_ptr<Command>> all_commands() {
 #define JOULEPATH_MAKE(name) commands.push_back(make_##name##_command());
   JOULEPATH_COMMANDS(JOULEPATH_MAKE)
 #undef JOULEPATH_MAKE
+  ProgramParts parts = extension_parts();
+  for (auto& command : parts.commands) commands.push_back(std::move(command));
   return commands;
 }
 

@@ -12,22 +12,16 @@ namespace joulepath {
   COMMAND(init)                     \
   COMMAND(plan)                     \
   COMMAND(batch)                    \
-  COMMAND(sweep)                    \
-  COMMAND(merge)                    \
   COMMAND(export)                   \
   COMMAND(simulate)                 \
-  COMMAND(follow)                   \
-  COMMAND(monitor)                  \
   COMMAND(estimate)                 \
   COMMAND(diagnose)                 \
   COMMAND(experiment)               \
   COMMAND(effects)                  \
   COMMAND(compare)                  \
   COMMAND(front)                    \
-  COMMAND(studio)                   \
   COMMAND(check)                    \
   COMMAND(calibrate)                \
-  COMMAND(drift)                    \
   COMMAND(schema)                   \
   COMMAND(completion)
 

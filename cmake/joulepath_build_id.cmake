@@ -2,10 +2,10 @@
 # program and its pages, the compiler and its flags; no time and no folder. The folders are searched, so that no source can be forgotten.
 # Design: docs/decisions/0700-results-and-jobs.md
 set(JOULEPATH_BUILD_PATTERNS "")
-foreach(folder model planner diagnosis scenarios studio app)
+foreach(folder model planner diagnosis scenarios app extensions)
   list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.cpp ${folder}/*.hpp ${folder}/CMakeLists.txt)
 endforeach()
-foreach(folder studio app) # what the program's pages hold
+foreach(folder app extensions) # what the program's pages hold
   list(APPEND JOULEPATH_BUILD_PATTERNS ${folder}/*.js ${folder}/*.css ${folder}/*.html)
 endforeach()
 list(APPEND JOULEPATH_BUILD_PATTERNS cmake/*.cmake)
@@ -30,7 +30,7 @@ function(joulepath_build_id name)
   list(TRANSFORM JOULEPATH_BUILD_PATTERNS PREPEND ${PROJECT_SOURCE_DIR}/)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${JOULEPATH_BUILD_PATTERNS})
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
-  set(compiler "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}")
+  set(compiler "${JOULEPATH_EXTENSIONS} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}")
   string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" compiler "${compiler}") # names the folder of the build
   set(out ${CMAKE_CURRENT_BINARY_DIR}/build_id.cpp)
   add_custom_command(OUTPUT ${out}

@@ -15,8 +15,8 @@ install(TARGETS joulepath RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${modules} joulepath_all EXPORT joulepathTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath)
 install(EXPORT joulepathTargets NAMESPACE joulepath:: DESTINATION ${config_dir})
-install(DIRECTORY model planner diagnosis scenarios DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath
-        FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY model planner diagnosis scenarios extensions DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "tests" EXCLUDE PATTERN "commands" EXCLUDE PATTERN "studio" EXCLUDE) # of the library, not of the program
 
 configure_package_config_file(cmake/joulepathConfig.cmake.in joulepathConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(joulepathConfigVersion.cmake COMPATIBILITY SameMinorVersion)

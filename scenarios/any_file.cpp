@@ -9,20 +9,17 @@
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/bags/bag_file.hpp"
-#include "scenarios/bags/bag_survey.hpp"
 #include "scenarios/counted.hpp"
 #include "scenarios/dataset_file.hpp"
 #include "scenarios/fleet_file.hpp"
 #include "scenarios/map_file.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/path_file.hpp"
+#include "scenarios/registry.hpp"
 #include "scenarios/repaired_dataset.hpp"
 #include "scenarios/robot_check.hpp"
 #include "scenarios/robot_file.hpp"
 #include "scenarios/run_log.hpp"
-#include "scenarios/study_file.hpp"
-#include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
 namespace {
@@ -109,31 +106,6 @@ FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options
           {}};
 }
 
-FileSummary summary_of_study(const Document& document, const ReadOptions& options) {
-  const Study study = study_from(document, options);
-  const std::vector<MissionItem> missions = study_missions(study);
-  check_designs(study, document_of(missions.front()), options);
-  for (const MissionItem& mission : missions)
-    static_cast<void>(mission_of_design(study, document_of(mission), study.designs.at(0), options));
-  return {"study",
-          counted(study.designs.size(), "design") + " of " + counted(study.targets.size(), "parameter") +
-              " on " + counted(missions.size(), "mission"),
-          {}};
-}
-
-FileSummary summary_of_order(const std::string& file) {
-  const Order order = read_order(file);
-  MissionRequest mission{.order_file = file};
-  follow_order(mission);
-  FileSummary summary{
-      "order",
-      counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
-      {}};
-  if (const std::size_t horizon = order.nodes.size() - order.released_count(); horizon > 0)
-    summary.notes.push_back(counted(horizon, "node") + " of the horizon: not planned");
-  return summary;
-}
-
 FileSummary summary_of_path(const Path& path) {
   char length[32];
   std::snprintf(length, sizeof length, "%.4g m", path.distance_m());
@@ -149,33 +121,6 @@ FileSummary summary_of_chain(const Document& document, const ReadOptions& option
   return summary;
 }
 
-FileSummary summary_of_bag(const std::string& file) {
-  const BagSurvey survey = survey_bag(file);
-  std::size_t messages = 0;
-  FileSummary summary{.kind = "bag"};
-  for (const BagTopic& topic : survey.topics) {
-    messages += topic.messages;
-    summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
-                            topic.channel.type + (topic.readable ? "" : ", cannot be read"));
-  }
-  if (messages == 0)
-    throw ConfigError({{file, 0, 0}, "", no_message_text(survey.damage), "a bag with messages", ""});
-  if (survey.damage.truncated) summary.notes.push_back(truncation_text(survey.damage));
-  if (survey.damage.broken_chunks > 0)
-    summary.notes.push_back(counted(survey.damage.broken_chunks, "broken chunk"));
-  if (survey.damage.broken_records > 0)
-    summary.notes.push_back(counted(survey.damage.broken_records, "broken record"));
-  char duration[32];
-  std::snprintf(duration, sizeof duration, "%.1f s", survey.duration_s);
-  summary.text = counted(messages, "message") + ", " + duration;
-  if (suggested_columns(survey).empty())
-    summary.notes.push_back(
-        "no topic of a motion is known by its type: a dataset file maps one under columns:");
-  else
-    summary.proposal = suggested_dataset(survey, file);
-  return summary;
-}
-
 FileSummary summary_of_output(const Document& document, const FileKind& kind) {
   check_document(document, kind.name, kind.schema());
   return {kind.name, document.root().text_or("status", document.root().text_or("verdict", "")), {}};
@@ -188,6 +133,9 @@ std::string kind_of(const Document& document) {
   if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar) {
     for (const auto& kind : file_kinds())
       if (line->text().rfind("joulepath/" + kind.name + "/", 0) == 0) return kind.name;
+    const auto slash = line->text().find('/');
+    if (slash != std::string::npos)
+      refuse_absent_word("kind", line->text().substr(slash + 1, line->text().rfind('/') - slash - 1), *line);
     line->fail("one of: " +
                text_of_list(file_kinds(), [](const auto& kind) { return "joulepath/" + kind.name + "/1"; }));
   }
@@ -198,23 +146,30 @@ std::string kind_of(const Document& document) {
 
 FileSummary read_any_file(const std::string& file, const std::string& given_kind, const ReadOptions& options,
                           bool brief) {
+  if (const std::string_view needed = absent_extension("kind", given_kind); !needed.empty())
+    throw ConfigError({{file, 0, 0}, "", "kind " + given_kind, accepted_extension(needed), extension_hint(needed)});
   const std::string extension = std::filesystem::path(file).extension().string();
   if (is_waypoint_file(file) && (given_kind == "path" || (given_kind.empty() && has_waypoints(file))))
     return summary_of_path(read_waypoints(file));
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
-  if (given_kind == "bag" || (given_kind.empty() && is_bag(file))) return summary_of_bag(file);
+  for (const FileReader& reader : registry().files)
+    if (reader.told_by_name && (given_kind == reader.kind || (given_kind.empty() && reader.told_by_name(file))))
+      return reader.check(file, options);
+  refuse_absent_file(file);
   const Document document = Document::load(file);
-  if (given_kind.empty() && is_order(document)) return summary_of_order(file);
+  for (const FileReader& reader : registry().files)
+    if (reader.told_by_content &&
+        (given_kind == reader.kind || (given_kind.empty() && reader.told_by_content(document))))
+      return reader.check(file, options);
+  refuse_absent_document(document);
   const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
   if (kind == "robot") return summary_of_robot(file);
   if (kind == "map") return summary_of_map(file, options);
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options, brief);
   if (kind == "path") return summary_of_chain(document, options);
-  if (kind == "study") return summary_of_study(document, options);
   if (kind == "fleet") return summary_of_fleet(file, options);
-  if (kind == "route graph") return {kind, counted(read_route_graph(file).nodes.size(), "node"), {}};
   for (const auto& known : file_kinds())
     if (known.name == kind) return summary_of_output(document, known);
   const bool empty = document.root().kind() == Value::Kind::null;

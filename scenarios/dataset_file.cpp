@@ -6,9 +6,9 @@
 
 #include "diagnosis/checks/plausible.hpp"
 #include "model/number_text.hpp"
-#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/clock_jumps.hpp"
 #include "scenarios/csv_table.hpp"
+#include "scenarios/log_tables.hpp"
 #include "scenarios/motion_entry.hpp"
 #include "scenarios/partial_channels.hpp"
 #include "scenarios/physical_bounds.hpp"

@@ -4,8 +4,8 @@
 
 #include "model/number_text.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/document.hpp"
+#include "scenarios/log_tables.hpp"
 #include "scenarios/quoted.hpp"
 
 namespace joulepath {

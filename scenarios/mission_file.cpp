@@ -6,7 +6,7 @@
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/motion_entry.hpp"
-#include "scenarios/vda5050/order_mission.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 namespace {
@@ -194,8 +194,10 @@ ItemMarks marks_of(const Node& node) {
 
 MissionRequest mission_from(const Document& document, const ReadOptions& options) {
   static const Schema schema = mission_schema();
+  refuse_absent_document(document);
   check_document(document, "mission", schema);
   const Node root = document.root();
+  for (const auto& [key, node] : root.entries()) refuse_absent_word("key", key, node);
   if (const auto map = root.find("map"), stations = root.find("stations");
       map && stations && stations->has(map->text()))
     map->fail_found("the station " + map->text(), "the name of a Nav2 map file (YAML)");
@@ -222,7 +224,8 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
     for (const auto& leg : legs->items()) mission.legs.push_back(read_leg(leg, mission.stations));
   if (const auto visits = root.find("visit"))
     for (const auto& visit : visits->items()) mission.visit.push_back(read_visit(visit, mission.stations));
-  if (!mission.order_file.empty()) follow_order(mission, NamedBy(root["order"]));
+  for (const MissionKey& known : registry().mission_keys)
+    if (const auto node = root.find(known.key); node && known.read) known.read(mission, *node);
   if (const auto zones = root.find("speed_zones"))
     for (SpeedZone& zone : read_speed_zones(*zones, mission.legs.size()))
       mission.speed_zones.push_back(std::move(zone));
@@ -233,14 +236,16 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
   return mission;
 }
 
+const MissionDocument* mission_document_of(const Document& document) {
+  for (const MissionDocument& known : registry().mission_documents)
+    if (known.told(document)) return &known;
+  return nullptr;
+}
+
 MissionRequest read_mission(const std::string& file, const ReadOptions& options) {
   const Document document = Document::load(file);
-  if (is_order(document))
-    throw ConfigError({{file, 1, 1},
-                       "",
-                       "a VDA 5050 order, which names no robot",
-                       "a mission file",
-                       "plan takes an order with --robot; elsewhere a mission names it with order:"});
+  if (const MissionDocument* other = mission_document_of(document))
+    throw ConfigError({{file, 1, 1}, "", other->says + ", which names no robot", "a mission file", other->use});
   return mission_from(document, options);
 }
 

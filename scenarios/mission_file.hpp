@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/values/mission_request.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 
@@ -15,6 +15,9 @@ namespace joulepath {
 
 /// The mission of a parsed document; a line of JSON lines becomes a document with its own first line.
 [[nodiscard]] MissionRequest mission_from(const Document& document, const ReadOptions& options = {});
+
+/// The reader of a document that stands for a mission; null: it is none.
+[[nodiscard]] const MissionDocument* mission_document_of(const Document& document);
 
 /// Reads the files that a mission names; a given robot replaces the mission's file. Throws ConfigError at the
 /// key of an invalid file.
@@ -39,8 +42,5 @@ void visit_files_read_by(const MissionRequest& request, const ReadOptions& optio
 
 /// The marks of a map in the file and of its keys.
 [[nodiscard]] ItemMarks marks_of(const Node& node);
-
-/// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).
-[[nodiscard]] RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by = {});
 
 }  // namespace joulepath

@@ -5,7 +5,6 @@
 #include "model/printable.hpp"
 #include "scenarios/mission_file.hpp"
 #include "scenarios/path_file.hpp"
-#include "scenarios/vda5050/order_mission.hpp"
 
 namespace joulepath {
 namespace {
@@ -33,10 +32,10 @@ void refuse_beside_mission(const char* option, const char* key, bool given) {
                        std::string("the mission file has it: ") + key});
 }
 
-MissionRequest order_mission(const MissionSource& source) {
-  need_robot(source, "a VDA 5050 order");
-  MissionRequest mission{.file = source.file, .name = name_of(source.file), .order_file = source.file};
-  follow_order(mission);
+MissionRequest mission_of(const MissionSource& source, const MissionDocument& document) {
+  need_robot(source, document.says.c_str());
+  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
+  document.read(mission);
   return mission;
 }
 
@@ -65,7 +64,8 @@ MissionRequest read_mission_source(const MissionSource& source, const ReadOption
   if (is_path(document)) return with_files(mission_along(source, path_from(document, options)));
   refuse_beside_mission("--payload", "payload_kg of a leg", source.payload_kg.has_value());
   refuse_beside_mission("--time", "duration_s of a leg", source.duration_s.has_value());
-  return with_files(is_order(document) ? order_mission(source) : mission_from(document, options));
+  const MissionDocument* other = mission_document_of(document);
+  return with_files(other ? mission_of(source, *other) : mission_from(document, options));
 }
 
 }  // namespace joulepath

@@ -60,8 +60,8 @@ MissionWorld read_named_files(const MissionRequest& request, const ReadOptions& 
     world.speed_mask =
         SpeedMask{read_map(request.speed_mask->file, named("speed_mask"), options), request.speed_mask->kind,
                   request.speed_mask->base, request.speed_mask->multiplier};
-  if (!request.route_graph_file.empty())
-    world.route_graph = read_route_graph(request.route_graph_file, named("route_graph"));
+  for (const MissionKey& known : registry().mission_keys)
+    if (known.read_file) known.read_file(request, world);
   return world;
 }
 

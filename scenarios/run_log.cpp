@@ -10,10 +10,9 @@
 #include "model/number_text.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/bags/bag_file.hpp"
-#include "scenarios/bags/bag_log.hpp"
 #include "scenarios/log_file.hpp"
 #include "scenarios/log_repair.hpp"
+#include "scenarios/log_tables.hpp"
 #include "scenarios/partial_channels.hpp"
 // Design: docs/decisions/0601-logs.md
 
@@ -336,18 +335,19 @@ RunLog read_run_log(const std::vector<LogFileName>& names, const ColumnSources& 
   std::vector<LogFile> files;
   std::vector<std::string> headers;
   for (const auto& name : names) {
-    if (name.table || !is_bag(name.file)) {
+    const LogReader* reader = name.table ? nullptr : log_reader_of(name.file, name.named_by);
+    if (!reader) {
       files.push_back(read_log_file(name, given, run));
       std::ranges::copy(files.back().table.header, std::back_inserter(headers));
       continue;
     }
-    BagLog bag = read_bag_log(name.file, name.named_by, given, run);
-    log.artifacts.insert(log.artifacts.end(), bag.artifacts.begin(), bag.artifacts.end());
+    LogTables read = reader->read(name.file, name.named_by, given, run);
+    log.artifacts.insert(log.artifacts.end(), read.artifacts.begin(), read.artifacts.end());
     for (auto& [column, source] : wanted)
       if (!source.from.empty() && !source.is_absent)
-        std::ranges::copy(bag.sources.at(column).from, std::back_inserter(source.from));
-    bag.sources.erase("time_s");
-    for (CsvTable& table : bag.tables) files.push_back(read_log_table(std::move(table), bag.sources, run));
+        std::ranges::copy(read.sources.at(column).from, std::back_inserter(source.from));
+    read.sources.erase("time_s");
+    for (CsvTable& table : read.tables) files.push_back(read_log_table(std::move(table), read.sources, run));
   }
   check_mapped_columns_found(files, wanted, headers);
   const std::vector<std::string> ignored = ignored_columns(headers, given);

@@ -38,17 +38,17 @@ class BatchCommand : public Command {
   int run() override {
     const JobRun run = job_run(options_, text().name, source_, "missions");
     std::vector<MissionItem> items = mission_items(source_);
-    OutputDirectory out = job_output(options_, run.shard, kBatchFiles);
+    OutputDirectory out = job_output(options_, run, kBatchFiles);
     plan_.solver = SolverChoice::fast;
     MissionJobs jobs(std::move(items), plan_, {.untrusted = options_.common.untrusted}, options_.cache);
     const auto results = run_job_list(jobs, run);
     if (!results) return kInterrupted;
     const std::string title = printable(std::filesystem::path(source_).filename().string());
-    if (run.shard.is_whole()) {
+    if (run.part) {
+      run.part->write(out, jobs, *results, run, {.command = run.command, .title = title});
+    } else {
       add_timings(out, *results);
       finish_batch(out, title, lines_of(*results), options_.common);
-    } else {
-      write_shard(out, jobs, *results, {.command = run.command, .shard = run.shard, .title = title});
     }
     remove_journal(run.directory);
     return kDone;

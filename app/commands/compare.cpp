@@ -4,22 +4,22 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/loss_table.hpp"
 #include "app/plan_analysis.hpp"
 #include "app/plan_options.hpp"
 #include "app/plan_summary.hpp"
 #include "app/profile_columns.hpp"
+#include "app/program_parts.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/controller_settings.hpp"
-#include "scenarios/export/loss_json.hpp"
 #include "scenarios/mission_file.hpp"
 
 namespace joulepath {
 namespace {
+
+using PlanComparisons = std::vector<std::unique_ptr<PlanComparison>>;
 
 nlohmann::json profile_json(const BaselineTotal& total) {
   nlohmann::json profile = baseline_json(total);
@@ -53,20 +53,19 @@ void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared)
 
 class CompareCommand : public Command {
  public:
-  CompareCommand()
+  explicit CompareCommand(PlanComparisons comparisons)
       : Command({.name = "compare",
                  .says = "compare a plan with every classic profile on the same path, each in its own time",
                  .examples =
                      "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
                      "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
                      "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n"
-                     "  joulepath compare mission.yaml --controller nav2_params.yaml\n"}) {}
+                     "  joulepath compare mission.yaml --controller nav2_params.yaml\n"}),
+        comparisons_(std::move(comparisons)) {}
 
   void declare(CommandLine& line) override {
     add_analysis_options(line, options_, kResult);
-    line.option(
-        "--controller", controller_,
-        "parameter file of Nav2 or ros2_control (YAML): compares the energy of its speeds and accelerations");
+    for (const auto& comparison : comparisons_) comparison->declare(line);
     add_plan_options(line, options_.plan);
   }
 
@@ -80,7 +79,8 @@ class CompareCommand : public Command {
                 << "\n";
       return kInfeasibleOrFailed;
     }
-    if (!controller_.empty()) return compare_controller(plan, out);
+    for (const auto& comparison : comparisons_)
+      if (comparison->is_asked()) return comparison->run(plan, options_, out, kResult);
     const std::vector<ComparedProfile> compared = compare_baselines(plan);
     nlohmann::json result = {
         {"schema", "joulepath/compare/1"}, {"mission", plan.mission}, {"profiles", nlohmann::json::array()}};
@@ -94,21 +94,6 @@ class CompareCommand : public Command {
   }
 
  private:
-  /// What the settings of a file cost on the plan's path; no classic profiles.
-  int compare_controller(const Plan& plan, OutputDirectory& out) const {
-    const ControllerFile settings = read_controller_settings(controller_);
-    const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
-    nlohmann::json result{{"schema", "joulepath/loss/1"}, {"of", controller_}, {"parameters", settings.read}};
-    result.update(loss_json(loss));
-    if (writes_analysis(options_)) {
-      out.write(kResult, result.dump(1) + "\n");
-      out.commit();
-    }
-    if (!prints_analysis_table(options_, result)) return kDone;
-    print_loss(std::cout, plan, loss);
-    return kDone;
-  }
-
   static std::vector<report::NamedColumns> motions(const Plan& plan,
                                                    const std::vector<ComparedProfile>& compared) {
     std::vector<const ProfileRequest*> requests;
@@ -127,11 +112,13 @@ class CompareCommand : public Command {
 
   static constexpr const char* kResult = "compare.json";
   AnalysisOptions options_{};
-  std::string controller_{};
+  PlanComparisons comparisons_;
 };
 
 }  // namespace
 
-std::unique_ptr<Command> make_compare_command() { return std::make_unique<CompareCommand>(); }
+std::unique_ptr<Command> make_compare_command() {
+  return std::make_unique<CompareCommand>(extension_parts().comparisons);
+}
 
 }  // namespace joulepath

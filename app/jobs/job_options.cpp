@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "app/command_line.hpp"
-#include "app/jobs/quarantine.hpp"
+#include "app/program_parts.hpp"
 
 namespace joulepath {
 
@@ -13,10 +13,8 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   line.option("--out", options.out, "directory for " + files).required();
   line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
-  line.option("--shard", options.shard,
-              "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");
-  line.option("--quarantine", options.quarantine,
-              "file of JSON lines {index, reason}: jobs to skip, because they ended their process");
+  options.parts = extension_parts().job_parts;
+  for (const auto& part : options.parts) part->declare(line);
   line.flag("--resume", options.resume,
             "continue an interrupted run; finished plans with unchanged inputs are not repeated");
   add_cache_options(line, options.cache);
@@ -25,16 +23,16 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
 
 JobRun job_run(const JobOptions& options, const std::string& command, const std::string& source,
                const std::string& noun) {
-  return {.command = command,
-          .source = std::filesystem::weakly_canonical(source).string(),
-          .directory = options.out,
-          .threads = options.jobs,
-          .resume = options.resume,
-          .force = options.common.force,
-          .quiet = options.common.quiet,
-          .noun = noun,
-          .shard = shard_from(options.shard),
-          .quarantine = read_quarantine(options.quarantine)};
+  JobRun run{.command = command,
+             .source = std::filesystem::weakly_canonical(source).string(),
+             .directory = options.out,
+             .threads = options.jobs,
+             .resume = options.resume,
+             .force = options.common.force,
+             .quiet = options.common.quiet,
+             .noun = noun};
+  for (const auto& part : options.parts) part->choose(run);
+  return run;
 }
 
 }  // namespace joulepath

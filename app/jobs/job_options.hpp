@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/cache_choice.hpp"
 #include "app/command.hpp"
@@ -13,12 +15,11 @@ class CommandLine;
 /// Options of batch and sweep.
 struct JobOptions {
   std::string out{};
-  std::string shard{};
-  std::string quarantine{};
   unsigned jobs{};
   bool resume{};
   CacheChoice cache{};
   CommonOptions common{};
+  std::vector<std::unique_ptr<JobPart>> parts{};  ///< of the extensions
 };
 
 void add_job_options(CommandLine& line, JobOptions& options, const std::string& files);

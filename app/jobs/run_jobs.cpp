@@ -87,28 +87,12 @@ void check_same_run(const std::string& file, const JobJournal& journal, const Jo
        "of --resume deletes it"});
 }
 
-/// Throws ConfigError if the directory holds the finished shard of another run, which --resume would replace.
-void check_finished_shard(const JobList& jobs, const JobRun& run) {
-  if (run.shard.is_whole() || !has_manifest(run.directory)) return;
-  const ShardManifest finished = read_manifest(run.directory);
-  forget_input(run.directory + "/shard.json");  // this run replaces it
-  if (finished.command == run.command && finished.shard.text() == run.shard.text() &&
-      finished.list_digest == jobs.digest())
-    return;
-  throw ConfigError(
-      {{run.directory, 0, 0},
-       "",
-       "the finished shard " + finished.shard.text() + " of another " + finished.command,
-       "a directory without results, or those of shard " + run.shard.text() + " of this " + run.command,
-       "--force overwrites it"});
-}
-
 }  // namespace
 
 std::optional<std::vector<JobResult>> run_job_list(JobList& jobs, const JobRun& run) {
   const std::string file = journal_file(run.directory);
   if (std::filesystem::exists(file) && !run.resume && !run.force) refuse_unfinished(file);
-  if (run.resume && !run.force) check_finished_shard(jobs, run);
+  if (run.part && run.resume && !run.force) run.part->check_finished(jobs, run);
   std::filesystem::create_directories(run.directory);
   JobJournal journal(file, run.resume ? JobJournal::Use::resume : JobJournal::Use::anew);
   ShardWork work = shard_work(jobs, run, journal);

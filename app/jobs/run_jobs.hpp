@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/jobs/job_part.hpp"
 #include "app/jobs/shard.hpp"
 
 // Design: docs/decisions/0700-results-and-jobs.md
@@ -64,6 +65,7 @@ struct JobRun {
   bool force{};
   bool quiet{};
   std::string noun{"missions"};  ///< a job, for the progress
+  const JobPart* part{};  ///< null: the whole list
   Shard shard{};
   std::map<std::size_t, std::string> quarantine{};  ///< jobs that are not run, with the reason
 };

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "tests/diagnosis/monitor/simulated_day.hpp"
+#include "extensions/onboard/tests/simulated_day.hpp"
 
 namespace joulepath {
 namespace {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "extensions/onboard/tests/situations.hpp"
 #include "planner/nlp/fast/thread_clock.hpp"
-#include "tests/planner/online/situations.hpp"
 
 namespace joulepath {
 namespace {

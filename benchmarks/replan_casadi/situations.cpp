@@ -1,7 +1,7 @@
 // The replanner's answers to seeded random situations on problems of the public set, as JSON for a peer.
 //
 //   bench_replan_situations PROBLEMS.json OUT.json SEED SITUATIONS NODES SLACK
-#include "tests/planner/online/situations.hpp"
+#include "extensions/onboard/tests/situations.hpp"
 
 #include <cstdio>
 #include <fstream>

@@ -1,7 +1,7 @@
 // Routes of a Dijkstra search with the semantics of Nav2's route planner (costs of edges in single precision,
 // independent of the edge before) on exported graphs. The joules of the routes are those of full plans from
 // stop to stop.
-#include "scenarios/export/route_graph.hpp"
+#include "extensions/nav2/route_graph_export.hpp"
 
 #include <algorithm>
 #include <cmath>

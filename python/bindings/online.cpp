@@ -8,12 +8,12 @@
 #include <memory>
 #include <optional>
 
+#include "extensions/onboard/planned_pieces.hpp"
+#include "extensions/onboard/replan/follower.hpp"
 #include "model/limit_table.hpp"
-#include "planner/online/follower.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/robot.hpp"
-#include "scenarios/planned_pieces.hpp"
 
 namespace joulepath::python {
 namespace {

@@ -9,22 +9,6 @@ Schema at_time_schema() {
                    required("lost_J", number()), required("lost_percent", number())}));
 }
 
-std::vector<Schema::Key> loss_keys() {
-  return {required("own_time", at_time_schema(), "the controller at its own duration"),
-          required("plan_time", nullable(at_time_schema()),
-                   "with a wait until the plan's end; null where the controller is later"),
-          required("broken_limit", text(), "the limit that the controller would exceed; empty: none")};
-}
-
-Schema settings_schema() {
-  return open(map({required("leg", integer(kNotNegative), "counted from 0"), required("to", text()),
-                   optional("speed_m_s", number(kPositive)), optional("acceleration_m_s2", number(kPositive)),
-                   optional("deceleration_m_s2", number(kPositive)),
-                   optional("yaw_rate_rad_s", number(kPositive), "of turns in place"),
-                   optional("yaw_acceleration_rad_s2", number(kPositive)),
-                   optional("yaw_deceleration_rad_s2", number(kPositive))}));
-}
-
 Schema edge_schema() {
   return open(
       map({required("leg", integer(kNotNegative), "counted from 0"), required("to", text()),
@@ -37,15 +21,17 @@ Schema edge_schema() {
 
 }  // namespace
 
+std::vector<Schema::Key> loss_keys() {
+  return {required("own_time", at_time_schema(), "the controller at its own duration"),
+          required("plan_time", nullable(at_time_schema()),
+                   "with a wait until the plan's end; null where the controller is later"),
+          required("broken_limit", text(), "the limit that the controller would exceed; empty: none")};
+}
+
 Schema loss_schema() {
   std::vector<Schema::Key> keys = loss_keys();
   keys.insert(keys.begin(), {optional("schema", text(), "joulepath/loss/1"), required("of", text())});
   return open(map(std::move(keys)));
-}
-
-Schema controller_schema() {
-  return open(map({optional("schema", text(), "joulepath/controller/1"), optional("mission", text()),
-                   required("legs", list(settings_schema())), required("loss", open(map(loss_keys())))}));
 }
 
 Schema edges_schema() {

@@ -1,5 +1,8 @@
 #include "scenarios/export/exports.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "scenarios/export/loss_json.hpp"
 
 namespace joulepath {
@@ -30,28 +33,18 @@ std::string loss_json_text(const ControllerLoss& loss, const std::string& what) 
 }
 
 const std::vector<ExportFormat>& export_formats() {
-  static const std::vector<ExportFormat> formats{
-      {"nav2_path", "poses with stamps, shaped as nav_msgs/Path (JSON, which is YAML too)", export_nav2_path},
-      {"trajectory", "poses, speeds, accelerations and efforts, shaped as nav_msgs/Trajectory (JSON)",
-       export_trajectory},
-      {"plotjuggler", "all signals over time, grouped by name (CSV)", export_plotjuggler},
-      {"bag",
-       "nav_msgs/Path and Odometry (CDR) and the power (JSON) over time, for Foxglove and PlotJuggler (MCAP)",
-       export_bag},
-      {"edges",
-       "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
-       export_edges},
-      {"controller",
-       "speed, acceleration and deceleration for each leg, with the resulting energy loss (JSON)",
-       export_controller},
-      {"nav2_settings",
-       "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the resulting energy loss "
-       "(YAML)",
-       export_nav2_settings},
-      {"vda5050", "the order with a maximum speed on each edge (JSON), and the resulting energy loss",
-       export_vda5050},
-      {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the resulting energy loss", export_speed_mask},
-  };
+  static const std::vector<ExportFormat> formats = [] {
+    std::vector<ExportFormat> all{
+        {"nav2_path", "poses with stamps, shaped as nav_msgs/Path (JSON, which is YAML too)", export_nav2_path},
+        {"trajectory", "poses, speeds, accelerations and efforts, shaped as nav_msgs/Trajectory (JSON)",
+         export_trajectory},
+        {"plotjuggler", "all signals over time, grouped by name (CSV)", export_plotjuggler},
+        {"edges", "energy and time of each edge, turn and dwell, for a fleet manager (CSV, or JSON by extension)",
+         export_edges},
+    };
+    std::ranges::copy(registry().exports, std::back_inserter(all));
+    return all;
+  }();
   return formats;
 }
 

@@ -7,6 +7,7 @@
 
 #include "planner/controller/controlled_drive.hpp"
 #include "planner/values/mission_request.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 
@@ -32,29 +33,13 @@ struct Export {
   std::optional<ControllerLoss> loss{};
 };
 
-struct ExportFormat {
-  std::string name{};
-  std::string says{};
-  Export (*write)(const ExportInput&){};
-};
-
-/// All formats: one file of this folder each.
+/// All formats: one file of this folder each, then those of the extensions.
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
 [[nodiscard]] Export export_nav2_path(const ExportInput& input);   ///< nav_msgs/Path
 [[nodiscard]] Export export_trajectory(const ExportInput& input);  ///< nav_msgs/Trajectory
 [[nodiscard]] Export export_plotjuggler(const ExportInput& input);
-[[nodiscard]] Export export_bag(const ExportInput& input);    ///< MCAP: Path, Odometry, power
 [[nodiscard]] Export export_edges(const ExportInput& input);  ///< CSV, or JSON by the file's extension
-[[nodiscard]] Export export_controller(const ExportInput& input);
-[[nodiscard]] Export export_nav2_settings(const ExportInput& input);  ///< YAML
-[[nodiscard]] Export export_vda5050(const ExportInput& input);
-[[nodiscard]] Export export_speed_mask(const ExportInput& input);
-
-/// A run log as a bag (MCAP): Path, Odometry, and every column of the log as JSON. Its clock is that of the
-/// log, so that the bag of a plan and that of its run lie on each other; one that begins below 0 begins at 0.
-/// Throws ConfigError for times that no stamp holds.
-[[nodiscard]] std::string log_bag(const Trajectory& log, const Geometry& geometry);
 
 /// `loss` of controller.json, and the extra file beside exports that cannot contain it (schema
 /// joulepath/loss/1).

@@ -287,18 +287,6 @@ TEST(Progress, CountsEarlierStepsAndTellsTheRateOfThisRun) {
   EXPECT_EQ(progress_text("missions", 28, 36, 28, 4.0), "missions 28/36, 0/s, 0 s left");
 }
 
-TEST(Batch, MergeDoesNotWriteIntoAShard) {
-  const ScratchDirectory scratch;
-  scratch.write("robot.yaml", text_of(kGoodRobot));
-  const std::string file = scratch.write("m.jsonl", mission("a", 3) + "\n" + mission("b", 4) + "\n"),
-                    one = scratch.at("one"), two = scratch.at("two");
-  ASSERT_EQ(run_program(scratch, "batch " + file + " -q --nodes 20 --shard 1/2 --out " + one).code, 0);
-  ASSERT_EQ(run_program(scratch, "batch " + file + " -q --nodes 20 --shard 2/2 --out " + two).code, 0);
-  const std::string lines = text_of(one + "/results.jsonl");
-  EXPECT_EQ(run_program(scratch, "merge " + one + " " + two + " --force --out " + one).code, 2);
-  EXPECT_EQ(text_of(one + "/results.jsonl"), lines);
-}
-
 TEST(JobJournal, ExistingLinesNeverChangeAndATruncatedLineAffectsNoOther) {
   const ScratchDirectory scratch;
   const std::string file = scratch.at("j.jsonl");

@@ -28,7 +28,7 @@ def spellings(name, path):
 def main(root):
     names = catalog_names(root)
     complaints = [] if len(names) >= 29 else [f"only {len(names)} effects found in model/effects"]
-    for file in sorted((root / "diagnosis").rglob("*")):
+    for file in sorted([*(root / "diagnosis").rglob("*"), *(root / "extensions/onboard/monitor").glob("*")]):
         if not file.is_file():
             continue
         path = file.relative_to(root).as_posix()

@@ -18,9 +18,9 @@ def undocumented(header):
 
 
 def declared_twice(root):
-    """A constant of the header, or of any other header, that a second file of diagnosis/ declares."""
+    """A constant of the header, or of any other header, that a second file of diagnosis/ or of the monitor declares."""
     places = {}
-    for file in sorted((root / "diagnosis").rglob("*.[ch]pp")):
+    for file in sorted([*(root / "diagnosis").rglob("*.[ch]pp"), *(root / "extensions/onboard/monitor").glob("*.[ch]pp")]):
         for line in file.read_text().splitlines():
             if match := CONSTANT.match(line):
                 places.setdefault(match[1], []).append(file)

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-HOUSE = ["model", "planner", "diagnosis", "scenarios", "app", "tests"]
+HOUSE = ["model", "planner", "diagnosis", "scenarios", "app", "extensions", "tests"]
 
 
 def names(text):

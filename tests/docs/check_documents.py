@@ -8,6 +8,8 @@ import pathlib
 import re
 import sys
 
+from extract_files import FILE
+
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 
 
@@ -17,7 +19,7 @@ def slug(heading):
 
 
 def broken_links(source):
-    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md"),
+    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md"), *source.glob("extensions/*/README.md"),
                  source / "benchmarks/README.md"]
     for document in documents:
         for target in LINK.findall(re.sub(r"```.*?```", "", document.read_text(), flags=re.DOTALL)):
@@ -38,13 +40,15 @@ def missing_paths(source):
     tops = "|".join(entry.name for entry in source.iterdir() if entry.is_dir() and not entry.name.startswith((".", "build", "out")))
     for document in [source / "README.md", source / "CONTRIBUTING.md", *source.glob("docs/*.md"),
                      source / "benchmarks/README.md"]:
-        for path in re.findall(rf"`((?:{tops})/[\w./-]+)`", document.read_text()):
-            if not (source / path).exists():
+        text = document.read_text()
+        made = {str(pathlib.Path(path).parent) for path, _ in FILE.findall(text)}  # folders of files that the page shows
+        for path in re.findall(rf"`((?:{tops})/[\w./-]+)`", text):
+            if not (source / path).exists() and not any(path.startswith(folder + "/") for folder in made):
                 yield f"{document.relative_to(source)}: {path} does not exist"
 
 
 CODE = ["*.cpp", "*.hpp", "*.py", "*.js", "*.cmake", "CMakeLists.txt", "run"]
-ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests", "fuzz", "cmake"]
+ROOMS = ["model", "planner", "diagnosis", "scenarios", "app", "extensions", "python", "benchmarks", "tests", "fuzz", "cmake"]
 DOCUMENT = re.compile(r"(?<![\w./-])(?:docs|benchmarks/results)/[\w/-]+\.(?:md|svg|png)")
 
 

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["model", "planner", "diagnosis", "scenarios", "studio", "app", "python", "benchmarks", "tests",
+ROOMS = ["model", "planner", "diagnosis", "scenarios", "app", "extensions", "python", "benchmarks", "tests",
          "docs"]
 REFERENCES = "docs/references.md"
 CITING = {".hpp", ".cpp", ".py", ".js", ".md"}

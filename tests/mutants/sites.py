@@ -12,8 +12,8 @@ SEED, PER_AREA = 20261122, 75
 AREAS = {  # folders and the test programs that judge their mutants
     "model": (["model/"], ["test_model", "test_energy", "test_estimation", "test_calibration", "test_diagnosis"]),
     "nlp": (["planner/nlp/"], ["test_nlp", "test_energy", "test_mission"]),
-    "profile": (["planner/accounts/", "planner/profile/"], ["test_nlp", "test_energy", "test_mission", "test_route_graph"]),
-    "diagnosis": (["diagnosis/"], ["test_estimation", "test_calibration", "test_diagnosis", "test_monitor"]),
+    "profile": (["planner/accounts/", "planner/profile/", "extensions/nav2/graph_costs", "extensions/nav2/corner_table"], ["test_nlp", "test_energy", "test_mission", "test_nav2"]),
+    "diagnosis": (["diagnosis/", "extensions/onboard/monitor/", "extensions/onboard/drift"], ["test_estimation", "test_calibration", "test_diagnosis", "test_onboard"]),
 }
 LEAST_CONSTANT = 1e-5  # smaller ones guard against rounding: no promise depends on a factor of two
 LEFT, RIGHT = r"(?<=[\w)\]]) ", r" (?=[\w({\"-])"

@@ -1,0 +1,109 @@
+#include "extensions/nav2/route_graph_file.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "scenarios/physical_bounds.hpp"
+#include "scenarios/schema.hpp"
+
+namespace joulepath {
+namespace {
+
+std::array<double, 2> read_point(const Node& node) {
+  const auto xy = node.items();
+  if (xy.size() < 2) node.fail("[x, y]");
+  for (std::size_t i = 0; i < 2; ++i)
+    if (std::abs(xy[i].number()) > kFarthest_m) xy[i].fail("at most 1e6 m from the origin");
+  return {xy[0].number(), xy[1].number()};
+}
+
+/// A limit of speed in an edge's metadata: `abs_speed_limit` in m/s or `speed_limit` in percent, each up to
+/// 100.
+std::optional<double> read_limit(const Node& properties, const char* key, double least,
+                                 const char* accepted) {
+  const auto metadata = properties.find("metadata");
+  if (!metadata || metadata->kind() != Value::Kind::map) return std::nullopt;
+  const auto limit = metadata->find(key);
+  if (!limit) return std::nullopt;
+  const double value = limit->number();
+  if (!(value >= least && value <= 100)) limit->fail(accepted, "leave the key out where there is no limit");
+  return value;
+}
+
+class GraphReader {
+ public:
+  explicit GraphReader(const std::string& file) { graph_.file = file; }
+
+  void add_node(const Node& properties, const Node& geometry) {
+    const auto [x_m, y_m] = read_point(geometry["coordinates"]);
+    const long id = properties["id"].integer();
+    if (!index_of_.emplace(id, graph_.nodes.size()).second)
+      properties["id"].fail("an id that no other node has");
+    graph_.nodes.push_back({id, x_m, y_m});
+  }
+
+  /// Edges may share an id, as two of Nav2's own depot graph do.
+  void add_edge(const Node& properties, const Node& geometry) {
+    RouteGraph::Edge edge{
+        .id = properties["id"].integer(),
+        .start = index(properties["startid"]),
+        .end = index(properties["endid"]),
+        .speed_limit_m_s = read_limit(properties, "abs_speed_limit", 1e-3, "from 0.001 to 100 m/s"),
+        .speed_limit_percent = read_limit(properties, "speed_limit", 0.1, "from 0.1 to 100 percent")};
+    std::vector<std::vector<Node>> lines;
+    const Node coordinates = geometry["coordinates"];
+    if (geometry["type"].text() == "MultiLineString")
+      for (const auto& line : coordinates.items()) lines.push_back(line.items());
+    else
+      lines.push_back(coordinates.items());
+    for (const auto& line : lines)
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        const auto [x_m, y_m] = read_point(line[i]);
+        if (!at_node(edge.start, x_m, y_m) && !at_node(edge.end, x_m, y_m))
+          edge.via_m.insert(edge.via_m.end(), {x_m, y_m});
+      }
+    graph_.edges.push_back(std::move(edge));
+  }
+
+  RouteGraph take() { return std::move(graph_); }
+
+ private:
+  [[nodiscard]] bool at_node(std::size_t node, double x_m, double y_m) const {
+    return std::hypot(graph_.nodes[node].x_m - x_m, graph_.nodes[node].y_m - y_m) < 1e-3;
+  }
+  [[nodiscard]] std::size_t index(const Node& id) const {
+    const auto found = index_of_.find(id.integer());
+    if (found == index_of_.end()) id.fail("the id of a node of this graph");
+    return found->second;
+  }
+
+  RouteGraph graph_{};
+  std::map<long, std::size_t> index_of_{};
+};
+
+}  // namespace
+
+RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
+  const Document document = Document::load(file, named_by);
+  const Node root = document.root();
+  if (const std::string kind = told_kind(root); !kind.empty() && kind != "route graph")
+    root.fail_found("a file of kind " + kind, "a route graph (GeoJSON FeatureCollection)");
+  if (root.kind() != Value::Kind::map || root.text_or("type", "") != "FeatureCollection")
+    root.fail("a route graph (GeoJSON FeatureCollection)");
+  GraphReader reader(file);
+  const auto features = root["features"].items();
+  for (const bool lines : {false, true})
+    for (const auto& feature : features) {
+      const Node geometry = feature["geometry"], type = geometry["type"];
+      const bool line = type.text() == "LineString" || type.text() == "MultiLineString";
+      if (!line && type.text() != "Point") type.fail("Point, LineString or MultiLineString");
+      if (line != lines) continue;
+      line ? reader.add_edge(feature["properties"], geometry)
+           : reader.add_node(feature["properties"], geometry);
+    }
+  RouteGraph graph = reader.take();
+  if (graph.nodes.empty()) root["features"].fail_found("no points", "at least one node (Point)");
+  return graph;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "planner/path/search/route_graph.hpp"
+#include "scenarios/document.hpp"
+
+namespace joulepath {
+
+/// Reads a Nav2 route graph (GeoJSON: points with `id`, lines with `id`, `startid`, `endid`).
+[[nodiscard]] RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by = {});
+
+}  // namespace joulepath

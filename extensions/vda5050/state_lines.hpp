@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "scenarios/document.hpp"
+#include "scenarios/messages.hpp"
+
+namespace joulepath {
+
+/// The type of the channels of state_lines.
+inline constexpr std::string_view kStateType = "vda5050/State";
+
+/// Whether a file holds VDA 5050 `state` messages, one JSON object per line: by its extension (.jsonl,
+/// .ndjson) and the keys of its first line.
+[[nodiscard]] bool is_state_lines(const std::string& file);
+
+/// Reads such a file as a bag: one channel per robot, named by its serial number; the time of a message is
+/// its timestamp. Other lines are counted as broken. Throws ConfigError if the file cannot be read.
+[[nodiscard]] BagDamage read_state_lines(const std::string& file, const NamedBy& named_by,
+                                         const std::function<void(const BagChannel&)>& on_channel,
+                                         const std::function<void(const BagMessage&)>& on_message);
+
+/// `2026-05-01T10:00:00.25Z` as nanoseconds since 1970; empty if the text is not such a time.
+[[nodiscard]] std::optional<std::uint64_t> utc_nanoseconds(std::string_view text);
+
+}  // namespace joulepath

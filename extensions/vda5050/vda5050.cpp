@@ -1,0 +1,59 @@
+#include "extensions/vda5050/order_json.hpp"
+#include "extensions/vda5050/order_mission.hpp"
+#include "extensions/vda5050/state_lines.hpp"
+#include "scenarios/any_file.hpp"
+#include "scenarios/counted.hpp"
+#include "scenarios/registry.hpp"
+// Design: docs/decisions/0603-orders-and-exports.md
+
+namespace joulepath {
+namespace {
+
+FileSummary check_order_file(const std::string& file, const ReadOptions&) {
+  const Order order = read_order(file);
+  MissionRequest mission{.order_file = file};
+  follow_order(mission);
+  FileSummary summary{
+      "order",
+      counted(order.nodes.size(), "node") + ", driven in " + counted(mission.legs.size(), "leg"),
+      {}};
+  if (const std::size_t horizon = order.nodes.size() - order.released_count(); horizon > 0)
+    summary.notes.push_back(counted(horizon, "node") + " of the horizon: not planned");
+  return summary;
+}
+
+void read_named_order(MissionRequest& mission, const Node& name) { follow_order(mission, NamedBy(name)); }
+
+void read_order_as_mission(MissionRequest& mission) {
+  mission.order_file = mission.file;
+  follow_order(mission);
+}
+
+/// A field of version 2, then that of version 3.
+const std::vector<std::pair<std::string, std::vector<std::string>>> kStateColumns{
+    {"linear_speed_m_s", {"velocity.vx"}},
+    {"angular_speed_rad_s", {"velocity.omega"}},
+    {"position_x_m", {"agvPosition.x", "mobileRobotPosition.x"}},
+    {"position_y_m", {"agvPosition.y", "mobileRobotPosition.y"}},
+    {"heading_rad", {"agvPosition.theta", "mobileRobotPosition.theta"}},
+    {"battery_voltage_V", {"batteryState.batteryVoltage", "powerSupply.batteryVoltage"}},
+    {"battery_current_A", {"powerSupply.batteryCurrent"}}};
+
+}  // namespace
+
+void add_vda5050(Registry& registry) {
+  registry.messages.push_back({is_state_lines, read_state_lines, kStateType, kStateColumns});
+  registry.files.push_back({.kind = "order", .told_by_content = is_order, .check = check_order_file});
+  registry.mission_keys.push_back({.key = "order", .read = read_named_order});
+  registry.mission_documents.push_back(
+      {.says = "a VDA 5050 order",
+       .use = "plan takes an order with --robot; elsewhere a mission names it with order:",
+       .told = is_order,
+       .read = read_order_as_mission});
+  registry.exports.push_back(
+      {.name = "vda5050",
+       .says = "the order with a maximum speed on each edge (JSON), and the resulting energy loss",
+       .write = export_vda5050});
+}
+
+}  // namespace joulepath
