@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "model/battery_power.hpp"
+#include "model/limit_table.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/legs/leg_motion.hpp"
@@ -190,13 +191,13 @@ std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithRes
 
 }  // namespace
 
-void blame_battery(Plan& plan, const Robot& robot, const PlansWithResistance& plans) {
-  if (!plan.infeasibility) return;
+void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
+                   const PlansWithResistance& plans) {
   Infeasibility& verdict = plan.infeasibility->reason;
   const auto power = verdict.relaxation.find("battery_power_W");
   const double most_W = planned_battery_power_W(robot.battery);
-  const double stated_W = robot.limits ? robot.limits->battery_power_W : kNoLimit;
-  if (verdict.constraint != "battery_power" || most_W >= stated_W) return;
+  const double stated_W = limits_between_payloads(robot, payload.from_kg, payload.to_kg).battery_power_W;
+  if (most_W >= stated_W) return;
   const std::string told = sentence(verdict);
   if (power != verdict.relaxation.end()) {
     const double needed_W = power->second;

@@ -102,5 +102,18 @@ TEST(BatteryPower, AStatedLimitThatIsLowerIsNotBlamedOnTheBattery) {
   EXPECT_TRUE(plan.infeasibility->reason.relaxation.contains("battery_power_W")) << plan.message;
 }
 
+/// The limit that the robot file states for the leg's payload counts, not the one of the empty robot.
+TEST(BatteryPower, TheLimitForThePayloadIsTheOneThatIsBlamed) {
+  Robot robot = robot_with(3.0);  // 52 W
+  ASSERT_GT(most_battery_power_W(robot.battery), 9.0);
+  robot.limits->battery_power_W = 200;
+  robot.limits_by_payload = {{.payload_kg = 0, .limit_by_key = {{"battery_power_W", 200}}},
+                             {.payload_kg = 8, .limit_by_key = {{"battery_power_W", 9}}}};
+  const Plan plan = supplied_plan(line_and_curve(), robot);
+  ASSERT_TRUE(plan.infeasibility.has_value());
+  EXPECT_TRUE(plan.infeasibility->reason.relaxation.contains("battery_power_W")) << plan.message;
+  EXPECT_EQ(plan.message.find("the battery supplies"), std::string::npos) << plan.message;
+}
+
 }  // namespace
 }  // namespace joulepath
