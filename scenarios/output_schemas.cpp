@@ -65,8 +65,10 @@ Schema leg_result_schema() {
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
            required("price_of_time_W", result(), "-dE/dT: the energy that one more second would save"),
            required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
-           optional("alternatives", alternatives_schema(), "candidate ways, turns included"),
-           optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));
+           optional("alternatives", alternatives_schema(),
+                    "candidate ways, turns included; scored without the jerk limit"),
+           optional("improvements", improvements_schema(),
+                    "the leg after each step of choosing its way, without the jerk limit")}));
 }
 
 Schema battery_result_schema() {
