@@ -27,14 +27,24 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
           .notes = survey.notes};
 }
 
-/// Causes relative to another robot's constants say nothing about this one.
+/// What the runs say of another simulator's predictions; where it has some, the verdict is on them.
+void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+                     Diagnosis& d) {
+  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
+  d.simulator.model_verdict = d.verdict;
+  d.verdict = verdict_with(d.simulator);
+}
+
+/// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs none of them.
 Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
                            std::vector<ForeignConstant> constants) {
   const Survey survey = survey_dataset(dataset, runs.signals);
-  return {.verdict = Verdict::unexplained,
-          .foreign_constants = std::move(constants),
-          .missing_channels = survey.missing_channels,
-          .notes = survey.notes};
+  Diagnosis d{.verdict = Verdict::unexplained,
+              .foreign_constants = std::move(constants),
+              .missing_channels = survey.missing_channels,
+              .notes = survey.notes};
+  judge_simulator(runs.signals, other_predictions(dataset, runs.signals, runs.options), d);
+  return d;
 }
 
 std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {
@@ -117,14 +127,6 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
           .notes = joined({judgment_notes, {all_clear_note}}),
           .validation_runs = names_of(x.dataset, x.runs.validation.runs),
           .validation_method = method_of(x.runs)};
-}
-
-/// What the runs say of another simulator's predictions, and with it of both models.
-void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
-                     Diagnosis& d) {
-  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
-  d.simulator.model_verdict = d.verdict;
-  d.verdict = verdict_on_both(d.simulator);
 }
 
 /// The steps up to the names and their test on held-out runs; each reads what the steps before it found.

@@ -67,8 +67,9 @@ inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 inline constexpr double kBlurredWheel_rad_s = 0.2;
 /// The same of the body's speed. Physical scale: a log's noise.
 inline constexpr double kStillSpeed_m_s = 0.02;
-/// The same of its yaw rate. Physical scale.
-inline constexpr double kStillYawRate_rad_s = 0.12;
+/// Below it the direction of a turn is uncertain. Physical scale: the noise of a smoothed yaw rate, of encoders
+/// with a thousand steps.
+inline constexpr double kStillYawRate_rad_s = 0.01;
 /// Below it the direction of a turn is uncertain for an unknown moment. Physical scale.
 inline constexpr double kBlurredTurn_rad_s = 0.04;
 /// The same of a motor's current. Physical scale.

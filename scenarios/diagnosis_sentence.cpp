@@ -91,11 +91,14 @@ std::string gap_words(const Diagnosis& d) {
          pose_words("heading", d.gap.heading_rad, 1, "rad");
 }
 
-/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs."
+/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs.": without the floor
+/// where no model of the runs tells it.
 std::string simulator_words(const SimulatorGap& simulator) {
+  const double floor_percent = simulator.noise_floor_percent;
   return "The simulator's energy gap is " + percent_text(simulator.gap_percent) + " (bias " +
-         percent_text(simulator.bias_percent) + ", noise floor " + percent_text(simulator.noise_floor_percent) +
-         ") on " + std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
+         percent_text(simulator.bias_percent) +
+         (floor_percent > 0 ? ", noise floor " + percent_text(floor_percent) : "") + ") on " +
+         std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
 }
 
 /// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,
@@ -138,13 +141,20 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
+/// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to count.
+std::string file_meaning(const Diagnosis& d) {
+  if (file_verdict(d) == Verdict::no_gap && !d.below_materiality.empty())
+    return "Calibration errors, noise and effects too small to count explain the runs.";
+  return words_of(file_verdict(d)).meaning;
+}
+
 /// The sentence on the model of the robot file.
 std::string model_sentence(const Diagnosis& d, Verdict verdict) {
   const VerdictWords& words = words_of(verdict);
   const std::string title = std::string(words.title) + ": ";
   switch (verdict) {
     case Verdict::no_gap:
-      return std::string(words.title) + size_not_seen(d) + ": " + clause(words.meaning) + gap_words(d);
+      return std::string(words.title) + size_not_seen(d) + ": " + clause(file_meaning(d)) + gap_words(d);
     case Verdict::explained:
       return title + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
@@ -170,18 +180,17 @@ std::string foreign_words(const std::vector<ForeignConstant>& constants) {
   return "The robot file does not describe this robot: " + text_of_list(words, "; ") + ".";
 }
 
-/// On both models, where there are two.
+/// On the model of the robot file alone.
+std::string file_sentence(const Diagnosis& d) {
+  if (d.foreign_constants.empty()) return model_sentence(d, file_verdict(d));
+  return std::string(words_of(file_verdict(d)).title) + ": " + clause(foreign_words(d.foreign_constants));
+}
+
+/// On the simulator, then on the robot file, where there are two models.
 std::string verdict_sentence(const Diagnosis& d) {
-  if (!d.foreign_constants.empty())
-    return std::string(words_of(d.verdict).title) + ": " + clause(foreign_words(d.foreign_constants));
-  if (d.simulator.runs == 0) return model_sentence(d, d.verdict);
-  const std::string simulator = simulator_words(d.simulator);
-  if (d.verdict == Verdict::no_gap)
-    return "No gap of the simulator: " + clause(simulator) + " Robot file: " +
-           clause(model_sentence(d, d.simulator.model_verdict));
-  if (d.verdict == d.simulator.model_verdict) return model_sentence(d, d.verdict) + " " + simulator;
-  return std::string(words_of(d.verdict).title) + ": " + clause(simulator) + " Robot file: " +
-         clause(model_sentence(d, d.simulator.model_verdict));
+  if (d.simulator.runs == 0) return file_sentence(d);
+  return std::string(words_of(d.verdict).title) + (d.verdict == Verdict::no_gap ? " of the simulator: " : ": ") +
+         clause(simulator_words(d.simulator)) + " Robot file: " + clause(file_sentence(d));
 }
 
 }  // namespace
@@ -201,9 +210,8 @@ std::string diagnosis_sentence(const Diagnosis& d) {
 }
 
 std::string diagnosis_meaning(const Diagnosis& d) {
-  if (!d.foreign_constants.empty()) return foreign_words(d.foreign_constants);
-  const bool of_the_model = d.simulator.runs == 0 || d.verdict == d.simulator.model_verdict;
-  return of_the_model ? words_of(d.verdict).meaning : simulator_words(d.simulator);
+  if (d.simulator.runs > 0) return simulator_words(d.simulator);
+  return d.foreign_constants.empty() ? file_meaning(d) : foreign_words(d.foreign_constants);
 }
 
 }  // namespace joulepath

@@ -6,6 +6,11 @@
 
 namespace joulepath {
 
+/// On the robot file's model alone.
+[[nodiscard]] inline Verdict file_verdict(const Diagnosis& d) {
+  return d.simulator.runs > 0 ? d.simulator.model_verdict : d.verdict;
+}
+
 /// The result of a diagnosis in one line: verdict, causes with their sizes and probabilities, and the change of
 /// the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);

@@ -60,7 +60,7 @@ void print_causes(std::ostream& out, const Diagnosis& d) {
     out << '\n';
   }
   if (!d.pinned_combination.empty()) out << "  the data determine only: " << d.pinned_combination << '\n';
-  if (d.causes.empty() && d.verdict != Verdict::no_gap)
+  if (d.causes.empty() && file_verdict(d) != Verdict::no_gap)
     for (std::size_t k = 0; k < d.ranking.size() && k < 5; ++k)
       out << "candidate: " << d.ranking[k].effect << "  " << figure(d.ranking[k].probability, 3) << '\n';
   for (const UnknownCause& unknown : d.unknowns)

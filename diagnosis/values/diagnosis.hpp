@@ -146,7 +146,7 @@ struct Diagnosis {
   SimulatorGap simulator{};
   std::vector<RunApart> runs_apart{};
   std::vector<WhereCell> where{};
-  Verdict verdict{Verdict::too_little_data};  ///< on the robot file's model and on `simulator` together
+  Verdict verdict{Verdict::too_little_data};  ///< on `simulator` where it predicts runs, else on the file's model
   std::vector<Cause> causes{};
   std::vector<RankedEffect> ranking{};
   std::vector<UnknownCause> unknowns{};

@@ -84,11 +84,10 @@ SimulatorGap simulator_gap(const std::vector<RunSignals>& signals, const std::ve
           .noise_floor_percent = noise_floor_percent};
 }
 
-Verdict verdict_on_both(const SimulatorGap& simulator) {
-  const Verdict model = simulator.model_verdict;
-  if (!simulator.exceeds()) return model;
-  const bool silent = model == Verdict::no_gap || model == Verdict::too_little_data;
-  return silent ? Verdict::unexplained : model == Verdict::explained ? Verdict::partly_explained : model;
+Verdict verdict_with(const SimulatorGap& simulator) {
+  if (simulator.runs == 0) return simulator.model_verdict;
+  if (simulator.exceeds()) return Verdict::unexplained;
+  return simulator.model_verdict == Verdict::too_little_data ? Verdict::too_little_data : Verdict::no_gap;
 }
 
 std::string told_by_others(const Dataset& dataset, const SimulatorGap& simulator) {

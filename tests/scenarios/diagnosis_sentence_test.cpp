@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "diagnosis/where/other_prediction.hpp"
 #include "scenarios/next_step.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
@@ -143,11 +144,12 @@ struct RandomDiagnosis {
     d.leftover_description = d.leftover_significant ? "goes with payload" : "";
     if (d.leftover_significant && coin())
       d.unknowns = {{.depends_on = "speed (current)", .probability = 0.9, .share = fraction()}};
+    if (coin()) d.below_materiality = {{"floor_patch", 0.97, 20, 0.4}};
     if (coin()) d.runs_apart = {{"run_3", 100 * (fraction() - 0.5), fraction()}};
     if (coin()) {
       d.simulator = {.runs = 3, .of_runs = 4, .gap_percent = size(), .bias_percent = -1,
                      .noise_floor_percent = size(), .model_verdict = d.verdict};
-      if (d.simulator.exceeds() && d.verdict == Verdict::no_gap) d.verdict = Verdict::unexplained;
+      d.verdict = verdict_with(d.simulator);
     }
     return d;
   }
@@ -180,12 +182,15 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
       EXPECT_TRUE(says(said, apart["run"].get<std::string>() + ", whose energy is " +
                                  digits(std::abs(apart["over_model_percent"].get<double>())) + " %"))
           << said;
+    EXPECT_EQ(says(said, "too small to count"),
+              file_verdict(d) == Verdict::no_gap && !json["below_materiality"].empty())
+        << said;
     EXPECT_EQ(says(said, "simulator's energy gap is"), json.contains("simulator")) << said;
     if (d.causes.empty()) {
       EXPECT_FALSE(says(said, "shrinks")) << said;
       continue;
     }
-    if (d.verdict != Verdict::ambiguous)
+    if (file_verdict(d) != Verdict::ambiguous)
       for (const auto& cause : json["causes"]) {
         EXPECT_TRUE(says(said, "(probability " + digits(cause["probability"]))) << said;
         for (const auto& other : cause["indistinguishable_from"])
