@@ -287,7 +287,8 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
   dataset.artifacts = std::move(log.artifacts);
   fill_payload(run, dataset.artifacts);
   for (Run& whole : with_whole_channels(std::move(run), options, dataset.artifacts))
-    std::ranges::move(split_at_clock_jumps(std::move(whole), dataset.artifacts), std::back_inserter(dataset.runs));
+    std::ranges::move(split_at_clock_jumps(std::move(whole), dataset.artifacts),
+                      std::back_inserter(dataset.runs));
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }

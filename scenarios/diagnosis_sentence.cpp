@@ -56,16 +56,18 @@ std::string causes_words(const std::vector<Cause>& causes) {
   return text_of_list(words, "; ");
 }
 
-/// " The position gap shrinks from 68 mm to 12 mm.": of a pose, where the correction changes it by what counts.
+/// " The position gap shrinks from 68 mm to 12 mm.": of a pose, where the correction changes it by what
+/// counts.
 std::string pose_words(const char* subject, const SignalGap& gap, double scale, const char* unit) {
   if (!gap.present || std::max(gap.before_rms, gap.after_rms) <= gap.noise_floor_rms) return "";
   if (!is_notable_change(gap.before_rms, gap.after_rms)) return "";
   return std::string(" The ") + subject + " gap " + (gap.after_rms < gap.before_rms ? "shrinks" : "grows") +
-         " from " + three_digits(scale * gap.before_rms) + " to " + three_digits(scale * gap.after_rms) + " " +
-         unit + ".";
+         " from " + three_digits(scale * gap.before_rms) + " to " + three_digits(scale * gap.after_rms) +
+         " " + unit + ".";
 }
 
-/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is none.
+/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is
+/// none.
 std::string size_words(const EnergyGap& e, bool named) {
   const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ")";
   const bool shrinks = named && e.after_percent < e.before_percent &&
@@ -83,7 +85,8 @@ std::string gap_words(const Diagnosis& d) {
   const std::string of_file = d.simulator.runs > 0 ? " The robot file's " : " The ";
   std::string words;
   if (d.gap.energy.before_J > 0)
-    words = of_file + (battery ? "energy gap at the motors" : "energy gap") + size_words(d.gap.energy, named) + ".";
+    words = of_file + (battery ? "energy gap at the motors" : "energy gap") +
+            size_words(d.gap.energy, named) + ".";
   if (battery && battery->before_J > 0)
     words += of_file + "energy gap at the battery" + size_words(*battery, named) + ".";
   if (!named) return words;
@@ -141,7 +144,8 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
-/// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to count.
+/// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to
+/// count.
 std::string file_meaning(const Diagnosis& d) {
   if (file_verdict(d) == Verdict::no_gap && !d.below_materiality.empty())
     return "Calibration errors, noise and effects too small to count explain the runs.";
@@ -171,7 +175,8 @@ std::string model_sentence(const Diagnosis& d, Verdict verdict) {
   return {};
 }
 
-/// "The robot file does not describe this robot: winding resistance 2.7 ohm in the file, 0.5 ohm in the runs."
+/// "The robot file does not describe this robot: winding resistance 2.7 ohm in the file, 0.5 ohm in the
+/// runs."
 std::string foreign_words(const std::vector<ForeignConstant>& constants) {
   std::vector<std::string> words;
   for (const ForeignConstant& one : constants)
@@ -189,7 +194,8 @@ std::string file_sentence(const Diagnosis& d) {
 /// On the simulator, then on the robot file, where there are two models.
 std::string verdict_sentence(const Diagnosis& d) {
   if (d.simulator.runs == 0) return file_sentence(d);
-  return std::string(words_of(d.verdict).title) + (d.verdict == Verdict::no_gap ? " of the simulator: " : ": ") +
+  return std::string(words_of(d.verdict).title) +
+         (d.verdict == Verdict::no_gap ? " of the simulator: " : ": ") +
          clause(simulator_words(d.simulator)) + " Robot file: " + clause(file_sentence(d));
 }
 

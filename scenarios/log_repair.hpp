@@ -39,8 +39,8 @@ enum class Ends {
   unknown  ///< NaN; a channel of one reading is none
 };
 
-/// Replaces NaN by interpolation between neighbors; returns the number of values that it filled in, or that an
-/// emptied channel has.
+/// Replaces NaN by interpolation between neighbors; returns the number of values that it filled in, or that
+/// an emptied channel has.
 std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values, Ends ends);
 
 /// Equal readings in a row, zeros aside (a robot at rest).

@@ -95,8 +95,8 @@ Schema gap_schema() {
            required("shrink_interval_95", interval())}));
   return open(map({required("energy", energy, "of the motors; at the battery where nothing measures them"),
                    optional("battery_energy", energy, "at the battery, where both are measured"),
-                   optional("current", open(map({}))),
-                   optional("voltage", open(map({}))), optional("motion", open(map({})))}));
+                   optional("current", open(map({}))), optional("voltage", open(map({}))),
+                   optional("motion", open(map({})))}));
 }
 
 Schema simulator_schema() {
@@ -108,10 +108,10 @@ Schema simulator_schema() {
 }
 
 Schema runs_apart_schema() {
-  return list(
-      open(map({required("run", text()),
-                required("over_model_percent", result(), "measured energy over the others' model, less 100 %"),
-                required("share_of_gap", result(), "of all runs, with the robot file's model")})));
+  return list(open(
+      map({required("run", text()),
+           required("over_model_percent", result(), "measured energy over the others' model, less 100 %"),
+           required("share_of_gap", result(), "of all runs, with the robot file's model")})));
 }
 
 Schema where_schema() {
@@ -166,8 +166,8 @@ Schema data_checks_schema() {
 }
 
 Schema foreign_constants_schema() {
-  return list(open(map({required("constant", text()), required("unit", text()),
-                        required("in_file", result()), required("in_runs", result())})));
+  return list(open(map({required("constant", text()), required("unit", text()), required("in_file", result()),
+                        required("in_runs", result())})));
 }
 
 Schema signals_schema() {
@@ -181,7 +181,8 @@ Schema signals_schema() {
 
 Schema plan_schema() {
   return open(map(
-      {required("schema", text()), required("status", plan_status()),
+      {required("schema", text()),
+       required("status", plan_status()),
        optional(
            "robot",
            open(map({required("name", text()),
@@ -190,9 +191,11 @@ Schema plan_schema() {
            "robot of the plan"),
        optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
        optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
-       optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
+       optional("motion_energy_J", result(), "without standby"),
+       optional("energy_Wh", result()),
        optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
-       optional("duration_s", result()), optional("distance_m", result()),
+       optional("duration_s", result()),
+       optional("distance_m", result()),
        optional("lower_bound_J", result(), kBoundMeans),
        optional("optimality_gap_percent", result(), "on these paths; other paths are not bounded"),
        optional("bound_without_jerk", boolean(), kWithoutJerk),
@@ -200,8 +203,10 @@ Schema plan_schema() {
        optional("solver", open(map({required("name", text()), required("iterations", number())}))),
        optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
                                     required("limit", text())}))),
-       optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
-       optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
+       optional("battery", battery_result_schema()),
+       optional("legs", list(leg_result_schema())),
+       optional("baselines", baselines_schema()),
+       optional("infeasibility", infeasibility_schema())}));
 }
 
 Schema diagnosis_schema() {

@@ -123,8 +123,8 @@ void tell_cut(const std::vector<double>& base_s, const std::pair<long, long>& ro
 }
 
 /// Takes the channels of all files to the times of one. Outside of its file's own time a channel is NaN; a
-/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those of
-/// channels that are interpolated.
+/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those
+/// of channels that are interpolated.
 HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   HoldsOfChannel holds;
   const std::vector<FileChannel> motion = channels_of_motion(files);

@@ -44,7 +44,8 @@ class FrontCommand : public Command {
   void declare(CommandLine& line) override {
     add_analysis_options(line, options_, kResult, false);
     line.option("--points", points_,
-                "points of the front; deadlines and durations are ignored, except where slower is always cheaper: "
+                "points of the front; deadlines and durations are ignored, except where slower is always "
+                "cheaper: "
                 "there they end it")
         .between(2, 2000)
         .shows_default();
@@ -133,7 +134,8 @@ class FrontCommand : public Command {
                              {"mission", title},
                              {"points", nlohmann::json::array()},
                              {"baselines", nlohmann::json::array()}};
-    for (const FrontPoint& point : front.points) result["points"].push_back(point_json(point, options_.plan.accuracy));
+    for (const FrontPoint& point : front.points)
+      result["points"].push_back(point_json(point, options_.plan.accuracy));
     for (const auto& [k, baselines] : beside)
       for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
     if (writes_analysis(options_))
@@ -176,7 +178,8 @@ class FrontCommand : public Command {
     if (!total.feasible) return "-";
     const double more = 100 * (total.energy_J / total.optimum_J - 1);
     if (!std::isfinite(more)) return figure(total.energy_J, 6);
-    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" + (total.late() ? ", " + later_text(total) : "") + ")";
+    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" +
+           (total.late() ? ", " + later_text(total) : "") + ")";
   }
 
   static constexpr const char* kResult = "front.json";

@@ -41,14 +41,15 @@ SplitModel split_model(const ModelPoint& point) {
   return split;
 }
 
-/// Mean sign of the yaw rate over the kernel: of a rate that changes evenly, with a noise of kStillYawRate_rad_s.
+/// Mean sign of the yaw rate over the kernel: of a rate that changes evenly, with a noise of
+/// kStillYawRate_rad_s.
 double turn_direction(const BodyMotion<double>& motion, double kernel_sigma_s) {
   const double width_rad_s = std::hypot(kStillYawRate_rad_s, motion.yaw_acceleration_rad_s2 * kernel_sigma_s);
   return std::erf(motion.yaw_rate_rad_s / (std::numbers::sqrt2 * width_rad_s));
 }
 
-Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry, const BodyMotion<double>& motion,
-             const EffectMemory& memory) {
+Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry,
+             const BodyMotion<double>& motion, const EffectMemory& memory) {
   const double across_m_s = geometry.half_track_m * motion.yaw_rate_rad_s;
   const double size_m_s = std::sqrt(motion.speed_m_s * motion.speed_m_s + across_m_s * across_m_s +
                                     kStillSpeed_m_s * kStillSpeed_m_s);
@@ -163,10 +164,9 @@ void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index
     out.power_W[side][j] = state[side].power_W + change[side].product_W();
     out.power_change_W[side][j] = change[side].power_W;
   }
-  out.battery_power_W[j] =
-      mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
-                          {out.power_change_W.left[j], out.power_change_W.right[j]}) +
-      robot.power.standby_W;
+  out.battery_power_W[j] = mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
+                                               {out.power_change_W.left[j], out.power_change_W.right[j]}) +
+                           robot.power.standby_W;
   if (signals.battery_current_A.size() > 0)
     out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
                                robot.battery.internal_resistance_ohm * signals.battery_current_A[j];

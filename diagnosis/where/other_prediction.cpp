@@ -91,7 +91,8 @@ Verdict verdict_with(const SimulatorGap& simulator) {
 }
 
 std::string told_by_others(const Dataset& dataset, const SimulatorGap& simulator) {
-  const auto given = std::ranges::count_if(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
+  const auto given =
+      std::ranges::count_if(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
   if (given == 0) return {};
   if (simulator.runs == 0)
     return "another simulator's prediction and its log have no power of the same place: no energy gap of the "

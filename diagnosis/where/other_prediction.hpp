@@ -34,8 +34,9 @@ struct OtherPrediction {
                                          const std::vector<OtherPrediction>& others,
                                          double noise_floor_percent);
 
-/// The verdict where a simulator predicts: on the simulator, whatever is wrong with the robot file. No cause of
-/// the file explains a simulator's gap. Runs too few for a verdict on the file give the simulator no all-clear.
+/// The verdict where a simulator predicts: on the simulator, whatever is wrong with the robot file. No cause
+/// of the file explains a simulator's gap. Runs too few for a verdict on the file give the simulator no
+/// all-clear.
 [[nodiscard]] Verdict verdict_with(const SimulatorGap& simulator);
 
 /// A sentence for the report: what refers to the other simulator, and what to this model. Empty where no run

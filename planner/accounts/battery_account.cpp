@@ -152,7 +152,8 @@ std::map<std::string, double> enough_charge(const BatteryAccount& account, const
   if (start <= 1) return {{"battery_fraction", start}};
   const double usable = account.start_fraction - battery.reserve_fraction;
   if (!(usable > 0)) return {};
-  return {{"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
+  return {
+      {"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
 }
 
 }  // namespace
@@ -172,8 +173,8 @@ std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& po
 
 namespace {
 
-/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th of
-/// it is not enough.
+/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th
+/// of it is not enough.
 std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithResistance& plans) {
   constexpr int kHalvings = 8, kRefinements = 3;
   double fails_ohm = most_ohm, works_ohm = most_ohm;

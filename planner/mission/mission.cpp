@@ -134,9 +134,8 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   TimeSplit& split = timed.split;
   if (split.late) {
     const std::size_t leg = split.late->leg;
-    const auto [s_m, pose] =
-        place_after(timed.prepared.timing[leg], timed.prepared.legs[leg].start_pose,
-                    split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
+    const auto [s_m, pose] = place_after(timed.prepared.timing[leg], timed.prepared.legs[leg].start_pose,
+                                         split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
     Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
     reason.message += held_by(timed.prepared.timing[leg]);
     return PlanInfeasibility{std::move(reason), leg, s_m};
@@ -254,8 +253,8 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
 /// Plans the stops of `visit:`, or gives the verdict that no order of them is possible.
 Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
                 const RouteSpace* space, const Plant& plant, const Plan& known) {
-  const ChoiceContext context{
-      mission, world, need_space(mission, space), plant, options, first_price_W(mission, world, plant)};
+  const ChoiceContext context{mission, world,   need_space(mission, space),
+                              plant,   options, first_price_W(mission, world, plant)};
   std::vector<OrderEstimate> orders = order_visits(context);
   if (auto& reason = orders.front().visit.infeasibility) {
     Plan plan = known;
@@ -283,7 +282,9 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   Plan answer = planned(world, plant);
   if (answer.infeasibility && answer.infeasibility->reason.constraint == "battery_power") {
     const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
-    blame_battery(answer, world.robot, legs[answer.infeasibility->leg].payload, [&](double resistance_ohm) {
+    // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
+    const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
+    blame_battery(answer, world.robot, payload, [&](double resistance_ohm) {
       MissionWorld other = world;
       other.robot.battery.internal_resistance_ohm = resistance_ohm;
       return planned(other, make_plant(other.robot)).status <= SolveStatus::feasible;

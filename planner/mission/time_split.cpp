@@ -12,8 +12,8 @@ namespace {
 constexpr double kHighestPrice_W = 1e7;
 constexpr std::uintmax_t kPriceTrials = 24;  ///< of a search within its bracket
 constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
-/// Relative: an arrival this little before its bound is at it. Times of profiles with a jerk limit scatter more
-/// than the price that the search could still find.
+/// Relative: an arrival this little before its bound is at it. Times of profiles with a jerk limit scatter
+/// more than the price that the search could still find.
 constexpr double kSameArrival = 4e-8;
 
 /// Arrival at the end of `last`, before any wait there, with these durations of the legs from `first` on.

@@ -20,8 +20,8 @@ struct OrderEstimate {
 /// with the verdict where no order is possible whatever its windows.
 ///
 /// The first is exact by label setting over subsets up to kExactStops; above, the best `kBeam` labels of each
-/// layer are kept. Up to kAllOrders stops the others are all of them, above only those that the table does not
-/// call worse in everything. Legs are costed with free departure headings and on rough routes.
+/// layer are kept. Up to kAllOrders stops the others are all of them, above only those that the table does
+/// not call worse in everything. Legs are costed with free departure headings and on rough routes.
 [[nodiscard]] std::vector<OrderEstimate> order_visits(const ChoiceContext& context);
 
 /// Plans the stops in the cheapest order that can be driven. Without windows that is the first one that can

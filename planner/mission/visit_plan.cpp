@@ -14,8 +14,6 @@ constexpr int kChargedOrders = 6;    ///< the same where each order is planned w
 constexpr int kLateOrders = 3;       ///< at most, of those that the table calls clearly late
 constexpr double kTableError = 0.3;  ///< share of a cost by which a plan may be below the table
 
-bool drives(const Plan& plan) { return plan.status <= SolveStatus::feasible; }
-
 bool has_windows(const MissionRequest& mission) {
   return std::any_of(mission.visit.begin(), mission.visit.end(),
                      [](const VisitRequest& visit) { return visit.window_s.has_value(); });
@@ -43,10 +41,12 @@ class PlannedOrders {
     if (order.late) ++late_;
     const double cost_J = plan.energy.total_J() + price_W_ * plan.duration_s;
     // What empties the battery is too dear, too.
-    if (drives(plan) || refusal(plan) == "battery_reserve") least_J_ = std::min(least_J_, cost_J);
-    std::optional<Plan>& rival = drives(plan) ? best_ : refused_;
-    if (rival && !(drives(plan) ? cost_J < best_J_ : is_less_late(plan, *rival))) return;
-    if (drives(plan)) best_J_ = cost_J;
+    if (plan.status <= SolveStatus::feasible || refusal(plan) == "battery_reserve")
+      least_J_ = std::min(least_J_, cost_J);
+    std::optional<Plan>& rival = plan.status <= SolveStatus::feasible ? best_ : refused_;
+    if (rival && !(plan.status <= SolveStatus::feasible ? cost_J < best_J_ : is_less_late(plan, *rival)))
+      return;
+    if (plan.status <= SolveStatus::feasible) best_J_ = cost_J;
     rival = std::move(plan);
   }
 

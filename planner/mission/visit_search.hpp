@@ -10,7 +10,7 @@ namespace joulepath {
 
 inline constexpr std::size_t kExactStops = 10;  ///< all labels are kept up to this number of stops
 inline constexpr std::size_t kBeam = 2000;      ///< kept labels of a layer above that number
-inline constexpr std::size_t kAllOrders = 5;    ///< up to this number of stops no order is dropped for another
+inline constexpr std::size_t kAllOrders = 5;  ///< up to this number of stops no order is dropped for another
 
 /// A partial order: visited stops, place and load of the robot.
 struct VisitLabel {

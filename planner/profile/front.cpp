@@ -174,7 +174,8 @@ Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t 
     front.infeasibility = result.infeasibility;
     return front;
   }
-  const auto fastest = point_at(parts, kNoLimit, standby_W), cheapest = point_at(parts, lowest_price_W, standby_W);
+  const auto fastest = point_at(parts, kNoLimit, standby_W),
+             cheapest = point_at(parts, lowest_price_W, standby_W);
   if (parts.empty() || !fastest || !cheapest) {
     front.summary.message = "no front: a stretch could not be solved";
     return front;

@@ -125,7 +125,9 @@ class Trials {
  private:
   static constexpr int kMost = 16;
 
-  bool possible(const Knob& knob, double value) { return made_++ < kMost && plans(changed(request_, knob, value)); }
+  bool possible(const Knob& knob, double value) {
+    return made_++ < kMost && plans(changed(request_, knob, value));
+  }
 
   const ProfileRequest& request_;
   int made_{};

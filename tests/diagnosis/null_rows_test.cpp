@@ -1,4 +1,5 @@
-// Rows of runs without an effect: what they leave is noise, so their mean over many runs is what noise leaves.
+// Rows of runs without an effect: what they leave is noise, so their mean over many runs is what noise
+// leaves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +36,10 @@ std::vector<Drive> drives() {
            },
            6, 0},
           {"loaded, straight and then round a bend",
-           [](double t) { return Twist<double>{0.5 * swell(t / 3), t > 3 ? 0.9 * swell(t / 3) : 0.0}; }, 6, 6}};
+           [](double t) {
+             return Twist<double>{0.5 * swell(t / 3), t > 3 ? 0.9 * swell(t / 3) : 0.0};
+           },
+           6, 6}};
 }
 
 Trajectory reference_of(const Drive& drive) {
@@ -121,13 +125,24 @@ TEST_P(NullRows, AreNoiseInEveryChannel) {
   expect_noise(runs, robot, "battery alone");
 }
 
-/// A turn that scrubs, against a model that has the true moment: what is left is noise, on wide bends, where a
-/// robot turns slowly, and while a turn on the spot begins and ends.
+/// A turn that scrubs, against a model that has the true moment: what is left is noise, on wide bends, where
+/// a robot turns slowly, and while a turn on the spot begins and ends.
 TEST(EffectRows, OfAScrubbingTurnAreNoise) {
-  const std::vector<Drive> turns{
-      {"wide bend", [](double t) { return Twist<double>{0.4 * swell(t / 6), 0.2 * swell(t / 6)}; }, 6, 0},
-      {"bend to the right", [](double t) { return Twist<double>{0.3 * swell(t / 6), -0.3 * swell(t / 6)}; }, 6, 0},
-      {"on the spot", [](double t) { return Twist<double>{0.0, 1.2 * swell(t / 4)}; }, 4, 0}};
+  const std::vector<Drive> turns{{"wide bend",
+                                  [](double t) {
+                                    return Twist<double>{0.4 * swell(t / 6), 0.2 * swell(t / 6)};
+                                  },
+                                  6, 0},
+                                 {"bend to the right",
+                                  [](double t) {
+                                    return Twist<double>{0.3 * swell(t / 6), -0.3 * swell(t / 6)};
+                                  },
+                                  6, 0},
+                                 {"on the spot",
+                                  [](double t) {
+                                    return Twist<double>{0.0, 1.2 * swell(t / 4)};
+                                  },
+                                  4, 0}};
   for (const double moment_Nm : {0.15, 0.6})
     for (const Drive& drive : turns) {
       Robot robot = testing::nomad();
@@ -157,7 +172,8 @@ TEST(FollowedChannel, OfASoundBatteryIsAllThatIsExpected) {
 Diagnosis diagnosed_day(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
   Dataset day{.robot = testing::nomad()};
   for (const Drive& drive : drives())
-    for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects)) day.runs.push_back(std::move(run));
+    for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects))
+      day.runs.push_back(std::move(run));
   return diagnose(day);
 }
 

@@ -79,13 +79,15 @@ TEST(SimulatorGap, IsAtTheBatteryWhereNothingMeasuresTheMotors) {
   EXPECT_EQ(simulator_gap(signals, {{.power_W = constant_W(11)}}, 0.5).runs, 0u) << "not of the same place";
 }
 
-/// Beyond noise and 1 % it is unexplained, below there is none of the simulator, whatever is wrong with the file;
-/// runs too few for the file give no all-clear.
+/// Beyond noise and 1 % it is unexplained, below there is none of the simulator, whatever is wrong with the
+/// file; runs too few for the file give no all-clear.
 TEST(SimulatorGap, IsTheVerdictWhateverThatOfTheFileIs) {
   for (std::size_t k = 0; k < kVerdicts.size(); ++k)
     for (const double gap_percent : {0.2, 0.9, 1.1, 2.9, 3.1, 40.0})
       for (const double floor_percent : {0.1, 3.0}) {
-        SimulatorGap gap{.runs = 5, .gap_percent = gap_percent, .noise_floor_percent = floor_percent,
+        SimulatorGap gap{.runs = 5,
+                         .gap_percent = gap_percent,
+                         .noise_floor_percent = floor_percent,
                          .model_verdict = static_cast<Verdict>(k)};
         const bool beyond = gap_percent > 1 && gap_percent > floor_percent;
         EXPECT_EQ(gap.exceeds(), beyond);
@@ -102,10 +104,9 @@ Dataset with_simulator(const Robot& file, double factor) {
   Dataset dataset{.robot = file};
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const double kind = seed % 4;
-    dataset.runs.push_back(testing::synthetic_run(
-        testing::nomad(), "run_" + std::to_string(seed), 12, kind,
-        testing::swinging(0.3 + 0.1 * kind, 0.1, 1, 0.2 * kind),
-        {0.002, 0.005, 0.01}, seed));
+    dataset.runs.push_back(testing::synthetic_run(testing::nomad(), "run_" + std::to_string(seed), 12, kind,
+                                                  testing::swinging(0.3 + 0.1 * kind, 0.1, 1, 0.2 * kind),
+                                                  {0.002, 0.005, 0.01}, seed));
     Trajectory& other = dataset.runs.back().predicted.emplace(dataset.runs.back().log);
     for (Side side : kSides)
       for (double& current_A : other.motor_current_A[side]) current_A *= factor;

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<Point2>;
 using PathAlong = std::function<WaypointPath(const Points&)>;
 
-Plan plan_along(const Path& path) {
+Plan rounded_plan(const Path& path) {
   MissionRequest mission{.name = "path", .start = {.pose = path.start()}};
   mission.legs = {{.path = PathRequest{.frame = PathRequest::Frame::map, .ready = path}}};
   return plan_mission(mission, {.robot = testing::nomad()},
@@ -36,13 +36,13 @@ Points moved(const Points& points_m, double most_m, unsigned seed) {
 void expect_rounding_is_nothing(const Points& points_m, const PathAlong& along, const char* name) {
   const WaypointPath exact = along(points_m);
   ASSERT_FALSE(exact.defect) << name << ": " << exact.defect->found;
-  const Plan plan = plan_along(exact.path);
+  const Plan plan = rounded_plan(exact.path);
   ASSERT_LE(plan.status, SolveStatus::feasible) << name << ": " << plan.message;
   for (const double most_m : {1e-8, 1e-7, 1e-6})
     for (const unsigned seed : {1u, 2u}) {
       const WaypointPath rounded = along(moved(points_m, most_m, seed));
       ASSERT_FALSE(rounded.defect) << name << ": " << rounded.defect->found;
-      const Plan other = plan_along(rounded.path);
+      const Plan other = rounded_plan(rounded.path);
       ASSERT_EQ(other.status, plan.status) << name << " " << most_m << ": " << other.message;
       EXPECT_NEAR(other.energy.total_J(), plan.energy.total_J(), 1e-3 * plan.energy.total_J())
           << name << " " << most_m;
@@ -64,7 +64,8 @@ TEST(RoundedPaths, CornersMoveByTheirRounding) {
   const Points corners_m{{0, 0}, {3, 0}, {3, 2}, {5, 2.3}, {5.5, 2.3}};
   expect_rounding_is_nothing(corners_m, with_radii({0, 0, 0, 0, 0}), "turns on the spot");
   expect_rounding_is_nothing(corners_m, with_radii({0, 0.5, 0.2, 0.05, 0}), "arcs");
-  expect_rounding_is_nothing({{0, 0}, {1, 0}, {2, 4e-6}, {3, 0}}, with_radii({0, 0.5, 0.5, 0}), "slight corners");
+  expect_rounding_is_nothing({{0, 0}, {1, 0}, {2, 4e-6}, {3, 0}}, with_radii({0, 0.5, 0.5, 0}),
+                             "slight corners");
 }
 
 TEST(RoundedPaths, CurvesThroughWaypointsMoveByTheirRounding) {
@@ -80,9 +81,11 @@ TEST(RoundedPaths, CurvesThroughWaypointsMoveByTheirRounding) {
 TEST(RoundedPaths, ChainsOfCurvesMoveByTheirRounding) {
   const PathAlong chain = [](const Points& p) {
     std::vector<BezierPoints> curves_m;
-    for (std::size_t i = 0; i + 3 < p.size(); i += 3) curves_m.push_back({p[i], p[i + 1], p[i + 2], p[i + 3]});
+    for (std::size_t i = 0; i + 3 < p.size(); i += 3)
+      curves_m.push_back({p[i], p[i + 1], p[i + 2], p[i + 3]});
     const double heading_rad = std::atan2(p[1][1] - p[0][1], p[1][0] - p[0][0]);
-    return WaypointPath{.path = bezier_chain(curves_m, {p[0][0], p[0][1], heading_rad}, BezierFrame::map).path};
+    return WaypointPath{.path =
+                            bezier_chain(curves_m, {p[0][0], p[0][1], heading_rad}, BezierFrame::map).path};
   };
   expect_rounding_is_nothing({{0, 0}, {0.5, 0}, {1, 0}, {1.5, 0}, {2, 0}, {2.5, 0}, {3, 1}}, chain, "smooth");
   expect_rounding_is_nothing({{0, 0}, {0.3, 0}, {0.7, 0}, {1, 0}, {1.3, 0}, {1.7, 0}, {2, 0}}, chain, "line");

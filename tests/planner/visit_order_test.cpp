@@ -144,7 +144,8 @@ std::optional<double> least_of_all_orders_J(const MissionRequest& mission, const
     double payload_kg = 0.0;
     for (const std::size_t k : order) {
       const VisitRequest& visit = mission.visit[k];
-      fixed.legs.push_back({.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
+      fixed.legs.push_back(
+          {.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
       if (visit.window_s) fixed.legs.back().deadline_s = visit.window_s->second;
       payload_kg += visit.payload_kg;
     }
@@ -175,8 +176,7 @@ MissionRequest drawn_windows(unsigned seed, std::size_t stops, double share, con
   legs.stations = mission.stations;
   double payload_kg = 0.0;
   for (const VisitRequest& visit : mission.visit) {
-    legs.legs.push_back(
-        {.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
+    legs.legs.push_back({.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
     payload_kg += visit.payload_kg;
   }
   const Plan fastest = visit_plan(legs, robot);
@@ -187,7 +187,8 @@ MissionRequest drawn_windows(unsigned seed, std::size_t stops, double share, con
   return mission;
 }
 
-/// With windows a visit is the best of all orders as legs: never refused where one of them fits, never dearer.
+/// With windows a visit is the best of all orders as legs: never refused where one of them fits, never
+/// dearer.
 TEST(VisitOrder, WithWindowsItIsTheBestOfAllOrders) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 10;
@@ -263,8 +264,7 @@ TEST(VisitOrder, AWindowThatTheSameStopAsALegMeetsIsKept) {
   mission.legs.clear();
   mission.objective = {};
   const auto visit_until = [&](double latest_s) {
-    mission.visit = {
-        {.kind = VisitRequest::Kind::pass, .station = "beyond", .window_s = {{0.0, latest_s}}}};
+    mission.visit = {{.kind = VisitRequest::Kind::pass, .station = "beyond", .window_s = {{0.0, latest_s}}}};
     return plan_on(mission);
   };
   const Plan kept = visit_until(1.002 * fastest.duration_s);

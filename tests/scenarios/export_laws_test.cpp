@@ -49,64 +49,65 @@ struct PlannedCurves {
   ExportInput input(const std::string& file) const { return {mission, world, plan, plant, file, 50.0}; }
 };
 
-const PlannedCurves& curves() {
+const PlannedCurves& lopsided_plan() {
   static const PlannedCurves planned;
   return planned;
 }
 
 /// The plan at the samples of an export.
-const Trajectory& motion() {
-  static const Trajectory rows = plan_trajectory(curves().plan, curves().plant, 50.0);
+const Trajectory& lopsided_rows() {
+  static const Trajectory rows = plan_trajectory(lopsided_plan().plan, lopsided_plan().plant, 50.0);
   return rows;
 }
 
-double seconds(const Json& item) {
+double stamp_s(const Json& item) {
   const Json& stamp = item["header"]["stamp"];
   return stamp["sec"].get<double>() + 1e-9 * stamp["nanosec"].get<double>();
 }
 
-void expect_pose(const Json& pose, std::size_t k) {
+void expect_planned_pose(const Json& pose, std::size_t k) {
   const double heading_rad =
       2 * std::atan2(pose["orientation"]["z"].get<double>(), pose["orientation"]["w"].get<double>());
-  ASSERT_NEAR(pose["position"]["x"].get<double>(), motion().position_x_m[k], 1e-9) << "row " << k;
-  ASSERT_NEAR(pose["position"]["y"].get<double>(), motion().position_y_m[k], 1e-9) << "row " << k;
-  ASSERT_NEAR(wrapped_angle_rad(heading_rad - motion().heading_rad[k]), 0, 1e-9) << "row " << k;
+  ASSERT_NEAR(pose["position"]["x"].get<double>(), lopsided_rows().position_x_m[k], 1e-9) << "row " << k;
+  ASSERT_NEAR(pose["position"]["y"].get<double>(), lopsided_rows().position_y_m[k], 1e-9) << "row " << k;
+  ASSERT_NEAR(wrapped_angle_rad(heading_rad - lopsided_rows().heading_rad[k]), 0, 1e-9) << "row " << k;
 }
 
 TEST(ExportLaws, APathHasThePlansPoses) {
-  const Json path = Json::parse(export_nav2_path(curves().input("p.json")).files.at(0).content);
+  const Json path = Json::parse(export_nav2_path(lopsided_plan().input("p.json")).files.at(0).content);
   ASSERT_GT(path["poses"].size(), 200u);
   for (const Json& pose : path["poses"]) {
-    const auto k = static_cast<std::size_t>(std::lround(50 * seconds(pose)));
-    expect_pose(pose["pose"], std::min(k, motion().size() - 1));
+    const auto k = static_cast<std::size_t>(std::lround(50 * stamp_s(pose)));
+    expect_planned_pose(pose["pose"], std::min(k, lopsided_rows().size() - 1));
   }
 }
 
 /// Speeds move the poses, accelerations the speeds, and efforts do the work of the wheels.
 TEST(ExportLaws, ATrajectoryKeepsKinematicsAndWork) {
-  const Json points = Json::parse(export_trajectory(curves().input("t.json")).files.at(0).content)["points"];
-  ASSERT_EQ(points.size(), motion().size());
+  const Json points =
+      Json::parse(export_trajectory(lopsided_plan().input("t.json")).files.at(0).content)["points"];
+  ASSERT_EQ(points.size(), lopsided_rows().size());
   const auto at = [&](std::size_t k, const char* kind, const char* part, const char* axis) {
     return points[k][kind][part][axis].get<double>();
   };
   double turned_rad_s = 0, moved_m = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    expect_pose(points[k]["pose"], k);
-    ASSERT_NEAR(seconds(points[k]), motion().time_s[k], 1e-8);
+    expect_planned_pose(points[k]["pose"], k);
+    ASSERT_NEAR(stamp_s(points[k]), lopsided_rows().time_s[k], 1e-8);
     double work_W = 0;
     for (const Side side : kSides)
-      work_W += motion().wheel_torque_Nm[side][k] * motion().wheel_speed_rad_s[side][k];
+      work_W += lopsided_rows().wheel_torque_Nm[side][k] * lopsided_rows().wheel_speed_rad_s[side][k];
     const double v = at(k, "velocity", "linear", "x"), w = at(k, "velocity", "angular", "z");
     ASSERT_NEAR(at(k, "effort", "force", "x") * v + at(k, "effort", "torque", "z") * w, work_W, 1e-6)
         << "row " << k;
     if (k == 0) continue;
-    const double dt = seconds(points[k]) - seconds(points[k - 1]);
+    const double dt = stamp_s(points[k]) - stamp_s(points[k - 1]);
     const auto mean = [&](const char* kind, const char* part, const char* axis) {
       return 0.5 * (at(k, kind, part, axis) + at(k - 1, kind, part, axis));
     };
-    const double dx = motion().position_x_m[k] - motion().position_x_m[k - 1];
-    const double dy = motion().position_y_m[k] - motion().position_y_m[k - 1];
-    const double heading = 0.5 * (motion().heading_rad[k] + motion().heading_rad[k - 1]);
+    const double dx = lopsided_rows().position_x_m[k] - lopsided_rows().position_x_m[k - 1];
+    const double dy = lopsided_rows().position_y_m[k] - lopsided_rows().position_y_m[k - 1];
+    const double heading = 0.5 * (lopsided_rows().heading_rad[k] + lopsided_rows().heading_rad[k - 1]);
     ASSERT_NEAR(dx * std::cos(heading) + dy * std::sin(heading), mean("velocity", "linear", "x") * dt, 2e-4)
         << "row " << k;
     moved_m += mean("velocity", "linear", "x") * dt;
@@ -115,13 +116,13 @@ TEST(ExportLaws, ATrajectoryKeepsKinematicsAndWork) {
     ASSERT_NEAR(v - at(k - 1, "velocity", "linear", "x"), mean("acceleration", "linear", "x") * dt, 0.5 * dt)
         << "row " << k;
   }
-  EXPECT_NEAR(moved_m, curves().plan.distance_m, 1e-3);
+  EXPECT_NEAR(moved_m, lopsided_plan().plan.distance_m, 1e-3);
   EXPECT_LT(turned_rad_s,
             0.5);  // jumps of the yaw acceleration at the ends of pieces; its sign turned: above 8
 }
 
 /// Columns of a CSV text by name.
-std::map<std::string, std::vector<double>> columns_of(const std::string& csv) {
+std::map<std::string, std::vector<double>> plotted_columns(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line, cell;
   std::getline(lines, line);
@@ -138,13 +139,13 @@ std::map<std::string, std::vector<double>> columns_of(const std::string& csv) {
   return columns;
 }
 
-/// Of each side: U = R i + Kv n w, P = U i, T = Kt n i - nu w - Tm sign w, r w = v -+ l yaw rate [P1, Eqs. (2),
-/// (14)-(16)].
+/// Of each side: U = R i + Kv n w, P = U i, T = Kt n i - nu w - Tm sign w, r w = v -+ l yaw rate [P1, Eqs.
+/// (2), (14)-(16)].
 TEST(ExportLaws, SignalsOfAPlotKeepTheEquationsOfEachMotor) {
-  auto of = columns_of(export_plotjuggler(curves().input("j.csv")).files.at(0).content);
-  const Robot& robot = curves().world.robot;
+  auto of = plotted_columns(export_plotjuggler(lopsided_plan().input("j.csv")).files.at(0).content);
+  const Robot& robot = lopsided_plan().world.robot;
   const Geometry& body = robot.geometry;
-  ASSERT_EQ(of["time_s"].size(), motion().size());
+  ASSERT_EQ(of["time_s"].size(), lopsided_rows().size());
   double energy_J = 0;
   for (std::size_t k = 0; k < of["time_s"].size(); ++k) {
     const double v = of["motion/speed_m_s"][k], w = of["motion/yaw_rate_rad_s"][k];
@@ -172,7 +173,7 @@ TEST(ExportLaws, SignalsOfAPlotKeepTheEquationsOfEachMotor) {
                   (of["time_s"][k] - of["time_s"][k - 1]);
   }
   EXPECT_NEAR(energy_J, of["battery/energy_J"].back(), 2e-3 * energy_J);
-  EXPECT_NEAR(of["battery/energy_J"].back(), curves().plan.energy.total_J(), 1e-6 * energy_J);
+  EXPECT_NEAR(of["battery/energy_J"].back(), lopsided_plan().plan.energy.total_J(), 1e-6 * energy_J);
   EXPECT_EQ(of["mission/payload_kg"].front(), 0);
   EXPECT_EQ(of["mission/payload_kg"].back(), 6);
   EXPECT_EQ(of["mission/leg"].back(), 1);
@@ -181,7 +182,7 @@ TEST(ExportLaws, SignalsOfAPlotKeepTheEquationsOfEachMotor) {
 TEST(ExportLaws, ABagReadsBackAsThePlanAtEverySample) {
   const ScratchDirectory scratch;
   const std::string file =
-      scratch.write("plan.mcap", export_bag(curves().input("b.mcap")).files.at(0).content);
+      scratch.write("plan.mcap", export_bag(lopsided_plan().input("b.mcap")).files.at(0).content);
   ColumnSources sources;
   const std::vector<std::pair<std::string, std::string>> topics{
       {"linear_speed_m_s", "/plan/odom.twist.twist.linear.x"},
@@ -194,28 +195,28 @@ TEST(ExportLaws, ABagReadsBackAsThePlanAtEverySample) {
       {"motor_current_right_A", "/plan/power.motor_current_right_A"}};
   for (const auto& [column, topic] : topics) sources[column].from = {topic};
   const Trajectory back =
-      read_run_log({{file, {}}}, sources, curves().world.robot.geometry, "run").trajectory;
+      read_run_log({{file, {}}}, sources, lopsided_plan().world.robot.geometry, "run").trajectory;
   const Trajectory alone =
-      read_run_log(file, curves().world.robot.geometry).trajectory;  // heading from the orientation
-  ASSERT_EQ(back.size(), motion().size());
-  ASSERT_EQ(alone.size(), motion().size());
+      read_run_log(file, lopsided_plan().world.robot.geometry).trajectory;  // heading from the orientation
+  ASSERT_EQ(back.size(), lopsided_rows().size());
+  ASSERT_EQ(alone.size(), lopsided_rows().size());
   for (std::size_t k = 0; k < back.size(); ++k) {
-    ASSERT_NEAR(back.time_s[k], motion().time_s[k], 1e-8) << k;
-    ASSERT_NEAR(back.linear_speed_m_s[k], motion().linear_speed_m_s[k], 1e-9) << k;
-    ASSERT_NEAR(back.angular_speed_rad_s[k], motion().angular_speed_rad_s[k], 1e-9) << k;
-    ASSERT_NEAR(back.position_x_m[k], motion().position_x_m[k], 1e-9) << k;
-    ASSERT_NEAR(back.position_y_m[k], motion().position_y_m[k], 1e-9) << k;
-    ASSERT_NEAR(wrapped_angle_rad(alone.heading_rad[k] - motion().heading_rad[k]), 0, 1e-9) << k;
+    ASSERT_NEAR(back.time_s[k], lopsided_rows().time_s[k], 1e-8) << k;
+    ASSERT_NEAR(back.linear_speed_m_s[k], lopsided_rows().linear_speed_m_s[k], 1e-9) << k;
+    ASSERT_NEAR(back.angular_speed_rad_s[k], lopsided_rows().angular_speed_rad_s[k], 1e-9) << k;
+    ASSERT_NEAR(back.position_x_m[k], lopsided_rows().position_x_m[k], 1e-9) << k;
+    ASSERT_NEAR(back.position_y_m[k], lopsided_rows().position_y_m[k], 1e-9) << k;
+    ASSERT_NEAR(wrapped_angle_rad(alone.heading_rad[k] - lopsided_rows().heading_rad[k]), 0, 1e-9) << k;
     for (const Side side : kSides) {
-      ASSERT_NEAR(back.motor_power_W[side][k], motion().motor_power_W[side][k], 1e-9) << k;
-      ASSERT_NEAR(back.motor_current_A[side][k], motion().motor_current_A[side][k], 1e-9) << k;
+      ASSERT_NEAR(back.motor_power_W[side][k], lopsided_rows().motor_power_W[side][k], 1e-9) << k;
+      ASSERT_NEAR(back.motor_current_A[side][k], lopsided_rows().motor_current_A[side][k], 1e-9) << k;
     }
   }
 }
 
 /// What all exports have from one function keeps the laws of motion itself: a plan's rows are not only alike.
 TEST(ExportLaws, RowsOfAPlanMoveAsTheirSpeedsSay) {
-  const Trajectory& rows = motion();
+  const Trajectory& rows = lopsided_rows();
   double heading_rad = rows.heading_rad[0];
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const double dt = rows.time_s[k] - rows.time_s[k - 1];

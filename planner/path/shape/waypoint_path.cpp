@@ -14,8 +14,9 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSamePlace_m = 1e-5;   ///< of dense waypoints: the robot stood
-constexpr double kLeastRound_m = 1e-4;  ///< the path leaves a rounded corner at least by this, where it has room
+constexpr double kSamePlace_m = 1e-5;  ///< of dense waypoints: the robot stood
+constexpr double kLeastRound_m =
+    1e-4;  ///< the path leaves a rounded corner at least by this, where it has room
 constexpr double kTurnsBackDense_rad = 2.8;
 constexpr double kLook = 5;   ///< length, in tolerances, over which the direction of dense waypoints is taken
 constexpr double kDense = 8;  ///< tolerances between neighbors
@@ -108,8 +109,7 @@ std::vector<double> tangents_m(const std::vector<Point2>& points_m, const std::v
 /// micrometers: a slight corner gets the radius at which its blend leaves it by kLeastRound_m, as far as half
 /// of the room to its neighbors' blends allows. A corner within kRounding_rad is rounded even where the robot
 /// would turn on the spot.
-std::vector<double> driven_radii_m(const std::vector<Point2>& points_m,
-                                   const std::vector<double>& radius_m) {
+std::vector<double> driven_radii_m(const std::vector<Point2>& points_m, const std::vector<double>& radius_m) {
   const std::vector<double> chord = chords_m(points_m), tangent = tangents_m(points_m, radius_m);
   std::vector<double> driven = radius_m;
   for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
