@@ -45,8 +45,7 @@ class FrontCommand : public Command {
     add_analysis_options(line, options_, kResult, false);
     line.option("--points", points_,
                 "points of the front; deadlines and durations are ignored, except where slower is always "
-                "cheaper: "
-                "there they end it")
+                "cheaper: there they end it")
         .between(2, 2000)
         .shows_default();
     line.option("--baselines", baseline_points_, "points with classic profiles for comparison; 0: none")

@@ -40,13 +40,12 @@ class PlannedOrders {
     ++planned_;
     if (order.late) ++late_;
     const double cost_J = plan.energy.total_J() + price_W_ * plan.duration_s;
+    const bool driven = plan.status <= SolveStatus::feasible;
     // What empties the battery is too dear, too.
-    if (plan.status <= SolveStatus::feasible || refusal(plan) == "battery_reserve")
-      least_J_ = std::min(least_J_, cost_J);
-    std::optional<Plan>& rival = plan.status <= SolveStatus::feasible ? best_ : refused_;
-    if (rival && !(plan.status <= SolveStatus::feasible ? cost_J < best_J_ : is_less_late(plan, *rival)))
-      return;
-    if (plan.status <= SolveStatus::feasible) best_J_ = cost_J;
+    if (driven || refusal(plan) == "battery_reserve") least_J_ = std::min(least_J_, cost_J);
+    std::optional<Plan>& rival = driven ? best_ : refused_;
+    if (rival && !(driven ? cost_J < best_J_ : is_less_late(plan, *rival))) return;
+    if (driven) best_J_ = cost_J;
     rival = std::move(plan);
   }
 
