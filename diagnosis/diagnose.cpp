@@ -27,14 +27,25 @@ Diagnosis stopped_by(const Dataset& dataset, const RunsByUse& runs, std::vector<
           .notes = survey.notes};
 }
 
-/// Causes relative to another robot's constants say nothing about this one.
+/// What the runs say of another simulator's predictions; where it has some, the verdict is on them.
+void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
+                     Diagnosis& d) {
+  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
+  d.simulator.model_verdict = d.verdict;
+  d.verdict = verdict_with(d.simulator);
+}
+
+/// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs
+/// none of them.
 Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
                            std::vector<ForeignConstant> constants) {
   const Survey survey = survey_dataset(dataset, runs.signals);
-  return {.verdict = Verdict::unexplained,
-          .foreign_constants = std::move(constants),
-          .missing_channels = survey.missing_channels,
-          .notes = survey.notes};
+  Diagnosis d{.verdict = Verdict::unexplained,
+              .foreign_constants = std::move(constants),
+              .missing_channels = survey.missing_channels,
+              .notes = survey.notes};
+  judge_simulator(runs.signals, other_predictions(dataset, runs.signals, runs.options), d);
+  return d;
 }
 
 std::vector<std::string> names_of(const Dataset& dataset, const std::vector<std::size_t>& runs) {
@@ -119,14 +130,6 @@ Diagnosis conclusion(const Examination& x, const Names& names, const Validation&
           .validation_method = method_of(x.runs)};
 }
 
-/// What the runs say of another simulator's predictions, and with it of both models.
-void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<OtherPrediction>& others,
-                     Diagnosis& d) {
-  d.simulator = simulator_gap(signals, others, d.gap.energy.noise_floor_percent);
-  d.simulator.model_verdict = d.verdict;
-  d.verdict = verdict_on_both(d.simulator);
-}
-
 /// The steps up to the names and their test on held-out runs; each reads what the steps before it found.
 struct Examined {
   RunsByUse runs{};
@@ -161,16 +164,15 @@ std::vector<RunApart> describe(const Dataset& dataset, const RunsByUse& all,
   std::vector<RunApart> described;
   for (const RunPower& power : powers) {
     if (!apart.contains(power.run)) continue;
-    const auto at =
-        std::ranges::find(all.signals, power.run, &RunSignals::run_index) - all.signals.begin();
+    const auto at = std::ranges::find(all.signals, power.run, &RunSignals::run_index) - all.signals.begin();
     described.push_back({dataset.runs[power.run].name, 100 * (power.measured_W / power.predicted_W - 1),
                          std::abs(nominal[static_cast<std::size_t>(at)].gap_J()) / gap_J});
   }
   return described;
 }
 
-/// Where the fit of all runs leaves some of them far from the rest, the others are examined alone. The answer is
-/// theirs if their fit confirms it.
+/// Where the fit of all runs leaves some of them far from the rest, the others are examined alone. The answer
+/// is theirs if their fit confirms it.
 std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const DiagnoseOptions& options,
                                            Examined& all) {
   if (all.runs.few) return {};
@@ -181,8 +183,8 @@ std::vector<RunApart> leave_out_runs_apart(const Dataset& dataset, const Diagnos
       apart_from(all, run_powers(all.on(dataset, options), all.validation), kDoubtedApart);
   if (doubted.empty()) return {};
   Examined others = examine(dataset, with_estimated_payloads(sort_runs(dataset, doubted)), options);
-  const std::vector<RunPower> powers = run_powers(others.on(dataset, options), others.validation,
-                                                  {doubted.begin(), doubted.end()});
+  const std::vector<RunPower> powers =
+      run_powers(others.on(dataset, options), others.validation, {doubted.begin(), doubted.end()});
   if (others.runs.few || apart_from(others, powers, kApart) != doubted) return {};
   std::vector<RunApart> described = describe(dataset, all.runs, powers, doubted);
   all = std::move(others);

@@ -67,8 +67,9 @@ inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 inline constexpr double kBlurredWheel_rad_s = 0.2;
 /// The same of the body's speed. Physical scale: a log's noise.
 inline constexpr double kStillSpeed_m_s = 0.02;
-/// The same of its yaw rate. Physical scale.
-inline constexpr double kStillYawRate_rad_s = 0.12;
+/// Below it the direction of a turn is uncertain. Physical scale: the noise of a smoothed yaw rate, of
+/// encoders with a thousand steps.
+inline constexpr double kStillYawRate_rad_s = 0.01;
 /// Below it the direction of a turn is uncertain for an unknown moment. Physical scale.
 inline constexpr double kBlurredTurn_rad_s = 0.04;
 /// The same of a motor's current. Physical scale.
@@ -296,8 +297,9 @@ inline constexpr double kSmallEffectEvidenceOfFewRuns = 20.0;
 /// The same as kSmallEffectEvidence for pliable effects at just material size; grows as 1/sqrt(size). Chosen
 /// (0504).
 inline constexpr double kSmallPliableEvidence = 13.0;
-/// Error of the model itself, the same in every run, over the materiality floor, 1-sigma: a tenth of what a user
-/// would notice. The evidence for a smaller effect does not grow beyond it with the number of runs. Declared.
+/// Error of the model itself, the same in every run, over the materiality floor, 1-sigma: a tenth of what a
+/// user would notice. The evidence for a smaller effect does not grow beyond it with the number of runs.
+/// Declared.
 inline constexpr double kModelError = 0.1;
 /// Effects below this share of the materiality floor are not named. Chosen (0504): guards logs without noise.
 inline constexpr double kLeastSize = 0.03;
@@ -454,7 +456,8 @@ inline constexpr double kLeastShownShare = 1e-3;
 /// Its gap over that of the next run, under the fit of the others. Chosen: a run of a payload, a place or a
 /// direction of its own has a law that explains it.
 inline constexpr double kApart = 4.0;
-/// The same under the fit of all runs, from which on the others are fitted alone: one run moves the fit. Chosen.
+/// The same under the fit of all runs, from which on the others are fitted alone: one run moves the fit.
+/// Chosen.
 inline constexpr double kDoubtedApart = 1.5;
 /// Its gap over the mean power, at least. Declared.
 inline constexpr double kLeastApart = 0.05;

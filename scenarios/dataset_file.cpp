@@ -103,8 +103,8 @@ class RunReader {
 
  private:
   void add(const Node& node, Run whole) {
-    for (Run& run : with_whole_channels(std::move(whole), options_, dataset_.artifacts))
-      add_stretches(node, std::move(run));
+    std::vector<Run> runs = with_whole_channels(std::move(whole), options_, dataset_.artifacts);
+    for (Run& run : runs) add_stretches(node, std::move(run));
   }
 
   void add_stretches(const Node& node, Run run) {
@@ -276,7 +276,7 @@ Dataset read_dataset_or_log(const std::string& file, const ReadOptions& options,
 Dataset dataset_of_log(const std::string& log_file, const std::string& robot_file,
                        const ReadOptions& options) {
   Dataset dataset{.file = log_file, .robot_file = robot_file, .robot = read_robot(robot_file)};
-  RunLog log = read_run_log(log_file, dataset.robot.geometry);
+  RunLog log = read_run_log({{log_file, {}}}, {}, dataset.robot.geometry, log_file);
   Run run{.name = log_file, .log = std::move(log.trajectory), .mark = {log_file, 0, 0}};
   run.wheels_from_body_speeds = log.wheels_from_body_speeds;
   run.clock_origin_s = log.clock_origin_s;
@@ -286,7 +286,10 @@ Dataset dataset_of_log(const std::string& log_file, const std::string& robot_fil
                          channel.hint + " `columns:` with scale, in a dataset that names the log, converts"});
   dataset.artifacts = std::move(log.artifacts);
   fill_payload(run, dataset.artifacts);
-  dataset.runs = split_at_clock_jumps(std::move(run), dataset.artifacts);
+  std::vector<Run> runs = with_whole_channels(std::move(run), options, dataset.artifacts);
+  for (Run& whole : runs)
+    std::ranges::move(split_at_clock_jumps(std::move(whole), dataset.artifacts),
+                      std::back_inserter(dataset.runs));
   if (options.cut_long_logs) dataset.runs = cut_at_standstill(std::move(dataset.runs), dataset.artifacts);
   return dataset;
 }

@@ -56,16 +56,18 @@ std::string causes_words(const std::vector<Cause>& causes) {
   return text_of_list(words, "; ");
 }
 
-/// " The position gap shrinks from 68 mm to 12 mm.": of a pose, where the correction changes it by what counts.
+/// " The position gap shrinks from 68 mm to 12 mm.": of a pose, where the correction changes it by what
+/// counts.
 std::string pose_words(const char* subject, const SignalGap& gap, double scale, const char* unit) {
   if (!gap.present || std::max(gap.before_rms, gap.after_rms) <= gap.noise_floor_rms) return "";
   if (!is_notable_change(gap.before_rms, gap.after_rms)) return "";
   return std::string(" The ") + subject + " gap " + (gap.after_rms < gap.before_rms ? "shrinks" : "grows") +
-         " from " + three_digits(scale * gap.before_rms) + " to " + three_digits(scale * gap.after_rms) + " " +
-         unit + ".";
+         " from " + three_digits(scale * gap.before_rms) + " to " + three_digits(scale * gap.after_rms) +
+         " " + unit + ".";
 }
 
-/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is none.
+/// " shrinks from 26 % to 0.3 % (noise floor 0.1 %)": one gap of energy. A change that does not count is
+/// none.
 std::string size_words(const EnergyGap& e, bool named) {
   const std::string floor = " (noise floor " + percent_text(e.noise_floor_percent) + ")";
   const bool shrinks = named && e.after_percent < e.before_percent &&
@@ -83,7 +85,8 @@ std::string gap_words(const Diagnosis& d) {
   const std::string of_file = d.simulator.runs > 0 ? " The robot file's " : " The ";
   std::string words;
   if (d.gap.energy.before_J > 0)
-    words = of_file + (battery ? "energy gap at the motors" : "energy gap") + size_words(d.gap.energy, named) + ".";
+    words = of_file + (battery ? "energy gap at the motors" : "energy gap") +
+            size_words(d.gap.energy, named) + ".";
   if (battery && battery->before_J > 0)
     words += of_file + "energy gap at the battery" + size_words(*battery, named) + ".";
   if (!named) return words;
@@ -91,11 +94,14 @@ std::string gap_words(const Diagnosis& d) {
          pose_words("heading", d.gap.heading_rad, 1, "rad");
 }
 
-/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs."
+/// "The simulator's energy gap is 40 % (bias 40 %, noise floor 0.3 %) on 21 of 21 runs.": without the floor
+/// where no model of the runs tells it.
 std::string simulator_words(const SimulatorGap& simulator) {
+  const double floor_percent = simulator.noise_floor_percent;
   return "The simulator's energy gap is " + percent_text(simulator.gap_percent) + " (bias " +
-         percent_text(simulator.bias_percent) + ", noise floor " + percent_text(simulator.noise_floor_percent) +
-         ") on " + std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
+         percent_text(simulator.bias_percent) +
+         (floor_percent > 0 ? ", noise floor " + percent_text(floor_percent) : "") + ") on " +
+         std::to_string(simulator.runs) + " of " + std::to_string(simulator.of_runs) + " runs.";
 }
 
 /// " above 2.3 % of the energy": what the runs would have shown, or what they show within calibration errors,
@@ -138,13 +144,21 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
+/// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to
+/// count.
+std::string file_meaning(const Diagnosis& d) {
+  if (file_verdict(d) == Verdict::no_gap && !d.below_materiality.empty())
+    return "Calibration errors, noise and effects too small to count explain the runs.";
+  return words_of(file_verdict(d)).meaning;
+}
+
 /// The sentence on the model of the robot file.
 std::string model_sentence(const Diagnosis& d, Verdict verdict) {
   const VerdictWords& words = words_of(verdict);
   const std::string title = std::string(words.title) + ": ";
   switch (verdict) {
     case Verdict::no_gap:
-      return std::string(words.title) + size_not_seen(d) + ": " + clause(words.meaning) + gap_words(d);
+      return std::string(words.title) + size_not_seen(d) + ": " + clause(file_meaning(d)) + gap_words(d);
     case Verdict::explained:
       return title + causes_words(d.causes) + "." + gap_words(d);
     case Verdict::partly_explained:
@@ -161,7 +175,8 @@ std::string model_sentence(const Diagnosis& d, Verdict verdict) {
   return {};
 }
 
-/// "The robot file does not describe this robot: winding resistance 2.7 ohm in the file, 0.5 ohm in the runs."
+/// "The robot file does not describe this robot: winding resistance 2.7 ohm in the file, 0.5 ohm in the
+/// runs."
 std::string foreign_words(const std::vector<ForeignConstant>& constants) {
   std::vector<std::string> words;
   for (const ForeignConstant& one : constants)
@@ -170,18 +185,18 @@ std::string foreign_words(const std::vector<ForeignConstant>& constants) {
   return "The robot file does not describe this robot: " + text_of_list(words, "; ") + ".";
 }
 
-/// On both models, where there are two.
+/// On the model of the robot file alone.
+std::string file_sentence(const Diagnosis& d) {
+  if (d.foreign_constants.empty()) return model_sentence(d, file_verdict(d));
+  return std::string(words_of(file_verdict(d)).title) + ": " + clause(foreign_words(d.foreign_constants));
+}
+
+/// On the simulator, then on the robot file, where there are two models.
 std::string verdict_sentence(const Diagnosis& d) {
-  if (!d.foreign_constants.empty())
-    return std::string(words_of(d.verdict).title) + ": " + clause(foreign_words(d.foreign_constants));
-  if (d.simulator.runs == 0) return model_sentence(d, d.verdict);
-  const std::string simulator = simulator_words(d.simulator);
-  if (d.verdict == Verdict::no_gap)
-    return "No gap of the simulator: " + clause(simulator) + " Robot file: " +
-           clause(model_sentence(d, d.simulator.model_verdict));
-  if (d.verdict == d.simulator.model_verdict) return model_sentence(d, d.verdict) + " " + simulator;
-  return std::string(words_of(d.verdict).title) + ": " + clause(simulator) + " Robot file: " +
-         clause(model_sentence(d, d.simulator.model_verdict));
+  if (d.simulator.runs == 0) return file_sentence(d);
+  return std::string(words_of(d.verdict).title) +
+         (d.verdict == Verdict::no_gap ? " of the simulator: " : ": ") +
+         clause(simulator_words(d.simulator)) + " Robot file: " + clause(file_sentence(d));
 }
 
 }  // namespace
@@ -201,9 +216,8 @@ std::string diagnosis_sentence(const Diagnosis& d) {
 }
 
 std::string diagnosis_meaning(const Diagnosis& d) {
-  if (!d.foreign_constants.empty()) return foreign_words(d.foreign_constants);
-  const bool of_the_model = d.simulator.runs == 0 || d.verdict == d.simulator.model_verdict;
-  return of_the_model ? words_of(d.verdict).meaning : simulator_words(d.simulator);
+  if (d.simulator.runs > 0) return simulator_words(d.simulator);
+  return d.foreign_constants.empty() ? file_meaning(d) : foreign_words(d.foreign_constants);
 }
 
 }  // namespace joulepath

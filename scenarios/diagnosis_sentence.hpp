@@ -6,8 +6,13 @@
 
 namespace joulepath {
 
-/// The result of a diagnosis in one line: verdict, causes with their sizes and probabilities, and the change of
-/// the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
+/// On the robot file's model alone.
+[[nodiscard]] inline Verdict file_verdict(const Diagnosis& d) {
+  return d.simulator.runs > 0 ? d.simulator.model_verdict : d.verdict;
+}
+
+/// The result of a diagnosis in one line: verdict, causes with their sizes and probabilities, and the change
+/// of the gaps. Every number is one of diagnosis.json; a gap "shrinks" where its numbers do by what counts.
 [[nodiscard]] std::string diagnosis_sentence(const Diagnosis& diagnosis);
 
 /// "Left out: run_07.csv, whose energy is 51 % above ...": the runs that the answer does not count; or empty.

@@ -130,12 +130,15 @@ class LogFileReader {
     std::vector<bool> own(channel.size());
     std::transform(channel.begin(), channel.end(), own.begin(),
                    [](double value) { return std::isfinite(value); });
-    const std::size_t missing = fill_missing(file_.times, channel);
+    const auto readings = std::ranges::count(own, true);
+    const std::size_t missing =
+        fill_missing(file_.times, channel, name == "payload_kg" ? Ends::held : Ends::unknown);
     if (missing > 0)
       file_.artifacts.push_back({"missing_values", run_, name,
-                                 channel.empty()
-                                     ? "the column is empty"
-                                     : share_text(missing, channel.size()) + ", filled by interpolation",
+                                 !channel.empty()
+                                     ? share_text(missing, channel.size()) + ", filled by interpolation"
+                                 : readings == 0 ? "the column is empty"
+                                                 : "the column has one reading, and is left out",
                                  missing, 0.0});
     if (channel.empty()) return;
     if (mapping.wraps_at)
@@ -143,7 +146,7 @@ class LogFileReader {
         file_.artifacts.push_back(
             {"wrapped", run_, name, "the counter restarts at 0 and was unwrapped", wraps, 0.0});
     convert(channel, mapping);
-    if (missing > 0 || mapping.delay_s != 0.0)
+    if (readings < std::ssize(own) || mapping.delay_s != 0.0)
       file_.holds[name] = holds_of_own(channel, own, mapping.delay_s);
     shift(channel, mapping);
     file_.channels[name] = std::move(channel);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -181,8 +182,12 @@ std::size_t unwrap_counter(std::vector<double>& values, double wraps_at) {
 
 void unwrap_angle(std::vector<double>& values) {
   constexpr double turn = 2.0 * std::numbers::pi;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    values[i] -= turn * std::round((values[i] - values[i - 1]) / turn);
+  double previous = std::numeric_limits<double>::quiet_NaN();
+  for (double& value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isfinite(previous)) value -= turn * std::round((value - previous) / turn);
+    previous = value;
+  }
 }
 
 std::vector<double> interpolated(const std::vector<double>& times, const std::vector<double>& values,
@@ -210,7 +215,12 @@ std::vector<double> change_per_second(const std::vector<double>& times, const st
   return result;
 }
 
-std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values) {
+KnownTime::KnownTime(const std::vector<double>& times) {
+  const double step_s = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  begin_s = times.front() - step_s, end_s = times.back() + step_s;
+}
+
+std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values, Ends ends) {
   if (std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) return 0;
   std::vector<double> known_times, known_values;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -218,11 +228,16 @@ std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& 
       known_times.push_back(times[i]);
       known_values.push_back(values[i]);
     }
-  const std::size_t missing = values.size() - known_values.size();
-  if (known_values.empty())
+  std::size_t missing = values.size() - known_values.size();
+  if (known_values.size() < (ends == Ends::held ? 1u : 2u)) {
     values.clear();
-  else if (missing > 0)
-    values = interpolated(known_times, known_values, times);
+    return missing;
+  }
+  values = interpolated(known_times, known_values, times);
+  if (ends == Ends::held) return missing;
+  const KnownTime own(known_times);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!own.covers(times[i])) values[i] = std::numeric_limits<double>::quiet_NaN(), --missing;
   return missing;
 }
 

@@ -24,8 +24,24 @@ void unwrap_angle(std::vector<double>& values);
 [[nodiscard]] std::vector<double> change_per_second(const std::vector<double>& times,
                                                     const std::vector<double>& values);
 
-/// Replaces NaN by interpolation between neighbors; returns their number.
-std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values);
+/// The time in which readings tell a channel: from the first to the last, and one usual step on either side.
+struct KnownTime {
+  double begin_s{}, end_s{};
+
+  /// `times`: at least two.
+  explicit KnownTime(const std::vector<double>& times);
+  [[nodiscard]] bool covers(double time_s) const { return begin_s <= time_s && time_s <= end_s; }
+};
+
+/// What holds before a channel's first reading and after its last.
+enum class Ends {
+  held,    ///< the reading
+  unknown  ///< NaN; a channel of one reading is none
+};
+
+/// Replaces NaN by interpolation between neighbors; returns the number of values that it filled in, or that
+/// an emptied channel has.
+std::size_t fill_missing(const std::vector<double>& times, std::vector<double>& values, Ends ends);
 
 /// Equal readings in a row, zeros aside (a robot at rest).
 struct Hold {

@@ -1,6 +1,7 @@
 #include "scenarios/next_step.hpp"
 
 #include "model/text_of_list.hpp"
+#include "scenarios/diagnosis_sentence.hpp"
 
 namespace joulepath {
 namespace {
@@ -24,10 +25,12 @@ std::string examine(const Diagnosis& d) {
                             : "Examine the robot where the gap depends on " + text_of_list(quantities) + ".";
 }
 
-std::string step_by_verdict(const Diagnosis& d) {
-  const std::string step = words_of(d.verdict).next_step;
-  if (!d.foreign_constants.empty()) return step + " Name this robot's file, or correct these constants in it.";
-  switch (d.verdict) {
+/// What to do about the robot file.
+std::string step_of_file(const Diagnosis& d) {
+  const std::string step = words_of(file_verdict(d)).next_step;
+  if (!d.foreign_constants.empty())
+    return step + " Name this robot's file, or correct these constants in it.";
+  switch (file_verdict(d)) {
     case Verdict::explained:
       return is_corrected(d) ? step : not_written(d);
     case Verdict::partly_explained:
@@ -39,18 +42,28 @@ std::string step_by_verdict(const Diagnosis& d) {
     case Verdict::data_suspect:
       return step + " joulepath check DATASET --repair FILE writes it repaired.";
     case Verdict::no_gap:
-      return d.simulator.runs > 0 ? "The simulator needs no correction." : step;
     case Verdict::too_little_data:
       return step;
   }
   return step;
 }
 
+/// What to do about the simulator, then about the robot file.
+std::string step_by_verdict(const Diagnosis& d) {
+  if (d.simulator.runs == 0 || d.verdict == Verdict::too_little_data) return step_of_file(d);
+  const std::string of_simulator =
+      d.verdict == Verdict::no_gap
+          ? "The simulator needs no correction."
+          : "Look at the runs and places with the largest shares of the simulator's gap.";
+  return of_simulator + " Robot file: " + step_of_file(d);
+}
+
 }  // namespace
 
 std::string next_step(const Diagnosis& d) {
   if (d.runs_apart.empty()) return step_by_verdict(d);
-  return step_by_verdict(d) + " Find out what was different in " + text_of_list(d.runs_apart, &RunApart::run) + ".";
+  return step_by_verdict(d) + " Find out what was different in " +
+         text_of_list(d.runs_apart, &RunApart::run) + ".";
 }
 
 }  // namespace joulepath

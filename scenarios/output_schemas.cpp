@@ -65,8 +65,10 @@ Schema leg_result_schema() {
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
            required("price_of_time_W", result(), "-dE/dT: the energy that one more second would save"),
            required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
-           optional("alternatives", alternatives_schema(), "candidate ways, turns included"),
-           optional("improvements", improvements_schema(), "the leg after each step of choosing its way")}));
+           optional("alternatives", alternatives_schema(),
+                    "candidate ways, turns included; scored without the jerk limit"),
+           optional("improvements", improvements_schema(),
+                    "the leg after each step of choosing its way, without the jerk limit")}));
 }
 
 Schema battery_result_schema() {
@@ -93,8 +95,8 @@ Schema gap_schema() {
            required("shrink_interval_95", interval())}));
   return open(map({required("energy", energy, "of the motors; at the battery where nothing measures them"),
                    optional("battery_energy", energy, "at the battery, where both are measured"),
-                   optional("current", open(map({}))),
-                   optional("voltage", open(map({}))), optional("motion", open(map({})))}));
+                   optional("current", open(map({}))), optional("voltage", open(map({}))),
+                   optional("motion", open(map({})))}));
 }
 
 Schema simulator_schema() {
@@ -106,10 +108,10 @@ Schema simulator_schema() {
 }
 
 Schema runs_apart_schema() {
-  return list(
-      open(map({required("run", text()),
-                required("over_model_percent", result(), "measured energy over the others' model, less 100 %"),
-                required("share_of_gap", result(), "of all runs, with the robot file's model")})));
+  return list(open(
+      map({required("run", text()),
+           required("over_model_percent", result(), "measured energy over the others' model, less 100 %"),
+           required("share_of_gap", result(), "of all runs, with the robot file's model")})));
 }
 
 Schema where_schema() {
@@ -164,8 +166,8 @@ Schema data_checks_schema() {
 }
 
 Schema foreign_constants_schema() {
-  return list(open(map({required("constant", text()), required("unit", text()),
-                        required("in_file", result()), required("in_runs", result())})));
+  return list(open(map({required("constant", text()), required("unit", text()), required("in_file", result()),
+                        required("in_runs", result())})));
 }
 
 Schema signals_schema() {
@@ -179,7 +181,8 @@ Schema signals_schema() {
 
 Schema plan_schema() {
   return open(map(
-      {required("schema", text()), required("status", plan_status()),
+      {required("schema", text()),
+       required("status", plan_status()),
        optional(
            "robot",
            open(map({required("name", text()),
@@ -188,9 +191,11 @@ Schema plan_schema() {
            "robot of the plan"),
        optional("energy_J", result(), "at the battery's terminals, dwell and standby included"),
        optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
-       optional("motion_energy_J", result(), "without standby"), optional("energy_Wh", result()),
+       optional("motion_energy_J", result(), "without standby"),
+       optional("energy_Wh", result()),
        optional("battery_loss_J", result(), "in the battery's internal resistance, beside energy_J"),
-       optional("duration_s", result()), optional("distance_m", result()),
+       optional("duration_s", result()),
+       optional("distance_m", result()),
        optional("lower_bound_J", result(), kBoundMeans),
        optional("optimality_gap_percent", result(), "on these paths; other paths are not bounded"),
        optional("bound_without_jerk", boolean(), kWithoutJerk),
@@ -198,8 +203,10 @@ Schema plan_schema() {
        optional("solver", open(map({required("name", text()), required("iterations", number())}))),
        optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),
                                     required("limit", text())}))),
-       optional("battery", battery_result_schema()), optional("legs", list(leg_result_schema())),
-       optional("baselines", baselines_schema()), optional("infeasibility", infeasibility_schema())}));
+       optional("battery", battery_result_schema()),
+       optional("legs", list(leg_result_schema())),
+       optional("baselines", baselines_schema()),
+       optional("infeasibility", infeasibility_schema())}));
 }
 
 Schema diagnosis_schema() {
@@ -210,7 +217,8 @@ Schema diagnosis_schema() {
        optional("runs_apart", runs_apart_schema(),
                 "runs that no model of the others describes; nothing else here counts them"),
        required("where", where_schema()),
-       required("verdict", choice(verdict_names()), "on the robot file's model and the simulator together"),
+       required("verdict", choice(verdict_names()),
+                "on the simulator where it predicts runs, else on the robot file's model"),
        optional("sentence", text(), "the answer in one line"),
        optional("next_step", text(), "what to do next"),
        required("causes", list(cause_schema())),

@@ -61,8 +61,7 @@ std::pair<std::size_t, std::size_t> nearly_all(const Trajectory& log) {
       if (first >= end) continue;
       const double missing_s =
           log.time_s[first] - log.time_s.front() + log.time_s.back() - log.time_s[end - 1];
-      if (missing_s < most_s)
-        samples = {std::max(samples.first, first), std::min(samples.second, end)};
+      if (missing_s < most_s) samples = {std::max(samples.first, first), std::min(samples.second, end)};
     }
   return samples;
 }
@@ -120,7 +119,8 @@ std::vector<Run> split_at_partial_channels(Run run, std::vector<LogArtifact>& ar
     return kept;
   }
   tell_partial(run.log, run.name, "a separate run begins and ends there", artifacts);
-  for (Run& stretch : stretches_between(std::move(run), bounds)) {
+  std::vector<Run> stretches = stretches_between(std::move(run), bounds);
+  for (Run& stretch : stretches) {
     Trajectory& log = stretch.log;
     for (const LogColumn& column : log_columns())
       if (std::vector<double>& channel = column.channel(log); is_partial(channel)) channel.clear();

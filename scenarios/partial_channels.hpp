@@ -7,8 +7,8 @@
 
 namespace joulepath {
 
-/// A channel of a late or an early-ending file: NaN outside of that file's own time, which is at an end of
-/// the log. No reader of a dataset hands it on.
+/// A channel that begins late or ends early, in its file or with it: NaN at an end of the log. No reader of a
+/// dataset hands it on.
 [[nodiscard]] bool is_partial(const std::vector<double>& channel);
 
 /// Leaves partial channels out, so that all of the log is kept, and says so. Ends of less than a fiftieth of

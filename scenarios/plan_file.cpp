@@ -190,6 +190,7 @@ void add_results(const Plan& plan, Json& json) {
   if (plan.visit)
     json["visit"] = {{"order", plan.visit->order},
                      {"exact", plan.visit->exact},
+                     {"planned_orders", plan.visit->planned_orders},
                      {"estimated_energy_J", plan.visit->energy_J},
                      {"given_order_J", number(plan.visit->given_order_J.value_or(kNoLimit))},
                      {"lower_bound_J", plan.visit->lower_bound_J}};

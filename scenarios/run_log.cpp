@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <set>
 
 #include "model/kinematics.hpp"
 #include "model/number_text.hpp"
@@ -26,59 +25,65 @@ bool is_orientation(const std::string& name) {
                      [&](const char* q) { return name == q; });
 }
 
-/// The time in which a file's channels are known: from its first sample to its last, and one usual step on
-/// either side.
-struct OwnTime {
-  double begin_s{}, end_s{};
-
-  explicit OwnTime(const LogFile& file) {
-    const std::vector<double>& times = file.times;
-    const double step_s = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-    begin_s = times.front() - step_s, end_s = times.back() + step_s;
-  }
-  [[nodiscard]] bool covers(double time_s) const { return begin_s <= time_s && time_s <= end_s; }
-};
-
 /// Sets of channels of which each gives the motion.
 const std::vector<std::string> kMotions[] = {{"wheel_speed_left_rad_s", "wheel_speed_right_rad_s"},
                                              {"linear_speed_m_s", "angular_speed_rad_s"},
                                              {"position_x_m", "position_y_m", "heading_rad"}};
 
-/// The files with the first set that is there, else with any channel of the motion, else the first file.
-std::vector<std::size_t> files_of_motion(const std::vector<LogFile>& files) {
-  std::set<std::size_t> with_any;
+/// A channel of one of a run's files.
+struct FileChannel {
+  std::size_t file{};
+  std::string name{};
+};
+
+/// The channels of the first set that is there, else any of the motion.
+std::vector<FileChannel> channels_of_motion(const std::vector<LogFile>& files) {
+  std::vector<FileChannel> any;
   for (const std::vector<std::string>& motion : kMotions) {
-    std::set<std::size_t> with_set;
-    std::size_t found = 0;
+    std::vector<FileChannel> set;
     for (const std::string& name : motion)
       for (std::size_t f = 0; f < files.size(); ++f)
         if (files[f].channels.contains(name)) {
-          with_set.insert(f), ++found;
+          set.push_back({f, name});
           break;
         }
-    if (found == motion.size()) return {with_set.begin(), with_set.end()};
-    with_any.insert(with_set.begin(), with_set.end());
+    if (set.size() == motion.size()) return set;
+    any.insert(any.end(), set.begin(), set.end());
   }
-  if (with_any.empty()) return {0};
-  return {with_any.begin(), with_any.end()};
+  return any;
+}
+
+/// The time in which a channel is known.
+KnownTime known_time(const std::vector<LogFile>& files, const FileChannel& channel) {
+  const LogFile& file = files[channel.file];
+  KnownTime known(file.times);
+  const std::vector<double>& values = file.channels.at(channel.name);
+  const auto is_known = [](double value) { return !std::isnan(value); };
+  const auto first = std::ranges::find_if(values, is_known) - values.begin();
+  const auto end = std::find_if(values.rbegin(), values.rend(), is_known).base() - values.begin();
+  if (first > 0 && first < end) known.begin_s = file.times[static_cast<std::size_t>(first)];
+  if (first < end && end < std::ssize(values)) known.end_s = file.times[static_cast<std::size_t>(end - 1)];
+  return known;
 }
 
 /// The file whose times the log gets: the first, unless it misses a part of the motion.
-std::size_t base_of(const std::vector<LogFile>& files, const std::vector<std::size_t>& of_motion) {
-  const OwnTime first(files.front());
-  const LogFile& motion = files[of_motion.front()];
-  const bool whole = first.covers(motion.times.front()) && first.covers(motion.times.back());
-  return whole ? 0 : of_motion.front();
+std::size_t base_of(const std::vector<LogFile>& files, const std::vector<FileChannel>& motion) {
+  if (motion.empty()) return 0;
+  std::size_t first = files.size();
+  for (const FileChannel& channel : motion) first = std::min(first, channel.file);
+  const KnownTime base(files.front().times);
+  const bool whole = base.covers(files[first].times.front()) && base.covers(files[first].times.back());
+  return whole ? 0 : first;
 }
 
 /// Rows of the base, from and to, in which the motion is known.
 std::pair<long, long> rows_with_motion(const std::vector<LogFile>& files, std::size_t base_file,
-                                       const std::vector<std::size_t>& of_motion) {
+                                       const std::vector<FileChannel>& motion) {
   const std::vector<double>& base = files[base_file].times;
   double begin_s = base.front(), end_s = base.back();
-  for (const std::size_t f : of_motion) {
-    const OwnTime own(files[f]);
-    begin_s = std::max(begin_s, own.begin_s), end_s = std::min(end_s, own.end_s);
+  for (const FileChannel& channel : motion) {
+    const KnownTime known = known_time(files, channel);
+    begin_s = std::max(begin_s, known.begin_s), end_s = std::min(end_s, known.end_s);
   }
   const auto first = std::lower_bound(base.begin(), base.end(), begin_s),
              last = std::upper_bound(base.begin(), base.end(), end_s);
@@ -90,7 +95,7 @@ void refuse_apart(const std::vector<LogFile>& files, std::size_t base_file,
                   const std::pair<long, long>& rows) {
   const std::vector<double>& base = files[base_file].times;
   for (std::size_t f = 0; f < files.size(); ++f) {
-    const OwnTime own(files[f]);
+    const KnownTime own(files[f].times);
     long common = 0;
     for (long k = rows.first; k < rows.second && common < 2; ++k)
       common += own.covers(base[static_cast<std::size_t>(k)]) ? 1 : 0;
@@ -117,13 +122,13 @@ void tell_cut(const std::vector<double>& base_s, const std::pair<long, long>& ro
 }
 
 /// Takes the channels of all files to the times of one. Outside of its file's own time a channel is NaN; a
-/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those of
-/// channels that are interpolated.
+/// payload holds. Files give up their columns one by one: a long log is in memory once. The holds are those
+/// of channels that are interpolated.
 HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string& run) {
   HoldsOfChannel holds;
-  const std::vector<std::size_t> of_motion = files_of_motion(files);
-  const std::size_t base = base_of(files, of_motion);
-  const std::pair<long, long> rows = rows_with_motion(files, base, of_motion);
+  const std::vector<FileChannel> motion = channels_of_motion(files);
+  const std::size_t base = base_of(files, motion);
+  const std::pair<long, long> rows = rows_with_motion(files, base, motion);
   refuse_apart(files, base, rows);
   tell_cut(files[base].times, rows, log, run);
   const auto taken = [&](std::vector<double>& values) {
@@ -149,7 +154,7 @@ HoldsOfChannel merge(std::vector<LogFile>& files, RunLog& log, const std::string
       if (name == "heading_rad") unwrap_angle(values);
       channel = interpolated(file.times, values, times);
       values = std::vector<double>();  // `= {}` would keep the memory
-      const OwnTime own(file);
+      const KnownTime own(file.times);
       for (std::size_t k = 0; k < times.size() && name != "payload_kg"; ++k)
         if (!own.covers(times[k])) channel[k] = std::numeric_limits<double>::quiet_NaN();
     }

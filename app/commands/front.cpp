@@ -13,17 +13,19 @@
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
+#include "planner/mission/mission_time.hpp"
 #include "planner/mission/plan_front.hpp"
 #include "scenarios/mission_file.hpp"
 
 namespace joulepath {
 namespace {
 
-nlohmann::json point_json(const FrontPoint& point) {
+nlohmann::json point_json(const FrontPoint& point, double accuracy) {
   nlohmann::json result = {{"duration_s", point.duration_s},
                            {"energy_J", point.energy_J},
                            {"motion_energy_J", point.motion_energy_J},
-                           {"status", solve_status_name(point.status)}};
+                           {"status", solve_status_name(point.status(accuracy))},
+                           {"optimality_gap_percent", point.gap_percent()}};
   result["price_of_time_W"] =
       std::isfinite(point.price_of_time_W) ? nlohmann::json(point.price_of_time_W) : nlohmann::json(nullptr);
   return result;
@@ -41,7 +43,9 @@ class FrontCommand : public Command {
 
   void declare(CommandLine& line) override {
     add_analysis_options(line, options_, kResult, false);
-    line.option("--points", points_, "points of the front; deadlines and durations are ignored")
+    line.option("--points", points_,
+                "points of the front; deadlines and durations are ignored, except where slower is always "
+                "cheaper: there they end it")
         .between(2, 2000)
         .shows_default();
     line.option("--baselines", baseline_points_, "points with classic profiles for comparison; 0: none")
@@ -55,14 +59,15 @@ class FrontCommand : public Command {
     const ReadOptions reading{.untrusted = options_.common.untrusted};
     MissionRequest mission = read_mission_source(options_.source, reading);
     const MissionWorld world = read_world(mission, reading);
-    if (world.robot.power.standby_W > 0) drop_times(mission);  // else a second may cost nothing
+    const bool open = slower_is_always_cheaper(mission, world);
+    drop_times(mission, open);
     const Plan plan = plan_mission(mission, world, options_.plan);
     if (plan.status > SolveStatus::feasible) {
       std::cerr << "no front: " << plan.message << "\n";
       return kInfeasibleOrFailed;
     }
     const std::vector<FrontStretch> stretches = planned_stretches(plan);
-    Front front = energy_time_front(stretches, points_);
+    Front front = energy_time_front(stretches, points_, open ? planned_price_W(plan) : 0.0);
     if (front.points.empty()) {
       const std::string& why = front.summary.message;
       std::cerr << "no front: " << (why.empty() ? "the mission has no stretch to optimize" : why) << "\n";
@@ -78,8 +83,16 @@ class FrontCommand : public Command {
   }
 
  private:
-  static void drop_times(MissionRequest& mission) {
-    mission.objective = {};
+  /// Where it is, the mission's times stay: a front without a slow end has no cheapest point.
+  static bool slower_is_always_cheaper(MissionRequest mission, const MissionWorld& world) {
+    drop_times(mission, false);
+    return first_price_W(mission, world, make_plant(world.robot)) > 0;
+  }
+
+  static void drop_times(MissionRequest& mission, bool keep_times) {
+    mission.objective = {.deadline_s = keep_times ? mission.objective.deadline_s : std::nullopt,
+                         .marks = mission.objective.marks};
+    if (keep_times) return;
     for (LegRequest& leg : mission.legs) {
       leg.deadline_s.reset();
       leg.duration_s.reset();
@@ -120,7 +133,8 @@ class FrontCommand : public Command {
                              {"mission", title},
                              {"points", nlohmann::json::array()},
                              {"baselines", nlohmann::json::array()}};
-    for (const FrontPoint& point : front.points) result["points"].push_back(point_json(point));
+    for (const FrontPoint& point : front.points)
+      result["points"].push_back(point_json(point, options_.plan.accuracy));
     for (const auto& [k, baselines] : beside)
       for (const BaselineTotal& total : baselines) result["baselines"].push_back(baseline_json(total));
     if (writes_analysis(options_))
@@ -131,12 +145,12 @@ class FrontCommand : public Command {
     }
   }
 
-  static void print_points(const Front& front) {
+  void print_points(const Front& front) const {
     Table table({"duration s", "energy J", "without standby J", "price of a second W", "on these paths"});
     for (const FrontPoint& point : front.points)
       table.row({figure(point.duration_s, 6), figure(point.energy_J, 6), figure(point.motion_energy_J, 6),
                  std::isfinite(point.price_of_time_W) ? figure(point.price_of_time_W, 4) : "-",
-                 solve_status_name(point.status)});
+                 solve_status_name(point.status(options_.plan.accuracy))});
     table.print(std::cout);
   }
 
@@ -163,7 +177,8 @@ class FrontCommand : public Command {
     if (!total.feasible) return "-";
     const double more = 100 * (total.energy_J / total.optimum_J - 1);
     if (!std::isfinite(more)) return figure(total.energy_J, 6);
-    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" + (total.late() ? ", " + later_text(total) : "") + ")";
+    return figure(total.energy_J, 6) + " (" + (more < 0 ? "" : "+") + figure(more, 2) + " %" +
+           (total.late() ? ", " + later_text(total) : "") + ")";
   }
 
   static constexpr const char* kResult = "front.json";

@@ -40,7 +40,8 @@ def missions(robot):
     s, load = SCALE_M.get(robot, 2.0), LOAD_KG.get(robot, 8.25)
     slow = {"minimize": "energy", "deadline_s": 60}
     stand = {"motion": {"profile": "stand", "duration_s": 1}}
-    drive = lambda sign: {"motion": {"profile": "trapezoid", "acceleration_m_s2": 0.15, "speed_m_s": 0.35, "distance_m": sign * s}}
+    drive = lambda direction: {"motion": {"profile": "trapezoid", "acceleration_m_s2": 0.15, "speed_m_s": 0.35, "distance_m": s,
+                                          "direction": direction}}
     spin = lambda sign: {"motion": {"profile": "spin", "angle_rad": sign * math.pi, "yaw_rate_rad_s": 0.7}}
     return {"corner": {"csv": "x_m,y_m,corner_radius_m\n0,0,\n3,0,0.5\n3,3,0\n6,3,\n"},  # a turn on the spot at the second corner
             "curve": {"legs": [leg(CURVE, s, 0)]},
@@ -48,11 +49,11 @@ def missions(robot):
             "short": {"legs": [leg(line(0.6), s, 0)]},
             "bend": {"legs": [leg(BEND, s, 0, dwell_s=2), leg(HOOK, s, load)]},
             "hook": {"legs": [leg(HOOK, s, load / 2)], "objective": slow},
-            "test": {"legs": [stand, drive(1), stand, spin(1), drive(1), stand]},
-            "test_loaded": {"legs": [{**l, "payload_kg": load} for l in (stand, drive(1), stand, spin(-1), drive(1), stand)]},
-            "back": {"legs": [stand, drive(1), stand, drive(-1), stand]},
-            "long": {"legs": [l for k in range(8) for l in (stand, drive(1), {"motion": {"profile": "stand", "duration_s": 3}},
-                                                            spin((-1) ** k), drive(1), stand)]}}
+            "test": {"legs": [stand, drive("forward"), stand, spin(1), drive("forward"), stand]},
+            "test_loaded": {"legs": [{**l, "payload_kg": load} for l in (stand, drive("forward"), stand, spin(-1), drive("forward"), stand)]},
+            "back": {"legs": [stand, drive("forward"), stand, drive("reverse"), stand]},
+            "long": {"legs": [l for k in range(8) for l in (stand, drive("forward"), {"motion": {"profile": "stand", "duration_s": 3}},
+                                                            spin((-1) ** k), drive("forward"), stand)]}}
 
 
 TESTS = ("test", "test_loaded", "back", "bend")

@@ -5,6 +5,7 @@
 
 #include "diagnosis/checks/relations.hpp"
 #include "diagnosis/numerics/rms.hpp"
+#include "diagnosis/prediction/prediction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/kinematics.hpp"
 
@@ -93,16 +94,11 @@ class Search {
             {"position_x_m", "position_y_m"});
   }
 
+  /// What the motion asks of the battery: means over the kernel, without the standby.
   void supply() {
     if (run_.battery_power_W.size() != run_.size()) return;
-    VectorXd motors_W = VectorXd::Zero(run_.size());
-    for (Side side : kSides) {
-      const Motor& motor = robot_.motor[side];
-      const VectorXd current = expected_.current_A(side);
-      const VectorXd voltage =
-          motor.resistance_ohm * current + motor.volts_per_speed_V_s_rad() * run_.wheel_speed_rad_s[side];
-      motors_W += voltage.cwiseProduct(current).cwiseMax(0.0);
-    }
+    const VectorXd motors_W =
+        predict(run_, {.robot = robot_}).battery_power_W.array() - robot_.power.standby_W;
     compare(centered(run_.battery_power_W), centered(motors_W), kLeastChange * rms(motors_W),
             {run_.battery_voltage_V.cwiseAbs().maxCoeff() > 0 ? "battery_current_A" : "battery_voltage_V"});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -40,17 +41,24 @@ SplitModel split_model(const ModelPoint& point) {
   return split;
 }
 
-Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry, const Twist<double>& twist,
-             const EffectMemory& memory) {
-  const double across_m_s = geometry.half_track_m * twist.yaw_rate_rad_s;
-  const double size_m_s = std::sqrt(twist.speed_m_s * twist.speed_m_s + across_m_s * across_m_s +
+/// Mean sign of the yaw rate over the kernel: of a rate that changes evenly, with a noise of
+/// kStillYawRate_rad_s.
+double turn_direction(const BodyMotion<double>& motion, double kernel_sigma_s) {
+  const double width_rad_s = std::hypot(kStillYawRate_rad_s, motion.yaw_acceleration_rad_s2 * kernel_sigma_s);
+  return std::erf(motion.yaw_rate_rad_s / (std::numbers::sqrt2 * width_rad_s));
+}
+
+Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry,
+             const BodyMotion<double>& motion, const EffectMemory& memory) {
+  const double across_m_s = geometry.half_track_m * motion.yaw_rate_rad_s;
+  const double size_m_s = std::sqrt(motion.speed_m_s * motion.speed_m_s + across_m_s * across_m_s +
                                     kStillSpeed_m_s * kStillSpeed_m_s);
   const bool placed = signals.x_m.size() > 0;
   return {.pose = {placed ? signals.x_m[j] : 0.0, placed ? signals.y_m[j] : 0.0, signals.heading_rad[j]},
           .time_of_day_s = signals.time_of_day_s[j],
           .payload_kg = signals.payload_kg[j],
-          .travel_direction = soft_sign(twist.speed_m_s, kStillSpeed_m_s),
-          .turn_direction = std::tanh(twist.yaw_rate_rad_s / kStillYawRate_rad_s),
+          .travel_direction = soft_sign(motion.speed_m_s, kStillSpeed_m_s),
+          .turn_direction = turn_direction(motion, signals.kernel_sigma_s),
           .wheel_direction = {friction_direction(signals.wheel_speed_rad_s.left[j]),
                               friction_direction(signals.wheel_speed_rad_s.right[j])},
           .course = across_m_s / size_m_s,
@@ -156,10 +164,9 @@ void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index
     out.power_W[side][j] = state[side].power_W + change[side].product_W();
     out.power_change_W[side][j] = change[side].power_W;
   }
-  out.battery_power_W[j] =
-      mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
-                          {out.power_change_W.left[j], out.power_change_W.right[j]}) +
-      robot.power.standby_W;
+  out.battery_power_W[j] = mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
+                                               {out.power_change_W.left[j], out.power_change_W.right[j]}) +
+                           robot.power.standby_W;
   if (signals.battery_current_A.size() > 0)
     out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
                                robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
@@ -187,7 +194,7 @@ void drive(const Plant& plant, const RunSignals& signals, const Visit& visit) {
   EffectMemory memory{};
   for (Eigen::Index j = 0; j < signals.size(); ++j) {
     const BodyMotion<double> rolled = signals.rolled_motion(geometry, j);
-    const Site site = site_at(signals, j, geometry, {rolled.speed_m_s, rolled.yaw_rate_rad_s}, memory);
+    const Site site = site_at(signals, j, geometry, rolled, memory);
     const BodyMotion<double> motion = visit(j, site, rolled);
     advance_memory(plant,
                    caster_speed_m_s(geometry, motion.speed_m_s, motion.yaw_rate_rad_s) * signals.period_s,

@@ -134,7 +134,7 @@ struct RankedEffect {
 struct NextExperiment {
   std::vector<std::string> separates{};
   std::vector<PrescribedMotion> motions{};  ///< one after the other; empty = nothing to separate
-  std::vector<double> payload_kg{};  ///< of each motion
+  std::vector<double> payload_kg{};         ///< of each motion
   std::string why{};
   double expected_evidence{};    ///< log-likelihood between the closest pair
   double probability_settled{};  ///< that the run tells the true one from each other one
@@ -146,7 +146,8 @@ struct Diagnosis {
   SimulatorGap simulator{};
   std::vector<RunApart> runs_apart{};
   std::vector<WhereCell> where{};
-  Verdict verdict{Verdict::too_little_data};  ///< on the robot file's model and on `simulator` together
+  Verdict verdict{
+      Verdict::too_little_data};  ///< on `simulator` where it predicts runs, else on the file's model
   std::vector<Cause> causes{};
   std::vector<RankedEffect> ranking{};
   std::vector<UnknownCause> unknowns{};
@@ -162,7 +163,7 @@ struct Diagnosis {
   std::vector<ParameterCorrelation> correlations{};  ///< of the causes' strengths, the strongest first
   std::vector<DataCheck> data_checks{};  ///< channels that contradict physics: nothing else is examined
   std::vector<ForeignConstant> foreign_constants{};  ///< the file's is another robot: no cause is sought
-  Isolability isolability{};             ///< of the diagnosis runs; empty where no log can be used
+  Isolability isolability{};  ///< of the diagnosis runs; empty where no log can be used
   std::map<std::size_t, double> estimated_payload_kg{};  ///< of runs that state none, by index
   std::vector<std::string> artifacts{};
   std::vector<std::string> missing_channels{};
@@ -181,7 +182,7 @@ using RobotRefusal = std::function<std::string(const Robot&)>;
 
 struct DiagnoseOptions {
   std::size_t bootstrap{400};
-  RobotRefusal refusal{};  ///< without it every correction counts as one that reads back
+  RobotRefusal refusal{};           ///< without it every correction counts as one that reads back
   std::set<std::string> without{};  ///< effects taken out of the catalog
 };
 

@@ -84,15 +84,15 @@ SimulatorGap simulator_gap(const std::vector<RunSignals>& signals, const std::ve
           .noise_floor_percent = noise_floor_percent};
 }
 
-Verdict verdict_on_both(const SimulatorGap& simulator) {
-  const Verdict model = simulator.model_verdict;
-  if (!simulator.exceeds()) return model;
-  const bool silent = model == Verdict::no_gap || model == Verdict::too_little_data;
-  return silent ? Verdict::unexplained : model == Verdict::explained ? Verdict::partly_explained : model;
+Verdict verdict_with(const SimulatorGap& simulator) {
+  if (simulator.runs == 0) return simulator.model_verdict;
+  if (simulator.exceeds()) return Verdict::unexplained;
+  return simulator.model_verdict == Verdict::too_little_data ? Verdict::too_little_data : Verdict::no_gap;
 }
 
 std::string told_by_others(const Dataset& dataset, const SimulatorGap& simulator) {
-  const auto given = std::ranges::count_if(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
+  const auto given =
+      std::ranges::count_if(dataset.runs, [](const Run& run) { return run.predicted.has_value(); });
   if (given == 0) return {};
   if (simulator.runs == 0)
     return "another simulator's prediction and its log have no power of the same place: no energy gap of the "

@@ -34,9 +34,10 @@ struct OtherPrediction {
                                          const std::vector<OtherPrediction>& others,
                                          double noise_floor_percent);
 
-/// The verdict on both models, from that on this one: a simulator's gap is explained by nothing that is named
-/// here.
-[[nodiscard]] Verdict verdict_on_both(const SimulatorGap& simulator);
+/// The verdict where a simulator predicts: on the simulator, whatever is wrong with the robot file. No cause
+/// of the file explains a simulator's gap. Runs too few for a verdict on the file give the simulator no
+/// all-clear.
+[[nodiscard]] Verdict verdict_with(const SimulatorGap& simulator);
 
 /// A sentence for the report: what refers to the other simulator, and what to this model. Empty where no run
 /// has such a prediction.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "model/battery_power.hpp"
+#include "model/limit_table.hpp"
 #include "model/normal_quantiles.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/legs/leg_motion.hpp"
@@ -151,7 +152,8 @@ std::map<std::string, double> enough_charge(const BatteryAccount& account, const
   if (start <= 1) return {{"battery_fraction", start}};
   const double usable = account.start_fraction - battery.reserve_fraction;
   if (!(usable > 0)) return {};
-  return {{"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
+  return {
+      {"capacity_Wh", battery.capacity_Wh * (account.start_fraction - lowest) / usable * (1 + kRounding)}};
 }
 
 }  // namespace
@@ -171,8 +173,8 @@ std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& po
 
 namespace {
 
-/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th of
-/// it is not enough.
+/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th
+/// of it is not enough.
 std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithResistance& plans) {
   constexpr int kHalvings = 8, kRefinements = 3;
   double fails_ohm = most_ohm, works_ohm = most_ohm;
@@ -190,13 +192,13 @@ std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithRes
 
 }  // namespace
 
-void blame_battery(Plan& plan, const Robot& robot, const PlansWithResistance& plans) {
-  if (!plan.infeasibility) return;
+void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
+                   const PlansWithResistance& plans) {
   Infeasibility& verdict = plan.infeasibility->reason;
   const auto power = verdict.relaxation.find("battery_power_W");
   const double most_W = planned_battery_power_W(robot.battery);
-  const double stated_W = robot.limits ? robot.limits->battery_power_W : kNoLimit;
-  if (verdict.constraint != "battery_power" || most_W >= stated_W) return;
+  const double stated_W = limits_between_payloads(robot, payload.from_kg, payload.to_kg).battery_power_W;
+  if (most_W >= stated_W) return;
   const std::string told = sentence(verdict);
   if (power != verdict.relaxation.end()) {
     const double needed_W = power->second;

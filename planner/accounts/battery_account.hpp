@@ -25,9 +25,10 @@ namespace joulepath {
 /// Whether the whole mission is planned with a battery of this resistance (ohm).
 using PlansWithResistance = std::function<bool(double)>;
 
-/// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), names an internal resistance with
-/// which the mission was planned.
-void blame_battery(Plan& plan, const Robot& robot, const PlansWithResistance& plans);
+/// A verdict on `battery_power` whose limit is the battery itself, U^2/(4 R), and not the one that the robot
+/// file states for the payload of the leg, names an internal resistance with which the mission was planned.
+void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payload,
+                   const PlansWithResistance& plans);
 
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
 /// of `uncertainty:`, each propagated through the power model along the planned motion by central

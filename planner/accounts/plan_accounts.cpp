@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "model/workers.hpp"
 #include "planner/baselines/baseline.hpp"
 #include "planner/baselines/comparison.hpp"
 
@@ -77,7 +78,10 @@ double saving_percent(double energy_J, double baseline_J) {
   return baseline_J > 0 ? 100.0 * (baseline_J - energy_J) / baseline_J : 0.0;
 }
 
-void add_baselines(LegPlan& leg) {
+namespace {
+
+/// Adds the two trapezoids to the stretches of a leg, in the plan's times, and their totals to the leg.
+void add_to_leg(LegPlan& leg, double standby_W) {
   leg.baselines = {{.name = "trapezoid_max_acceleration"}, {.name = "trapezoid_best_tuned"}};
   for (StretchPlan& stretch : leg.stretches) {
     const TimedStretch planned = timed(stretch);
@@ -92,6 +96,24 @@ void add_baselines(LegPlan& leg) {
       baseline.motion_energy_J = baseline.optimum_motion_J = leg.energy.motion_J();
       baseline.duration_s = leg.duration_s;
     }
+  else
+    for (BaselineTotal& baseline : leg.baselines) {
+      baseline.energy_J += standby_W * leg.dwell_s;
+      baseline.optimum_J += standby_W * leg.dwell_s;
+    }
+}
+
+}  // namespace
+
+void add_baselines(Plan& plan, double standby_W, unsigned threads) {
+  for_each_index(plan.legs.size(), threads, [&](std::size_t k) { add_to_leg(plan.legs[k], standby_W); });
+  for (const LegPlan& leg : plan.legs) {
+    plan.baselines.resize(leg.baselines.size());
+    for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
+      add_leg(plan.baselines[b], leg.baselines[b]);
+      plan.baselines[b].duration_s += leg.dwell_s;
+    }
+  }
 }
 
 bool limits_jerk(const LegPlan& leg) {
@@ -118,16 +140,6 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy) {
     add_replay(plan, leg, standby_W);
     for (const StretchPlan& stretch : leg.stretches)
       if (plan.solver.empty()) plan.solver = stretch.summary.solver;
-    for (std::size_t b = 0; b < leg.baselines.size(); ++b) {
-      BaselineTotal& of_leg = leg.baselines[b];
-      if (!leg.prescribed) {
-        of_leg.energy_J += standby_W * leg.dwell_s;
-        of_leg.optimum_J += standby_W * leg.dwell_s;
-      }
-      if (plan.baselines.size() <= b) plan.baselines.emplace_back();
-      add_leg(plan.baselines[b], of_leg);
-      plan.baselines[b].duration_s += leg.dwell_s;
-    }
   }
   const double energy_J = plan.energy.total_J();
   plan.gap_percent = std::isnan(plan.lower_bound_J)

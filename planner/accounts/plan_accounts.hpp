@@ -4,10 +4,10 @@
 
 namespace joulepath {
 
-/// Adds the two trapezoids to the stretches of a leg, in the plan's times, and their totals to the leg.
-void add_baselines(LegPlan& leg);
+/// Adds the two trapezoids to the stretches of a plan, in their times, and the totals to its legs and to it.
+void add_baselines(Plan& plan, double standby_W, unsigned threads);
 
-/// Totals over the legs: energy by cause, time, gap, replay, baselines, status.
+/// Totals over the legs: energy by cause, time, gap, replay, status.
 void sum_up(Plan& plan, const Plant& plant, double accuracy);
 
 /// Whether a curve of a leg has a jerk limit. The choice of ways, drafts and bounds leave it out

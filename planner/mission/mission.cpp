@@ -11,7 +11,6 @@
 #include "planner/mission/charging.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/visit_order.hpp"
-#include "planner/mission/visit_verdict.hpp"
 #include "planner/profile/holding_limit.hpp"
 
 namespace joulepath {
@@ -135,9 +134,8 @@ std::optional<PlanInfeasibility> too_late(TimedLegs& timed, const MissionRequest
   TimeSplit& split = timed.split;
   if (split.late) {
     const std::size_t leg = split.late->leg;
-    const auto [s_m, pose] =
-        place_after(timed.prepared.timing[leg], timed.prepared.legs[leg].start_pose,
-                    split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
+    const auto [s_m, pose] = place_after(timed.prepared.timing[leg], timed.prepared.legs[leg].start_pose,
+                                         split.duration_s[leg] - split.late->amount_s, SolverChoice::fast);
     Infeasibility reason = late_arrival(mission, leg, split.late->amount_s, s_m, pose);
     reason.message += held_by(timed.prepared.timing[leg]);
     return PlanInfeasibility{std::move(reason), leg, s_m};
@@ -195,7 +193,6 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
     const double duration_s = std::max(split.duration_s[k], split.arrival_s[k] - legs[k].start_s);
     settle_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
                options.answers);
-    if (options.baselines) add_baselines(legs[k]);
   });
   plan.legs = std::move(legs);
   sum_up(plan, plant, options.accuracy);
@@ -253,39 +250,20 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
   return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
 }
 
-/// Whether a stop of the plan's order is late for its window; the verdict then names the window.
-bool blames_window(const MissionRequest& mission, Plan& plan) {
-  if (!plan.infeasibility || plan.infeasibility->reason.constraint != "deadline") return false;
-  Infeasibility& reason = plan.infeasibility->reason;
-  const std::size_t visit = plan.visit->order[plan.infeasibility->leg];
-  const auto& window_s = mission.visit[visit].window_s;
-  if (!window_s || mission.objective.deadline_s.value_or(kNoLimit) < window_s->second) return false;
-  reason = missed_window(mission, visit, reason.amount);
-  plan.message = reason.message;
-  return true;
-}
-
-/// Plans the stops in the order of least energy, in others where that misses a window; the plan of the order
-/// that is least late where all of them do.
-Plan plan_visits(const MissionRequest& asked, const MissionWorld& world, const PlanOptions& options,
-                 const RouteSpace* space, const Plant& plant, const Plan& known) {
-  std::optional<Plan> least_late;
-  MissionRequest mission = asked;
-  for (VisitOrder& order : order_visits(
-           {asked, world, need_space(asked, space), plant, options, first_price_W(asked, world, plant)})) {
+/// Plans the stops of `visit:`, or gives the verdict that no order of them is possible.
+Plan plan_stops(const MissionRequest& mission, const MissionWorld& world, const PlanOptions& options,
+                const RouteSpace* space, const Plant& plant, const Plan& known) {
+  const ChoiceContext context{mission, world,   need_space(mission, space),
+                              plant,   options, first_price_W(mission, world, plant)};
+  std::vector<OrderEstimate> orders = order_visits(context);
+  if (auto& reason = orders.front().visit.infeasibility) {
     Plan plan = known;
-    plan.visit = std::move(order);
-    if (plan.visit->infeasibility) {
-      Infeasibility reason = *plan.visit->infeasibility;
-      return infeasible(std::move(plan), 0, 0.0, std::move(reason));
-    }
-    mission.legs = plan.visit->legs;
-    plan = plan_with_stops(mission, world, options, space, plant, plan);
-    if (!blames_window(asked, plan)) return plan;
-    if (!least_late || plan.infeasibility->reason.amount < least_late->infeasibility->reason.amount)
-      least_late = std::move(plan);
+    plan.visit = orders.front().visit;
+    return infeasible(std::move(plan), 0, 0.0, *std::move(reason));
   }
-  return *std::move(least_late);
+  return plan_visits(mission, std::move(orders), context.finite_price_W(), [&](const MissionRequest& legs) {
+    return plan_with_stops(legs, world, options, space, plant, known);
+  });
 }
 
 }  // namespace
@@ -299,14 +277,20 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
   const bool visits = !asked.visit.empty() && asked.legs.empty();
   if (!visits && asked.legs.empty()) refuse_empty(asked);
   const auto planned = [&](const MissionWorld& in, const Plant& by) {
-    return (visits ? plan_visits : plan_with_stops)(asked, in, options, space, by, known);
+    return (visits ? plan_stops : plan_with_stops)(asked, in, options, space, by, known);
   };
   Plan answer = planned(world, plant);
-  blame_battery(answer, world.robot, [&](double resistance_ohm) {
-    MissionWorld other = world;
-    other.robot.battery.internal_resistance_ohm = resistance_ohm;
-    return planned(other, make_plant(other.robot)).status <= SolveStatus::feasible;
-  });
+  if (answer.infeasibility && answer.infeasibility->reason.constraint == "battery_power") {
+    const std::vector<LegRequest>& legs = answer.visit ? answer.visit->legs : asked.legs;
+    // Stops at chargers, if any, come after the legs as asked have failed: the index is theirs.
+    const PayloadAlongLeg& payload = legs[std::min(answer.infeasibility->leg, legs.size() - 1)].payload;
+    blame_battery(answer, world.robot, payload, [&](double resistance_ohm) {
+      MissionWorld other = world;
+      other.robot.battery.internal_resistance_ohm = resistance_ohm;
+      return planned(other, make_plant(other.robot)).status <= SolveStatus::feasible;
+    });
+  }
+  if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;

@@ -2,15 +2,23 @@
 
 #include <algorithm>
 
+#include "model/limits.hpp"
+
 namespace joulepath {
 
 std::vector<FrontStretch> planned_stretches(const Plan& plan) {
   std::vector<FrontStretch> stretches;
   for (const LegPlan& leg : plan.legs)
     for (const StretchPlan& stretch : leg.stretches)
-      stretches.push_back(
-          {stretch.request, stretch.profile.s, std::max(stretch.summary.status, plan.status)});
+      stretches.push_back({stretch.request, stretch.profile.s});
   return stretches;
+}
+
+double planned_price_W(const Plan& plan) {
+  double least_W = kNoLimit;
+  for (const LegPlan& leg : plan.legs)
+    if (leg.price_of_time_W > 0) least_W = std::min(least_W, leg.price_of_time_W);
+  return std::isinf(least_W) ? 0.0 : least_W;
 }
 
 FrontPoint rest_of(const Plan& plan) {

@@ -21,6 +21,7 @@ class TimeFront {
 
   [[nodiscard]] double soonest_s() const { return points_.front().time_s; }
   [[nodiscard]] double least_J() const { return points_.back().cost_J; }
+  [[nodiscard]] double cheapest_s() const { return points_.back().time_s; }
   /// The least cost at a time; infinite before the soonest.
   [[nodiscard]] double at(double time_s) const;
 

@@ -10,7 +10,11 @@ namespace joulepath {
 namespace {
 
 constexpr double kHighestPrice_W = 1e7;
+constexpr std::uintmax_t kPriceTrials = 24;  ///< of a search within its bracket
 constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
+/// Relative: an arrival this little before its bound is at it. Times of profiles with a jerk limit scatter
+/// more than the price that the search could still find.
+constexpr double kSameArrival = 4e-8;
 
 /// Arrival at the end of `last`, before any wait there, with these durations of the legs from `first` on.
 template <class DurationOf>
@@ -63,11 +67,20 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
     late_high_s = late_s(high);
   }
   if (late_high_s > 0) return kNoLimit;  // only the fastest drive arrives in time
-  std::uintmax_t iterations = 60;
-  const auto close = [](double a, double b) { return std::abs(a - b) < 1e-9 * (1 + std::abs(a)); };
-  const auto bracket =
-      boost::math::tools::toms748_solve(late_s, low, high, late_low_s, late_high_s, close, iterations);
-  return price_at(bracket.second);
+  // The search aims at the middle of the times that count as the bound, so that either side of it will do.
+  const double spare_s = 0.5 * kSameArrival * due_s;
+  std::uintmax_t iterations = kPriceTrials;
+  std::optional<double> at_due;
+  const auto off_s = [&](double x) {
+    const double off = late_s(x) + spare_s;
+    if (std::abs(off) <= spare_s) at_due = x;
+    return off;
+  };
+  if (late_high_s + spare_s >= 0) return price_at(high);
+  const auto close = [&](double a, double b) { return at_due || std::abs(a - b) < 1e-9 * (1 + std::abs(a)); };
+  const auto bracket = boost::math::tools::toms748_solve(off_s, low, high, late_low_s + spare_s,
+                                                         late_high_s + spare_s, close, iterations);
+  return price_at(at_due.value_or(bracket.second));
 }
 
 /// Legs from the first that is not settled yet to `last`, with one price.

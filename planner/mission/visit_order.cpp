@@ -9,12 +9,8 @@
 namespace joulepath {
 namespace {
 
-constexpr std::size_t kPlannedOrders = 3;  ///< at most, where windows are missed
-
-bool has_windows(const MissionRequest& mission) {
-  return std::any_of(mission.visit.begin(), mission.visit.end(),
-                     [](const VisitRequest& visit) { return visit.window_s.has_value(); });
-}
+/// Share of an arrival by which the table, whose routes stop at corners, may be late where a plan is not.
+constexpr double kRoughTime = 0.4;
 
 std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector<std::size_t>& order) {
   std::vector<LegRequest> legs;
@@ -35,29 +31,42 @@ std::vector<LegRequest> legs_of(const MissionRequest& mission, const std::vector
   return legs;
 }
 
+/// The best order within the windows first, then the others by the cost that they have without windows, those
+/// that are clearly late by how late they are.
+std::vector<VisitLabel> labels_to_plan(const VisitSearch& search) {
+  std::vector<VisitLabel> labels = search.orders({.windows = true, .beaten = true});
+  const auto rank = [](const VisitLabel& label) {
+    const bool late = label.late_share > kRoughTime;
+    return std::pair(late, late ? label.late_s : label.free_cost_J);
+  };
+  std::stable_sort(labels.begin(), labels.end(),
+                   [&](const VisitLabel& a, const VisitLabel& b) { return rank(a) < rank(b); });
+  if (const std::vector<VisitLabel> kept = search.orders(); !kept.empty()) {
+    std::erase_if(labels, [&](const VisitLabel& label) { return label.order == kept.front().order; });
+    labels.insert(labels.begin(), kept.front());
+  }
+  return labels;
+}
+
 }  // namespace
 
-std::vector<VisitOrder> order_visits(const ChoiceContext& context) {
+std::vector<OrderEstimate> order_visits(const ChoiceContext& context) {
   const MissionRequest& mission = context.mission;
   const VisitSearch search(context);
-  std::vector<VisitLabel> labels = search.orders();
-  if (has_windows(mission))
-    for (VisitLabel& late : search.orders({.windows = true}))
-      if (std::none_of(labels.begin(), labels.end(),
-                       [&](const VisitLabel& label) { return label.order == late.order; }))
-        labels.push_back(std::move(late));
+  const std::vector<VisitLabel> labels = labels_to_plan(search);
   VisitOrder result{.exact = mission.visit.size() <= kExactStops};
   if (labels.empty()) {
     result.infeasibility = no_order(mission, context.world.robot, search);
-    return {result};
+    return {{.visit = std::move(result)}};
   }
   result.given_order_J = search.given_order_J();
   result.lower_bound_J = search.lower_bound_J();
-  std::vector<VisitOrder> orders(std::min(labels.size(), kPlannedOrders), result);
-  for (std::size_t k = 0; k < orders.size(); ++k) {
-    orders[k].order = labels[k].order;
-    orders[k].legs = legs_of(mission, labels[k].order);
-    orders[k].energy_J = labels[k].front.least_J();
+  std::vector<OrderEstimate> orders;
+  for (const VisitLabel& label : labels) {
+    result.order = label.order;
+    result.legs = legs_of(mission, label.order);
+    result.energy_J = search.energy_J(label);
+    orders.push_back({result, label.free_cost_J, label.late_share > kRoughTime});
   }
   return orders;
 }

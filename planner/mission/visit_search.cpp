@@ -41,7 +41,7 @@ std::optional<double> VisitSearch::given_order_J() const {
   std::optional<VisitLabel> label = VisitLabel{.last = count_};
   for (std::size_t k = 0; k < count_ && label; ++k)
     label = allowed(*label, k) ? extend(*label, k, {}) : std::nullopt;
-  return label ? std::optional(label->front.least_J()) : std::nullopt;
+  return label ? std::optional(energy_J(*label)) : std::nullopt;
 }
 
 double VisitSearch::lower_bound_J() const {
@@ -75,15 +75,18 @@ std::optional<VisitLabel> VisitSearch::extend(const VisitLabel& label, std::size
   if (!table_.reachable(label.last, next)) return std::nullopt;
   const VisitRequest& visit = visits_[next];
   VisitLabel after = label;
-  after.front = label.front + table_.front(label.last, next, label.payload_kg);
+  const TimeFront leg = table_.front(label.last, next, label.payload_kg);
+  after.front = label.front + leg;
+  after.free_cost_J += leg.least_J() + second_J() * visit.dwell_s;
   if (visit.window_s) {
-    after.front.wait_until(visit.window_s->first, standby_W_);
+    after.front.wait_until(visit.window_s->first, second_J());
     const double late_s = after.front.soonest_s() - visit.window_s->second;
     if (late_s > 0 && !relaxed.windows) return std::nullopt;
     after.late_s = std::max(after.late_s, late_s);
+    after.late_share = std::max(after.late_share, late_s / after.front.soonest_s());
     after.front.end_at(visit.window_s->second);
   }
-  after.front.shift(visit.dwell_s, standby_W_ * visit.dwell_s);
+  after.front.shift(visit.dwell_s, second_J() * visit.dwell_s);
   after.payload_kg = payload_after_kg(visit, label.payload_kg);
   const bool too_heavy = after.payload_kg > capacity_kg_ + 1e-9 && !relaxed.capacity;
   if (too_heavy || after.payload_kg < -1e-9) return std::nullopt;
@@ -98,8 +101,9 @@ std::optional<VisitLabel> VisitSearch::extend(const VisitLabel& label, std::size
 /// All extensions, without those that another one with the same visits, place and payload beats in cost and
 /// time.
 VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisits& relaxed) const {
-  const auto beats = [](const VisitLabel& a, const VisitLabel& b) {
-    return a.late_s <= b.late_s && a.front.is_below(b.front);
+  const bool all = relaxed.beaten && count_ <= kAllOrders;
+  const auto beats = [all](const VisitLabel& a, const VisitLabel& b) {
+    return !all && a.late_s <= b.late_s && a.front.is_below(b.front);
   };
   std::map<std::tuple<std::uint64_t, std::size_t, long>, Layer> best;
   for (const VisitLabel& label : layer)
@@ -114,15 +118,15 @@ VisitSearch::Layer VisitSearch::next_layer(const Layer& layer, const RelaxedVisi
       std::erase_if(rivals, [&](const VisitLabel& rival) { return beats(*after, rival); });
       rivals.push_back(std::move(*after));
     }
-  Layer all;
-  for (auto& [key, labels] : best) std::move(labels.begin(), labels.end(), std::back_inserter(all));
-  if (count_ > kExactStops && all.size() > kBeam) {
-    std::stable_sort(all.begin(), all.end(), [](const VisitLabel& a, const VisitLabel& b) {
+  Layer kept;
+  for (auto& [key, labels] : best) std::move(labels.begin(), labels.end(), std::back_inserter(kept));
+  if (count_ > kExactStops && kept.size() > kBeam) {
+    std::stable_sort(kept.begin(), kept.end(), [](const VisitLabel& a, const VisitLabel& b) {
       return a.front.least_J() < b.front.least_J();
     });
-    all.resize(kBeam);
+    kept.resize(kBeam);
   }
-  return all;
+  return kept;
 }
 
 }  // namespace joulepath

@@ -56,7 +56,7 @@ RouteResult quick_route(const RouteSpace& space, const RouteRequest& request) {
 
 VisitTable::VisitTable(const ChoiceContext& context)
     : count_(context.mission.visit.size()),
-      price_W_(std::isfinite(context.price_W) ? context.price_W : 1e6),
+      price_W_(context.finite_price_W()),
       heaviest_kg_(heaviest_kg(context)),
       table_((count_ + 1) * count_) {
   for (std::size_t from = 0; from <= count_; ++from)

@@ -18,6 +18,8 @@ class VisitTable {
   [[nodiscard]] bool reachable(std::size_t from, std::size_t to) const { return cost(from, to).reachable; }
   /// Cost of a leg over its time, at the mission's own price, for a payload.
   [[nodiscard]] TimeFront front(std::size_t from, std::size_t to, double payload_kg) const;
+  /// The mission's price of a second, in addition to standby.
+  [[nodiscard]] double price_W() const { return price_W_; }
   /// Energy of the cheapest drive without payload.
   [[nodiscard]] double unloaded_J(std::size_t from, std::size_t to) const {
     return cost(from, to).drives.back().energy_J[0];

@@ -34,15 +34,17 @@ Infeasibility too_heavy(const MissionRequest& mission, double heaviest_kg, doubl
 
 }  // namespace
 
-Infeasibility missed_window(const MissionRequest& mission, std::size_t visit, double late_s) {
+Infeasibility missed_window(const MissionRequest& mission, std::size_t visit, double late_s,
+                            int planned_orders) {
   const auto& [earliest_s, latest_s] = *mission.visit[visit].window_s;
   Infeasibility reason = at_stop(mission, visit, "visit_order");
   reason.amount = late_s;
   reason.unit = "s";
   reason.relaxation = {{"window_s", latest_s + late_s}};
-  reason.message = "no order of the stops that was planned reaches '" + mission.visit[visit].station +
-                   "' (visit[" + std::to_string(visit) + "]) within its window of " + seconds(earliest_s) +
-                   " to " + seconds(latest_s) + "; the best arrives " + seconds(late_s) + " too late";
+  reason.message = "no order of the stops that was planned (" + std::to_string(planned_orders) +
+                   ") keeps its windows; the best reaches '" + mission.visit[visit].station + "' (visit[" +
+                   std::to_string(visit) + "]) " + seconds(late_s) + " after its window of " +
+                   seconds(earliest_s) + " to " + seconds(latest_s);
   return reason;
 }
 

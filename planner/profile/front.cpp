@@ -10,6 +10,7 @@
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/nlp/transcription/forward_backward.hpp"
 #include "planner/nlp/transcription/grid.hpp"
+#include "planner/profile/certification.hpp"
 #include "planner/profile/dense_check.hpp"
 #include "planner/profile/profile_solver.hpp"
 
@@ -19,14 +20,14 @@ namespace {
 struct Sum {
   double duration_s{};
   double motion_energy_J{};
-  SolveStatus status{};
+  double gap_J{}, gap_s{};
 };
 
 /// One stretch, transcribed once and solved for any price of a second.
 class PricedStretch {
  public:
   explicit PricedStretch(const FrontStretch& stretch)
-      : request_(stretch.request), status_(stretch.status), motion_(path_motion(request_)) {
+      : request_(stretch.request), motion_(path_motion(request_)) {
     request_.time = {.mode = TimeMode::free_time};
     const std::vector<double> grid =
         stretch.grid.empty() ? nlp::make_grid(motion_, request_, request_.nodes) : stretch.grid;
@@ -54,12 +55,17 @@ class PricedStretch {
 
   std::optional<Sum> at_price(double price_W) {
     if (jerk_limited()) return planned_at_price(price_W);
-    if (std::isinf(price_W) || problem_.unknown_count() == 0) return sum_of(envelope_.fastest);
-    problem_.time_weight_W = request_.plant.robot.power.standby_W + price_W;
+    if (std::isinf(price_W) || problem_.unknown_count() == 0) return fastest();
+    problem_.time_weight_W = standby_W() + price_W;
     nlp::Solution solution = nlp::solve_fast(problem_, start_, {.tolerance = 1e-8});
     if (!solution.converged) solution = nlp::solve_with_ipopt(problem_, start_);
     if (!solution.converged) return std::nullopt;
-    return sum_of(solution.b);
+    Sum sum = sum_of(solution.b);
+    SolveSummary summary;
+    certify_energy(problem_, motion_, solution, profile_from_squares(problem_.s, solution.b),
+                   sum.motion_energy_J, summary);
+    sum.gap_J = sum.motion_energy_J + standby_W() * sum.duration_s - summary.lower_bound_J;
+    return sum;
   }
 
  private:
@@ -73,19 +79,31 @@ class PricedStretch {
     const ProfileResult result = solve_profile(request);
     if (!result.profile) return std::nullopt;
     const double energy_J = energy_by_cause(motion_, *result.profile).motion_J();
-    return Sum{.duration_s = result.profile->duration_s(),
+    const double duration_s = result.profile->duration_s();
+    return Sum{.duration_s = duration_s,
                .motion_energy_J = energy_J,
-               .status = result.summary.status};
+               .gap_J = energy_J + standby_W() * duration_s - result.summary.lower_bound_J,
+               .gap_s = std::isinf(price_W) ? duration_s - result.summary.lower_bound_s : 0.0};
+  }
+
+  Sum fastest() const {
+    Sum sum = sum_of(envelope_.fastest);
+    SolveSummary summary;
+    (void)certify_time(problem_, motion_, profile_from_squares(problem_.s, envelope_.fastest), summary);
+    sum.gap_J = std::nan("");
+    sum.gap_s = sum.duration_s - summary.lower_bound_s;
+    return sum;
   }
 
   Sum sum_of(const std::vector<double>& b) const {
-    Sum sum{.duration_s = duration_of(problem_, b), .status = status_};
+    Sum sum{.duration_s = duration_of(problem_, b)};
     for (double energy_J : nlp::counted_energy_J(problem_, b)) sum.motion_energy_J += energy_J;
     return sum;
   }
 
+  double standby_W() const { return request_.plant.robot.power.standby_W; }
+
   ProfileRequest request_;
-  SolveStatus status_;
   PathMotion motion_;
   nlp::Problem problem_{};
   nlp::RateEnvelope envelope_{};
@@ -117,14 +135,15 @@ std::size_t widest_gap(const std::vector<FrontPoint>& points) {
 /// All stretches at one price of a second; nothing where one of them could not be solved.
 std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<PricedStretch>>& parts, double price_W,
                                    double standby_W) {
-  FrontPoint point{.price_of_time_W = price_W, .status = SolveStatus::optimal};
+  FrontPoint point{.price_of_time_W = price_W};
   for (const auto& part : parts) {
     const std::optional<Sum> sum = part->at_price(price_W);
     if (!sum) return std::nullopt;
     point.duration_s += sum->duration_s;
     point.stretch_s.push_back(sum->duration_s);
     point.motion_energy_J += sum->motion_energy_J;
-    point.status = std::max(point.status, sum->status);
+    point.gap_J += sum->gap_J;
+    point.gap_s += sum->gap_s;
   }
   point.energy_J = point.motion_energy_J + standby_W * point.duration_s;
   return point;
@@ -132,7 +151,17 @@ std::optional<FrontPoint> point_at(const std::vector<std::unique_ptr<PricedStret
 
 }  // namespace
 
-Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points) {
+double FrontPoint::gap_percent() const {
+  return std::isnan(gap_J) ? 100 * gap_s / std::max(1e-9, duration_s)
+                           : 100 * gap_J / std::max(1e-9, std::abs(energy_J));
+}
+
+SolveStatus FrontPoint::status(double accuracy) const {
+  return gap_percent() <= 100 * accuracy ? SolveStatus::optimal : SolveStatus::feasible;
+}
+
+Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points,
+                        double lowest_price_W) {
   Front front;
   std::vector<std::unique_ptr<PricedStretch>> parts;
   double standby_W = 0;
@@ -145,7 +174,8 @@ Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t 
     front.infeasibility = result.infeasibility;
     return front;
   }
-  const auto fastest = point_at(parts, kNoLimit, standby_W), cheapest = point_at(parts, 0.0, standby_W);
+  const auto fastest = point_at(parts, kNoLimit, standby_W),
+             cheapest = point_at(parts, lowest_price_W, standby_W);
   if (parts.empty() || !fastest || !cheapest) {
     front.summary.message = "no front: a stretch could not be solved";
     return front;

@@ -8,11 +8,10 @@
 
 namespace joulepath {
 
-/// A stretch of a front. With the grid and the status of its plan, the front agrees with the plan.
+/// A stretch of a front. With the grid of its plan, the front agrees with the plan.
 struct FrontStretch {
   ProfileRequest request;
-  std::vector<double> grid{};                  ///< path coordinates of nodes; empty: a grid of its own
-  SolveStatus status{SolveStatus::feasible};  ///< proven for the plan; a front has no bounds of its own
+  std::vector<double> grid{};  ///< path coordinates of nodes; empty: a grid of its own
 };
 
 /// One point of the energy-time front: the least energy (J, standby included) for its duration.
@@ -21,8 +20,14 @@ struct FrontPoint {
   double energy_J{};
   double motion_energy_J{};
   double price_of_time_W{};  ///< exact slope -dE/dT: the price at which this point is optimal
-  SolveStatus status{SolveStatus::failed};  ///< the worst of its stretches
+  double gap_J{};  ///< no profiles take less energy by more in this time; not a number for the least time
+  double gap_s{};  ///< no profiles take less time by more, for the least time
   std::vector<double> stretch_s{};  ///< duration of each stretch
+
+  /// (value - lower bound)/value, of energy or of the least time.
+  [[nodiscard]] double gap_percent() const;
+  /// Optimal if the gap is within the accuracy (a share).
+  [[nodiscard]] SolveStatus status(double accuracy) const;
 };
 
 struct Front {
@@ -32,9 +37,11 @@ struct Front {
 };
 
 /// The front of stretches that are driven one after the other (a leg, a mission), from the minimum time to
-/// the time of least energy. All stretches have the same price of a second, which is optimal for their sum.
-/// Each stretch is transcribed once, with limits tightened as for its plan; new prices are chosen in the
-/// widest gaps of the front. The fastest point has an infinite price.
-[[nodiscard]] Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points);
+/// the time of least energy, or of the lowest price where slower is always cheaper. All stretches have the
+/// same price of a second, which is optimal for their sum. Each stretch is transcribed once, with limits
+/// tightened as for its plan; new prices are chosen in the widest gaps of the front. Each point has its own
+/// bound (certification.hpp). The fastest point has an infinite price.
+[[nodiscard]] Front energy_time_front(const std::vector<FrontStretch>& stretches, std::size_t points,
+                                      double lowest_price_W = 0.0);
 
 }  // namespace joulepath

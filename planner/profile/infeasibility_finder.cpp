@@ -97,23 +97,41 @@ bool plans(const ProfileRequest& request) {
   return least_s && *least_s <= request.time.duration_s * (1 + kMetTime);
 }
 
-/// A value with which the planner finds a profile: that of the envelope, else the next one beyond, to 1 %.
-std::optional<double> planned_relaxation(const ProfileRequest& request, const Knob& knob, double value) {
-  constexpr double kBeyond[] = {1e-3, 1e-2, 0.1, 0.5, 2};
-  constexpr double kClose = 0.01;
-  const auto possible = [&](double tried) { return plans(changed(request, knob, tried)); };
-  if (possible(value)) return value;
-  for (const double share : kBeyond) {
-    double bad = value, good = knob.rate != nullptr ? value / (1 + share) : value * (1 + share);
-    if (!possible(good)) continue;
-    while (std::abs(good - bad) > kClose * std::abs(good)) {
-      const double middle = 0.5 * (good + bad);
-      (possible(middle) ? good : bad) = middle;
+/// Values that one verdict tries out with the planner, at most.
+class Trials {
+ public:
+  explicit Trials(const ProfileRequest& request) : request_(request) {}
+
+  bool left() const { return made_ < kMost; }
+
+  /// A value with which the planner finds a profile: that of the envelope, else the next one beyond, to 1 %,
+  /// or the nearest one tried; nothing where none of those tried works.
+  std::optional<double> planned(const Knob& knob, double value) {
+    constexpr double kBeyond[] = {1e-3, 1e-2, 0.1, 0.5, 2};
+    constexpr double kClose = 0.01;
+    if (possible(knob, value)) return value;
+    for (const double share : kBeyond) {
+      double bad = value, good = knob.rate != nullptr ? value / (1 + share) : value * (1 + share);
+      if (!possible(knob, good)) continue;
+      while (left() && std::abs(good - bad) > kClose * std::abs(good)) {
+        const double middle = 0.5 * (good + bad);
+        (possible(knob, middle) ? good : bad) = middle;
+      }
+      return good;
     }
-    return good;
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+ private:
+  static constexpr int kMost = 16;
+
+  bool possible(const Knob& knob, double value) {
+    return made_++ < kMost && plans(changed(request_, knob, value));
+  }
+
+  const ProfileRequest& request_;
+  int made_{};
+};
 
 const Knob* knob_named(std::string_view name) {
   for (const Knob& knob : knobs())
@@ -151,13 +169,18 @@ Infeasibility too_slow_there(const ProfileRequest& request, std::string_view lim
   Infeasibility verdict = at_place(request, std::string(limit), s);
   const double needed = std::sqrt(std::max(0.0, blocked.needed));
   const double allowed = std::sqrt(std::max(0.0, blocked.allowed));
-  verdict.amount = needed - allowed;
+  verdict.amount = std::max(0.0, needed - allowed);
   verdict.unit = is_turn(request.piece) ? "rad/s" : "m/s";
   std::ostringstream text;
   text.precision(4);
   text << verdict.constraint << " at s = " << verdict.s << " (x " << verdict.x_m << " m, y " << verdict.y_m
-       << " m) allows a speed of " << allowed << " " << verdict.unit << ", but " << needed << " "
-       << verdict.unit << " is needed there; no relaxation of a single limit is sufficient";
+       << " m) allows ";
+  if (needed > allowed)
+    text << "a speed of " << allowed << " " << verdict.unit << ", but " << needed << " " << verdict.unit
+         << " is needed there";
+  else
+    text << "no motion";
+  text << "; no relaxation of a single limit that was tried is sufficient";
   verdict.message = text.str();
   return verdict;
 }
@@ -167,11 +190,12 @@ Infeasibility too_slow_there(const ProfileRequest& request, std::string_view lim
 Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem& problem,
                               const nlp::Blocked& blocked) {
   std::string_view name = blocked.limit.empty() ? std::string_view("path") : blocked.limit;
+  Trials trials(request);
   for (std::string_view candidate : relaxations_to_try(request, problem, blocked, name)) {
     const Knob* knob = knob_named(candidate);
-    if (knob == nullptr) continue;
+    if (knob == nullptr || !trials.left()) continue;
     std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
-    if (value) value = planned_relaxation(request, *knob, *value);
+    if (value) value = trials.planned(*knob, *value);
     if (!value) continue;
     double s = problem.s[blocked.node];
     if (candidate == "end_speed") s = problem.s.back();
@@ -189,7 +213,7 @@ void offer_what_plans(const ProfileRequest& request, Infeasibility& verdict) {
   for (const Knob& knob : knobs()) {
     const auto offered = verdict.relaxation.find(std::string(knob.key));
     if (offered == verdict.relaxation.end()) continue;
-    if (const auto value = planned_relaxation(request, knob, offered->second)) {
+    if (const auto value = Trials(request).planned(knob, offered->second)) {
       offered->second = *value;
       verdict.amount = std::abs(*value - value_of(request, knob));
     } else {

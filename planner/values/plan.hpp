@@ -102,6 +102,7 @@ struct VisitOrder {
   std::vector<std::size_t> order{};  ///< indices into MissionRequest::visit
   std::vector<LegRequest> legs{};
   bool exact{};                           ///< false: a beam search, with the bound below
+  int planned_orders{};                   ///< in full, this one included
   double energy_J{};                      ///< of the order, from the table of leg energies
   std::optional<double> given_order_J{};  ///< of the stops as listed, where that order is possible
   double lower_bound_J{};  ///< no order takes less: the cheapest way into each stop, without payload

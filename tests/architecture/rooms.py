@@ -9,7 +9,7 @@ import sys
 PLANNER = """model planner/cache planner/path/geometry planner/path/floor planner/path/shape planner/path/search planner/values
 planner/motion planner/nlp/interval planner/nlp/terms planner/nlp/transcription planner/nlp/fast planner/nlp/ipopt
 planner/profile planner/baselines planner/legs planner/ways planner/accounts planner/mission planner/controller""".split()
-DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/checks diagnosis/prediction
+DIAGNOSIS = """model diagnosis/thresholds.hpp diagnosis/values diagnosis/numerics diagnosis/signals diagnosis/prediction diagnosis/checks
 diagnosis/evidence diagnosis/where diagnosis/verdict diagnosis/correction diagnosis/next_run diagnosis/energies_only
 diagnosis""".split()
 HOUSE = ["model", "planner", "diagnosis", "scenarios", "app/report", "app", "extensions", "python"]  # planner and diagnosis do not know each other

@@ -1,10 +1,12 @@
-// Rows of runs without an effect: what they leave is noise, so their mean over many runs is what noise leaves.
+// Rows of runs without an effect: what they leave is noise, so their mean over many runs is what noise
+// leaves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/checks/dead_channels.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/values/diagnosis.hpp"
@@ -34,7 +36,10 @@ std::vector<Drive> drives() {
            },
            6, 0},
           {"loaded, straight and then round a bend",
-           [](double t) { return Twist<double>{0.5 * swell(t / 3), t > 3 ? 0.9 * swell(t / 3) : 0.0}; }, 6, 6}};
+           [](double t) {
+             return Twist<double>{0.5 * swell(t / 3), t > 3 ? 0.9 * swell(t / 3) : 0.0};
+           },
+           6, 6}};
 }
 
 Trajectory reference_of(const Drive& drive) {
@@ -85,7 +90,8 @@ Eigen::VectorXd chi_square_per_row(const std::vector<Run>& runs, const Robot& ro
         const double value = run.value(j, channel);
         n += 1, sum += value, squares += value * value;
       }
-      if (n < kRunsOfARow / 2) continue;  // a mean over the runs that happen to show the row is no mean of noise
+      // A mean over the runs that happen to show the row is no mean of noise.
+      if (n < 0.5 * static_cast<double>(rows.size())) continue;
       result[channel] += sum * sum / n / ((squares - sum * sum / n) / (n - 1));
       counted += 1;
     }
@@ -119,11 +125,55 @@ TEST_P(NullRows, AreNoiseInEveryChannel) {
   expect_noise(runs, robot, "battery alone");
 }
 
+/// A turn that scrubs, against a model that has the true moment: what is left is noise, on wide bends, where
+/// a robot turns slowly, and while a turn on the spot begins and ends.
+TEST(EffectRows, OfAScrubbingTurnAreNoise) {
+  const std::vector<Drive> turns{{"wide bend",
+                                  [](double t) {
+                                    return Twist<double>{0.4 * swell(t / 6), 0.2 * swell(t / 6)};
+                                  },
+                                  6, 0},
+                                 {"bend to the right",
+                                  [](double t) {
+                                    return Twist<double>{0.3 * swell(t / 6), -0.3 * swell(t / 6)};
+                                  },
+                                  6, 0},
+                                 {"on the spot",
+                                  [](double t) {
+                                    return Twist<double>{0.0, 1.2 * swell(t / 4)};
+                                  },
+                                  4, 0}};
+  for (const double moment_Nm : {0.15, 0.6})
+    for (const Drive& drive : turns) {
+      Robot robot = testing::nomad();
+      const EffectSetting scrub{.name = "turning_scrub", .parameters = {{"moment_Nm", moment_Nm}}};
+      const auto runs = logs_of(drive, robot, 40, 3, {scrub});
+      robot.effects.push_back(scrub);
+      const Eigen::VectorXd found = chi_square_per_row(runs, robot);
+      for (const int channel : {kCurrentLeft, kCurrentRight})
+        EXPECT_LT(found[channel], 2.0) << drive.name << ", " << moment_Nm << " N m, "
+                                       << kChannelNames[static_cast<std::size_t>(channel)];
+    }
+}
+
+/// What the checks of channels expect of a battery is the mean of its power, where a wheel reverses, too.
+TEST(FollowedChannel, OfASoundBatteryIsAllThatIsExpected) {
+  for (const Drive& drive : drives())
+    for (const joulepath::Run& run : logs_of(drive, testing::nomad(), 3, 21)) {
+      const auto channels = followed_channels(make_run_signals(run, 0, testing::nomad()), testing::nomad());
+      const auto battery = std::ranges::find(channels, std::vector<std::string>{"battery_current_A"},
+                                             &FollowedChannel::columns);
+      ASSERT_NE(battery, channels.end());
+      EXPECT_NEAR(battery->followed, 1.0, 0.01) << drive.name;
+    }
+}
+
 /// A day of both drives, each repeated.
 Diagnosis diagnosed_day(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
   Dataset day{.robot = testing::nomad()};
   for (const Drive& drive : drives())
-    for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects)) day.runs.push_back(std::move(run));
+    for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects))
+      day.runs.push_back(std::move(run));
   return diagnose(day);
 }
 

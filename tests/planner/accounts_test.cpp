@@ -9,24 +9,24 @@
 namespace joulepath {
 namespace {
 
+/// A prescribed motion is its own baseline.
 TEST(PlanAccounts, ABaselineOfAPlanIsTheSumOverItsLegs) {
   Plan plan;
   for (const double part : {1.0, 2.0}) {
-    LegPlan leg;
+    LegPlan leg{.duration_s = 3 * part, .dwell_s = part};
     leg.prescribed.emplace();
-    leg.baselines = {{.name = "trapezoid",
-                      .energy_J = 10 * part,
-                      .motion_energy_J = 4 * part,
-                      .duration_s = 3 * part,
-                      .later_s = part}};
+    leg.energy.copper_J = 4 * part, leg.energy.standby_J = 6 * part;
     plan.legs.push_back(leg);
   }
-  sum_up(plan, make_plant(testing::nomad()), 1e-6);
-  ASSERT_EQ(plan.baselines.size(), 1u);
-  EXPECT_DOUBLE_EQ(plan.baselines[0].energy_J, 30.0);
-  EXPECT_DOUBLE_EQ(plan.baselines[0].motion_energy_J, 12.0);
-  EXPECT_DOUBLE_EQ(plan.baselines[0].duration_s, 9.0);
-  EXPECT_DOUBLE_EQ(plan.baselines[0].later_s, 3.0);
+  add_baselines(plan, 10.0, 1);
+  ASSERT_EQ(plan.baselines.size(), 2u);
+  for (const BaselineTotal& baseline : plan.baselines) {
+    EXPECT_DOUBLE_EQ(baseline.energy_J, 30.0);
+    EXPECT_DOUBLE_EQ(baseline.optimum_J, 30.0);
+    EXPECT_DOUBLE_EQ(baseline.motion_energy_J, 12.0);
+    EXPECT_DOUBLE_EQ(baseline.duration_s, 12.0);
+    EXPECT_DOUBLE_EQ(baseline.later_s, 0.0);
+  }
 }
 
 /// A slower drive may use the waiting time, so the bound counts a second of it at the price of time.

@@ -1,8 +1,9 @@
+#include "model/battery_power.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "model/battery_power.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
 #include "tests/support/nomad.hpp"
@@ -13,9 +14,9 @@ namespace {
 /// 9 m straight, then the corner of the paper's curve.
 MissionRequest line_and_curve() {
   MissionRequest mission{.name = "line_and_curve"};
-  mission.legs = {{.path = PathRequest{.bezier_m = {{{{0, 0}, {3, 0}, {6, 0}, {9, 0}}}}}, .payload = {8, 8}},
-                  {.path = PathRequest{.bezier_m = {{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}},
-                   .payload = {2, 2}}};
+  mission.legs = {
+      {.path = PathRequest{.bezier_m = {{{{0, 0}, {3, 0}, {6, 0}, {9, 0}}}}}, .payload = {8, 8}},
+      {.path = PathRequest{.bezier_m = {{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}}, .payload = {2, 2}}};
   return mission;
 }
 
@@ -57,7 +58,8 @@ void expect_supplied(const MissionRequest& mission, const Robot& robot) {
   Robot better = robot;
   better.battery.internal_resistance_ohm = relaxation.at("internal_resistance_ohm");
   EXPECT_LT(better.battery.internal_resistance_ohm, robot.battery.internal_resistance_ohm);
-  EXPECT_LE(supplied_plan(mission, better).status, SolveStatus::feasible) << supplied_plan(mission, better).message;
+  EXPECT_LE(supplied_plan(mission, better).status, SolveStatus::feasible)
+      << supplied_plan(mission, better).message;
 }
 
 TEST(BatteryPower, NoPlanTakesMoreThanTheBatterySupplies) {
@@ -100,6 +102,19 @@ TEST(BatteryPower, AStatedLimitThatIsLowerIsNotBlamedOnTheBattery) {
   const Plan plan = supplied_plan(line_and_curve(), robot);
   ASSERT_TRUE(plan.infeasibility.has_value());
   EXPECT_TRUE(plan.infeasibility->reason.relaxation.contains("battery_power_W")) << plan.message;
+}
+
+/// The limit that the robot file states for the leg's payload counts, not the one of the empty robot.
+TEST(BatteryPower, TheLimitForThePayloadIsTheOneThatIsBlamed) {
+  Robot robot = robot_with(3.0);  // 52 W
+  ASSERT_GT(most_battery_power_W(robot.battery), 9.0);
+  robot.limits->battery_power_W = 200;
+  robot.limits_by_payload = {{.payload_kg = 0, .limit_by_key = {{"battery_power_W", 200}}},
+                             {.payload_kg = 8, .limit_by_key = {{"battery_power_W", 9}}}};
+  const Plan plan = supplied_plan(line_and_curve(), robot);
+  ASSERT_TRUE(plan.infeasibility.has_value());
+  EXPECT_TRUE(plan.infeasibility->reason.relaxation.contains("battery_power_W")) << plan.message;
+  EXPECT_EQ(plan.message.find("the battery supplies"), std::string::npos) << plan.message;
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/legs/leg_timing.hpp"
 #include "planner/mission/plan_front.hpp"
+#include "planner/profile/profile_solver.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -422,8 +424,86 @@ TEST(Mission, TheFrontEndsAtThePlan) {
     const FrontPoint cheapest = sum_of(front.points.back(), rest_of(plan));
     EXPECT_NEAR(cheapest.energy_J, plan.energy.total_J(), 2e-5 * plan.energy.total_J());
     EXPECT_NEAR(cheapest.duration_s, plan.duration_s, 2e-3 * plan.duration_s);
-    for (const FrontPoint& point : front.points) EXPECT_EQ(point.status, plan.status);
+    EXPECT_EQ(cheapest.status(1e-4), plan.status);
+    EXPECT_NEAR(cheapest.gap_percent(), plan.gap_percent, 1e-2 + 0.1 * plan.gap_percent);
   }
+}
+
+/// Each point of a front has its own bound: it holds at its own time, whatever the plan's bound is.
+TEST(Mission, EveryPointOfAFrontHasItsOwnBound) {
+  const Plan plan = lone_plan_of(two_legs());
+  const Front front = energy_time_front(planned_stretches(plan), 6);
+  ASSERT_EQ(front.points.size(), 6u);
+  EXPECT_TRUE(std::isnan(front.points.front().gap_J)) << "the least time has a bound of the time";
+  EXPECT_GE(front.points.front().gap_s, 0.0);
+  std::set<double> gaps_percent;
+  for (const FrontPoint& point : front.points) {
+    EXPECT_GE(point.gap_percent(), 0.0);
+    EXPECT_LT(point.gap_percent(), 1.0);
+    gaps_percent.insert(point.gap_percent());
+    EXPECT_EQ(point.status(1e-2), SolveStatus::optimal);
+    EXPECT_EQ(point.status(0.0099 * point.gap_percent()), SolveStatus::feasible);
+  }
+  EXPECT_EQ(gaps_percent.size(), front.points.size()) << "a gap of its own";
+  for (std::size_t k = 1; k < front.points.size(); ++k) {
+    ProfileRequest request = planned_stretches(plan)[0].request;
+    request.time = {.mode = TimeMode::fixed_time, .duration_s = front.points[k].stretch_s[0]};
+    EXPECT_TRUE(solve_profile(request).profile) << k;
+  }
+}
+
+/// Where slower is always cheaper the mission's time ends the front.
+TEST(Mission, AFrontEndsAtThePriceOfItsMissionWhereSlowerIsAlwaysCheaper) {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 0;
+  for (const Side side : kSides) {
+    robot.motor[side].friction_torque_Nm = 0;
+    robot.motor[side].viscous_friction_Nm_s_rad = 0.05;
+  }
+  MissionRequest mission{.name = "viscous"};
+  mission.legs = {{.path = PathRequest{.bezier_m = {{{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}}}}}};
+  mission.objective.deadline_s = 20;
+  const Plan plan = lone_plan_of(mission, robot);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  ASSERT_GT(planned_price_W(plan), 0.0);
+  const Front front = energy_time_front(planned_stretches(plan), 5, planned_price_W(plan));
+  ASSERT_EQ(front.points.size(), 5u) << front.summary.message;
+  EXPECT_NEAR(front.points.back().duration_s, 20, 1e-2);
+  EXPECT_NEAR(front.points.back().energy_J, plan.energy.total_J(), 1e-3 * plan.energy.total_J());
+}
+
+/// The samples of a prescribed motion are bounded, its energy and time stay exact.
+TEST(Mission, ALongPrescribedMotionHasBoundedSamples) {
+  const auto stand = [](double duration_s) {
+    PrescribedMotion motion{.profile = MotionProfile::stand};
+    motion.duration_s = duration_s;
+    return motion;
+  };
+  const auto spin = [](double angle_rad) {
+    PrescribedMotion motion{.profile = MotionProfile::spin};
+    motion.angle_rad = angle_rad, motion.yaw_rate_rad_s = 0.5;
+    return motion;
+  };
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  robot.battery.capacity_Wh = 1e6;
+  const auto planned = [&](const PrescribedMotion& motion) {
+    MissionRequest mission{.name = "prescribed"};
+    mission.legs = {{.motion = motion}};
+    return lone_plan_of(mission, robot);
+  };
+  for (const double duration_s : {10.0, 1e5, 1e6}) {
+    const Plan plan = planned(stand(duration_s));
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    EXPECT_LE(plan.legs[0].prescribed->size(), 30000u);
+    EXPECT_NEAR(plan.duration_s, duration_s, 1e-9 * duration_s);
+    EXPECT_NEAR(plan.energy.total_J(), 10 * duration_s, 1e-6 * duration_s);
+  }
+  const Plan few = planned(spin(100)), many = planned(spin(10000));
+  EXPECT_LE(many.legs[0].prescribed->size(), 30000u);
+  EXPECT_NEAR(many.duration_s - few.duration_s, 9900 / 0.5, 1e-6);
+  const double a_turn_J = few.energy.total_J() / few.duration_s;
+  EXPECT_NEAR(many.energy.total_J() / many.duration_s, a_turn_J, 0.01 * a_turn_J);
 }
 
 }  // namespace

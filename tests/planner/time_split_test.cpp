@@ -51,6 +51,26 @@ TEST(TimeSplit, TheLeastTimeDecidesBeforeAnyPriceIsSearched) {
   EXPECT_FALSE(split_time(request).late);
 }
 
+/// Times of profiles scatter: a search of the price ends, within 24 trials of its bracket and the bracket's own.
+TEST(TimeSplit, ASearchOfThePriceEndsWhereTimesScatter) {
+  constexpr int kBracket = 6;
+  for (const double share : {1.0005, 1.001, 1.01, 1.1}) {
+    TimeSplitRequest request = request_of({{1000, 5}}, {5 * share});
+    int solves = 0;
+    const auto duration_s = request.duration_s;
+    request.duration_s = [&](std::size_t leg, double price_W) {
+      ++solves;
+      const double scatter = std::isinf(price_W) ? 0.0 : 1e-8 * std::sin(1e9 * price_W);
+      return duration_s(leg, price_W) * (1 + scatter);
+    };
+    const TimeSplit split = split_time(request);
+    ASSERT_FALSE(split.late);
+    EXPECT_LE(split.arrival_s[0], 5 * share * (1 + 1e-9));
+    EXPECT_NEAR(split.arrival_s[0], 5 * share, 1e-6);
+    EXPECT_LE(solves, 24 + kBracket) << share;
+  }
+}
+
 TEST(TimeSplit, WithoutDeadlinesThePriceOfTimeIsTheLowest) {
   const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {kNone, kNone}));
   EXPECT_EQ(split.price_W, (std::vector<double>{0.0, 0.0}));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <tuple>
 
 #include "planner/mission/mission.hpp"
 #include "planner/mission/time_front.hpp"
@@ -130,6 +132,96 @@ TEST(VisitOrder, ALegBeforeAWindowDrivesAsSlowlyAsPays) {
   }
 }
 
+/// All orders of a mission's stops, each planned as legs with the windows as deadlines; the least energy, or
+/// nothing where none arrives in time.
+std::optional<double> least_of_all_orders_J(const MissionRequest& mission, const Robot& robot) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < mission.visit.size(); ++k) order.push_back(k);
+  std::optional<double> least_J;
+  do {
+    MissionRequest fixed = mission;
+    fixed.visit.clear();
+    double payload_kg = 0.0;
+    for (const std::size_t k : order) {
+      const VisitRequest& visit = mission.visit[k];
+      fixed.legs.push_back(
+          {.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
+      if (visit.window_s) fixed.legs.back().deadline_s = visit.window_s->second;
+      payload_kg += visit.payload_kg;
+    }
+    const Plan plan = visit_plan(fixed, robot);
+    if (plan.status <= SolveStatus::feasible)
+      least_J = std::min(plan.energy.total_J(), least_J.value_or(kNoLimit));
+  } while (std::next_permutation(order.begin(), order.end()));
+  return least_J;
+}
+
+/// Stops drawn on the floor, with a window that ends just after the arrival of a drawn order in least time.
+MissionRequest drawn_windows(unsigned seed, std::size_t stops, double share, const Robot& robot) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  MissionRequest mission{.name = "drawn"};
+  mission.start = {.pose = {3, 3, uniform(-3, 3)}};
+  MissionRequest legs = mission;
+  legs.objective.minimize = Objective::Minimize::time;
+  for (std::size_t k = 0; k < stops; ++k) {
+    const std::string name(1, static_cast<char>('a' + k));
+    mission.stations[name] = {.x_m = uniform(2, 10), .y_m = uniform(2, 10)};
+    if (uniform(0, 1) < 0.4) mission.stations[name].heading_rad = uniform(-3, 3);
+    mission.visit.push_back(pick(name, uniform(0, 3)));
+    mission.visit.back().dwell_s = uniform(0, 5);
+  }
+  legs.stations = mission.stations;
+  double payload_kg = 0.0;
+  for (const VisitRequest& visit : mission.visit) {
+    legs.legs.push_back({.to = visit.station, .payload = {payload_kg, payload_kg}, .dwell_s = visit.dwell_s});
+    payload_kg += visit.payload_kg;
+  }
+  const Plan fastest = visit_plan(legs, robot);
+  const std::size_t tight = stops - 1 - seed % 2;
+  const LegPlan& leg = fastest.legs.at(tight);
+  mission.visit[tight].window_s = {{0.0, share * (leg.start_s + leg.duration_s)}};
+  std::shuffle(mission.visit.begin(), mission.visit.end(), random);
+  return mission;
+}
+
+/// With windows a visit is the best of all orders as legs: never refused where one of them fits, never
+/// dearer.
+TEST(VisitOrder, WithWindowsItIsTheBestOfAllOrders) {
+  Robot robot = testing::nomad();
+  robot.power.standby_W = 10;
+  int late_orders = 0;
+  for (const auto& [seed, stops, share] :
+       {std::tuple(1u, 2u, 1.001), std::tuple(2u, 2u, 1.001), std::tuple(3u, 2u, 1.02)}) {
+    const MissionRequest mission = drawn_windows(seed, stops, share, robot);
+    const std::optional<double> least_J = least_of_all_orders_J(mission, robot);
+    ASSERT_TRUE(least_J) << seed;
+    const Plan plan = visit_plan(mission, robot);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << seed << ": " << plan.message;
+    EXPECT_LE(plan.energy.total_J(), *least_J * (1 + 1e-6)) << seed;
+    EXPECT_GE(plan.visit->planned_orders, 1);
+    EXPECT_LE(plan.visit->planned_orders, 24);
+    if (plan.visit->planned_orders > 1) ++late_orders;
+  }
+  EXPECT_GT(late_orders, 0) << "windows that make no difference test nothing";
+}
+
+/// An order that empties the battery is not the only one.
+TEST(VisitOrder, AnotherOrderIsPlannedWhereTheFirstEmptiesTheBattery) {
+  MissionRequest mission = round_trip();
+  mission.visit.erase(mission.visit.begin() + 1);
+  const Plan full = visit_plan(mission);
+  ASSERT_TRUE(full.battery);
+  const double used = full.battery->start_fraction - full.battery->end_fraction;
+  mission.start.battery_fraction = testing::nomad().battery.reserve_fraction + 0.99 * used;
+  const Plan plan = visit_plan(mission);
+  EXPECT_TRUE(plan.infeasibility);
+  EXPECT_GT(plan.visit->planned_orders, 1);
+  EXPECT_LE(plan.visit->planned_orders, 24);
+}
+
 TEST(VisitOrder, AWindowThatAFasterDriveKeepsIsKept) {
   Robot robot = testing::nomad();
   robot.power.standby_W = 0;
@@ -172,8 +264,7 @@ TEST(VisitOrder, AWindowThatTheSameStopAsALegMeetsIsKept) {
   mission.legs.clear();
   mission.objective = {};
   const auto visit_until = [&](double latest_s) {
-    mission.visit = {
-        {.kind = VisitRequest::Kind::pass, .station = "beyond", .window_s = {{0.0, latest_s}}}};
+    mission.visit = {{.kind = VisitRequest::Kind::pass, .station = "beyond", .window_s = {{0.0, latest_s}}}};
     return plan_on(mission);
   };
   const Plan kept = visit_until(1.002 * fastest.duration_s);

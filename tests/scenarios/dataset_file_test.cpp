@@ -188,6 +188,70 @@ TEST(SeveralFiles, NoChannelCutsADrive) {
     }
 }
 
+/// A log of wheels, and of a battery whose cells are empty outside of a time and in all but each n-th row in
+/// it.
+std::string log_with_empty_cells(double from_s, double to_s, int each) {
+  std::string text = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,battery_voltage_V,payload_kg\n";
+  for (int k = 0; k <= 200; ++k) {
+    const bool known = 0.1 * k > from_s - 1e-9 && 0.1 * k < to_s + 1e-9 && k % each == 0;
+    text += std::to_string(0.1 * k) + ",1,1," + (known ? std::to_string(24 + 0.001 * k) : "") +
+            (k == 100 ? ",8.25\n" : ",\n");
+  }
+  return text;
+}
+
+/// Empty cells at a channel's ends are as unknown as the times before and after a file of its own, in a
+/// dataset and in a log alone; between readings they are filled, and a payload holds.
+TEST(EmptyCells, AtAChannelsEndsAreNoReadings) {
+  for (const auto& [from_s, to_s, each] :
+       {std::tuple{12.0, 20.0, 1}, std::tuple{0.0, 7.0, 1}, std::tuple{5.0, 11.0, 5},
+        std::tuple{0.0, 20.0, 7}, std::tuple{10.0, 10.0, 1}})
+    for (const bool alone : {false, true}) {
+      const ScratchDirectory scratch;
+      const std::string log = scratch.write("a.csv", log_with_empty_cells(from_s, to_s, each));
+      const std::string file = scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]"));
+      const std::string robot = read_dataset(file).robot_file,
+                        named =
+                            std::to_string(from_s) + " to " + std::to_string(to_s) + (alone ? ", alone" : "");
+      const auto read = [&](const ReadOptions& options) {
+        return alone ? joulepath::dataset_of_log(log, robot, options) : read_dataset(file, options);
+      };
+      const bool whole = to_s - from_s > 19, some = to_s > from_s;
+      const Dataset kept = read({.keep_whole_drives = true}), parts = read({});
+      ASSERT_EQ(kept.runs.size(), 1u) << named;
+      EXPECT_EQ(kept.runs[0].log.size(), 201u) << named;
+      EXPECT_EQ(kept.runs[0].log.battery_voltage_V.empty(), !whole) << named;
+      EXPECT_EQ(artifact(kept, "partial_channel", "battery_voltage_V") != nullptr, some && !whole) << named;
+      EXPECT_TRUE((some && each == 1) || artifact(kept, "missing_values", "battery_voltage_V")) << named;
+      EXPECT_EQ(kept.runs[0].payload.size(), 1u) << named;
+      EXPECT_EQ(std::ranges::count_if(
+                    parts.runs, [](const joulepath::Run& run) { return !run.log.battery_voltage_V.empty(); }),
+                some ? 1 : 0)
+          << named;
+      for (const joulepath::Run& run : parts.runs)
+        for (std::size_t k = 0; k < run.log.battery_voltage_V.size(); ++k)
+          EXPECT_NEAR(run.log.battery_voltage_V[k] - run.log.battery_voltage_V[0],
+                      0.01 * (run.log.time_s[k] - run.log.time_s[0]), 0.002 * each + 1e-6)
+              << named << ": a reading holds for one step at either end";
+    }
+}
+
+/// Rows without a wheel's speed are no part of the drive, which is said.
+TEST(EmptyCells, OfTheMotionCutTheDrive) {
+  std::string text = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s\n";
+  for (int k = 0; k <= 200; ++k)
+    text += std::to_string(0.1 * k) + (k >= 30 ? ",1" : ",") + (k <= 150 ? ",1\n" : ",\n");
+  const ScratchDirectory scratch;
+  scratch.write("a.csv", text);
+  const Dataset dataset = read_dataset(scratch.write("d.yaml", dataset_yaml("runs: [{file: a.csv}]")));
+  ASSERT_EQ(dataset.runs.size(), 1u);
+  EXPECT_EQ(dataset.runs[0].log.size(), 123u);  // a reading holds for one step at either end
+  ASSERT_TRUE(artifact(dataset, "cut"));
+  EXPECT_NE(artifact(dataset, "cut")->description.find("2.9 s at the beginning and 4.9 s at the end"),
+            std::string::npos)
+      << artifact(dataset, "cut")->description;
+}
+
 /// Where the motion is not known there is no drive; what is left out is said.
 TEST(SeveralFiles, WhatIsCutIsSaid) {
   const ScratchDirectory scratch;
@@ -376,9 +440,9 @@ TEST(DatasetFile, RoughLogsAreReadAndTheirArtifactsReported) {
   for (const double v : dataset.runs[0].log.battery_voltage_V) EXPECT_TRUE(std::isfinite(v));
 }
 
-/// A battery's current at 10 Hz in steps of 5 mA, at rest and in motion, beside wheels at 50 Hz; as empty cells
-/// or as a second file, from 0.5 s on, on two clocks: the rows between its readings are the reader's. A sensor
-/// that stops is still found.
+/// A battery's current at 10 Hz in steps of 5 mA, at rest and in motion, beside wheels at 50 Hz; as empty
+/// cells or as a second file, from 0.5 s on, on two clocks: the rows between its readings are the reader's. A
+/// sensor that stops is still found.
 TEST(DatasetFile, WhatFillsTheRowsBetweenReadingsIsNoHeldValue) {
   const auto artifacts_of = [](bool second_file, double start_s, double step_A, bool stops) {
     const ScratchDirectory scratch;
@@ -387,8 +451,8 @@ TEST(DatasetFile, WhatFillsTheRowsBetweenReadingsIsNoHeldValue) {
     wheels += second_file ? "\n" : ",battery_current_A\n";
     for (int i = 0; i <= 1500; ++i) {
       const std::string time = std::to_string(start_s + 0.02 * i + 0.004 * std::sin(2.3 * i));
-      wheels += time + "," + std::to_string(4 + std::sin(0.37 * i)) + "," +
-                std::to_string(4 + std::cos(0.41 * i));
+      wheels +=
+          time + "," + std::to_string(4 + std::sin(0.37 * i)) + "," + std::to_string(4 + std::cos(0.41 * i));
       const int held = stops && i > 600 && i < 800 ? 600 : i;
       const double amperes =
           i < 300 && !stops ? 0.4 : 1.2 + 0.7 * std::sin(0.013 * held) + 0.1 * std::sin(1.9 * held);

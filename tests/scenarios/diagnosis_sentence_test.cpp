@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "diagnosis/where/other_prediction.hpp"
 #include "scenarios/next_step.hpp"
 #include "scenarios/write_diagnosis.hpp"
 
@@ -30,9 +31,10 @@ Cause dragging(Side side) {
 TEST(DiagnosisSentence, NamesTheCauseItsSizeAndWhatBecomesOfTheGap) {
   Diagnosis d = with_gap(Verdict::explained, 26.04, 0.302);
   d.causes = {dragging(Side::left)};
-  EXPECT_EQ(diagnosis_sentence(d),
-            "Explained: dragging wheel (left), 0.241 N m (probability 0.97). The energy gap shrinks from 26 % to "
-            "0.302 % (noise floor 0.1 %).");
+  EXPECT_EQ(
+      diagnosis_sentence(d),
+      "Explained: dragging wheel (left), 0.241 N m (probability 0.97). The energy gap shrinks from 26 % to "
+      "0.302 % (noise floor 0.1 %).");
 }
 
 /// A wrong standby power is nothing of the motors': both gaps are stated.
@@ -43,7 +45,8 @@ TEST(DiagnosisSentence, StatesTheGapOfMotorsAndBattery) {
                .parameters = {{"power_W", 8.9, {8.8, 9.0}}}}};
   d.gap.battery_energy = with_gap(Verdict::explained, 16.8, 0.31).gap.energy;
   EXPECT_EQ(diagnosis_sentence(d),
-            "Explained: standby power error, 8.9 W (probability 0.97). The energy gap at the motors is 0.716 % (noise floor 0.1 %). "
+            "Explained: standby power error, 8.9 W (probability 0.97). The energy gap at the motors is 0.716 "
+            "% (noise floor 0.1 %). "
             "The energy gap at the battery shrinks from 16.8 % to 0.31 % (noise floor 0.1 %).");
 }
 
@@ -100,10 +103,11 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
   Diagnosis group = with_gap(Verdict::ambiguous, 4, 1);
   group.causes = {dragging(Side::left)};
   group.causes[0].indistinguishable_from = {"coulomb_friction", "rolling_resistance"};
-  EXPECT_EQ(diagnosis_sentence(group).rfind("Ambiguous: these runs cannot tell dragging wheel (left), 0.241 "
-                                            "N m (probability 0.97) from coulomb friction, rolling resistance.",
-                                            0),
-            0u)
+  EXPECT_EQ(
+      diagnosis_sentence(group).rfind("Ambiguous: these runs cannot tell dragging wheel (left), 0.241 "
+                                      "N m (probability 0.97) from coulomb friction, rolling resistance.",
+                                      0),
+      0u)
       << diagnosis_sentence(group);
   const Diagnosis suspect{
       .verdict = Verdict::data_suspect,
@@ -119,17 +123,24 @@ struct RandomDiagnosis {
   bool coin() { return random() % 2 == 0; }
   double fraction() { return std::uniform_real_distribution(0.0, 1.0)(random); }
   double size() { return std::pow(10, std::uniform_real_distribution(-3.0, 2.0)(random)); }
-  double after(double before) { return before * std::pow(10, std::uniform_real_distribution(-1.5, 0.3)(random)); }
+  double after(double before) {
+    return before * std::pow(10, std::uniform_real_distribution(-1.5, 0.3)(random));
+  }
 
   SignalGap signal() {
     const double before = 0.01 * size();
-    return {.before_rms = before, .after_rms = after(before), .noise_floor_rms = after(before), .present = coin()};
+    return {.before_rms = before,
+            .after_rms = after(before),
+            .noise_floor_rms = after(before),
+            .present = coin()};
   }
 
   Diagnosis draw() {
     Diagnosis d{.verdict = static_cast<Verdict>(random() % kVerdicts.size())};
     const double before = size();
-    d.gap.energy = {.before_percent = before, .after_percent = after(before), .noise_floor_percent = after(before),
+    d.gap.energy = {.before_percent = before,
+                    .after_percent = after(before),
+                    .noise_floor_percent = after(before),
                     .before_J = coin() ? 10.0 : 0.0};
     d.gap.position_m = signal(), d.gap.heading_rad = signal();
     const bool names = d.verdict == Verdict::explained || d.verdict == Verdict::partly_explained ||
@@ -143,11 +154,16 @@ struct RandomDiagnosis {
     d.leftover_description = d.leftover_significant ? "goes with payload" : "";
     if (d.leftover_significant && coin())
       d.unknowns = {{.depends_on = "speed (current)", .probability = 0.9, .share = fraction()}};
+    if (coin()) d.below_materiality = {{"floor_patch", 0.97, 20, 0.4}};
     if (coin()) d.runs_apart = {{"run_3", 100 * (fraction() - 0.5), fraction()}};
     if (coin()) {
-      d.simulator = {.runs = 3, .of_runs = 4, .gap_percent = size(), .bias_percent = -1,
-                     .noise_floor_percent = size(), .model_verdict = d.verdict};
-      if (d.simulator.exceeds() && d.verdict == Verdict::no_gap) d.verdict = Verdict::unexplained;
+      d.simulator = {.runs = 3,
+                     .of_runs = 4,
+                     .gap_percent = size(),
+                     .bias_percent = -1,
+                     .noise_floor_percent = size(),
+                     .model_verdict = d.verdict};
+      d.verdict = verdict_with(d.simulator);
     }
     return d;
   }
@@ -159,11 +175,13 @@ std::string digits(double value) {
   return text;
 }
 
-bool says(const std::string& sentence, const std::string& part) { return sentence.find(part) != std::string::npos; }
+bool says(const std::string& sentence, const std::string& part) {
+  return sentence.find(part) != std::string::npos;
+}
 
 /// A gap is said to shrink where the numbers of the answer do so by a tenth and began above their floor.
-void expect_shrink(const std::string& said, const std::string& subject, double before, double after, double floor,
-                   const std::string& numbers) {
+void expect_shrink(const std::string& said, const std::string& subject, double before, double after,
+                   double floor, const std::string& numbers) {
   const bool shrinks = after <= 0.9 * before && before > floor;
   EXPECT_EQ(says(said, subject + " gap shrinks from " + numbers), shrinks) << said;
   EXPECT_EQ(says(said, subject + " gap shrinks"), shrinks) << said;
@@ -180,16 +198,20 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
       EXPECT_TRUE(says(said, apart["run"].get<std::string>() + ", whose energy is " +
                                  digits(std::abs(apart["over_model_percent"].get<double>())) + " %"))
           << said;
+    EXPECT_EQ(says(said, "too small to count"),
+              file_verdict(d) == Verdict::no_gap && !json["below_materiality"].empty())
+        << said;
     EXPECT_EQ(says(said, "simulator's energy gap is"), json.contains("simulator")) << said;
     if (d.causes.empty()) {
       EXPECT_FALSE(says(said, "shrinks")) << said;
       continue;
     }
-    if (d.verdict != Verdict::ambiguous)
+    if (file_verdict(d) != Verdict::ambiguous)
       for (const auto& cause : json["causes"]) {
         EXPECT_TRUE(says(said, "(probability " + digits(cause["probability"]))) << said;
         for (const auto& other : cause["indistinguishable_from"])
-          EXPECT_TRUE(says(said, other == "coulomb_friction" ? "coulomb friction" : "rolling resistance")) << said;
+          EXPECT_TRUE(says(said, other == "coulomb_friction" ? "coulomb friction" : "rolling resistance"))
+              << said;
       }
     const auto& energy = json["gap"]["energy"];
     const double before = energy["before_percent"], after = energy["after_percent"];
@@ -198,11 +220,13 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
                     digits(before) + " % to " + digits(after) + " %");
     const auto& motion = json["gap"]["motion"];
     if (motion.contains("before_rms_m"))
-      expect_shrink(said, "position", motion["before_rms_m"], motion["after_rms_m"], motion["noise_floor_rms_m"],
-                    digits(1000 * d.gap.position_m.before_rms) + " to " + digits(1000 * d.gap.position_m.after_rms) +
-                        " mm");
+      expect_shrink(said, "position", motion["before_rms_m"], motion["after_rms_m"],
+                    motion["noise_floor_rms_m"],
+                    digits(1000 * d.gap.position_m.before_rms) + " to " +
+                        digits(1000 * d.gap.position_m.after_rms) + " mm");
     for (const auto& unknown : json["unknowns"])
-      EXPECT_TRUE(says(said, digits(100 * unknown["share"].get<double>()) + " % of the explained gap")) << said;
+      EXPECT_TRUE(says(said, digits(100 * unknown["share"].get<double>()) + " % of the explained gap"))
+          << said;
   }
 }
 

@@ -112,7 +112,7 @@ jp.legs_section = function (plan) {
   const band = (ends) => (ends && is_number(ends[0]) && ends[1] > ends[0] ? `${number(ends[0], 5)} to ${number(ends[1], 5)}` : "");
   return jp.section("Legs", jp.table(["leg", "on its path", {n: "payload kg"}, {n: "distance m"}, {n: "driving s"}, {n: "dwell s"}, {n: "energy J"}, {n: "95 % interval J"}, {n: "value of a second, W"}],
     legs.map((leg, k) => [jp.leg_name(leg, k), words(leg.status), {n: payload(leg.payload_kg)}, {n: number(leg.distance_m)}, {n: number(leg.duration_s)}, {n: leg.dwell_s > 0 ? number(leg.dwell_s) : "–"}, {n: number(leg.energy_J, 5)}, {n: band(leg.energy_interval_95_J)}, {n: number(leg.price_of_time_W, 3)}])),
-    weighed.length ? h("details", {}, h("summary", {}, "Candidate ways"), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
+    weighed.length ? h("details", {}, h("summary", {}, `Candidate ways${plan.bound_without_jerk ? ", costed without the jerk limit" : ""}`), jp.table(["leg", "way", {n: "energy J"}, {n: "time s"}, {n: "distance m"}], weighed)) : null);
 };
 
 /** The same legs as planned, with all limits. */

@@ -115,7 +115,7 @@ void Replanner::optimize(const RateEnvelope& envelope, const ReplanBudget& budge
   if (outcome == FastOutcome::converged) {
     answer_.status = ReplanStatus::optimal;
     answer_.gap_percent = 100 * solver_.error();
-    price_W_ = solver_.state().multiplier_of_time();
+    price_W_ = solver_.state().time.multiplier();
     answer_.price_of_time_W = price_W_;
   } else {
     answer_.status = ReplanStatus::feasible;

@@ -6,19 +6,9 @@
 
 namespace joulepath::nlp {
 
-class NarrowingKinks;
-
-struct FastOptions {
-  double tolerance{1e-9};  ///< relative to the objective: duality gap and residuals
-  int max_iterations{80};
-  double until_cpu_s{kNoLimit};  ///< of this thread's clock: no iteration begins later
-};
-
-enum class FastOutcome { converged, no_descent, iterations_used, time_used };
-
-/// A primal-dual interior-point method made for this structure: the Hessian is tridiagonal, every row and
-/// every recovery variable belongs to one segment and is eliminated there, the duration row borders the
-/// system. Predictor-corrector steps; one iteration costs O(N).
+/// InteriorPoint for this structure: the Hessian is tridiagonal, every row and every recovery variable
+/// belongs to one segment and is eliminated there, the duration row borders the system. One iteration costs
+/// O(N).
 ///
 /// Keeps its storage: after reserve(), or a problem of the same size, no memory is allocated.
 class FastSolver {
@@ -36,27 +26,17 @@ class FastSolver {
                     NarrowingKinks* kinks = nullptr);
 
   const FastState& state() const { return state_; }
-  double objective() const { return total_; }  ///< recovery included
-  double error() const { return error_; }      ///< gap and residuals, relative to the objective
+  double error() const { return open_.error(); }  ///< gap and residuals, relative to the objective
   int iterations() const { return iterations_; }
   void fill(Solution& solution) const;
 
  private:
-  void measure();
-  double dual_error();
-  bool iterate();
-
   const Problem* p_{};
-  NarrowingKinks* kinks_{};
   FastModel model_{};
   FastState state_{};
   NewtonStep newton_;
-  std::vector<double> dual_residual_{};
-  std::size_t pairs_{};
+  OpenConditions open_{};
   int iterations_{};
-  double total_{};
-  double mu_{}, error_{}, tolerance_{};
-  int at_rest_{};  ///< iterations that changed nothing but the rounding of the gradient
 };
 
 /// Solves one problem, on a fine grid from a start that is solved for on a coarser one, whose iterations are

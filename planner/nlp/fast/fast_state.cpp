@@ -34,15 +34,10 @@ void add_rows(FastState& state, const FastModel& model, double mu) {
 
 void add_recoveries(FastState& state, const FastModel& model, double mu) {
   const Problem& problem = model.problem();
-  const double weight = problem.recovery_weight;
   for (std::size_t k = 0; k < problem.segment_count(); ++k)
-    for (std::size_t c = 0; c < problem.channels; ++c) {
-      const double E = model.jets(k).energy_J[c].value;
-      // On the central path: z y = (E + z) (weight - y) = mu.
-      const double z = (2 * mu - weight * E + std::hypot(weight * E, 2 * mu)) / (2 * weight);
-      const double y = mu / z;
-      state.recoveries.push_back({.z = {.s = z, .y = y}, .sum = {.s = E + z, .y = weight - y}});
-    }
+    for (std::size_t c = 0; c < problem.channels; ++c)
+      state.recoveries.push_back(
+          Recovery::on_central_path(model.jets(k).energy_J[c].value, problem.recovery_weight, mu));
 }
 
 }  // namespace
@@ -62,9 +57,6 @@ void set_starting_state(FastModel& model, const FastStart& start, FastState& sta
   state.high.clear();
   state.sides.clear();
   state.recoveries.clear();
-  state.time = {};
-  state.lambda = state.time_residual = 0;
-  state.duration_row = problem.duration_row;
   for (std::size_t k = 1; k + 1 < state.b.size(); ++k) {
     const double cap = problem.cap[k].squared;
     state.b[k] = std::clamp(state.b[k], std::min(1e-12, 1e-3 * cap), cap * (1 - start.room));
@@ -75,11 +67,8 @@ void set_starting_state(FastModel& model, const FastStart& start, FastState& sta
   add_bounds(state, problem, mu);
   add_rows(state, model, mu);
   add_recoveries(state, model, mu);
-  if (state.has_budget()) {
-    const double s = std::max(problem.duration_s - model.duration_s(), 1e-3 * problem.duration_s);
-    state.time = {.s = s, .y = std::min(0.05 * size / s, 0.2 * size / problem.duration_s)};
-    if (start.price_W) state.time.y = *start.price_W;
-  }
+  state.time = TimeRow::at_start(problem, model.duration_s(), size);
+  if (state.time.is_budget() && start.price_W) state.time.slack.y = *start.price_W;
 }
 
 }  // namespace joulepath::nlp

@@ -22,11 +22,6 @@ void add_gradient(Stage& stage, const JerkJet& jet, double weight) {
   for (std::size_t i = 0; i < kLocal; ++i) stage.gradient[i] += weight * jet.d[i];
 }
 
-/// The remainder of z's stationarity: weight less both target multipliers.
-double excess_of(const Recovery& r, double weight) {
-  return weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
-}
-
 }  // namespace
 
 JerkNewton::JerkNewton(const JerkProgram& program, JerkState& state)
@@ -36,10 +31,17 @@ JerkNewton::JerkNewton(const JerkProgram& program, JerkState& state)
       system_(p_.segment_count()),
       dx_(program.unknown_count()) {}
 
-void JerkNewton::assemble() {
+void JerkNewton::add_equalities(double& work, double& worst) const {
+  for (std::size_t k = 0; k < state_.lambda.size(); ++k)
+    for (std::size_t i = 0; i < kKinematics; ++i) {
+      const double value = state_.values[k].rows[program_.first_kinematic_row(k) + i].value;
+      work += std::abs(value * state_.lambda[k][i]);
+      worst = std::max(worst, std::abs(value));
+    }
+}
+
+bool JerkNewton::factor() {
   shift_ = 0;
-  state_.for_each_pair([](Pair& pair) { pair.prepare(); });
-  for (Recovery& r : state_.recoveries) r.inverse_sigma = 1 / (r.z.sigma + r.sum.sigma);
   for (std::size_t k = 0; k < state_.values.size(); ++k) {
     system_.stages[k].hessian = {};
     system_.stages[k].border = state_.values[k].duration_s.d;
@@ -53,16 +55,17 @@ void JerkNewton::assemble() {
     const auto [k, i] = program_.place_of(side.unknown);
     system_.stages[k].hessian[i][i] += side.pair.sigma;
   }
+  return true;
 }
 
 void JerkNewton::assemble_energy(std::size_t k) {
   const std::vector<Jet>& energy_J = state_.values[k].energy_J;
   for (std::size_t c = 0; c < energy_J.size(); ++c) {
     double weight = p_.energy_weight, square = 0;
-    if (c < state_.parts()) {
-      const Recovery& r = state_.recoveries[k * state_.parts() + c];
+    if (c < parts()) {
+      const Recovery& r = state_.recoveries[k * parts() + c];
       weight -= r.sum.y;
-      square = r.z.sigma * r.sum.sigma * r.inverse_sigma;
+      square = r.curvature();
     }
     add_hessian(system_.stages[k], energy_J[c], weight, square);
   }
@@ -85,12 +88,7 @@ void JerkNewton::right_side() {
     add_gradient(stage, state_.values[k].duration_s, p_.time_weight_W);
     for (std::size_t c = 0; c < state_.values[k].energy_J.size(); ++c) {
       double part = p_.energy_weight;
-      if (c < state_.parts()) {
-        const Recovery& r = state_.recoveries[k * state_.parts() + c];
-        const double excess = excess_of(r, p_.recovery_weight);
-        part += -r.sum.corrected * r.sum.inverse +
-                r.sum.sigma * (r.z.sigma * r.residual - excess) * r.inverse_sigma;
-      }
+      if (c < parts()) part += state_.recoveries[k * parts() + c].slope(p_.recovery_weight);
       add_gradient(stage, state_.values[k].energy_J[c], part);
     }
   }
@@ -132,11 +130,12 @@ std::optional<StepSizes> JerkNewton::solve() {
 /// The multiplier for which the steps of all durations close the residual of the duration row.
 void JerkNewton::price_time() {
   new_price_ = 0;
-  if (!state_.has_duration()) return;
-  double wanted_s = state_.time_residual, slope = 0;
-  if (state_.has_budget()) {
-    wanted_s -= state_.time.corrected / state_.time.y;
-    slope -= state_.time.s / state_.time.y;
+  if (!state_.time.exists()) return;
+  double wanted_s = state_.time.residual, slope = 0;
+  if (state_.time.is_budget()) {
+    const Pair& slack = state_.time.slack;
+    wanted_s -= slack.corrected / slack.y;
+    slope -= slack.s / slack.y;
   }
   for (std::size_t k = 0; k < state_.values.size(); ++k)
     for (std::size_t i = 0; i < kLocal; ++i) {
@@ -155,19 +154,9 @@ double JerkNewton::change(std::size_t k, const Jet& jet) const {
 
 StepSizes JerkNewton::expand() {
   StepSizes sizes;
-  const auto move = [&](Pair& pair, double ds) { sizes.move(pair, ds); };
-  for (BoundSide& side : state_.bounds) move(side.pair, -side.sign * dx_[side.unknown]);
-  for (RowSide& side : state_.sides)
-    move(side.pair,
-         side.residual - side.sign * change(side.segment, state_.values[side.segment].rows[side.row]));
-  for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
-    Recovery& r = state_.recoveries[i];
-    const std::size_t k = i / state_.parts(), part = i % state_.parts();
-    const double moved = change(k, state_.values[k].energy_J[part]) + r.residual;
-    move(r.z, -(excess_of(r, p_.recovery_weight) + r.sum.sigma * moved) * r.inverse_sigma);
-    move(r.sum, moved + r.z.ds);
-  }
-  if (state_.has_budget()) sizes.move_budget(state_.time, new_price_);
+  for (BoundSide& side : state_.bounds) sizes.move(side.pair, -side.sign * dx_[side.unknown]);
+  expand_segments(
+      *this, [&](std::size_t k, const Jet& jet) { return change(k, jet); }, new_price_, sizes);
   return sizes;
 }
 
@@ -178,8 +167,7 @@ void JerkNewton::take(const StepSizes& sizes) {
   for (std::size_t k = 0; k < new_lambda_.size(); ++k)
     for (std::size_t i = 0; i < kKinematics; ++i)
       state_.lambda[k][i] += sizes.dual * (new_lambda_[k][i] - state_.lambda[k][i]);
-  if (state_.has_duration() && !state_.has_budget()) state_.price += sizes.dual * (new_price_ - state_.price);
-  state_.evaluate(program_);
+  state_.time.take(sizes, new_price_);
 }
 
 double JerkNewton::dual_error() const {
@@ -191,11 +179,11 @@ double JerkNewton::dual_error() const {
   };
   for (std::size_t k = 0; k < state_.values.size(); ++k) {
     const SegmentValues<kLocal>& values = state_.values[k];
-    add(k, values.duration_s, p_.time_weight_W + state_.multiplier_of_time());
+    add(k, values.duration_s, p_.time_weight_W + state_.time.multiplier());
     for (std::size_t c = 0; c < values.energy_J.size(); ++c) {
-      const bool recovers = c < state_.parts();
+      const bool recovers = c < parts();
       add(k, values.energy_J[c],
-          p_.energy_weight - (recovers ? state_.recoveries[k * state_.parts() + c].sum.y : 0.0));
+          p_.energy_weight - (recovers ? state_.recoveries[k * parts() + c].sum.y : 0.0));
     }
     for (std::size_t i = 0; i < kKinematics; ++i)
       add(k, values.rows[program_.first_kinematic_row(k) + i], state_.lambda[k][i]);

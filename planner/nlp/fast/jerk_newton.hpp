@@ -14,16 +14,24 @@ class JerkNewton {
  public:
   JerkNewton(const JerkProgram& program, JerkState& state);
 
-  /// Assembles the matrices at the state.
-  void assemble();
-  /// Steps of all unknowns and pairs towards the target complementarities (Pair::corrected). The matrices are
-  /// shifted until the steps descend; nothing if that fails.
-  [[nodiscard]] std::optional<StepSizes> solve();
-  /// Applies the last step and evaluates the program there.
-  void take(const StepSizes& sizes);
-
-  /// Sum over the unknowns of |gradient of the Lagrangian times the unknown|.
+  const Problem& problem() const { return p_; }
+  JerkState& state() { return state_; }
+  double objective() const { return state_.objective; }
+  double duration_s() const { return state_.duration_s; }
+  std::size_t parts() const { return state_.recoveries.size() / state_.values.size(); }
+  const JerkJet& row(const RowSide& side) const { return state_.values[side.segment].rows[side.row]; }
+  const JerkJet& energy(std::size_t segment, std::size_t part) const {
+    return state_.values[segment].energy_J[part];
+  }
+  void add_equalities(double& work, double& worst) const;
   [[nodiscard]] double dual_error() const;
+
+  /// Assembles the matrices at the state.
+  [[nodiscard]] bool factor();
+  /// The matrices are shifted until the steps descend; nothing if that fails.
+  [[nodiscard]] std::optional<StepSizes> solve();
+  void take(const StepSizes& sizes);
+  void evaluate() { state_.evaluate(program_); }
 
  private:
   using Jet = JerkJet;

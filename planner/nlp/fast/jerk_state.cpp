@@ -49,14 +49,10 @@ void add_rows(JerkState& state, const JerkProgram& program, double mu) {
 }
 
 void add_recoveries(JerkState& state, const Problem& problem, double mu) {
-  const double weight = problem.recovery_weight;
   for (const auto& values : state.values)
-    for (std::size_t c = 0; c < problem.channels * JerkProgram::kParts; ++c) {
-      const double E = values.energy_J[c].value;
-      // On the central path: z y = (E + z) (weight - y) = mu.
-      const double z = (2 * mu - weight * E + std::hypot(weight * E, 2 * mu)) / (2 * weight), y = mu / z;
-      state.recoveries.push_back({.z = {.s = z, .y = y}, .sum = {.s = E + z, .y = weight - y}});
-    }
+    for (std::size_t c = 0; c < problem.channels * JerkProgram::kParts; ++c)
+      state.recoveries.push_back(
+          Recovery::on_central_path(values.energy_J[c].value, problem.recovery_weight, mu));
 }
 
 }  // namespace
@@ -74,7 +70,7 @@ void JerkState::evaluate(const JerkProgram& program) {
 
 JerkState starting_state(const JerkProgram& program, double gap) {
   const Problem& problem = program.problem();
-  JerkState state{.duration_row = problem.duration_row};
+  JerkState state;
   state.values.resize(problem.segment_count());
   state.lambda.resize(problem.segment_count());
   for (std::size_t i = 0; i < program.unknown_count(); ++i)
@@ -85,10 +81,7 @@ JerkState starting_state(const JerkProgram& program, double gap) {
   add_bounds(state, program, mu);
   add_rows(state, program, mu);
   add_recoveries(state, problem, mu);
-  if (state.has_budget()) {
-    const double s = std::max(problem.duration_s - state.duration_s, 1e-3 * problem.duration_s);
-    state.time = {.s = s, .y = std::min(0.05 * size / s, 0.2 * size / problem.duration_s)};
-  }
+  state.time = TimeRow::at_start(problem, state.duration_s, size);
   return state;
 }
 

@@ -6,14 +6,14 @@
 namespace joulepath::nlp {
 
 void NewtonStep::reserve(std::size_t nodes) {
-  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_}) v->reserve(nodes);
+  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_, &dual_residual_}) v->reserve(nodes);
   for (Tridiagonal* matrix : {&hessian_, &original_}) matrix->reserve(nodes);
 }
 
 void NewtonStep::set_problem() {
   p_ = &model_.problem();
   const std::size_t n = p_->unknown_count();
-  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_}) v->assign(n, 0.0);
+  for (auto* v : {&gradient_, &step_, &time_gradient_, &time_solved_, &dual_residual_}) v->assign(n, 0.0);
   hessian_.resize(n);
 }
 
@@ -29,8 +29,9 @@ void NewtonStep::add_hessian(std::size_t segment, double h00, double h01, double
   if (segment > 0 && segment < n) hessian_.below[segment - 1] += h01;
 }
 
+/// At the current multipliers, bounds left out.
 void NewtonStep::lagrangian_gradient(std::vector<double>& to) const {
-  const double weight = p_->time_weight_W + state_.multiplier_of_time();
+  const double weight = p_->time_weight_W + state_.time.multiplier();
   for (std::size_t k = 0; k < p_->segment_count(); ++k) {
     const SegmentJets& j = model_.jets(k);
     double g0 = weight * j.duration_s.d[0], g1 = weight * j.duration_s.d[1];
@@ -48,9 +49,17 @@ void NewtonStep::lagrangian_gradient(std::vector<double>& to) const {
   }
 }
 
+/// Gradient of the Lagrangian, times b.
+double NewtonStep::dual_error() {
+  std::fill(dual_residual_.begin(), dual_residual_.end(), 0.0);
+  lagrangian_gradient(dual_residual_);
+  double error = 0;
+  for (std::size_t k = 0; k < dual_residual_.size(); ++k)
+    error += std::abs(dual_residual_[k] - state_.low[k].y + state_.high[k].y) * state_.b[k + 1];
+  return error;
+}
+
 bool NewtonStep::factor() {
-  state_.for_each_pair([](Pair& pair) { pair.prepare(); });
-  for (Recovery& r : state_.recoveries) r.inverse_sigma = 1 / (r.z.sigma + r.sum.sigma);
   for (std::size_t k = 0; k < state_.low.size(); ++k)
     hessian_.diagonal[k] = state_.low[k].sigma + (state_.high[k].s > 0 ? state_.high[k].sigma : 0.0);
   std::fill(hessian_.below.begin(), hessian_.below.end(), 0.0);
@@ -62,7 +71,7 @@ bool NewtonStep::factor() {
 }
 
 void NewtonStep::add_segments() {
-  const double weight = p_->time_weight_W + state_.multiplier_of_time();
+  const double weight = p_->time_weight_W + state_.time.multiplier();
   for (std::size_t k = 0; k < p_->segment_count(); ++k) {
     const SegmentJets& j = model_.jets(k);
     const Jet& dt = j.duration_s;
@@ -73,7 +82,7 @@ void NewtonStep::add_segments() {
       if (c < p_->channels) {
         const Recovery& r = state_.recoveries[k * p_->channels + c];
         part -= r.sum.y;
-        const double sigma = r.z.sigma * r.sum.sigma * r.inverse_sigma;
+        const double sigma = r.curvature();
         h00 += sigma * E.d[0] * E.d[0];
         h01 += sigma * E.d[0] * E.d[1];
         h11 += sigma * E.d[1] * E.d[1];
@@ -107,7 +116,7 @@ bool NewtonStep::factor_shifted() {
   return false;
 }
 
-StepSizes NewtonStep::solve() {
+std::optional<StepSizes> NewtonStep::solve() {
   right_side();
   hessian_.solve(step_);
   border();
@@ -124,12 +133,7 @@ void NewtonStep::right_side() {
     double g0 = p_->time_weight_W * j.duration_s.d[0], g1 = p_->time_weight_W * j.duration_s.d[1];
     for (std::size_t c = 0; c < 2; ++c) {
       double part = p_->energy_weight;
-      if (c < p_->channels) {
-        const Recovery& r = state_.recoveries[k * p_->channels + c];
-        const double wanted = r.sum.corrected * r.sum.inverse;
-        const double excess = p_->recovery_weight - r.z.corrected * r.z.inverse - wanted;
-        part += -wanted + r.sum.sigma * (r.z.sigma * r.residual - excess) * r.inverse_sigma;
-      }
+      if (c < p_->channels) part += state_.recoveries[k * p_->channels + c].slope(p_->recovery_weight);
       g0 += part * j.energy_J[c].d[0];
       g1 += part * j.energy_J[c].d[1];
     }
@@ -145,26 +149,26 @@ void NewtonStep::right_side() {
 
 /// The duration row's part of the system, the same for every right side.
 void NewtonStep::factor_border() {
-  if (!state_.has_duration()) return;
+  if (!state_.time.exists()) return;
   std::fill(time_gradient_.begin(), time_gradient_.end(), 0.0);
   for (std::size_t k = 0; k < p_->segment_count(); ++k)
     add_gradient(k, model_.jets(k).duration_s.d[0], model_.jets(k).duration_s.d[1], time_gradient_);
   time_solved_ = time_gradient_;
   hessian_.solve(time_solved_);
-  border_pivot_ = state_.has_budget() ? state_.time.s / state_.time.y : 0.0;
+  border_pivot_ = state_.time.is_budget() ? state_.time.slack.s / state_.time.slack.y : 0.0;
   for (std::size_t k = 0; k < step_.size(); ++k) border_pivot_ += time_gradient_[k] * time_solved_[k];
 }
 
 /// The duration row: one more unknown, its multiplier.
 void NewtonStep::border() {
-  new_lambda_ = 0;
-  if (!state_.has_duration()) return;
-  const Pair& time = state_.time;
+  new_price_ = 0;
+  if (!state_.time.exists()) return;
+  const TimeRow& time = state_.time;
   double along = 0;
   for (std::size_t k = 0; k < step_.size(); ++k) along += time_gradient_[k] * step_[k];
-  const double centering = state_.has_budget() ? time.corrected / time.y : 0.0;
-  new_lambda_ = (along + centering - state_.time_residual) / border_pivot_;
-  for (std::size_t k = 0; k < step_.size(); ++k) step_[k] -= new_lambda_ * time_solved_[k];
+  const double centering = time.is_budget() ? time.slack.corrected / time.slack.y : 0.0;
+  new_price_ = (along + centering - time.residual) / border_pivot_;
+  for (std::size_t k = 0; k < step_.size(); ++k) step_[k] -= new_price_ * time_solved_[k];
 }
 
 /// Steps of all eliminated variables, and the largest admissible step lengths.
@@ -173,34 +177,21 @@ StepSizes NewtonStep::expand() {
   const auto step_at = [&](std::size_t node) {
     return node == 0 || node == state_.b.size() - 1 ? 0.0 : step_[node - 1];
   };
-  const auto move = [&](Pair& pair, double ds) { sizes.move(pair, ds); };
   for (std::size_t k = 0; k < state_.low.size(); ++k) {
-    move(state_.low[k], step_[k]);
-    if (state_.high[k].s > 0) move(state_.high[k], -step_[k]);
+    sizes.move(state_.low[k], step_[k]);
+    if (state_.high[k].s > 0) sizes.move(state_.high[k], -step_[k]);
   }
-  for (RowSide& side : state_.sides) {
-    const Jet& g = model_.row(side.row);
-    const double moved = g.d[0] * step_at(side.segment) + g.d[1] * step_at(side.segment + 1);
-    move(side.pair, side.residual - side.sign * moved);
-  }
-  for (std::size_t i = 0; i < state_.recoveries.size(); ++i) {
-    Recovery& r = state_.recoveries[i];
-    const std::size_t k = i / p_->channels;
-    const Jet& E = model_.jets(k).energy_J[i % p_->channels];
-    const double moved = E.d[0] * step_at(k) + E.d[1] * step_at(k + 1) + r.residual;
-    const double excess = p_->recovery_weight - r.z.corrected * r.z.inverse - r.sum.corrected * r.sum.inverse;
-    move(r.z, -(excess + r.sum.sigma * moved) * r.inverse_sigma);
-    move(r.sum, moved + r.z.ds);
-  }
-  if (state_.has_budget()) sizes.move_budget(state_.time, new_lambda_);
+  const auto change = [&](std::size_t k, const Jet& jet) {
+    return jet.d[0] * step_at(k) + jet.d[1] * step_at(k + 1);
+  };
+  expand_segments(*this, change, new_price_, sizes);
   return sizes;
 }
 
 void NewtonStep::take(const StepSizes& sizes) {
   for (std::size_t k = 0; k < step_.size(); ++k) state_.b[k + 1] += sizes.primal * step_[k];
   state_.for_each_pair([&](Pair& pair) { sizes.take(pair); });
-  if (state_.has_duration() && !state_.has_budget())
-    state_.lambda += sizes.dual * (new_lambda_ - state_.lambda);
+  state_.time.take(sizes, new_price_);
   for (std::size_t k = 0; k < step_.size(); ++k) state_.low[k].s = state_.b[k + 1];
 }
 

@@ -5,62 +5,37 @@
 
 namespace joulepath::nlp {
 
-/// Weight of the dual residual in the error that ends an iteration: residuals of the stationarity conditions
-/// are much larger numbers than the gap.
-inline constexpr double kDualWeight = 1e-3;
-
-/// Largest step lengths before a slack or a multiplier becomes zero.
-struct StepSizes {
-  double primal{1.0}, dual{1.0};
-
-  /// Sets a pair's step, of which the dual part follows from the primal one.
-  void move(Pair& pair, double ds) {
-    pair.ds = ds;
-    pair.dual_step();
-    keep_positive(pair);
-  }
-  /// Sets the step of the duration's budget to a multiplier.
-  void move_budget(Pair& time, double multiplier) {
-    time.dy = multiplier - time.y;
-    time.ds = (time.corrected - time.s * multiplier) / time.y;
-    keep_positive(time);
-  }
-  /// Applies a pair's step.
-  void take(Pair& pair) const {
-    pair.s += primal * pair.ds;
-    pair.y += dual * pair.dy;
-  }
-
- private:
-  void keep_positive(const Pair& pair) {
-    constexpr double kToBoundary = 0.995;
-    if (pair.s + primal * pair.ds < (1 - kToBoundary) * pair.s) primal = -kToBoundary * pair.s / pair.ds;
-    if (pair.y + dual * pair.dy < (1 - kToBoundary) * pair.y) dual = -kToBoundary * pair.y / pair.dy;
-  }
-};
-
 /// The Newton system of FastState. Every row and every recovery variable is eliminated within its segment,
 /// what is left by b is tridiagonal, the duration borders it. O(N).
 class NewtonStep {
  public:
-  NewtonStep(const FastModel& model, FastState& state) : model_(model), state_(state) {}
+  NewtonStep(FastModel& model, FastState& state) : model_(model), state_(state) {}
 
   /// Room for problems of this size.
   void reserve(std::size_t nodes);
   /// Takes the model's problem.
   void set_problem();
 
+  const Problem& problem() const { return *p_; }
+  FastState& state() { return state_; }
+  double objective() const { return model_.objective(); }
+  double duration_s() const { return model_.duration_s(); }
+  std::size_t parts() const { return p_->channels; }
+  const Jet& row(const RowSide& side) const { return model_.row(side.row); }
+  const Jet& energy(std::size_t segment, std::size_t part) const {
+    return model_.jets(segment).energy_J[part];
+  }
+  void add_equalities(double&, double&) const {}  // b follows its kinematics exactly
+  [[nodiscard]] double dual_error();
+
   /// Assembles and factors at the state; shifted until positive definite, false where that fails.
   [[nodiscard]] bool factor();
-  /// Steps of b and of every pair towards the complementarities wanted (Pair::corrected).
-  StepSizes solve();
-  /// Takes the last step.
+  [[nodiscard]] std::optional<StepSizes> solve();
   void take(const StepSizes& sizes);
-
-  /// Gradient of the Lagrangian by b at the current multipliers, bounds left out.
-  void lagrangian_gradient(std::vector<double>& to) const;
+  void evaluate() { model_.evaluate(state_.b); }
 
  private:
+  void lagrangian_gradient(std::vector<double>& to) const;
   void add_gradient(std::size_t segment, double g0, double g1, std::vector<double>& to) const;
   void add_hessian(std::size_t segment, double h00, double h01, double h11);
   void add_segments();
@@ -71,11 +46,11 @@ class NewtonStep {
   void border();
   StepSizes expand();
 
-  const FastModel& model_;
+  FastModel& model_;
   const Problem* p_{};
   FastState& state_;
-  double new_lambda_{}, border_pivot_{};
-  std::vector<double> gradient_{}, step_{}, time_gradient_{}, time_solved_{};
+  double new_price_{}, border_pivot_{};
+  std::vector<double> gradient_{}, step_{}, time_gradient_{}, time_solved_{}, dual_residual_{};
   Tridiagonal hessian_{}, original_{};
 };
 

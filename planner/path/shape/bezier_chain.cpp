@@ -5,15 +5,13 @@
 #include <iterator>
 
 #include "planner/path/geometry/bezier_geometry.hpp"
+#include "planner/path/geometry/rounding.hpp"
 #include "planner/path/geometry/segment_ends.hpp"
 
 namespace joulepath {
 namespace {
 
 using Kind = BezierFinding::Kind;
-
-constexpr double kRounding_m = 1e-3;
-constexpr double kRounding_rad = 1e-3;
 
 BezierPoints in_map_frame(const BezierPoints& points_m, const Pose& start) {
   const double c = std::cos(start.heading_rad), s = std::sin(start.heading_rad);

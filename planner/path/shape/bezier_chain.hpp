@@ -11,7 +11,7 @@ namespace joulepath {
 struct BezierFinding {
   enum class Kind {
     not_finite,           ///< a control point is not a finite number
-    no_length,            ///< all four control points coincide
+    no_length,            ///< all four control points coincide within kRounding_m
     cusp,                 ///< the tangent vanishes and turns back inside of a curve
     unbounded_curvature,  ///< the tangent vanishes at an end (p0 == p1 or p2 == p3) of a curve that bends
     gap,                  ///< a curve does not begin at the end of the previous one (or at the robot)
@@ -41,10 +41,10 @@ enum class BezierFrame { start, map };
 /// Drives a chain of cubic Bezier curves forward from a pose.
 ///
 /// In `BezierFrame::start` control points are in the robot's frame at `start`, else in the map frame. The
-/// chain must begin at the robot and each curve at the end of the previous one (steps up to 1 mm and 1 mrad
-/// are rounding: p0 and p1 of the later curve are moved to close them). At a heading step, at the beginning
-/// too, the robot turns in place; at a curvature step alone it stops. Curves with all control points on one
-/// line become exactly straight.
+/// chain must begin at the robot and each curve at the end of the previous one (steps up to kRounding_m and
+/// kRounding_rad are rounding: p0 and p1 of the later curve are moved to close them). At a heading step, at
+/// the beginning too, the robot turns in place; at a curvature step alone it stops. Curves with all control
+/// points on one line become exactly straight.
 [[nodiscard]] BezierChainResult bezier_chain(const std::vector<BezierPoints>& curves_m, const Pose& start,
                                              BezierFrame frame);
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "planner/path/geometry/bezier_geometry.hpp"
+#include "planner/path/geometry/rounding.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 
 namespace joulepath {
@@ -72,7 +73,8 @@ std::vector<BezierFinding> bezier_defects(const BezierPoints& p, std::size_t cur
       return {{Kind::not_finite, curve, 0, 0, 0, 0,
                "curve " + std::to_string(curve) + ": a control point is not finite"}};
   const double scale_m = control_polygon_length_m(p);
-  if (scale_m < 1e-9) return {finding(Kind::no_length, p, curve, 0, "all control points coincide")};
+  if (scale_m < kRounding_m)
+    return {finding(Kind::no_length, p, curve, 0, "all control points coincide within 1 mm")};
   std::vector<BezierFinding> defects;
   if (on_a_line(p)) {
     for (const double t : turning_parameters_on_a_line(p))

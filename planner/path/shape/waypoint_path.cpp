@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/printable.hpp"
+#include "planner/path/geometry/rounding.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/corner_blend.hpp"
 #include "planner/path/shape/smoothing_spline.hpp"
@@ -13,8 +14,9 @@
 namespace joulepath {
 namespace {
 
-constexpr double kSamePlace_m = 1e-6;
-constexpr double kTurnsBack_rad = 1e-6;  ///< turns within this angle of half a turn are reversals on a line
+constexpr double kSamePlace_m = 1e-5;  ///< of dense waypoints: the robot stood
+constexpr double kLeastRound_m =
+    1e-4;  ///< the path leaves a rounded corner at least by this, where it has room
 constexpr double kTurnsBackDense_rad = 2.8;
 constexpr double kLook = 5;   ///< length, in tolerances, over which the direction of dense waypoints is taken
 constexpr double kDense = 8;  ///< tolerances between neighbors
@@ -37,13 +39,16 @@ std::vector<double> chords_m(const std::vector<Point2>& points_m) {
   return chords;
 }
 
-std::optional<WaypointDefect> senseless(const std::vector<Point2>& points_m) {
+std::optional<WaypointDefect> senseless(const std::vector<Point2>& points_m, double least_m) {
   if (points_m.size() < 2)
     return WaypointDefect{0, false, std::to_string(points_m.size()) + " waypoints", "two waypoints or more"};
   const std::vector<double> chord = chords_m(points_m);
   for (std::size_t i = 0; i < chord.size(); ++i)
-    if (!(chord[i] > kSamePlace_m))
-      return WaypointDefect{i + 1, false, "the place of the waypoint before", "a waypoint at another place"};
+    if (!(chord[i] >= least_m))
+      return WaypointDefect{i + 1, false,
+                            chord[i] > 0 ? metres(chord[i]) + " from the waypoint before"
+                                         : std::string("the place of the waypoint before"),
+                            "at least " + metres(least_m) + " from the waypoint before"};
   return std::nullopt;
 }
 
@@ -89,19 +94,42 @@ std::optional<WaypointDefect> no_radius(const std::vector<double>& radius_m) {
   return std::nullopt;
 }
 
+/// From each corner back to where its blend begins; 0 without a blend.
+std::vector<double> tangents_m(const std::vector<Point2>& points_m, const std::vector<double>& radius_m) {
+  std::vector<double> tangents(points_m.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
+    const double angle = std::abs(corner_angle_rad(points_m, i));
+    if (radius_m[i] > 0 && angle > kNoCorner_rad && angle <= kSharpestBlend_rad)
+      tangents[i] = radius_m[i] * blend_shape(angle).tangent;
+  }
+  return tangents;
+}
+
+/// The radii as driven. A corner of a few microradians with a blend of half a meter would turn within
+/// micrometers: a slight corner gets the radius at which its blend leaves it by kLeastRound_m, as far as half
+/// of the room to its neighbors' blends allows. A corner within kRounding_rad is rounded even where the robot
+/// would turn on the spot.
+std::vector<double> driven_radii_m(const std::vector<Point2>& points_m, const std::vector<double>& radius_m) {
+  const std::vector<double> chord = chords_m(points_m), tangent = tangents_m(points_m, radius_m);
+  std::vector<double> driven = radius_m;
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
+    const double angle = std::abs(corner_angle_rad(points_m, i));
+    if (angle <= kNoCorner_rad || (radius_m[i] == 0 && angle > kRounding_rad)) continue;
+    const BlendShape shape = blend_shape(angle);
+    const double room_m = 0.5 * std::min(chord[i - 1] - tangent[i - 1], chord[i] - tangent[i + 1]);
+    driven[i] = std::max(radius_m[i], std::min(kLeastRound_m / shape.deviation, room_m / shape.tangent));
+  }
+  return driven;
+}
+
 /// The verdict on a corner whose blend does not fit between the neighboring blends.
 std::optional<WaypointDefect> too_wide(const std::vector<Point2>& points_m,
                                        const std::vector<double>& radius_m) {
-  const std::vector<double> chord = chords_m(points_m);
-  std::vector<double> tangent(points_m.size(), 0.0);
-  for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
-    const double angle = corner_angle_rad(points_m, i);
-    if (radius_m[i] <= 0 || std::abs(angle) < kNoCorner_rad) continue;
-    if (std::abs(angle) > kSharpestBlend_rad)
+  const std::vector<double> chord = chords_m(points_m), tangent = tangents_m(points_m, radius_m);
+  for (std::size_t i = 1; i + 1 < points_m.size(); ++i)
+    if (radius_m[i] > 0 && std::abs(corner_angle_rad(points_m, i)) > kSharpestBlend_rad)
       return WaypointDefect{i, true, metres(radius_m[i]) + " at a corner that turns back",
                             "0, to turn on the spot"};
-    tangent[i] = radius_m[i] * blend_shape(angle).tangent;
-  }
   std::size_t widest = 0;
   double room_m = 0;
   for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
@@ -123,11 +151,11 @@ bool are_dense(const std::vector<Point2>& points_m, double tolerance_m) {
 }
 
 /// The places where a curve ends and the next begins after a turn in place: inner waypoints whose next
-/// waypoint is exactly behind.
+/// waypoint is straight behind.
 std::vector<std::size_t> turning_points(const std::vector<Point2>& points_m) {
   std::vector<std::size_t> turns;
   for (std::size_t i = 1; i + 1 < points_m.size(); ++i)
-    if (std::abs(corner_angle_rad(points_m, i)) > std::numbers::pi - kTurnsBack_rad) turns.push_back(i);
+    if (std::abs(corner_angle_rad(points_m, i)) > std::numbers::pi - kRounding_rad) turns.push_back(i);
   return turns;
 }
 
@@ -200,7 +228,8 @@ WaypointPath curve_through(const std::vector<Point2>& waypoints_m, double tolera
     points_m.push_back(here);
     number.push_back(i);
   }
-  if (auto defect = senseless(points_m)) return {.defect = std::move(defect)};
+  if (auto defect = senseless(points_m, dense ? kSamePlace_m : kRounding_m))
+    return {.defect = std::move(defect)};
   std::vector<std::size_t> ends =
       dense ? turning_points_of_dense(points_m, tolerance_m) : turning_points(points_m);
   ends.push_back(points_m.size() - 1);
@@ -220,10 +249,10 @@ WaypointPath curve_through(const std::vector<Point2>& waypoints_m, double tolera
 }
 
 WaypointPath lines_between(const std::vector<Point2>& waypoints_m, const std::vector<double>& radius_m) {
-  if (auto defect = senseless(waypoints_m)) return {.defect = std::move(defect)};
+  if (auto defect = senseless(waypoints_m, kRounding_m)) return {.defect = std::move(defect)};
   if (auto defect = no_radius(radius_m)) return {.defect = std::move(defect)};
   if (auto defect = too_wide(waypoints_m, radius_m)) return {.defect = std::move(defect)};
-  return {.path = blended_polyline(waypoints_m, radius_m)};
+  return {.path = blended_polyline(waypoints_m, driven_radii_m(waypoints_m, radius_m))};
 }
 
 }  // namespace joulepath

@@ -32,14 +32,16 @@ inline constexpr double kWaypointTolerance_m = 0.01;
 /// than 8 tolerances on average: an error of the tolerance at one would bend the curve through it to a radius
 /// below 8 tolerances.
 ///
-/// Where the waypoints reverse exactly, the robot stops and turns in place between two splines. Requires two
-/// waypoints or more; neighbors must differ, except that dense ones may repeat a place (a robot that stood).
+/// Where the waypoints reverse (within kRounding_rad), the robot stops and turns in place between two
+/// splines. Requires two waypoints or more, neighbors at least kRounding_m apart; dense ones may be closer
+/// and repeat a place (a robot that stood).
 [[nodiscard]] WaypointPath curve_through(const std::vector<Point2>& waypoints_m,
                                          double tolerance_m = kWaypointTolerance_m);
 
 /// Straight lines from waypoint to waypoint. Corner i is rounded by a blend (see blended_polyline) of
-/// smallest radius radius_m[i], at least kLeastCornerRadius_m; 0: the robot stops and turns there. The ends'
-/// radii are ignored.
+/// smallest radius radius_m[i], at least kLeastCornerRadius_m; 0: the robot stops and turns there, except
+/// within kRounding_rad. Slight corners are rounded more widely, so that a path with waypoints nearly on a
+/// line is nearly the path along the line. The ends' radii are ignored; waypoints must be kRounding_m apart.
 [[nodiscard]] WaypointPath lines_between(const std::vector<Point2>& waypoints_m,
                                          const std::vector<double>& radius_m);
 
