@@ -195,9 +195,10 @@ ItemMarks marks_of(const Node& node) {
 MissionRequest mission_from(const Document& document, const ReadOptions& options) {
   static const Schema schema = mission_schema();
   refuse_absent_document(document);
-  check_document(document, "mission", schema);
   const Node root = document.root();
-  for (const auto& [key, node] : root.entries()) refuse_absent_word("key", key, node);
+  if (root.kind() == Value::Kind::map)
+    for (const auto& [key, node] : root.entries()) refuse_absent_word("key", key, node);
+  check_document(document, "mission", schema);
   if (const auto map = root.find("map"), stations = root.find("stations");
       map && stations && stations->has(map->text()))
     map->fail_found("the station " + map->text(), "the name of a Nav2 map file (YAML)");
@@ -245,7 +246,8 @@ const MissionDocument* mission_document_of(const Document& document) {
 MissionRequest read_mission(const std::string& file, const ReadOptions& options) {
   const Document document = Document::load(file);
   if (const MissionDocument* other = mission_document_of(document))
-    throw ConfigError({{file, 1, 1}, "", other->says + ", which names no robot", "a mission file", other->use});
+    throw ConfigError(
+        {{file, 1, 1}, "", other->says + ", which names no robot", "a mission file", other->use});
   return mission_from(document, options);
 }
 

@@ -30,19 +30,20 @@ void read_order_as_mission(MissionRequest& mission) {
 }
 
 /// A field of version 2, then that of version 3.
-const std::vector<std::pair<std::string, std::vector<std::string>>> kStateColumns{
-    {"linear_speed_m_s", {"velocity.vx"}},
-    {"angular_speed_rad_s", {"velocity.omega"}},
-    {"position_x_m", {"agvPosition.x", "mobileRobotPosition.x"}},
-    {"position_y_m", {"agvPosition.y", "mobileRobotPosition.y"}},
-    {"heading_rad", {"agvPosition.theta", "mobileRobotPosition.theta"}},
-    {"battery_voltage_V", {"batteryState.batteryVoltage", "powerSupply.batteryVoltage"}},
-    {"battery_current_A", {"powerSupply.batteryCurrent"}}};
+std::vector<std::pair<std::string, std::vector<std::string>>> state_columns() {
+  return {{"linear_speed_m_s", {"velocity.vx"}},
+          {"angular_speed_rad_s", {"velocity.omega"}},
+          {"position_x_m", {"agvPosition.x", "mobileRobotPosition.x"}},
+          {"position_y_m", {"agvPosition.y", "mobileRobotPosition.y"}},
+          {"heading_rad", {"agvPosition.theta", "mobileRobotPosition.theta"}},
+          {"battery_voltage_V", {"batteryState.batteryVoltage", "powerSupply.batteryVoltage"}},
+          {"battery_current_A", {"powerSupply.batteryCurrent"}}};
+}
 
 }  // namespace
 
 void add_vda5050(Registry& registry) {
-  registry.messages.push_back({is_state_lines, read_state_lines, kStateType, kStateColumns});
+  registry.messages.push_back({is_state_lines, read_state_lines, kStateType, state_columns()});
   registry.files.push_back({.kind = "order", .told_by_content = is_order, .check = check_order_file});
   registry.mission_keys.push_back({.key = "order", .read = read_named_order});
   registry.mission_documents.push_back(

@@ -38,7 +38,7 @@ def _(name, folder, source):
 @case("key")
 def _(name, folder, source):
     file = folder / "mission.yaml"
-    file.write_text(f"name: m\nrobot: {source / ROBOT}\n{name}: 1\n")
+    file.write_text(f"schema: joulepath/mission/1\nrobot: {source / ROBOT}\n{name}: 1\n")
     for command in (["plan", file, "--out", folder / "out"], ["check", file]):
         yield command, f"{file}:3:"
 
