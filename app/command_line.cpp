@@ -4,8 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "scenarios/document.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {
@@ -46,7 +46,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 
 /// A word of an extension that this program was built without.
 std::string absent_text(const std::string& found, std::string_view extension) {
-  return "found " + found + ", accepted: " + accepted_extension(extension) + " (" + extension_hint(extension) + ")";
+  return "found " + found + ", accepted: " + accepted_extension(extension) + " (" +
+         extension_hint(extension) + ")";
 }
 
 std::string unknown_command(int argc, const char* const* argv, const Commands& commands) {
@@ -69,7 +70,8 @@ std::string unknown_argument(const CLI::App& app) {
   if (std::find(names.begin(), names.end(), argument) != names.end())
     return "found " + argument + " before the command, accepted: options after the command's name";
   for (const CLI::App* command : app.get_subcommands())
-    if (const auto extension = absent_extension("option", command->get_name() + " " + argument); !extension.empty())
+    if (const auto extension = absent_extension("option", command->get_name() + " " + argument);
+        !extension.empty())
       return absent_text(argument, extension);
   return "unknown argument " + argument + did_you_mean(argument, names);
 }

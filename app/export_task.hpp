@@ -5,7 +5,7 @@
 
 #include "app/command.hpp"
 #include "scenarios/export/exports.hpp"
-#include "scenarios/mission_source.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
 
 namespace joulepath {
 

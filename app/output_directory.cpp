@@ -13,7 +13,7 @@
 #include "app/command.hpp"
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 // Design: docs/decisions/0700-results-and-jobs.md
 namespace joulepath {
 namespace {

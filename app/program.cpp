@@ -13,7 +13,7 @@
 #include "model/assert.hpp"
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

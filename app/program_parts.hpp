@@ -8,7 +8,7 @@
 #include "app/command.hpp"
 #include "app/export_task.hpp"
 #include "app/jobs/job_part.hpp"
-#include "app/plan_comparison.hpp"
+#include "app/plan/plan_comparison.hpp"
 
 namespace joulepath {
 
@@ -27,7 +27,8 @@ struct ProgramParts {
   }
 };
 
-/// Made by CMake from JOULEPATH_EXTENSIONS (cmake/joulepath_extension.cmake): calls add_NAME_commands() of each.
+/// Made by CMake from JOULEPATH_EXTENSIONS (cmake/joulepath_extension.cmake): calls add_NAME_commands() of
+/// each.
 void add_extension_commands(ProgramParts& parts);
 
 [[nodiscard]] inline ProgramParts extension_parts() {

@@ -1,7 +1,7 @@
 // One libFuzzer target for each kind of input: FUZZ_KIND=robot|mission|... chooses the reader. Datasets and
-// logs that are read are checked and diagnosed, too, with FUZZ_DIAGNOSE=1 and where they are short. An input is right, or it is
-// refused with a ConfigError; anything else (crash, sanitizer report, other exception, more time or memory
-// than the limits of ./dev fuzz) is a finding. Another value lists the targets.
+// logs that are read are checked and diagnosed, too, with FUZZ_DIAGNOSE=1 and where they are short. An input
+// is right, or it is refused with a ConfigError; anything else (crash, sanitizer report, other exception,
+// more time or memory than the limits of ./dev fuzz) is a finding. Another value lists the targets.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -21,7 +21,7 @@
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 
 namespace {
 

@@ -9,17 +9,17 @@
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/counted.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/fleet_file.hpp"
-#include "scenarios/map_file.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/path_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/repaired_dataset.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/mission_files/fleet_file.hpp"
+#include "scenarios/mission_files/map_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/path_file.hpp"
 #include "scenarios/registry.hpp"
-#include "scenarios/repaired_dataset.hpp"
-#include "scenarios/robot_check.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/robot_files/robot_check.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -147,14 +147,16 @@ std::string kind_of(const Document& document) {
 FileSummary read_any_file(const std::string& file, const std::string& given_kind, const ReadOptions& options,
                           bool brief) {
   if (const std::string_view needed = absent_extension("kind", given_kind); !needed.empty())
-    throw ConfigError({{file, 0, 0}, "", "kind " + given_kind, accepted_extension(needed), extension_hint(needed)});
+    throw ConfigError(
+        {{file, 0, 0}, "", "kind " + given_kind, accepted_extension(needed), extension_hint(needed)});
   const std::string extension = std::filesystem::path(file).extension().string();
   if (is_waypoint_file(file) && (given_kind == "path" || (given_kind.empty() && has_waypoints(file))))
     return summary_of_path(read_waypoints(file));
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
   for (const FileReader& reader : registry().files)
-    if (reader.told_by_name && (given_kind == reader.kind || (given_kind.empty() && reader.told_by_name(file))))
+    if (reader.told_by_name &&
+        (given_kind == reader.kind || (given_kind.empty() && reader.told_by_name(file))))
       return reader.check(file, options);
   refuse_absent_file(file);
   const Document document = Document::load(file);

@@ -5,7 +5,7 @@
 
 #include "diagnosis/values/data_check.hpp"
 #include "diagnosis/values/isolability.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 

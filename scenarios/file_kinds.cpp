@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/fleet_file.hpp"
-#include "scenarios/map_file.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/output_schemas.hpp"
-#include "scenarios/path_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/mission_files/fleet_file.hpp"
+#include "scenarios/mission_files/map_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/path_file.hpp"
 #include "scenarios/registry.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/result_files/output_schemas.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenarios/next_line.hpp"
+#include "scenarios/text/next_line.hpp"
 
 namespace joulepath {
 namespace {
@@ -73,7 +73,8 @@ std::string extension_hint(std::string_view extension) {
 
 void refuse_absent_word(std::string_view part, const std::string& word, const Node& place) {
   if (const std::string_view extension = absent_extension(part, word); !extension.empty())
-    place.fail_found(std::string(part) + " " + word, accepted_extension(extension), extension_hint(extension));
+    place.fail_found(std::string(part) + " " + word, accepted_extension(extension),
+                     extension_hint(extension));
 }
 
 void refuse_absent_file(const std::string& file, const NamedBy& named_by) {
@@ -90,8 +91,8 @@ void refuse_absent_document(const Document& document) {
   for (const Addition& addition : known_additions())
     if (!addition.is_built && addition.part == "document" &&
         all_words(addition.name, [&](const std::string& key) { return root.has(key); }))
-      root.fail_found("keys of another format: " + std::string(addition.name), accepted_extension(addition.extension),
-                      extension_hint(addition.extension));
+      root.fail_found("keys of another format: " + std::string(addition.name),
+                      accepted_extension(addition.extension), extension_hint(addition.extension));
 }
 
 }  // namespace joulepath

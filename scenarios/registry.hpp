@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 
@@ -54,7 +54,8 @@ struct FileReader {
 /// Reads what a key of a mission file names.
 struct MissionKey {
   std::string key{};
-  void (*read)(MissionRequest& mission, const Node& node){};  ///< after stations, legs and visits; null: nothing
+  void (*read)(MissionRequest& mission,
+               const Node& node){};  ///< after stations, legs and visits; null: nothing
   /// Reads the file that the key names, if the mission has it; null: none.
   void (*read_file)(const MissionRequest& mission, MissionWorld& world){};
 };
@@ -90,8 +91,8 @@ struct Registry {
 /// A word of an extension's file `adds`, which this program has or not.
 struct Addition {
   std::string_view extension{};
-  std::string_view part{};   ///< command, option, export, key, kind, file, folder, document, lines or messages
-  std::string_view name{};   ///< document, lines: keys, separated by blanks
+  std::string_view part{};  ///< command, option, export, key, kind, file, folder, document, lines or messages
+  std::string_view name{};  ///< document, lines: keys, separated by blanks
   bool is_built{};
 };
 
@@ -107,8 +108,8 @@ void add_extensions(Registry& registry);
 [[nodiscard]] std::string accepted_extension(std::string_view extension);
 [[nodiscard]] std::string extension_hint(std::string_view extension);
 
-/// These throw ConfigError for an input that needs an extension which this program was built without: a key or a
-/// kind at its place, a file by its name or its first line, a document by its keys.
+/// These throw ConfigError for an input that needs an extension which this program was built without: a key
+/// or a kind at its place, a file by its name or its first line, a document by its keys.
 void refuse_absent_word(std::string_view part, const std::string& word, const Node& place);
 void refuse_absent_file(const std::string& file, const NamedBy& named_by = {});
 void refuse_absent_document(const Document& document);

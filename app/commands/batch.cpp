@@ -4,7 +4,7 @@
 #include "app/commands.hpp"
 #include "app/jobs/job_results.hpp"
 #include "app/jobs/mission_planner.hpp"
-#include "app/plan_options.hpp"
+#include "app/plan/plan_options.hpp"
 #include "model/printable.hpp"
 
 namespace joulepath {

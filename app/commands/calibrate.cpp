@@ -7,8 +7,8 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/calibration/calibration.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

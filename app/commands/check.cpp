@@ -9,9 +9,9 @@
 #include "app/terminal.hpp"
 #include "model/printable.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/repaired_dataset.hpp"
-#include "scenarios/write_diagnosis.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/repaired_dataset.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {

@@ -4,17 +4,17 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/plan_analysis.hpp"
-#include "app/plan_options.hpp"
-#include "app/plan_summary.hpp"
-#include "app/profile_columns.hpp"
+#include "app/plan/plan_analysis.hpp"
+#include "app/plan/plan_options.hpp"
+#include "app/plan/plan_summary.hpp"
+#include "app/plan/profile_columns.hpp"
 #include "app/program_parts.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/accounts/plan_accounts.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {
 namespace {

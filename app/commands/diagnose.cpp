@@ -2,18 +2,18 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/diagnosis_results.hpp"
-#include "app/left_out_effects.hpp"
+#include "app/diagnose/diagnosis_results.hpp"
+#include "app/diagnose/left_out_effects.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/effects/effect_label.hpp"
-#include "scenarios/corrected_dataset.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/diagnosis_sentence.hpp"
-#include "scenarios/next_step.hpp"
-#include "scenarios/repaired_dataset.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/corrected_dataset.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/repaired_dataset.hpp"
+#include "scenarios/result_files/diagnosis_sentence.hpp"
+#include "scenarios/result_files/next_step.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -7,8 +7,8 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/estimation/estimate_dataset.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/run_log.hpp"
 
 namespace joulepath {
 namespace {

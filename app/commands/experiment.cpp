@@ -6,8 +6,8 @@
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/write_diagnosis.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {

@@ -5,15 +5,15 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/export_task.hpp"
-#include "app/loss_table.hpp"
-#include "app/plan_options.hpp"
+#include "app/plan/loss_table.hpp"
+#include "app/plan/plan_options.hpp"
 #include "app/program_parts.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/export/exports.hpp"
-#include "scenarios/log_tables.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/log_tables.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 // Design: docs/decisions/0603-orders-and-exports.md
 namespace joulepath {
 namespace {

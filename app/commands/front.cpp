@@ -6,16 +6,16 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "app/plan_analysis.hpp"
-#include "app/plan_options.hpp"
-#include "app/plan_summary.hpp"
+#include "app/plan/plan_analysis.hpp"
+#include "app/plan/plan_options.hpp"
+#include "app/plan/plan_summary.hpp"
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "planner/baselines/comparison.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/mission/mission_time.hpp"
 #include "planner/mission/plan_front.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {
 namespace {

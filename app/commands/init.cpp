@@ -8,8 +8,8 @@
 #include "app/output_directory.hpp"
 #include "app/starter_files.hpp"
 #include "model/simulation/simulate.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,17 +1,17 @@
 #include <chrono>
 #include <iostream>
 
-#include "app/cache_choice.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/jobs/cache_choice.hpp"
+#include "app/jobs/progress.hpp"
 #include "app/output_directory.hpp"
-#include "app/plan_options.hpp"
-#include "app/plan_results.hpp"
-#include "app/plan_summary.hpp"
-#include "app/progress.hpp"
+#include "app/plan/plan_options.hpp"
+#include "app/plan/plan_results.hpp"
+#include "app/plan/plan_summary.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {
 namespace {

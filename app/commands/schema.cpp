@@ -1,4 +1,4 @@
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 #include <iostream>
 

@@ -9,9 +9,9 @@
 #include "app/commands.hpp"
 #include "app/output_directory.hpp"
 #include "app/terminal.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
-#include "scenarios/simulation_input.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/log_files/simulation_input.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

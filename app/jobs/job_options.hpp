@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/cache_choice.hpp"
 #include "app/command.hpp"
+#include "app/jobs/cache_choice.hpp"
 #include "app/jobs/run_jobs.hpp"
 
 namespace joulepath {

@@ -7,7 +7,7 @@
 
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
-#include "scenarios/counted.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -25,8 +25,7 @@ std::string joined(const std::vector<std::string>& lines) {
 OutputDirectory job_output(const JobOptions& options, const JobRun& run,
                            const std::vector<std::string>& files) {
   // A whole run that is finished may be another one's; a task of a cluster may run its finished shard again.
-  const bool continues =
-      options.resume && (run.part || std::filesystem::exists(journal_file(options.out)));
+  const bool continues = options.resume && (run.part || std::filesystem::exists(journal_file(options.out)));
   return {options.out, run.part ? run.part->files() : files, options.common.force || continues};
 }
 

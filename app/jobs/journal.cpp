@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "app/command.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 namespace {

@@ -7,8 +7,8 @@
 #include "app/jobs/content_hash.hpp"
 #include "model/printable.hpp"
 #include "planner/accounts/plan_accounts.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_check.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_check.hpp"
 
 namespace joulepath {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/cache_choice.hpp"
+#include "app/jobs/cache_choice.hpp"
 #include "app/jobs/run_jobs.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/mission_list.hpp"
+#include "scenarios/mission_files/mission_list.hpp"
 
 namespace joulepath {
 

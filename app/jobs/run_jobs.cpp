@@ -9,12 +9,12 @@
 
 #include "app/interrupt.hpp"
 #include "app/jobs/journal.hpp"
-#include "app/progress.hpp"
+#include "app/jobs/progress.hpp"
 #include "model/config_error.hpp"
 #include "model/printable.hpp"
 #include "model/workers.hpp"
-#include "scenarios/counted.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/counted.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "diagnosis/calibration/calibration.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

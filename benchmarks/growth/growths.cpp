@@ -13,7 +13,7 @@
 #include "diagnosis/values/diagnosis.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"

@@ -17,7 +17,7 @@
 #include "planner/nlp/fast/jerk_fast_solver.hpp"
 #include "planner/nlp/ipopt/ipopt_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/random_profiles.hpp"
 
 namespace joulepath {

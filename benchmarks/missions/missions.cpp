@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/missions/speeds.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace {

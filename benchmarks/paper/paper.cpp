@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "benchmarks/paper/sections.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 
 namespace joulepath::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "benchmarks/problems/generator.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::problems {
 namespace {

@@ -1,8 +1,6 @@
 // Routes of a Dijkstra search with the semantics of Nav2's route planner (costs of edges in single precision,
 // independent of the edge before) on exported graphs. The joules of the routes are those of full plans from
 // stop to stop.
-#include "extensions/nav2/route_graph_export.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,11 +13,12 @@
 #include <random>
 #include <stdexcept>
 
+#include "extensions/nav2/route_graph_export.hpp"
 #include "model/limit_table.hpp"
 #include "planner/motion/motion_energy.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/write_diagnosis.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
 
 namespace joulepath {
 namespace {

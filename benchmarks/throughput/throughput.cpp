@@ -18,8 +18,8 @@
 #include "benchmarks/support/prepared_problem.hpp"
 #include "planner/nlp/fast/fast_solver.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/planner/path/grids.hpp"
 #include "tests/support/locations.hpp"
 

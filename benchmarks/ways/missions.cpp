@@ -7,7 +7,7 @@
 
 #include "benchmarks/missions/draw.hpp"
 #include "benchmarks/ways/brute_force.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath::ways {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "scenarios/map_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/map_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/planner/path/grids.hpp"
 
 namespace joulepath::ways {

@@ -9,7 +9,7 @@
 #include "extensions/bags/message_numbers.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/registry.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 namespace {

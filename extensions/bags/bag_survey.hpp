@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "extensions/bags/bag_file.hpp"
-#include "scenarios/log_columns.hpp"
+#include "scenarios/log_files/log_columns.hpp"
 
 namespace joulepath {
 

@@ -6,8 +6,8 @@
 #include "extensions/bags/bag_log.hpp"
 #include "extensions/bags/bag_survey.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/counted.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/text/counted.hpp"
 // Design: docs/decisions/0602-bags.md
 
 namespace joulepath {
@@ -45,11 +45,11 @@ FileSummary check_bag(const std::string& file, const ReadOptions&) {
 void add_bags(Registry& registry) {
   registry.logs.push_back({is_bag, read_bag_log});
   registry.files.push_back({.kind = "bag", .told_by_name = is_bag, .check = check_bag});
-  registry.exports.push_back(
-      {.name = "bag",
-       .says = "nav_msgs/Path and Odometry (CDR) and the power (JSON) over time, for Foxglove and PlotJuggler (MCAP)",
-       .write = export_bag,
-       .write_log = log_bag});
+  registry.exports.push_back({.name = "bag",
+                              .says = "nav_msgs/Path and Odometry (CDR) and the power (JSON) over time, for "
+                                      "Foxglove and PlotJuggler (MCAP)",
+                              .write = export_bag,
+                              .write_log = log_bag});
 }
 
 }  // namespace joulepath

@@ -3,7 +3,7 @@
 #include "extensions/bags/byte_reader.hpp"
 #include "extensions/bags/field_path.hpp"
 #include "extensions/bags/message_numbers.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/values/dataset.hpp"
-#include "scenarios/csv_table.hpp"
+#include "scenarios/text/csv_table.hpp"
 
 namespace joulepath {
 

@@ -1,7 +1,7 @@
 #include "extensions/nav2/exports.hpp"
 #include "extensions/nav2/leg_settings.hpp"
 #include "scenarios/export/loss_json.hpp"
-#include "scenarios/output_schemas.hpp"
+#include "scenarios/result_files/output_schemas.hpp"
 
 namespace joulepath {
 namespace {

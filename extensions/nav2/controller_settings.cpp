@@ -7,7 +7,7 @@
 
 #include "extensions/nav2/exports.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

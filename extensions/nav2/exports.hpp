@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenarios/export/exports.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 

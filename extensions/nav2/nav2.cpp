@@ -2,8 +2,8 @@
 #include "extensions/nav2/route_graph_file.hpp"
 #include "planner/values/mission_request.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/counted.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -23,16 +23,18 @@ void read_named_graph(const MissionRequest& mission, MissionWorld& world) {
 }  // namespace
 
 void add_nav2(Registry& registry) {
-  registry.files.push_back({.kind = "route graph", .told_by_content = is_route_graph, .check = check_route_graph});
+  registry.files.push_back(
+      {.kind = "route graph", .told_by_content = is_route_graph, .check = check_route_graph});
   registry.kinds.push_back({"controller", controller_schema, "result of export --to controller"});
   registry.mission_keys.push_back({.key = "route_graph", .read_file = read_named_graph});
   registry.exports.push_back(
-      {"controller", "speed, acceleration and deceleration for each leg, with the resulting energy loss (JSON)",
+      {"controller",
+       "speed, acceleration and deceleration for each leg, with the resulting energy loss (JSON)",
        export_controller});
-  registry.exports.push_back(
-      {"nav2_settings",
-       "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the resulting energy loss (YAML)",
-       export_nav2_settings});
+  registry.exports.push_back({"nav2_settings",
+                              "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the "
+                              "resulting energy loss (YAML)",
+                              export_nav2_settings});
   registry.exports.push_back(
       {"speed_mask", "a Nav2 speed mask (YAML and PGM), and the resulting energy loss", export_speed_mask});
 }

@@ -13,8 +13,8 @@
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
 #include "planner/path/shape/corner_blend.hpp"
-#include "scenarios/document.hpp"
-#include "scenarios/quoted.hpp"
+#include "scenarios/text/document.hpp"
+#include "scenarios/text/quoted.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "scenarios/physical_bounds.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/path/search/route_graph.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 

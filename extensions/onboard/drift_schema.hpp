@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/document.hpp"
-#include "scenarios/next_line.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/document.hpp"
+#include "scenarios/text/next_line.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 namespace {

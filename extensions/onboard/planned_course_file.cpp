@@ -5,8 +5,8 @@
 
 #include "extensions/onboard/planned_trajectory.hpp"
 #include "model/normal_quantiles.hpp"
-#include "scenarios/document.hpp"
-#include "scenarios/plan_robot.hpp"
+#include "scenarios/mission_files/plan_robot.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "extensions/onboard/planned_trajectory.hpp"
 #include "planner/legs/stretch.hpp"
-#include "scenarios/plan_robot.hpp"
+#include "scenarios/mission_files/plan_robot.hpp"
 
 namespace joulepath {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "model/log_columns.hpp"
-#include "scenarios/csv_table.hpp"
+#include "scenarios/text/csv_table.hpp"
 
 namespace joulepath {
 

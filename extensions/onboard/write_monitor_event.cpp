@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/significant.hpp"
+#include "scenarios/text/significant.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,8 +1,8 @@
 #include "extensions/studies/result_schemas.hpp"
 #include "extensions/studies/study_file.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/counted.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/text/counted.hpp"
 
 namespace joulepath {
 namespace {
@@ -25,9 +25,11 @@ FileSummary check_study(const std::string& file, const ReadOptions& options) {
 
 void add_studies(Registry& registry) {
   registry.files.push_back({.kind = "study", .told_by_content = is_study, .check = check_study});
-  registry.kinds.push_back({"study", study_schema, "designs of a robot or a mission to compare: joulepath sweep"});
+  registry.kinds.push_back(
+      {"study", study_schema, "designs of a robot or a mission to compare: joulepath sweep"});
   registry.kinds.push_back({"sweep", sweep_schema, "result of sweep: sweep.json"});
-  registry.kinds.push_back({"shard", shard_schema, "shard.json: data of one part of a batch or a sweep for merge"});
+  registry.kinds.push_back(
+      {"shard", shard_schema, "shard.json: data of one part of a batch or a sweep for merge"});
 }
 
 }  // namespace joulepath

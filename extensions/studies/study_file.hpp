@@ -7,8 +7,8 @@
 #include "extensions/studies/sweep/design_table.hpp"
 #include "model/robot.hpp"
 #include "planner/values/mission_request.hpp"
-#include "scenarios/mission_list.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/mission_files/mission_list.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 

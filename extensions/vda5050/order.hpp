@@ -6,7 +6,7 @@
 
 #include "planner/path/geometry/nurbs.hpp"
 #include "planner/values/mission_request.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 

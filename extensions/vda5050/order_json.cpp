@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "planner/path/geometry/quintic_fit.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 namespace {

@@ -1,5 +1,5 @@
 #include "extensions/vda5050/order.hpp"
-#include "scenarios/physical_bounds.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
 
 namespace joulepath {
 namespace {

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "extensions/vda5050/order.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "scenarios/next_line.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/next_line.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "scenarios/document.hpp"
-#include "scenarios/messages.hpp"
+#include "scenarios/log_files/messages.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath {
 

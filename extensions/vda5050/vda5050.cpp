@@ -2,8 +2,8 @@
 #include "extensions/vda5050/order_mission.hpp"
 #include "extensions/vda5050/state_lines.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/counted.hpp"
 #include "scenarios/registry.hpp"
+#include "scenarios/text/counted.hpp"
 // Design: docs/decisions/0603-orders-and-exports.md
 
 namespace joulepath {

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "python/bindings/bindings.hpp"
-#include "scenarios/log_columns.hpp"
-#include "scenarios/physical_bounds.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/log_columns.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
 
 namespace joulepath::python {
 

@@ -3,16 +3,16 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "app/diagnosis_results.hpp"
-#include "app/left_out_effects.hpp"
+#include "app/diagnose/diagnosis_results.hpp"
+#include "app/diagnose/left_out_effects.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/errors.hpp"
 #include "python/bindings/robot.hpp"
 #include "python/bindings/stop.hpp"
-#include "scenarios/corrected_dataset.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/corrected_dataset.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::python {
 namespace {

@@ -17,9 +17,9 @@
 #include "python/bindings/errors.hpp"
 #include "python/bindings/robot.hpp"
 #include "python/bindings/stop.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/mission_source.hpp"
-#include "scenarios/path_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
+#include "scenarios/mission_files/path_file.hpp"
 
 namespace joulepath::python {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/plan_results.hpp"
+#include "app/plan/plan_results.hpp"
 #include "planner/path/geometry/path.hpp"
 #include "python/bindings/arrays.hpp"
 

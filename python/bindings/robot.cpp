@@ -5,7 +5,7 @@
 #include "app/starter_files.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/errors.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::python {
 namespace {

@@ -10,8 +10,8 @@
 #include "python/bindings/plan.hpp"
 #include "python/bindings/robot.hpp"
 #include "python/bindings/stop.hpp"
-#include "scenarios/effect_list.hpp"
-#include "scenarios/simulation_input.hpp"
+#include "scenarios/log_files/simulation_input.hpp"
+#include "scenarios/robot_files/effect_list.hpp"
 
 namespace joulepath::python {
 namespace {

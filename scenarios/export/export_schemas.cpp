@@ -1,4 +1,4 @@
-#include "scenarios/output_schemas.hpp"
+#include "scenarios/result_files/output_schemas.hpp"
 
 namespace joulepath {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "app/jobs/journal.hpp"
 #include "app/jobs/mission_planner.hpp"
-#include "app/progress.hpp"
+#include "app/jobs/progress.hpp"
 #include "tests/app/program_result.hpp"
 
 namespace joulepath {

@@ -1,4 +1,4 @@
-#include "app/cache_choice.hpp"
+#include "app/jobs/cache_choice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "planner/mission/mission.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/plan_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/plan_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath {

@@ -6,9 +6,9 @@
 #include "benchmarks/paper/drive.hpp"
 #include "benchmarks/paper/printed.hpp"
 #include "model/operating_point.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "diagnosis/energies_only/energy_run.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/diagnosis_sentence.hpp"
+#include "scenarios/result_files/diagnosis_sentence.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"
 #include "tests/support/typical_effect.hpp"
@@ -63,7 +63,8 @@ TEST(ForeignRobot, IsToldByTheConstantsThatDiffer) {
 
 TEST(ForeignRobot, IsNotSeenInItsOwnFileNorInAScaledChannel) {
   EXPECT_TRUE(foreign_in(day_of(testing::nomad(), testing::nomad())).empty());
-  EXPECT_TRUE(foreign_in(day_of(testing::nomad(), with_mass(1.8))).empty()) << "a calibration error, or a load";
+  EXPECT_TRUE(foreign_in(day_of(testing::nomad(), with_mass(1.8))).empty())
+      << "a calibration error, or a load";
   for (const double scale : {1e-3, 0.2, 5.0, 1e3})
     for (int channel = 0; channel < 3; ++channel) {
       Dataset dataset = day_of(testing::nomad(), testing::nomad());

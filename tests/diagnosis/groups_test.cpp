@@ -9,7 +9,7 @@
 
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/write_diagnosis.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
 #include "tests/support/blind_day.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/synthetic_log.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "tests/support/practice_sets.hpp"
 
 namespace joulepath {

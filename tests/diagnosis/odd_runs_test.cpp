@@ -7,7 +7,7 @@
 #include "diagnosis/evidence/refit.hpp"
 #include "diagnosis/prediction/nuisance.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/diagnosis_sentence.hpp"
-#include "scenarios/next_step.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/result_files/diagnosis_sentence.hpp"
+#include "scenarios/result_files/next_step.hpp"
 #include "tests/support/nomad.hpp"
 #include "tests/support/practice_sets.hpp"
 #include "tests/support/synthetic_log.hpp"

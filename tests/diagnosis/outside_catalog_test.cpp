@@ -5,7 +5,7 @@
 
 #include "diagnosis/evidence/attribution.hpp"
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/standstill_cuts.hpp"
+#include "scenarios/log_files/standstill_cuts.hpp"
 #include "tests/support/blind_day.hpp"
 
 namespace joulepath {

@@ -1,3 +1,5 @@
+#include "tests/support/practice_sets.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,10 +9,9 @@
 #include <vector>
 
 #include "diagnosis/values/diagnosis.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/decision_cost.hpp"
-#include "scenarios/write_diagnosis.hpp"
-#include "tests/support/practice_sets.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/result_files/decision_cost.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
 #include "tests/support/practice_truth.hpp"
 
 namespace joulepath {

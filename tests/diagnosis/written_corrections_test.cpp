@@ -1,13 +1,13 @@
-// Every robot that a diagnosis writes reads back: calibration constants in their boxes, values that the schema
-// accepts.
+// Every robot that a diagnosis writes reads back: calibration constants in their boxes, values that the
+// schema accepts.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "diagnosis/correction/judged_model.hpp"
-#include "scenarios/next_step.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/result_files/next_step.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath {
@@ -24,18 +24,22 @@ double constant_of(const Robot& robot, const std::string& key) {
 /// Fits that leave their boxes by any factor, for uncertainties from 1 % to total.
 TEST(WrittenCorrection, KeepsEveryConstantInItsBoxAndItsSign) {
   std::mt19937_64 random(11);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
   for (int draw = 0; draw < 200; ++draw) {
     Dataset dataset{.robot = testing::nomad()};
     Robot& robot = dataset.robot;
     const double sigma = std::pow(10, uniform(-2, 0));
-    for (const char* key : {"chassis_mass_kg", "wheel_axle_inertia_kg_m2", "resistance_ohm", "friction_torque_Nm"})
+    for (const char* key :
+         {"chassis_mass_kg", "wheel_axle_inertia_kg_m2", "resistance_ohm", "friction_torque_Nm"})
       robot.uncertainty[key] = sigma;
     const RunsByUse runs;
     const Identification id{.nuisances = calibration_nuisances(robot)};
     const Examination x{.dataset = dataset, .runs = runs, .id = id};
     ModelState fit;
-    for (std::size_t k = 0; k < id.nuisances.size(); ++k) fit.nuisance_fraction.push_back(uniform(-10, 10) * sigma);
+    for (std::size_t k = 0; k < id.nuisances.size(); ++k)
+      fit.nuisance_fraction.push_back(uniform(-10, 10) * sigma);
     const ModelState boxed = within_calibration(x, fit);
     const Robot written = corrected_robot(x, boxed);
     EXPECT_EQ(refusal_of(written), "") << sigma;
@@ -68,7 +72,8 @@ Run slope_run(const Cart& cart, const Robot& robot, int n) {
     const double t = k * dt_s, error = (t > 0.3 && t < 3.3 ? 10 * up : 0) - read;
     integral += error * dt_s;
     const double current = std::clamp(0.05 * error + 0.25 * integral, -1.0, 1.0);
-    const double load = mass_kg * 9.81 * cart.slope * radius_m / 2 + motor.friction_torque_Nm * std::tanh(speed / 0.2);
+    const double load =
+        mass_kg * 9.81 * cart.slope * radius_m / 2 + motor.friction_torque_Nm * std::tanh(speed / 0.2);
     speed += dt_s * (cart.torque_constant * current - load) / (inertia + mass_kg * radius_m * radius_m / 2);
     read += dt_s * (speed - read) / cart.lag_s;
     if (k % 20 != 0) continue;
@@ -89,12 +94,16 @@ Dataset slope_day(const Cart& cart) {
   robot.geometry = {.wheel_radius_m = {0.033, 0.033}, .half_track_m = 0.077};
   robot.inertia = {0.84, 0.03, 0.004, 0.01, 4e-4, 2e-5};
   for (Side side : kSides)
-    robot.motor[side] = {.gear_ratio = 1, .resistance_ohm = 12.6, .torque_constant_Nm_A = 0.458,
-                         .voltage_constant_V_s_rad = 0.458, .viscous_friction_Nm_s_rad = 1e-4,
-                         .friction_torque_Nm = 0.0195, .max_voltage_V = 12};
-  robot.uncertainty = {{"friction_torque_Nm", 0.1}, {"resistance_ohm", 0.05}, {"torque_constant_Nm_A", 0.02},
-                       {"voltage_constant_V_s_rad", 0.05}, {"chassis_mass_kg", 0.25},
-                       {"wheel_axle_inertia_kg_m2", 0.5}};
+    robot.motor[side] = {.gear_ratio = 1,
+                         .resistance_ohm = 12.6,
+                         .torque_constant_Nm_A = 0.458,
+                         .voltage_constant_V_s_rad = 0.458,
+                         .viscous_friction_Nm_s_rad = 1e-4,
+                         .friction_torque_Nm = 0.0195,
+                         .max_voltage_V = 12};
+  robot.uncertainty = {{"friction_torque_Nm", 0.1},    {"resistance_ohm", 0.05},
+                       {"torque_constant_Nm_A", 0.02}, {"voltage_constant_V_s_rad", 0.05},
+                       {"chassis_mass_kg", 0.25},      {"wheel_axle_inertia_kg_m2", 0.5}};
   for (int n = 0; n < 6; ++n) dataset.runs.push_back(slope_run(cart, robot, n));
   return dataset;
 }
@@ -107,11 +116,12 @@ TEST(WrittenCorrection, OfAFitThatNoRobotHasReadsBackOrIsRefusedWithTheReason) {
   }
 }
 
-/// Where the program reads no correction at all, none is written, nothing is called explained, and the answer says
-/// why.
+/// Where the program reads no correction at all, none is written, nothing is called explained, and the answer
+/// says why.
 TEST(WrittenCorrection, IsNotWrittenWhereTheProgramRefusesIt) {
   Dataset dataset = slope_day({0.458, 0.15, 0.02});
-  const Diagnosis d = diagnose(dataset, {.bootstrap = 20, .refusal = [](const Robot&) { return "motor: no"; }});
+  const Diagnosis d =
+      diagnose(dataset, {.bootstrap = 20, .refusal = [](const Robot&) { return "motor: no"; }});
   EXPECT_FALSE(d.corrected_robot);
   EXPECT_NE(d.verdict, Verdict::explained);
   ASSERT_EQ(d.refused_correction, "motor: no");

@@ -13,7 +13,7 @@
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/path/geometry/path.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/run_log.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -43,8 +43,7 @@ OccupancyGrid floor_without_walls() {
 PlannedMission planned(const std::string& name, MissionRequest mission) {
   PlannedMission result{.name = name, .mission = std::move(mission), .world = {.robot = testing::nomad()}};
   if (!result.mission.stations.empty()) result.world.map = floor_without_walls();
-  const PlanOptions options{
-      .solver = SolverChoice::fast, .nodes = 40, .accuracy = 1e-3, .baselines = false};
+  const PlanOptions options{.solver = SolverChoice::fast, .nodes = 40, .accuracy = 1e-3, .baselines = false};
   result.plan = plan_mission(result.mission, result.world, options);
   result.plant = make_plant(result.world.robot);
   return result;
@@ -131,8 +130,7 @@ void expect_continuous(const std::vector<Row>& rows, double duration_s, const st
 std::vector<Row> rows_of(const Trajectory& motion) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < motion.size(); ++k)
-    rows.push_back(
-        {motion.time_s[k], motion.position_x_m[k], motion.position_y_m[k], motion.heading_rad[k]});
+    rows.push_back({motion.time_s[k], motion.position_x_m[k], motion.position_y_m[k], motion.heading_rad[k]});
   return rows;
 }
 
@@ -142,10 +140,10 @@ std::vector<Row> rows_of(const Json& list) {
   for (const Json& entry : list) {
     const Json& pose = entry["pose"].contains("pose") ? entry["pose"]["pose"] : entry["pose"];
     const Json& stamp = entry["header"]["stamp"];
-    rows.push_back({stamp["sec"].get<double>() + 1e-9 * stamp["nanosec"].get<double>(),
-                    pose["position"]["x"], pose["position"]["y"],
-                    2 * std::atan2(pose["orientation"]["z"].get<double>(),
-                                   pose["orientation"]["w"].get<double>())});
+    rows.push_back(
+        {stamp["sec"].get<double>() + 1e-9 * stamp["nanosec"].get<double>(), pose["position"]["x"],
+         pose["position"]["y"],
+         2 * std::atan2(pose["orientation"]["z"].get<double>(), pose["orientation"]["w"].get<double>())});
   }
   return rows;
 }
@@ -202,8 +200,8 @@ TEST(ContinuousPlan, EnergyAndChargeFollowEachOther) {
           << plan.name << " row " << k;
     ASSERT_TRUE(plan.plan.battery) << plan.name;
     const BatteryAccount& battery = *plan.plan.battery;
-    double charge_J = (battery.start_fraction - battery.end_fraction) *
-                      plan.plant.robot.battery.capacity_Wh * kJoulesPerWh;
+    double charge_J =
+        (battery.start_fraction - battery.end_fraction) * plan.plant.robot.battery.capacity_Wh * kJoulesPerWh;
     EXPECT_NEAR(charge_J, plan.plan.energy.total_J() + battery.loss_J, 1e-6 * charge_J) << plan.name;
     EXPECT_EQ(battery.fraction_after_leg.back(), battery.end_fraction) << plan.name;
   }

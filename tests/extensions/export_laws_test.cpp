@@ -13,7 +13,7 @@
 #include "planner/mission/mission.hpp"
 #include "planner/path/geometry/path.hpp"
 #include "scenarios/export/exports.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/run_log.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/nomad.hpp"
 

@@ -14,8 +14,8 @@
 #include "planner/mission/mission.hpp"
 #include "scenarios/any_file.hpp"
 #include "scenarios/export/exports.hpp"
-#include "scenarios/map_file.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/map_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath {

@@ -8,7 +8,7 @@
 #include "extensions/nav2/exports.hpp"
 #include "extensions/vda5050/order_json.hpp"
 #include "planner/mission/mission.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath {

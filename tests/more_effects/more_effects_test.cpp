@@ -9,8 +9,8 @@
 #include "planner/motion/motion_energy.hpp"
 #include "planner/motion/path_motion.hpp"
 #include "planner/profile/profile_solver.hpp"
-#include "scenarios/effect_list.hpp"
-#include "scenarios/write_diagnosis.hpp"
+#include "scenarios/result_files/write_diagnosis.hpp"
+#include "scenarios/robot_files/effect_list.hpp"
 #include "tests/support/nomad.hpp"
 
 /// The product with the three effects of more_effects.hpp; every part must use them without a change.

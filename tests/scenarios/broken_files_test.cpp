@@ -20,18 +20,20 @@ namespace {
 
 const std::string kBroken = JOULEPATH_SOURCE_DIR "/tests/data/broken/";
 
-/// Lists of names that are tables of the model: `<limits>` in the file stands for all keys of limits.
+/// Lists of names that are tables of the program: `<limits>` in the file stands for all keys of limits.
 std::map<std::string, std::string> names_of_tables() {
-  std::vector<std::string> limits, by_payload, effects;
+  std::vector<std::string> limits, by_payload, effects, schemas;
   for (const Limit& row : kLimits) {
     if (row.field == nullptr) continue;
     limits.emplace_back(row.key);
     if (row.by_payload) by_payload.emplace_back(row.key);
   }
   for (const EffectDescription& effect : effect_catalog()) effects.emplace_back(effect.info.name);
+  for (const FileKind& kind : file_kinds()) schemas.push_back("joulepath/" + kind.name + "/1");
   return {{"<limits>", text_of_list(limits)},
           {"<limits by payload>", text_of_list(by_payload)},
-          {"<effects>", text_of_list(effects)}};
+          {"<effects>", text_of_list(effects)},
+          {"<schemas>", text_of_list(schemas)}};
 }
 
 std::map<std::string, std::string> expected_messages() {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath::testing {

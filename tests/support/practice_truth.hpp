@@ -4,7 +4,7 @@
 
 #include "model/effects/catalog.hpp"
 #include "model/robot.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath::testing {
 

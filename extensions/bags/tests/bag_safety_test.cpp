@@ -7,7 +7,7 @@
 #include "extensions/bags/bag_file.hpp"
 #include "extensions/bags/tests/bag_fixture.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath::testing {
 namespace {

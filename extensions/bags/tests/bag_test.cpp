@@ -7,8 +7,8 @@
 #include "extensions/bags/bag_survey.hpp"
 #include "extensions/bags/message_numbers.hpp"
 #include "extensions/bags/tests/bag_fixture.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/run_log.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {

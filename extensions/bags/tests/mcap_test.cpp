@@ -10,7 +10,7 @@
 #include "extensions/bags/tests/chunked_bag.hpp"
 #include "model/kinematics.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/run_log.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {

@@ -8,7 +8,7 @@
 
 #include "extensions/bags/tests/bag_fixture.hpp"
 #include "extensions/bags/tests/chunked_bag.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/run_log.hpp"
 #include "tests/support/nomad.hpp"
 
 namespace joulepath::testing {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
-#include "app/loss_table.hpp"
+#include "app/plan/loss_table.hpp"
 #include "extensions/nav2/commands/nav2_commands.hpp"
 #include "extensions/nav2/controller_settings.hpp"
 #include "scenarios/export/loss_json.hpp"

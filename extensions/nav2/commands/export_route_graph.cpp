@@ -4,8 +4,8 @@
 #include "app/terminal.hpp"
 #include "extensions/nav2/commands/nav2_commands.hpp"
 #include "extensions/nav2/route_graph_export.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {
@@ -13,9 +13,10 @@ namespace {
 class RouteGraphTask : public ExportTask {
  public:
   RouteGraphTask()
-      : ExportTask("route_graph",
-                   "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and the route server's "
-                   "settings (YAML)") {}
+      : ExportTask(
+            "route_graph",
+            "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and the route server's "
+            "settings (YAML)") {}
 
   void declare(CommandLine& line) override {
     line.option("--corner-radius", corner_radius_m_,

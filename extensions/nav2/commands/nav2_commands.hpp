@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/export_task.hpp"
-#include "app/plan_comparison.hpp"
+#include "app/plan/plan_comparison.hpp"
 
 namespace joulepath {
 

@@ -1,5 +1,3 @@
-#include "extensions/nav2/route_graph_export.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +7,9 @@
 #include <queue>
 #include <set>
 
+#include "extensions/nav2/route_graph_export.hpp"
 #include "extensions/nav2/route_graph_file.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
 #include "tests/support/nomad.hpp"

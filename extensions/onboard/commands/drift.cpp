@@ -8,8 +8,8 @@
 #include "app/terminal.hpp"
 #include "extensions/onboard/commands/onboard_commands.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {
@@ -24,8 +24,8 @@ std::string values_of(Robot robot) {
   return robot_text(robot);
 }
 
-/// Constants that were calibrated with different robot files differ by the files. Throws ConfigError where the
-/// values of `day` are not those of `first`.
+/// Constants that were calibrated with different robot files differ by the files. Throws ConfigError where
+/// the values of `day` are not those of `first`.
 void demand_same_robot(const Dataset& first, const Dataset& day) {
   if (values_of(day.robot) == values_of(first.robot)) return;
   throw ConfigError({{day.file, 0, 0},

@@ -12,9 +12,9 @@
 #include "extensions/onboard/planned_pieces.hpp"
 #include "extensions/onboard/replan/follow_drive.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
-#include "scenarios/simulation_input.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/log_files/simulation_input.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

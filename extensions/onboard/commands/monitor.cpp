@@ -9,9 +9,9 @@
 #include "extensions/onboard/log_stream.hpp"
 #include "extensions/onboard/planned_course_file.hpp"
 #include "extensions/onboard/write_monitor_event.hpp"
-#include "scenarios/log_tables.hpp"
-#include "scenarios/robot_file.hpp"
-#include "scenarios/run_log.hpp"
+#include "scenarios/log_files/log_tables.hpp"
+#include "scenarios/log_files/run_log.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "planner/path/geometry/path.hpp"
-#include "scenarios/plan_robot.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/plan_robot.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
 

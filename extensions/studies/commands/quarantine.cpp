@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "model/config_error.hpp"
-#include "scenarios/document.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/document.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath {
 

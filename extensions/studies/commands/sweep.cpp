@@ -6,7 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/jobs/job_results.hpp"
 #include "app/output_directory.hpp"
-#include "app/plan_options.hpp"
+#include "app/plan/plan_options.hpp"
 #include "extensions/studies/commands/studies_commands.hpp"
 #include "extensions/studies/commands/sweep_jobs.hpp"
 #include "extensions/studies/commands/sweep_output.hpp"

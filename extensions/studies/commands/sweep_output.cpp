@@ -9,8 +9,8 @@
 #include "extensions/studies/commands/sweep_result.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
-#include "scenarios/counted.hpp"
-#include "scenarios/significant.hpp"
+#include "scenarios/text/counted.hpp"
+#include "scenarios/text/significant.hpp"
 
 namespace joulepath {
 namespace {

@@ -6,9 +6,9 @@
 #include "extensions/studio/answer/path_json.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/path/shape/bezier_chain.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_check.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_check.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::studio {
 namespace {

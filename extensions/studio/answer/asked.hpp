@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/mission/mission.hpp"
-#include "scenarios/shallow_json.hpp"
+#include "scenarios/text/shallow_json.hpp"
 
 namespace joulepath::studio {
 

@@ -10,7 +10,7 @@
 #include "planner/legs/floor_check.hpp"
 #include "planner/mission/plan_front.hpp"
 #include "planner/motion/motion_energy.hpp"
-#include "scenarios/plan_file.hpp"
+#include "scenarios/mission_files/plan_file.hpp"
 // Design: docs/decisions/0702-studio-and-reports.md
 
 namespace joulepath::studio {

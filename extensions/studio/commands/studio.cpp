@@ -4,12 +4,12 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/diagnosis_results.hpp"
+#include "app/diagnose/diagnosis_results.hpp"
 #include "app/output_directory.hpp"
 #include "extensions/studio/commands/studio_commands.hpp"
 #include "extensions/studio/server/page.hpp"
 #include "extensions/studio/server/server.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 
 namespace joulepath {
 namespace {

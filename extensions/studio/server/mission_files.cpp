@@ -6,8 +6,8 @@
 
 #include "extensions/studio/server/json_value.hpp"
 #include "extensions/studio/server/text_edit.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 
 namespace joulepath::studio {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/report/page_text.hpp"
 #include "extensions/studio/modules.hpp"
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath::embedded {
 extern const std::string_view studio_page, studio_style, studio_core_js, studio_core_wasm;

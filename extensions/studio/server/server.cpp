@@ -10,7 +10,7 @@
 #include "extensions/studio/server/http.hpp"
 #include "extensions/studio/server/page.hpp"
 #include "model/stop.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/text/schema.hpp"
 
 namespace joulepath::studio {
 namespace {
@@ -56,10 +56,7 @@ class Newest {
 class Studio {
  public:
   Studio(MissionFiles& files, const ServerOptions& options)
-      : files_(files),
-        options_(options),
-        floor_(files.read_floor()),
-        session_(floor_, files.folder()) {}
+      : files_(files), options_(options), floor_(files.read_floor()), session_(floor_, files.folder()) {}
 
   [[noreturn]] void run(const std::function<void(const std::string&)>& ready) {
     serve_http(options_.port, {.ready =
@@ -78,8 +75,8 @@ class Studio {
   /// token.
   [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const {
     const bool own_host = request.host == "127.0.0.1:" + port_ || request.host == "localhost:" + port_;
-    const bool own_origin = request.origin == "http://" + request.host ||
-                            (request.origin.empty() && request.method == "GET");
+    const bool own_origin =
+        request.origin == "http://" + request.host || (request.origin.empty() && request.method == "GET");
     if (!own_host || !own_origin)
       return HttpResponse{.status = 403, .body = "refused: the request comes from another site\n"};
     if (is_known(request)) return std::nullopt;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 
 namespace joulepath::studio {
 

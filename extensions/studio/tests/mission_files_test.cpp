@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/document.hpp"
+#include "scenarios/text/document.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath::studio {

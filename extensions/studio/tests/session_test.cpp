@@ -9,8 +9,8 @@
 #include "extensions/studio/answer/path_json.hpp"
 #include "extensions/studio/server/json_value.hpp"
 #include "model/limit_table.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
 #include "tests/support/locations.hpp"
 
 namespace joulepath::studio {

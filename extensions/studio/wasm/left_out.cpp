@@ -7,10 +7,10 @@
 #include "planner/path/search/search.hpp"
 #include "planner/path/shape/refine.hpp"
 #include "planner/ways/spline_search.hpp"
-#include "scenarios/map_file.hpp"
-#include "scenarios/mission_file.hpp"
+#include "scenarios/mission_files/map_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/registry.hpp"
-#include "scenarios/value_builder.hpp"
+#include "scenarios/text/value_builder.hpp"
 
 namespace joulepath {
 namespace {
@@ -60,8 +60,8 @@ const std::vector<Addition>& known_additions() {
 }
 Value read_yaml_text(const std::string&, std::string_view, int) { refuse("a file in YAML"); }
 
-/// Replaces scenarios/number_text.cpp: this library has no from_chars for floating-point numbers. The JSON
-/// parser has checked the text; the locale is "C".
+/// Replaces scenarios/text/number_text.cpp: this library has no from_chars for floating-point numbers. The
+/// JSON parser has checked the text; the locale is "C".
 std::optional<double> parse_number(std::string_view text) {
   const std::string copy(text);
   char* end = nullptr;

@@ -7,8 +7,8 @@
 #include "extensions/vda5050/order_path.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/motion/path_motion.hpp"
-#include "scenarios/mission_file.hpp"
-#include "scenarios/mission_source.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
 namespace joulepath {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "diagnosis/calibration/calibration.hpp"
-#include "scenarios/dataset_file.hpp"
-#include "scenarios/document.hpp"
-#include "scenarios/robot_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
+#include "scenarios/text/document.hpp"
 #include "tests/support/practice_sets.hpp"
 
 namespace joulepath {
@@ -26,7 +26,8 @@ TEST_P(PracticeSet, CalibrationRecoversFrictionAndTorqueConstant) {
 }
 
 TEST_P(PracticeSet, CalibratedRobotReadsBack) {
-  const CalibrationResult result = calibrate(read_dataset(testing::practice_file(GetParam())), CalibrationMethod::full);
+  const CalibrationResult result =
+      calibrate(read_dataset(testing::practice_file(GetParam())), CalibrationMethod::full);
   const Robot again = robot_from(Document::parse(robot_text(result.robot), "robot.yaml"));
   EXPECT_EQ(again.motor.left.resistance_ohm, result.robot.motor.left.resistance_ohm);
   EXPECT_EQ(again.uncertainty, result.robot.uncertainty);

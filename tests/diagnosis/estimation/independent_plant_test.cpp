@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/estimation/estimate_dataset.hpp"
-#include "scenarios/dataset_file.hpp"
+#include "scenarios/log_files/dataset_file.hpp"
 #include "tests/support/practice_sets.hpp"
 
 namespace joulepath {

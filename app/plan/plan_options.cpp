@@ -1,0 +1,25 @@
+#include "app/plan/plan_options.hpp"
+
+#include "app/command_line.hpp"
+
+namespace joulepath {
+
+void add_plan_options(CommandLine& line, PlanOptions& options, const std::string& nodes_say) {
+  line.option("--nodes", options.nodes, nodes_say).between(10, 20000).shows_default();
+  line.option("--seed", options.seed, "seed of the path search").shows_default();
+}
+
+void add_mission_source(CommandLine& line, MissionSource& source, bool with_time) {
+  line.option("mission", source.file,
+              "mission (YAML); or a VDA 5050 order (JSON) or a path (YAML, CSV), with --robot")
+      .required();
+  line.option("--robot", source.robot_file, "robot file; replaces the mission's");
+  line.option("--map", source.map_file, "map; replaces the mission's");
+  line.option("--payload", source.payload_kg, "kg on board along a path; default 0").not_negative();
+  if (with_time)
+    line.option("--time", source.duration_s,
+                "duration for a path in seconds; default: the duration of least energy")
+        .positive();
+}
+
+}  // namespace joulepath

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "planner/legs/stretch.hpp"
+#include "scenarios/mission_files/mission_source.hpp"
+
+namespace joulepath {
+
+class CommandLine;
+
+/// Adds --nodes and --seed, which every command that plans a mission takes.
+void add_plan_options(CommandLine& line, PlanOptions& options,
+                      const std::string& nodes_say = "nodes of the first grid on each stretch");
+
+/// Adds the options for the input: the file, --robot, --map, and for a path --payload and (`with_time`)
+/// --time.
+void add_mission_source(CommandLine& line, MissionSource& source, bool with_time = true);
+
+}  // namespace joulepath

@@ -1,0 +1,136 @@
+#include "app/plan/plan_summary.hpp"
+
+#include <cmath>
+#include <ostream>
+
+#include "app/terminal.hpp"
+#include "model/watt_hours.hpp"
+#include "planner/accounts/plan_accounts.hpp"
+
+namespace joulepath {
+namespace {
+
+std::string kg(const PayloadAlongLeg& payload) {
+  return payload.from_kg == payload.to_kg ? figure(payload.from_kg)
+                                          : figure(payload.from_kg) + " to " + figure(payload.to_kg);
+}
+
+/// A sum that is zero by physics (kinetic energy from rest to rest) is shown as zero, without rounding noise.
+double without_noise(double energy_J) { return std::abs(energy_J) < 1e-6 ? 0.0 : energy_J; }
+
+double effects_J(const EnergyByCause& energy) {
+  double sum_J = 0.0;
+  for (const auto& [name, energy_J] : energy.effects_J) sum_J += energy_J;
+  return sum_J;
+}
+
+std::vector<std::string> energy_cells(const EnergyByCause& energy) {
+  return {figure(energy.copper_J),           figure(energy.coulomb_friction_J),
+          figure(energy.viscous_friction_J), figure(without_noise(energy.kinetic_J)),
+          figure(energy.not_recovered_J),    figure(effects_J(energy)),
+          figure(energy.standby_J),          figure(energy.total_J(), 5)};
+}
+
+void print_legs(std::ostream& stream, const Plan& plan) {
+  Table table({"leg", "payload kg", "m", "s", "copper", "Coulomb", "viscous", "kinetic", "not recov.",
+               "effects", "standby", "total J", "Wh"});
+  const auto row = [&](const std::string& name, const std::string& payload, double distance_m,
+                       double duration_s, const EnergyByCause& energy) {
+    std::vector<std::string> cells{name, payload, figure(distance_m), figure(duration_s)};
+    for (std::string& cell : energy_cells(energy)) cells.push_back(std::move(cell));
+    cells.push_back(figure(energy.total_J() / kJoulesPerWh, 4));
+    table.row(std::move(cells));
+  };
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    const LegPlan& leg = plan.legs[k];
+    row(std::to_string(k) + " " + leg.to, kg(leg.payload), leg.distance_m, leg.duration_s + leg.dwell_s,
+        leg.energy);
+  }
+  table.rule();
+  row("all", "", plan.distance_m, plan.duration_s, plan.energy);
+  table.print(stream);
+}
+
+void print_baselines(std::ostream& stream, const Plan& plan) {
+  Table table(baseline_header());
+  for (const BaselineTotal& baseline : plan.baselines) table.row(baseline_cells(baseline));
+  table.row({"this plan", figure(plan.duration_s), figure(plan.energy.total_J(), 5), "", "",
+             figure(plan.energy.motion_J(), 5), ""});
+  table.print(stream);
+}
+
+/// Status and gap, with what the bound is about: the chosen paths, for a robot with a jerk limit without it.
+std::string optimality_text(const Plan& plan) {
+  return std::string(solve_status_name(plan.status)) + " on these paths" + (plan.local ? " (local)" : "") +
+         ", gap to the bound " + (limits_jerk(plan) ? "without the jerk limit" : "there") +
+         " <= " + figure(plan.gap_percent, 2) + " %";
+}
+
+void print_battery(std::ostream& stream, const BatteryAccount& battery) {
+  stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
+         << figure(100 * battery.end_fraction, 5) << " % (95 %: " << figure(100 * battery.interval_95[0], 5)
+         << " to " << figure(100 * battery.interval_95[1], 5) << "), needs "
+         << figure(battery.required_capacity_Wh, 4) << " Wh (95 % upper bound), "
+         << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
+}
+
+/// Five significant digits, rounded to the feasible side: down for speeds at the ends, clearances and
+/// resistances, up for limits and times. Positions keep all digits: a rounded one may be blocked.
+std::string relaxed_figure(const std::string& key, double value) {
+  if (key == "x_m" || key == "y_m" || value == 0) return figure(value, 10);
+  const bool lower = key.rfind("start_speed", 0) == 0 || key.rfind("end_speed", 0) == 0 ||
+                     key == "clearance_m" || key == "internal_resistance_ohm";
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4);
+  return figure(lower ? std::floor(value / step) * step : std::ceil(value / step) * step, 5);
+}
+
+void print_infeasibility(std::ostream& stream, const PlanInfeasibility& verdict) {
+  const Infeasibility& reason = verdict.reason;
+  stream << "infeasible: " << reason.constraint << " on leg " << verdict.leg << " at "
+         << figure(verdict.arc_length_m) << " m (x " << figure(reason.x_m) << ", y " << figure(reason.y_m)
+         << "), by " << figure(reason.amount) << " " << reason.unit << "\n";
+  if (!reason.message.empty()) stream << "  " << reason.message << "\n";
+  for (const auto& [key, value] : reason.relaxation)
+    stream << "  smallest change that works: " << key << " = " << relaxed_figure(key, value) << "\n";
+}
+
+}  // namespace
+
+std::string later_text(const BaselineTotal& baseline) { return figure(baseline.later_s, 2) + " s later"; }
+
+std::vector<std::string> baseline_header() {
+  return {"same path, own time", "s", "total J", "least J", "saved", "motion J", "saved of motion"};
+}
+
+std::vector<std::string> baseline_cells(const BaselineTotal& baseline) {
+  if (!baseline.feasible) return {baseline.name, "-", "-", "-", "infeasible", "-", "infeasible"};
+  const double saved = saving_percent(baseline.optimum_J, baseline.energy_J),
+               saved_of_motion = saving_percent(baseline.optimum_motion_J, baseline.motion_energy_J);
+  const auto percent = [](double value) { return std::isfinite(value) ? figure(value, 3) + " %" : "-"; };
+  return {baseline.late() ? baseline.name + ", " + later_text(baseline) : baseline.name,
+          figure(baseline.duration_s),
+          figure(baseline.energy_J, 5),
+          figure(baseline.optimum_J, 5),
+          percent(saved),
+          figure(baseline.motion_energy_J, 5),
+          percent(saved_of_motion)};
+}
+
+void print_plan_summary(std::ostream& stream, const Plan& plan, const std::string& directory) {
+  if (plan.infeasibility) {
+    print_infeasibility(stream, *plan.infeasibility);
+  } else if (plan.status == SolveStatus::failed) {
+    stream << "failed: " << plan.message << "\n";
+  } else {
+    print_legs(stream, plan);
+    stream << "\n";
+    print_baselines(stream, plan);
+    stream << "\n"
+           << optimality_text(plan) << ", replay " << figure(plan.replay_energy_J, 6)
+           << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
+    if (plan.battery) print_battery(stream, *plan.battery);
+  }
+  stream << "results in " << directory << "\n";
+}
+
+}  // namespace joulepath

@@ -1,0 +1,88 @@
+#include "scenarios/mission_files/map_file.hpp"
+
+#include <cmath>
+
+#include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/image.hpp"
+
+namespace joulepath {
+namespace {
+
+enum class Mode { trinary, scale, raw };
+
+struct Interpretation {
+  Mode mode{};
+  bool negate{};
+  double occupied_threshold{};
+  double free_threshold{};
+};
+
+std::int8_t cell_value(double shade, bool transparent, const Interpretation& meaning) {
+  const double occupancy = meaning.negate ? shade : 1.0 - shade;
+  if (meaning.mode == Mode::raw) {
+    const double value = std::round(shade * 255.0);
+    return value <= 100.0 ? static_cast<std::int8_t>(value) : kUnknownCell;
+  }
+  if (meaning.mode == Mode::scale && transparent) return kUnknownCell;
+  if (occupancy > meaning.occupied_threshold) return 100;
+  if (occupancy < meaning.free_threshold) return 0;
+  if (meaning.mode == Mode::trinary) return kUnknownCell;
+  return static_cast<std::int8_t>(std::rint((occupancy - meaning.free_threshold) /
+                                            (meaning.occupied_threshold - meaning.free_threshold) * 100.0));
+}
+
+Interpretation read_interpretation(const Node& root) {
+  const std::string mode = root.text_or("mode", "trinary"), negate = root.text_or("negate", "0");
+  Interpretation meaning{.mode = mode == "scale" ? Mode::scale
+                                 : mode == "raw" ? Mode::raw
+                                                 : Mode::trinary,
+                         .negate = negate == "1" || negate == "true" || negate == "True" || negate == "TRUE",
+                         .occupied_threshold = root["occupied_thresh"].number(),
+                         .free_threshold = root["free_thresh"].number()};
+  if (meaning.free_threshold >= meaning.occupied_threshold)
+    root["free_thresh"].fail("a number below occupied_thresh (" + root["occupied_thresh"].text() + ")");
+  return meaning;
+}
+
+}  // namespace
+
+Schema map_schema() {
+  return with_physical_bounds(map(
+      {optional("schema", text(), "joulepath/map/1; Nav2's maps have no such line"),
+       required("image", text(), "PGM or PNG, relative to this file"),
+       optional("mode", choice({"trinary", "scale", "raw"}), "default trinary"),
+       required("resolution", number(kPositive), "metres per pixel"),
+       required("origin", list(number(), 3, 3), "[x, y, yaw] of the image's lower left corner, m and rad"),
+       optional("negate", choice({"0", "1", "false", "true", "False", "True", "FALSE", "TRUE"}),
+                "white is occupied"),
+       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))}));
+}
+
+std::string map_image_file(const std::string& file, const ReadOptions& options) {
+  return resolve_file(Document::load(file).root()["image"], options);
+}
+
+OccupancyGrid read_map(const std::string& file, const NamedBy& named_by, const ReadOptions& options) {
+  const Document document = Document::load(file, named_by);
+  check_document(document, "map", map_schema());
+  const Node root = document.root();
+  const Interpretation meaning = read_interpretation(root);
+  const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
+  const auto origin = root["origin"].items();
+  OccupancyGrid grid{.width = image.width,
+                     .height = image.height,
+                     .resolution_m = root["resolution"].number(),
+                     .origin = {origin[0].number(), origin[1].number(), origin[2].number()},
+                     .file = file};
+  grid.occupancy_percent.resize(image.shade.size());
+  const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+  for (std::size_t row = 0; row < height; ++row)
+    for (std::size_t column = 0; column < width; ++column) {
+      const std::size_t pixel = (height - 1 - row) * width + column;
+      const bool transparent = !image.transparent.empty() && image.transparent[pixel];
+      grid.occupancy_percent[row * width + column] = cell_value(image.shade[pixel], transparent, meaning);
+    }
+  return grid;
+}
+
+}  // namespace joulepath

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "planner/path/floor/occupancy_grid.hpp"
+#include "scenarios/text/schema.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Schema map_schema();
+
+/// Reads a Nav2 map: YAML and its image, with the rules of Nav2's map server. Throws ConfigError.
+///
+///   occupancy = 1 - shade (shade when negated); trinary: occupied above occupied_thresh, free below
+///   free_thresh, unknown between; scale: linear between, transparent pixels unknown; raw: the pixel's value.
+[[nodiscard]] OccupancyGrid read_map(const std::string& file, const NamedBy& named_by = {},
+                                     const ReadOptions& options = {});
+
+/// The image that a map file names. Throws ConfigError.
+[[nodiscard]] std::string map_image_file(const std::string& file, const ReadOptions& options = {});
+
+}  // namespace joulepath

@@ -1,0 +1,71 @@
+#include "scenarios/mission_files/mission_source.hpp"
+
+#include <filesystem>
+
+#include "model/printable.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/path_file.hpp"
+
+namespace joulepath {
+namespace {
+
+void need_robot(const MissionSource& source, const char* what) {
+  if (source.robot_file.empty() && !source.robot_at_hand)
+    throw ConfigError({{source.file, 1, 1},
+                       "",
+                       std::string(what) + ", which names no robot",
+                       "--robot with the name of a robot file",
+                       ""});
+}
+
+/// The file's name without its extension; a name that is not UTF-8 is shown as such.
+std::string name_of(const std::string& file) {
+  return printable(std::filesystem::path(file).stem().string());
+}
+
+void refuse_beside_mission(const char* option, const char* key, bool given) {
+  if (given)
+    throw ConfigError({{option, 0, 0},
+                       "",
+                       "a value together with a mission or an order",
+                       "a value only together with a path",
+                       std::string("the mission file has it: ") + key});
+}
+
+MissionRequest mission_of(const MissionSource& source, const MissionDocument& document) {
+  need_robot(source, document.says.c_str());
+  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
+  document.read(mission);
+  return mission;
+}
+
+}  // namespace
+
+MissionRequest mission_along(const MissionSource& source, Path path) {
+  need_robot(source, "a path");
+  MissionRequest mission{.file = source.file, .name = name_of(source.file)};
+  mission.start.pose = path.start();
+  LegRequest leg{.path = PathRequest{.frame = PathRequest::Frame::map, .ready = std::move(path)},
+                 .duration_s = source.duration_s,
+                 .marks = {.item = {.file = source.file}, .keys = {{"payload_kg", {.file = "--payload"}}}}};
+  leg.payload = {source.payload_kg.value_or(0.0), source.payload_kg.value_or(0.0)};
+  mission.legs.push_back(std::move(leg));
+  return mission;
+}
+
+MissionRequest read_mission_source(const MissionSource& source, const ReadOptions& options) {
+  const auto with_files = [&](MissionRequest mission) {
+    if (!source.robot_file.empty()) mission.robot_file = source.robot_file;
+    if (!source.map_file.empty()) mission.map_file = source.map_file;
+    return mission;
+  };
+  if (is_waypoint_file(source.file)) return with_files(mission_along(source, read_waypoints(source.file)));
+  const Document document = Document::load(source.file);
+  if (is_path(document)) return with_files(mission_along(source, path_from(document, options)));
+  refuse_beside_mission("--payload", "payload_kg of a leg", source.payload_kg.has_value());
+  refuse_beside_mission("--time", "duration_s of a leg", source.duration_s.has_value());
+  const MissionDocument* other = mission_document_of(document);
+  return with_files(other ? mission_of(source, *other) : mission_from(document, options));
+}
+
+}  // namespace joulepath

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/path/geometry/path.hpp"
+#include "planner/values/mission_request.hpp"
+#include "scenarios/text/document.hpp"
+
+namespace joulepath {
+
+/// The input of a planning command: a mission, a VDA 5050 order or a path, and its options.
+struct MissionSource {
+  std::string file{};
+  std::string robot_file{};            ///< replaces the mission's; orders and paths name none
+  std::string map_file{};              ///< replaces the mission's
+  bool robot_at_hand{};                ///< the caller provides the robot: no file needs to name one
+  std::optional<double> payload_kg{};  ///< paths only
+  std::optional<double> duration_s{};  ///< paths only; absent: the time of least energy
+};
+
+/// One leg along a path, from rest to rest.
+[[nodiscard]] MissionRequest mission_along(const MissionSource& source, Path path);
+
+/// The mission of a source; for a path one leg along it, from rest to rest.
+[[nodiscard]] MissionRequest read_mission_source(const MissionSource& source,
+                                                 const ReadOptions& options = {});
+
+}  // namespace joulepath

@@ -1,0 +1,130 @@
+#include "scenarios/mission_files/path_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "planner/path/shape/bezier_chain.hpp"
+#include "planner/path/shape/waypoint_path.hpp"
+#include "scenarios/mission_files/motion_entry.hpp"
+#include "scenarios/robot_files/physical_bounds.hpp"
+#include "scenarios/text/csv_table.hpp"
+
+namespace joulepath {
+namespace {
+
+/// The robot's pose at the first control point, in the direction of the first curve (p1, or p2 or p3 where p1
+/// is p0).
+Pose start_of(const std::vector<BezierPoints>& curves_m) {
+  const BezierPoints& p = curves_m.front();
+  Pose start{p[0][0], p[0][1], 0.0};
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    const double x = p[i][0] - p[0][0], y = p[i][1] - p[0][1];
+    if (x == 0.0 && y == 0.0) continue;
+    start.heading_rad = std::atan2(y, x);
+    break;
+  }
+  return start;
+}
+
+/// The cells of a column; a row without a number is an error unless `otherwise` replaces it.
+std::vector<double> column_of(const CsvTable& table, const char* name, std::optional<double> otherwise = {}) {
+  const std::vector<double>* found = table.find(name);
+  if (!found)
+    throw ConfigError({{table.file, 1, 1},
+                       "",
+                       std::string("no column ") + name,
+                       "columns x_m and y_m",
+                       "optional: corner_radius_m"});
+  std::vector<double> cells = *found;
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    if (std::abs(cells[row]) > kFarthest_m) {
+      char far_m[32];
+      std::snprintf(far_m, sizeof far_m, "%.6g", cells[row]);
+      throw ConfigError({{table.file, table.line_of_row[row], 1},
+                         name,
+                         far_m,
+                         "at most 1e6 m from the origin",
+                         "millimeters, or degrees of latitude?"});
+    }
+    if (!std::isnan(cells[row])) continue;
+    if (!otherwise)
+      throw ConfigError({{table.file, table.line_of_row[row], 1}, name, "an empty cell", "a number", ""});
+    cells[row] = *otherwise;
+  }
+  return cells;
+}
+
+}  // namespace
+
+Schema path_schema() {
+  return with_physical_bounds(
+      map({optional("schema", text(), "joulepath/path/1"),
+           optional("bezier_m", bezier_schema(),
+                    "chain of cubic Bezier curves in the map frame, four control points each"),
+           optional("waypoints", text(), "CSV file with columns x_m and y_m, in the map frame"),
+           optional("tolerance_m", number(kNotNegative),
+                    "how far the curve may be from dense waypoints; default 0.01, 0: through all of them")})
+          .with_exactly_one({"bezier_m", "waypoints"}));
+}
+
+bool is_path(const Document& document) {
+  const Node root = document.root();
+  if (root.kind() != Value::Kind::map) return false;
+  const auto line = root.find("schema");
+  if (line && line->kind() == Value::Kind::scalar) return line->text().rfind("joulepath/path/", 0) == 0;
+  return root.has("bezier_m") || root.has("waypoints");
+}
+
+bool is_waypoint_file(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
+
+bool has_waypoints(const std::string& file) {
+  const CsvTable table = read_csv(file, [](const std::string&) { return false; });
+  const auto has = [&](const char* name) { return std::ranges::count(table.header, name) > 0; };
+  return has("x_m") && !has("time_s");
+}
+
+Path path_from(const Document& document, const ReadOptions& options, std::vector<std::string>* notes) {
+  check_document(document, "path", path_schema());
+  const Node root = document.root();
+  if (const auto file = root.find("waypoints"))
+    return read_waypoints(resolve_file(*file, options), root.number_or("tolerance_m", kWaypointTolerance_m),
+                          NamedBy(*file));
+  if (const auto tolerance = root.find("tolerance_m"))
+    tolerance->fail("no such key", "only allowed with waypoints:");
+  const Node curves = root["bezier_m"];
+  const std::vector<BezierPoints> bezier_m = read_bezier(curves);
+  BezierChainResult chain = bezier_chain(bezier_m, start_of(bezier_m), BezierFrame::map);
+  if (!chain.ok()) {
+    const BezierFinding& defect = chain.defects.front();
+    curves.items()[defect.curve].fail_found(defect.message,
+                                            "a cubic Bezier curve without cusps, at least 1 mm long");
+  }
+  if (notes != nullptr)
+    for (const BezierFinding& note : chain.notes) notes->push_back(note.message);
+  return std::move(chain.path);
+}
+
+Path read_waypoints(const std::string& file, double tolerance_m, const NamedBy& named_by) {
+  const CsvTable table = read_csv(
+      file,
+      [](const std::string& name) { return name == "x_m" || name == "y_m" || name == "corner_radius_m"; },
+      named_by);
+  const std::vector<double> x_m = column_of(table, "x_m"), y_m = column_of(table, "y_m");
+  std::vector<Point2> waypoints_m;
+  for (std::size_t row = 0; row < x_m.size(); ++row) waypoints_m.push_back({x_m[row], y_m[row]});
+  const bool lines = table.find("corner_radius_m") != nullptr;
+  WaypointPath along = lines ? lines_between(waypoints_m, column_of(table, "corner_radius_m", 0.0))
+                             : curve_through(waypoints_m, tolerance_m);
+  if (!along.defect) return std::move(along.path);
+  const std::size_t row = along.defect->waypoint;
+  const int line = row < table.rows() ? table.line_of_row[row] : 1;
+  throw ConfigError({{file, line, 1},
+                     along.defect->radius ? "corner_radius_m" : "x_m",
+                     along.defect->found,
+                     along.defect->accepted,
+                     ""});
+}
+
+}  // namespace joulepath

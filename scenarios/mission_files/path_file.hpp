@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "planner/path/shape/waypoint_path.hpp"
+#include "scenarios/text/schema.hpp"
+
+namespace joulepath {
+
+/// `schema: joulepath/path/1`: a chain of cubic Bezier curves in the map frame, or a file of waypoints.
+[[nodiscard]] Schema path_schema();
+
+/// Whether a document is a path: by its schema line, or by `bezier_m` or `waypoints` at its top.
+[[nodiscard]] bool is_path(const Document& document);
+
+/// Whether a file is read as waypoints: by its extension, `.csv`.
+[[nodiscard]] bool is_waypoint_file(const std::string& file);
+
+/// Whether a CSV file holds waypoints, not a run log: by its column x_m and no time_s.
+[[nodiscard]] bool has_waypoints(const std::string& file);
+
+/// The path of a document. It begins with the heading of its first curve; at a heading step the robot turns
+/// in place. `notes` gets the joints with a stop or a turn. Throws ConfigError at a curve that cannot be
+/// driven.
+[[nodiscard]] Path path_from(const Document& document, const ReadOptions& options = {},
+                             std::vector<std::string>* notes = nullptr);
+
+/// Reads waypoints (CSV: x_m, y_m): one curve with continuous curvature along them (curve_through), or, with
+/// a column corner_radius_m, straight lines whose corners are rounded with that smallest radius (0 or empty:
+/// turn in place). Throws ConfigError at a row that cannot be driven.
+[[nodiscard]] Path read_waypoints(const std::string& file, double tolerance_m = kWaypointTolerance_m,
+                                  const NamedBy& named_by = {});
+
+}  // namespace joulepath

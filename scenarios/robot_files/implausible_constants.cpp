@@ -1,0 +1,84 @@
+#include "scenarios/robot_files/implausible_constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/printable.hpp"
+
+namespace joulepath {
+namespace {
+
+// Bounds that wheeled robots of 2 to 2000 kg keep with a factor of two or more; a slip of a unit is a factor
+// of 57 (degrees) or more.
+constexpr double kLeastGyration = 0.1;              ///< radius of gyration over the reach
+constexpr double kReachInHalfTracks = 3.0;          ///< of a robot without a footprint
+constexpr double kFastestYaw_rad_s = 10.0;          ///< nearly two turns a second
+constexpr double kGreatestTurnRatio = 6.0;          ///< of the wheels' motion in a turn over that of the body
+constexpr double kMostEnergy_Wh_kg = 200.0;         ///< of the whole robot: lithium cells alone have 300
+constexpr double kMostStandby_W_kg = 20.0;          ///< of the whole robot
+constexpr double kAlwaysPossibleStandby_W = 200.0;  ///< a computer with a graphics card on a small robot
+
+/// Greatest distance of the outline from the chassis' center of mass.
+double reach_m(const Robot& robot) {
+  const double offset_m = robot.geometry.center_of_mass_offset_m;
+  double reach_m = 0.0;
+  for (const auto& [x_m, y_m] : robot.footprint.polygon_m)
+    reach_m = std::max(reach_m, std::hypot(x_m - offset_m, y_m));
+  if (robot.footprint.radius_m > 0.0) reach_m = robot.footprint.radius_m + std::abs(offset_m);
+  return reach_m > 0.0 ? reach_m : kReachInHalfTracks * robot.geometry.half_track_m;
+}
+
+class Notes {
+ public:
+  void over(const char* key, double value, double most, const std::string& why, const char* slip) {
+    if (std::isfinite(value) && value > most) note(key, value, "at most ", most, why, slip);
+  }
+  void under(const char* key, double value, double least, const std::string& why, const char* slip) {
+    if (value > 0.0 && value < least) note(key, value, "at least ", least, why, slip);
+  }
+  std::vector<std::string> take() { return std::move(notes_); }
+
+ private:
+  void note(const char* key, double value, const char* side, double bound, const std::string& why,
+            const char* slip) {
+    notes_.push_back(std::string(key) + " " + four_digits(value) + " is implausible: " + side +
+                     four_digits(bound) + " " + why + "; " + slip);
+  }
+
+  std::vector<std::string> notes_{};
+};
+
+void note_yaw_limits(const Robot& robot, Notes& notes) {
+  const Limits& limits = *robot.limits;
+  const double turn_m = robot.geometry.half_track_m / kGreatestTurnRatio;
+  notes.over("limits.yaw_rate_rad_s", limits.yaw_rate_rad_s,
+             std::min(kFastestYaw_rad_s, limits.speed_m_s / turn_m), "rad/s for this track and speed_m_s",
+             "is it in degrees per second?");
+  notes.over("limits.yaw_acceleration_rad_s2", limits.yaw_acceleration_rad_s2,
+             limits.acceleration_m_s2 / turn_m, "rad/s^2 for this track and acceleration_m_s2",
+             "is it in degrees per second squared?");
+}
+
+}  // namespace
+
+std::vector<std::string> implausible_constants(const Robot& robot) {
+  Notes notes;
+  const double mass_kg = robot.total_mass_kg(0.0), far_m = reach_m(robot);
+  const double ring_kg_m2 = robot.inertia.chassis_mass_kg * far_m * far_m;  // all of the mass at the outline
+  const std::string size =
+      "kg m^2 for " + four_digits(robot.inertia.chassis_mass_kg) + " kg within " + four_digits(far_m) + " m";
+  notes.over("inertia.chassis_yaw_inertia_kg_m2", robot.inertia.chassis_yaw_inertia_kg_m2, ring_kg_m2, size,
+             "is it in kg cm^2?");
+  notes.under("inertia.chassis_yaw_inertia_kg_m2", robot.inertia.chassis_yaw_inertia_kg_m2,
+              kLeastGyration * kLeastGyration * ring_kg_m2, size,
+              "is it that of a wheel, or of a part of the robot?");
+  if (robot.limits) note_yaw_limits(robot, notes);
+  const std::string on_robot = " on a robot of " + four_digits(mass_kg) + " kg";
+  notes.over("battery.capacity_Wh", robot.battery.capacity_Wh, kMostEnergy_Wh_kg * mass_kg, "Wh" + on_robot,
+             "is it in J, or in mAh?");
+  notes.over("power.standby_W", robot.power.standby_W,
+             std::max(kAlwaysPossibleStandby_W, kMostStandby_W_kg * mass_kg), "W" + on_robot, "is it in mW?");
+  return notes.take();
+}
+
+}  // namespace joulepath

@@ -1,0 +1,117 @@
+#include "scenarios/robot_files/robot_check.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "model/printable.hpp"
+#include "scenarios/robot_files/implausible_constants.hpp"
+
+namespace joulepath {
+namespace {
+
+// In SI units both constants are equal for an ideal motor. Kt < Kv: losses inside the motor count as lost
+// torque; Kt > Kv: only within the tolerances of a data sheet.
+constexpr double kLeastRatio = 0.5, kMostRatio = 1.1, kUsualLeast = 0.9, kUsualMost = 1.1;
+constexpr double kNear = 1.15;  ///< a ratio this close to a conversion factor identifies the units
+
+struct Conversion {
+  double ratio{};  ///< Kt / Kv as written
+  const char* says{};
+};
+constexpr Conversion kConversions[] = {
+    {1000.0, "is the torque constant in mNm/A?"},
+    {141.6, "is the torque constant in oz in/A?"},
+    {10.197, "is the torque constant in kgf cm/A, or the voltage constant in V/rpm?"},
+    {9.5493, "is the voltage constant in V/rpm, or the torque constant in kgf cm/A?"},
+    {0.0095493, "is the voltage constant in V/krpm?"},
+    {0.001, "is the voltage constant in mV s/rad?"},
+};
+
+bool is_near(double value, double other) { return value < kNear * other && value > other / kNear; }
+
+/// The possible units of the two constants as written.
+std::string units_mixed_up(const Motor& motor) {
+  const double kt = motor.torque_constant_Nm_A, kv = motor.voltage_constant_V_s_rad;
+  if (is_near(kt * kv, 9.5493)) return "is the voltage constant a speed constant in rpm/V?";
+  if (is_near(kt * kv, 1.0) && !is_near(kt, 1.0))
+    return "is the voltage constant a speed constant in rad/s per V?";
+  for (const Conversion& conversion : kConversions)
+    if (is_near(kt / kv, conversion.ratio)) return conversion.says;
+  if (is_near(kt / kv, motor.gear_ratio)) return "is the torque constant seen at the wheel?";
+  if (is_near(kv / kt, motor.gear_ratio)) return "is the voltage constant seen at the wheel?";
+  return "both are seen at the motor's shaft, in N m/A and V s/rad";
+}
+
+double ratio_of(const Motor& motor) { return motor.torque_constant_Nm_A / motor.voltage_constant_V_s_rad; }
+
+using Corner = std::array<double, 2>;
+
+/// Twice the signed area of a triangle.
+double turn(const Corner& a, const Corner& b, const Corner& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool cross(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+}
+
+void check_footprint(const Node& polygon, const std::vector<Corner>& corners) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 2; k < n; ++k)
+      if (cross(corners[i], corners[(i + 1) % n], corners[k], corners[(k + 1) % n]))
+        polygon.items()[k].fail_found("an edge that crosses the edge from corner " + std::to_string(i),
+                                      "corners in their order around the robot",
+                                      "two corners may be swapped");
+}
+
+/// Ray casting, edges not included.
+bool is_inside(const Footprint& footprint, double x_m, double y_m) {
+  if (footprint.polygon_m.empty()) return std::hypot(x_m, y_m) <= footprint.radius_m;
+  bool inside = false;
+  const auto& p = footprint.polygon_m;
+  for (std::size_t i = 0, k = p.size() - 1; i < p.size(); k = i++)
+    if ((p[i][1] > y_m) != (p[k][1] > y_m) &&
+        x_m < (p[k][0] - p[i][0]) * (y_m - p[i][1]) / (p[k][1] - p[i][1]) + p[i][0])
+      inside = !inside;
+  return inside;
+}
+
+}  // namespace
+
+void check_robot(const Node& root, const Robot& robot) {
+  for (const Side side : kSides) {
+    const Motor& motor = robot.motor[side];
+    const double ratio = ratio_of(motor);
+    if (ratio <= kMostRatio && ratio >= kLeastRatio) continue;
+    root["motor"]["torque_constant_Nm_A"].fail_found(
+        four_digits(motor.torque_constant_Nm_A) + ", " + four_digits(ratio) + " times the voltage constant",
+        "0.5 to 1.1 times the voltage constant (" + four_digits(motor.voltage_constant_V_s_rad) + " V s/rad)",
+        units_mixed_up(motor));
+  }
+  if (const auto footprint = root.find("footprint"))
+    if (const auto polygon = footprint->find("polygon_m"))
+      check_footprint(*polygon, robot.footprint.polygon_m);
+}
+
+bool has_footprint(const Robot& robot) {
+  return robot.footprint.radius_m > 0.0 || !robot.footprint.polygon_m.empty();
+}
+
+std::vector<std::string> robot_notes(const Robot& robot) {
+  std::vector<std::string> notes = implausible_constants(robot);
+  const double ratio = ratio_of(robot.motor.left);
+  if (ratio < kUsualLeast || ratio > kUsualMost)
+    notes.push_back("torque constant " + four_digits(ratio) +
+                    " times the voltage constant: for most motors both are the same number in SI units");
+  const double half_track_m = robot.geometry.half_track_m;
+  const double inner_m = half_track_m * (1.0 - 1e-6);  // a wheel on the edge is not outside
+  if (has_footprint(robot) &&
+      !(is_inside(robot.footprint, 0.0, inner_m) && is_inside(robot.footprint, 0.0, -inner_m)))
+    notes.push_back("the wheels touch the floor " + four_digits(half_track_m) +
+                    " m beside the middle of the axle, outside of the footprint: half_track_m is HALF the "
+                    "distance between them");
+  return notes;
+}
+
+}  // namespace joulepath

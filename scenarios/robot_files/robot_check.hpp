@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/robot.hpp"
+#include "scenarios/text/document.hpp"
+
+namespace joulepath {
+
+/// Checks beyond the schema. Throws ConfigError at the key: torque and voltage constants that no motor has
+/// together, a footprint that crosses itself.
+void check_robot(const Node& root, const Robot& robot);
+
+/// Whether the robot's outline is known.
+[[nodiscard]] bool has_footprint(const Robot& robot);
+
+/// Unusual values: constants that differ or that mass and size contradict, wheels outside of the footprint.
+[[nodiscard]] std::vector<std::string> robot_notes(const Robot& robot);
+
+}  // namespace joulepath

@@ -1,0 +1,150 @@
+#include "scenarios/robot_files/robot_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "model/limit_table.hpp"
+#include "scenarios/robot_files/effect_list.hpp"
+#include "scenarios/robot_files/robot_check.hpp"
+
+namespace joulepath {
+namespace {
+
+Sided<double> read_sided(const Node& node) {
+  if (node.kind() == Value::Kind::map) return {node["left"].number(), node["right"].number()};
+  return {node.number(), node.number()};
+}
+
+Geometry read_geometry(const Node& node) {
+  return {.wheel_radius_m = read_sided(node["wheel_radius_m"]),
+          .half_track_m = node["half_track_m"].number(),
+          .center_of_mass_offset_m = node.number_or("center_of_mass_offset_m", 0.0)};
+}
+
+Inertia read_inertia(const Node& node) {
+  return {.chassis_mass_kg = node["chassis_mass_kg"].number(),
+          .wheel_mass_kg = node["wheel_mass_kg"].number(),
+          .chassis_yaw_inertia_kg_m2 = node["chassis_yaw_inertia_kg_m2"].number(),
+          .payload_yaw_inertia_m2 = node["payload_yaw_inertia_m2"].number(),
+          .wheel_axle_inertia_kg_m2 = node["wheel_axle_inertia_kg_m2"].number(),
+          .wheel_diameter_inertia_kg_m2 = node["wheel_diameter_inertia_kg_m2"].number()};
+}
+
+struct MotorKey {
+  const char* name;
+  double Motor::*field;
+};
+constexpr MotorKey kMotorKeys[] = {{"gear_ratio", &Motor::gear_ratio},
+                                   {"resistance_ohm", &Motor::resistance_ohm},
+                                   {"torque_constant_Nm_A", &Motor::torque_constant_Nm_A},
+                                   {"voltage_constant_V_s_rad", &Motor::voltage_constant_V_s_rad},
+                                   {"viscous_friction_Nm_s_rad", &Motor::viscous_friction_Nm_s_rad},
+                                   {"friction_torque_Nm", &Motor::friction_torque_Nm},
+                                   {"max_voltage_V", &Motor::max_voltage_V},
+                                   {"max_current_A", &Motor::max_current_A},
+                                   {"inductance_H", &Motor::inductance_H}};
+
+Sided<Motor> read_motors(const Node& node) {
+  Sided<Motor> motors;
+  for (const auto& key : kMotorKeys)
+    if (const auto value = node.find(key.name)) {
+      const Sided<double> values = read_sided(*value);
+      for (const Side side : kSides) motors[side].*key.field = values[side];
+    }
+  return motors;
+}
+
+Limits read_limits(const Node& node) {
+  Limits limits;
+  for (const Limit& limit : kLimits)
+    if (limit.field != nullptr) limits.*limit.field = node.number_or(limit.key, kNoLimit);
+  return limits;
+}
+
+std::vector<PayloadLimits> read_limits_by_payload(const Node& node) {
+  std::vector<PayloadLimits> rows;
+  for (const auto& item : node.items()) {
+    PayloadLimits row{.payload_kg = item["payload_kg"].number()};
+    for (const Limit& limit : kLimits)
+      if (const auto value = item.optional_number(limit.key))
+        row.limit_by_key[std::string(limit.key)] = *value;
+    if (!rows.empty() && row.payload_kg <= rows.back().payload_kg)
+      item["payload_kg"].fail("a payload greater than the row before", "sort the rows by payload");
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+PowerSupply read_power(const Node& node) {
+  return {.standby_W = node.number_or("standby_W", 0.0),
+          .regeneration_efficiency = node.number_or("regeneration_efficiency", 0.0),
+          .sharing = node.text_or("sharing", "wheel") == "bus" ? PowerSharing::bus : PowerSharing::wheel};
+}
+
+Battery read_battery(const Node& node) {
+  return {.capacity_Wh = node.number_or("capacity_Wh", kNoLimit),
+          .open_circuit_voltage_V = node.number_or("open_circuit_voltage_V", kNoLimit),
+          .internal_resistance_ohm = node.number_or("internal_resistance_ohm", 0.0),
+          .reserve_fraction = node.number_or("reserve_fraction", 0.0)};
+}
+
+Footprint read_footprint(const Node& node) {
+  Footprint footprint{.radius_m = node.number_or("radius_m", 0.0)};
+  const auto polygon = node.find("polygon_m");
+  if (!polygon) return footprint;
+  for (const auto& corner : polygon->items()) {
+    const auto xy = corner.items();
+    footprint.polygon_m.push_back({xy[0].number(), xy[1].number()});
+  }
+  double twice_area_m2 = 0.0;
+  const auto& p = footprint.polygon_m;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto& q = p[(i + 1) % p.size()];
+    twice_area_m2 += p[i][0] * q[1] - q[0] * p[i][1];
+  }
+  if (std::abs(twice_area_m2) < 1e-9) polygon->fail_found("corners on one line", "a polygon with an area");
+  return footprint;
+}
+
+}  // namespace
+
+Robot robot_from(const Document& document) {
+  static const Schema schema = robot_schema();
+  check_document(document, "robot", schema);
+  const Node root = document.root();
+  Robot robot;
+  robot.name = root.text_or("name", std::filesystem::path(document.file()).stem().string());
+  robot.geometry = read_geometry(root["geometry"]);
+  robot.inertia = read_inertia(root["inertia"]);
+  robot.motor = read_motors(root["motor"]);
+  robot.payload_offset_m = root.optional_number("payload_offset_m");
+  if (const auto limits = root.find("limits")) {
+    robot.limits = read_limits(*limits);
+    if (const auto rows = limits->find("by_payload")) robot.limits_by_payload = read_limits_by_payload(*rows);
+  }
+  if (const auto power = root.find("power")) robot.power = read_power(*power);
+  if (const auto battery = root.find("battery")) robot.battery = read_battery(*battery);
+  if (const auto footprint = root.find("footprint")) robot.footprint = read_footprint(*footprint);
+  if (const auto effects = root.find("effects")) robot.effects = read_effect_list(*effects);
+  if (const auto uncertainty = root.find("uncertainty"))
+    for (const auto& [key, value] : uncertainty->entries()) robot.uncertainty[key] = value.number();
+  check_robot(root, robot);
+  return robot;
+}
+
+Robot read_robot(const std::string& file, const NamedBy& named_by) {
+  return robot_from(Document::load(file, named_by));
+}
+
+std::string refusal_of(const Robot& robot) {
+  try {
+    static_cast<void>(robot_from(Document::parse(robot_text(robot), "")));
+    return {};
+  } catch (const ConfigError& error) {
+    ConfigError::Detail detail = error.detail();
+    detail.mark = {};
+    return ConfigError(detail).what();
+  }
+}
+
+}  // namespace joulepath

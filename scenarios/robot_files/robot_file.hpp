@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "model/robot.hpp"
+#include "scenarios/text/schema.hpp"
+
+namespace joulepath {
+
+[[nodiscard]] Schema robot_schema();
+
+/// Reads a robot file. Throws ConfigError; `named_by` is its place in another file.
+[[nodiscard]] Robot read_robot(const std::string& file, const NamedBy& named_by = {});
+
+/// The robot of a parsed document.
+[[nodiscard]] Robot robot_from(const Document& document);
+
+/// The text of a robot file that reads back as the same robot (numbers to the last bit).
+[[nodiscard]] std::string robot_text(const Robot& robot);
+
+/// Why the program would refuse a file of the robot: the key, what it would hold and what is accepted. Empty:
+/// the file reads back.
+[[nodiscard]] std::string refusal_of(const Robot& robot);
+
+}  // namespace joulepath
