@@ -1,6 +1,6 @@
 #include <iostream>
 #include <joulepath/planner/mission/mission.hpp>
-#include <joulepath/scenarios/mission_file.hpp>
+#include <joulepath/scenarios/mission_files/mission_file.hpp>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
