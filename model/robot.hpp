@@ -96,7 +96,7 @@ struct Robot {
   Battery battery{};
   Footprint footprint{};
   std::vector<EffectSetting> effects{};
-  std::map<std::string, double> uncertainty{};  ///< relative 1-sigma by key; absent = exact
+  std::map<std::string, double> uncertainty{};  ///< relative 1-sigma by key; none: unknown
 
   double total_mass_kg(double payload_kg) const {
     return inertia.chassis_mass_kg + 2 * inertia.wheel_mass_kg + payload_kg;

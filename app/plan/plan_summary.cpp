@@ -6,6 +6,7 @@
 #include "app/terminal.hpp"
 #include "model/watt_hours.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "scenarios/mission_files/plan_file.hpp"
 
 namespace joulepath {
 namespace {
@@ -68,9 +69,12 @@ std::string optimality_text(const Plan& plan) {
 
 void print_battery(std::ostream& stream, const BatteryAccount& battery) {
   stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
-         << figure(100 * battery.end_fraction, 5) << " % (95 %: " << figure(100 * battery.interval_95[0], 5)
-         << " to " << figure(100 * battery.interval_95[1], 5) << "), needs "
-         << figure(battery.required_capacity_Wh, 4) << " Wh (95 % upper bound), "
+         << figure(100 * battery.end_fraction, 5) << " %";
+  if (battery.interval_95)
+    stream << " (95 %: " << figure(100 * (*battery.interval_95)[0], 5) << " to "
+           << figure(100 * (*battery.interval_95)[1], 5) << ")";
+  stream << ", needs " << figure(battery.required_capacity_Wh, 4) << " Wh"
+         << (battery.interval_95 ? " (95 % upper bound)" : "") << ", "
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
 }
 
@@ -129,6 +133,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
            << optimality_text(plan) << ", replay " << figure(plan.replay_energy_J, 6)
            << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
     if (plan.battery) print_battery(stream, *plan.battery);
+    stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }
   stream << "results in " << directory << "\n";
 }

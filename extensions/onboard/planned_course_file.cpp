@@ -31,7 +31,8 @@ PlannedCourse read_planned_course(const std::string& directory, const Robot& rob
   const Json plan = Json::parse(read_text_file(file), nullptr, false);
   if (!plan.is_object())
     throw ConfigError({{file, 1, 1}, "", "no JSON object", "the plan.json of a plan", ""});
-  course.sigma_J = plan.value("energy_sigma_J", 0.0);
+  if (const Json sigma_J = plan.value("energy_sigma_J", Json()); sigma_J.is_number())
+    course.sigma_J = sigma_J.get<double>();
   for (const Json& leg : plan.value("legs", Json::array()))
     course.legs.push_back({leg.value("energy_J", 0.0), sigma_of(leg.value("energy_interval_95_J", Json()))});
   const Json battery = plan.value("battery", Json());

@@ -32,7 +32,7 @@ Json event_json(const MonitorStatus& s) {
             {"payload_kg", s.payload_kg ? finite(*s.payload_kg) : Json(nullptr)},
             {"payload_interval_95", s.payload_interval_95 ? pair(*s.payload_interval_95) : Json(nullptr)},
             {"rest_J", finite(s.rest_J)},
-            {"rest_upper_95_J", finite(s.rest_upper_J)},
+            {"rest_upper_95_J", s.rest_upper_J ? finite(*s.rest_upper_J) : Json(nullptr)},
             {"battery_fraction", s.battery_fraction ? finite(*s.battery_fraction) : Json(nullptr)},
             {"battery_suffices", or_null(s.battery_suffices)},
             {"bridged_s", finite(s.bridged_s)}};
@@ -85,7 +85,8 @@ std::string event_text(const MonitorStatus& s) {
   if (s.payload_kg)
     text += line("; payload %.2f kg (95 %%: %.2f to %.2f)", *s.payload_kg, (*s.payload_interval_95)[0],
                  (*s.payload_interval_95)[1]);
-  text += line("; %.0f J to go, at most %.0f J (95 %%)", s.rest_J, s.rest_upper_J);
+  text += line("; %.0f J to go", s.rest_J);
+  if (s.rest_upper_J) text += line(", at most %.0f J (95 %%)", *s.rest_upper_J);
   if (s.battery_suffices)
     text += line("; battery %.1f %%, %s", 100 * *s.battery_fraction,
                  *s.battery_suffices ? "enough" : "NOT ENOUGH to arrive above the reserve");

@@ -102,6 +102,7 @@ void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
     }
     variance_J2 += sum_J * sum_J;
   }
+  if (variance_J2 <= 0) return;
   plan.energy_sigma_J = std::sqrt(variance_J2);
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
     plan.legs[k].energy_sigma_J = std::sqrt(leg_variance_J2[k]);
@@ -130,10 +131,13 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
     account.charged_J += leg.charged_J;
     account.fraction_after_leg.push_back(charge.fraction());
   }
-  const double half_width = kNormal95 * plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
   account.end_fraction = charge.fraction();
-  account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
-  account.required_capacity_Wh = (charge.peak_J() + kNormal95OneSided * plan.energy_sigma_J) / kJoulesPerWh;
+  if (plan.energy_sigma_J) {
+    const double half_width = kNormal95 * *plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
+    account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
+  }
+  const double margin_J = kNormal95OneSided * plan.energy_sigma_J.value_or(0.0);
+  account.required_capacity_Wh = (charge.peak_J() + margin_J) / kJoulesPerWh;
   const double usable_Wh = battery.capacity_Wh * (1.0 - battery.reserve_fraction);
   account.missions_per_charge =
       account.required_capacity_Wh > 0 ? std::floor(usable_Wh / account.required_capacity_Wh) : 0.0;

@@ -82,9 +82,9 @@ struct LegPlan {
   EnergyByCause energy{};  ///< driving and dwell
   double lower_bound_J{};  ///< no profiles of these stretches take less energy from departure to departure
   double gap_percent{};    ///< relative to its energy; where it is driven in least time, relative to its time
-  double energy_sigma_J{};  ///< 1-sigma from the robot file's uncertainty
-  double charger_W{};       ///< of the charger at its stop, where the planner inserted it
-  double charged_J{};       ///< energy charged there
+  std::optional<double> energy_sigma_J{};  ///< 1-sigma, as of the plan
+  double charger_W{};                      ///< of the charger at its stop, where the planner inserted it
+  double charged_J{};                      ///< energy charged there
   std::vector<BaselineTotal> baselines{};
   std::vector<PathAlternative> alternatives{};
   std::vector<WayImprovement> improvements{};
@@ -112,10 +112,11 @@ struct VisitOrder {
 struct BatteryAccount {
   double start_fraction{};
   double end_fraction{};
-  std::array<double, 2> interval_95{};  ///< of the end fraction, from the robot file's uncertainty
-  double loss_J{};                      ///< in the internal resistance
-  double charged_J{};                   ///< at chargers on the way
-  double required_capacity_Wh{};        ///< 95 % upper bound of the largest energy between charges
+  std::optional<std::array<double, 2>> interval_95{};  ///< of the end fraction, from the plan's sigma
+  double loss_J{};                                     ///< in the internal resistance
+  double charged_J{};                                  ///< at chargers on the way
+  double required_capacity_Wh{};  ///< the largest energy between charges: its 95 % upper bound if the plan
+                                  ///< has a sigma
   double missions_per_charge{};
   double lowest_voltage_V{};
   std::optional<std::size_t> fails_on_leg{};  ///< first leg on which the charge falls below the reserve
@@ -129,7 +130,8 @@ struct Plan {
   std::string message{};
   std::vector<LegPlan> legs{};
   EnergyByCause energy{};
-  double energy_sigma_J{};  ///< 1-sigma of energy from the robot file's uncertainty
+  /// 1-sigma of energy from the robot file's `uncertainty:`; absent where the file states none.
+  std::optional<double> energy_sigma_J{};
   double duration_s{};
   double distance_m{};
   double lower_bound_J{};  ///< no profiles of these paths take less; NaN with a leg of least time

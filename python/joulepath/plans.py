@@ -48,10 +48,10 @@ class Plan(Value):
         return float(self.json.energy_J)
 
     @property
-    def interval_95_J(self) -> tuple[float, float]:
-        """95 % interval of the energy, from the uncertainty that the robot file states."""
-        low, high = self.json.energy_interval_95_J
-        return (low, high)
+    def interval_95_J(self) -> tuple[float, float] | None:
+        """95 % interval of the energy, from the uncertainty that the robot file states; None where it states none."""
+        interval = self.json.energy_interval_95_J
+        return None if interval is None else (float(interval[0]), float(interval[1]))
 
     @property
     def lower_bound_J(self) -> float | None:

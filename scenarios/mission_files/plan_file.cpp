@@ -16,8 +16,9 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity: values that are not finite become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json interval_95_J(double energy_J, double sigma_J) {
-  return {energy_J - kNormal95 * sigma_J, energy_J + kNormal95 * sigma_J};
+Json interval_95_J(double energy_J, const std::optional<double>& sigma_J) {
+  if (!sigma_J) return nullptr;
+  return {energy_J - kNormal95 * *sigma_J, energy_J + kNormal95 * *sigma_J};
 }
 
 Json cause_json(const EnergyByCause& energy) {
@@ -146,7 +147,7 @@ Json leg_json(const LegPlan& leg) {
 Json battery_json(const BatteryAccount& battery) {
   Json json{{"start_fraction", battery.start_fraction},
             {"end_fraction", battery.end_fraction},
-            {"interval_95", battery.interval_95},
+            {"interval_95", battery.interval_95 ? Json(*battery.interval_95) : Json(nullptr)},
             {"charged_J", battery.charged_J},
             {"required_capacity_Wh", battery.required_capacity_Wh},
             {"missions_per_charge", battery.missions_per_charge},
@@ -172,7 +173,8 @@ void add_results(const Plan& plan, Json& json) {
   json["energy_J"] = plan.energy.total_J();
   json["motion_energy_J"] = plan.energy.motion_J();
   json["energy_Wh"] = plan.energy.total_J() / kJoulesPerWh;
-  json["energy_sigma_J"] = plan.energy_sigma_J;
+  json["energy_sigma_J"] = plan.energy_sigma_J ? Json(*plan.energy_sigma_J) : Json(nullptr);
+  json["uncertainty"] = uncertainty_text(plan);
   json["energy_interval_95_J"] = interval_95_J(plan.energy.total_J(), plan.energy_sigma_J);
   json["battery_loss_J"] = plan.battery ? plan.battery->loss_J : 0.0;
   json["duration_s"] = plan.duration_s;
@@ -202,6 +204,12 @@ void add_results(const Plan& plan, Json& json) {
 }
 
 }  // namespace
+
+const char* uncertainty_text(const Plan& plan) {
+  return plan.energy_sigma_J
+             ? "of the robot file's constants alone"
+             : "unknown: the robot file states none in uncertainty:; calibrate and diagnose measure it";
+}
 
 std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot) {
   Json json{

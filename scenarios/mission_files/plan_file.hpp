@@ -12,6 +12,9 @@ namespace joulepath {
 /// `robot`: the robot that it is for.
 [[nodiscard]] std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot = {});
 
+/// What the 95 % intervals of a plan hold, or why it has none: "unknown: ...".
+[[nodiscard]] const char* uncertainty_text(const Plan& plan);
+
 /// `energy_by_cause_J` of a plan.json.
 [[nodiscard]] std::string cause_json_text(const EnergyByCause& energy);
 

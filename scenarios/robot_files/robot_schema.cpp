@@ -110,7 +110,7 @@ Schema robot_schema() {
        optional("power", power_schema()), optional("battery", battery_schema()),
        optional("footprint", footprint_schema()),
        optional("effects", effect_list_schema(), "effects added to the nominal model"),
-       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: exact")}));
+       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: unknown")}));
 }
 
 }  // namespace joulepath

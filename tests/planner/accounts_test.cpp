@@ -56,7 +56,8 @@ TEST(PlanAccounts, APrescribedMotionSharesTheUncertainty) {
   plan.legs = {leg};
   find_energy_sigmas(plan, uncertain(make_plant(robot)));
   const double sigma_J = 0.1 * robot.power.standby_W * (leg.duration_s + leg.dwell_s);
-  EXPECT_NEAR(plan.energy_sigma_J, sigma_J, 1e-6 * sigma_J);
+  ASSERT_TRUE(plan.energy_sigma_J);
+  EXPECT_NEAR(*plan.energy_sigma_J, sigma_J, 1e-6 * sigma_J);
 }
 
 }  // namespace

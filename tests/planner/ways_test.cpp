@@ -203,19 +203,20 @@ TEST(Charging, AChargerOfLessThanStandbyChargesNothing) {
   }
 }
 
-TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyTheBandIsZero) {
+TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyThereIsNone) {
   Robot robot = testing::nomad();
-  EXPECT_EQ(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J, 0.0);
+  EXPECT_FALSE(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J);
   robot.uncertainty["standby_W"] = 0.1;
   const Plan plan = plan_of(round_of_three(), kCoarse, robot);
-  EXPECT_NEAR(plan.energy_sigma_J, 0.1 * robot.power.standby_W * plan.duration_s, 1e-6 * plan.energy_sigma_J);
+  ASSERT_TRUE(plan.energy_sigma_J);
+  const double sigma_J = *plan.energy_sigma_J;
+  EXPECT_NEAR(sigma_J, 0.1 * robot.power.standby_W * plan.duration_s, 1e-6 * sigma_J);
   double sum_J = 0.0;
-  for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J;
-  EXPECT_NEAR(sum_J, plan.energy_sigma_J, 1e-9 * sum_J);
+  for (const LegPlan& leg : plan.legs) sum_J += leg.energy_sigma_J.value();
+  EXPECT_NEAR(sum_J, sigma_J, 1e-9 * sum_J);
   ASSERT_TRUE(plan.battery);
   const double drawn_J = plan.energy.total_J() + plan.battery->loss_J;
-  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * plan.energy_sigma_J,
-              1e-4 * drawn_J)
+  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * sigma_J, 1e-4 * drawn_J)
       << "nineteen in twenty missions take less";
 }
 

@@ -200,14 +200,14 @@ MonitorStatus Monitor::status() const {
   }
   const double first_J = kShrink * whole_J;
   const double excess = std::max(1.0, (status.executed_J + first_J) / (planned_J + first_J));
-  const double relative_sigma = whole_J > 0 ? course_.sigma_J / whole_J : 0.0;
-  status.rest_upper_J =
-      status.rest_J * (status.measured ? excess : 1.0) * (1 + kNormal95OneSided * relative_sigma);
+  const double likely_J = status.rest_J * (status.measured ? excess : 1.0);
+  if (course_.sigma_J && whole_J > 0)
+    status.rest_upper_J = likely_J * (1 + kNormal95OneSided * *course_.sigma_J / whole_J);
   const double capacity_J = kJoulesPerWh * robot_.battery.capacity_Wh;
   if (course_.battery_fraction && std::isfinite(capacity_J) && status.measured) {
     status.battery_fraction = *course_.battery_fraction - status.executed_J / capacity_J;
-    status.battery_suffices =
-        (*status.battery_fraction - robot_.battery.reserve_fraction) * capacity_J >= status.rest_upper_J;
+    status.battery_suffices = (*status.battery_fraction - robot_.battery.reserve_fraction) * capacity_J >=
+                              status.rest_upper_J.value_or(likely_J);
   }
   return status;
 }

@@ -35,8 +35,9 @@ struct MonitorStatus {
   bool measured{};     ///< false: no channel of power yet
   std::optional<double> payload_kg{};
   std::optional<std::array<double, 2>> payload_interval_95{};
-  double rest_J{};        ///< of the plan
-  double rest_upper_J{};  ///< 95 %: with the drive's excess so far and the plan's own uncertainty
+  double rest_J{};  ///< of the plan
+  /// 95 %: with the drive's excess so far and the plan's own uncertainty; absent where the plan states none.
+  std::optional<double> rest_upper_J{};
   std::optional<double> battery_fraction{};
   std::optional<bool> battery_suffices{};  ///< for the rest's upper bound, above the reserve
   double bridged_s{};

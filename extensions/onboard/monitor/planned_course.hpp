@@ -12,7 +12,7 @@ namespace joulepath {
 /// A leg as planned, with its stop.
 struct PlannedLeg {
   double energy_J{};
-  double sigma_J{};
+  double sigma_J{};  ///< zero: the plan states none
 };
 
 /// What a plan says along its wheels' travel.
@@ -23,7 +23,7 @@ struct PlannedCourse {
   std::vector<double> payload_kg{};
   std::vector<std::size_t> leg{};
   std::vector<PlannedLeg> legs{};
-  double sigma_J{};                          ///< of the whole energy
+  std::optional<double> sigma_J{};           ///< of the whole energy; absent: the plan states none
   std::optional<double> battery_fraction{};  ///< at the start
 };
 

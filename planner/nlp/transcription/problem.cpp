@@ -15,8 +15,8 @@
 namespace joulepath::nlp {
 namespace {
 
-template <class Function, std::size_t... I>
-void for_term(std::size_t index, Rows& terms, Function&& function, std::index_sequence<I...>) {
+template <class AnyRows, class Function, std::size_t... I>
+void for_term(std::size_t index, AnyRows& terms, Function&& function, std::index_sequence<I...>) {
   ((I == index ? (function(std::get<I>(terms)), 0) : 0), ...);
 }
 
@@ -24,7 +24,7 @@ template <class AnyInterval>
 auto evaluate(const Problem& problem, const ActiveRow& row, const AnyInterval& interval) {
   typename AnyInterval::Real value{};
   for_term(
-      row.term, const_cast<Rows&>(problem.terms), [&](const auto& term) { value = term(interval, row.row); },
+      row.term, problem.terms, [&](const auto& term) { value = term(interval, row.row); },
       std::make_index_sequence<std::tuple_size_v<Rows>>());
   return value;
 }

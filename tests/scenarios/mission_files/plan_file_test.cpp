@@ -1,0 +1,74 @@
+// plan.json says nothing about an uncertainty that the robot file does not state.
+#include "scenarios/mission_files/plan_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "planner/mission/mission.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
+#include "tests/support/locations.hpp"
+
+namespace joulepath {
+namespace {
+
+using Json = nlohmann::json;
+
+Json plan_json(const Robot& robot) {
+  const LegRequest leg{.path = PathRequest{.bezier_m = {{{{0, 0}, {1, 0}, {2, 0.5}, {2, 2}}}}}, .dwell_s = 2};
+  const MissionRequest mission{
+      .name = "curve",
+      .legs = {leg, {.path = PathRequest{.bezier_m = {{{{2, 2}, {2, 3}, {2, 4}, {2, 5}}}}}}}};
+  return Json::parse(plan_json_text(
+      plan_mission(mission, {.robot = robot},
+                   {.solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-3, .baselines = false})));
+}
+
+/// Whether all intervals are there and wider than nothing, or all are null.
+void expect_intervals(const Json& plan, bool are_known) {
+  std::vector<Json> intervals{plan.at("energy_interval_95_J"),
+                              plan.at("legs").at(0).at("energy_interval_95_J"),
+                              plan.at("legs").at(1).at("energy_interval_95_J")};
+  if (plan.contains("battery")) intervals.push_back(plan.at("battery").at("interval_95"));
+  for (const Json& interval : intervals) {
+    ASSERT_EQ(interval.is_array(), are_known) << plan.dump(1);
+    if (are_known) EXPECT_GT(interval.at(1), interval.at(0));
+  }
+  EXPECT_EQ(plan.at("energy_sigma_J").is_null(), !are_known);
+  EXPECT_EQ(plan.at("uncertainty").get<std::string>().starts_with("unknown"), !are_known);
+}
+
+TEST(PlanFile, NoRobotHasAnIntervalThatItsFileDoesNotState) {
+  int robots = 0, with_battery = 0;
+  for (const auto& file : std::filesystem::directory_iterator(JOULEPATH_SOURCE_DIR "/scenarios/robots")) {
+    Robot robot = read_robot(file.path().string());
+    const Json plan = plan_json(robot);
+    expect_intervals(plan, !robot.uncertainty.empty());
+    with_battery += plan.contains("battery");
+    robot.uncertainty = {{"chassis_mass_kg", 0.0}};
+    expect_intervals(plan_json(robot), false);
+    robot.uncertainty = {{"chassis_mass_kg", 0.02}};
+    expect_intervals(plan_json(robot), true);
+    ++robots;
+  }
+  EXPECT_GE(robots, 5);
+  EXPECT_GE(with_battery, 3);
+}
+
+/// The stated capacity is then the expected energy, which a bound exceeds.
+TEST(PlanFile, ACapacityWithoutUncertaintyIsTheExpectedEnergy) {
+  Robot robot = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml");
+  const Json known = plan_json(robot);
+  robot.uncertainty.clear();
+  const Json unknown = plan_json(robot);
+  EXPECT_EQ(unknown.at("energy_J"), known.at("energy_J"));
+  EXPECT_EQ(unknown.at("battery").at("end_fraction"), known.at("battery").at("end_fraction"));
+  EXPECT_LT(unknown.at("battery").at("required_capacity_Wh"), known.at("battery").at("required_capacity_Wh"));
+  EXPECT_NEAR(unknown.at("battery").at("required_capacity_Wh").get<double>() * 3600,
+              unknown.at("energy_J").get<double>() + unknown.at("battery_loss_J").get<double>(), 1e-6);
+}
+
+}  // namespace
+}  // namespace joulepath
