@@ -37,7 +37,6 @@ JerkSolution solve_with_ipopt(const JerkProgram&, const IpoptOptions&) {
 
 }  // namespace nlp
 
-const char* search_planner_name(SearchPlanner) { return "none"; }
 SearchResult search_polyline(const FreeSpace&, const SearchRequest&) { refuse("a search for a route"); }
 double polyline_cost(const std::vector<Point2>&, const TravelCost&) { refuse("a search for a route"); }
 

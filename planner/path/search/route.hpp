@@ -56,7 +56,6 @@ struct RouteRequest {
   /// room for a blend of this policy; not for CornerPolicy::Kind::stop_turn_go.
   bool blend_start{};
   bool blend_goal{};
-  SearchPlanner planner{SearchPlanner::bit_star};
   TravelCost cost{};
   std::uint64_t seed{1};
 };

@@ -19,8 +19,8 @@ class RouteCache {
   std::vector<PooledRoute> find_or_search(const RouteRequest& request, const PoolOptions& options,
                                           const Search& search) {
     if (request.cost.rate) return search();
-    const Key key{request.start.x_m, request.start.y_m,    request.goal_x_m, request.goal_y_m,
-                  request.seed,      int(request.planner), options.classes,  options.searches};
+    const Key key{request.start.x_m, request.start.y_m, request.goal_x_m, request.goal_y_m,
+                  request.seed,      options.classes,   options.searches};
     {
       const std::lock_guard lock(mutex_);
       const auto found = routes_.find(key);
@@ -32,7 +32,7 @@ class RouteCache {
   }
 
  private:
-  using Key = std::tuple<double, double, double, double, std::uint64_t, int, int, int>;
+  using Key = std::tuple<double, double, double, double, std::uint64_t, int, int>;
   std::mutex mutex_{};
   std::map<Key, std::vector<PooledRoute>> routes_{};
 };

@@ -46,8 +46,8 @@ class Pool {
     if (line.empty()) line = floor_.cell_route(start_, goal_, cells_ = FreeSpace::Cells::free);
     add_taut(line, "lattice");
   }
-  void search(SearchPlanner planner, std::uint64_t seed) {
-    const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, planner, cost_, seed});
+  void search(std::uint64_t seed) {
+    const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, cost_, seed});
     iterations_ += found.iterations;
     add_taut(found.polyline_m, found.planner);
   }
@@ -112,7 +112,7 @@ std::vector<PooledRoute> search_all(const RouteSpace& space, const RouteRequest&
   if (!pool.straight()) {
     pool.search_cells();
     for (int k = 0; k < options.searches; ++k)
-      pool.search(request.planner, request.seed + kSeedStride * static_cast<std::uint64_t>(k));
+      pool.search(request.seed + kSeedStride * static_cast<std::uint64_t>(k));
     if (options.classes > 1) pool.search_away(options.classes);
   }
   return std::move(pool).routes();

@@ -3,8 +3,7 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/PathGeometric.h>
-#include <ompl/geometric/planners/informedtrees/ABITstar.h>
-#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/util/Console.h>
 
 #include <cmath>
@@ -14,32 +13,12 @@
 
 #include "planner/path/search/ompl_space.hpp"
 // Design: docs/decisions/0201-routes-and-floor.md
-// Method: [Sucan2012], [Gammell2015], [StrubGammell2020], [KaramanFrazzoli2011], [Gammell2014]
+// Method: [Sucan2012], [Gammell2015]
 namespace joulepath {
 namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, SearchPlanner planner) {
-  switch (planner) {
-    case SearchPlanner::bit_star: {
-      auto bit = std::make_shared<og::BITstar>(space);
-      bit->setSamplesPerBatch(200);
-      return bit;
-    }
-    case SearchPlanner::abit_star: {
-      auto abit = std::make_shared<og::ABITstar>(space);
-      abit->setSamplesPerBatch(200);
-      return abit;
-    }
-    case SearchPlanner::rrt_star:
-      return std::make_shared<og::RRTstar>(space);
-    case SearchPlanner::informed_rrt_star:
-      return std::make_shared<og::InformedRRTstar>(space);
-  }
-  return nullptr;
-}
 
 /// Ends a search by counting iterations: at the budget, or when the best cost no longer improves.
 class Budget {
@@ -92,7 +71,8 @@ Setup set_up(const FreeSpace& free_space, const SearchRequest& request) {
   for (unsigned i = 0; i < 2; ++i) start[i] = request.start_m[i], goal[i] = request.goal_m[i];
   problem->setStartAndGoalStates(start, goal, 1e-6);
   problem->setOptimizationObjective(ompl_objective(space, request));
-  ob::PlannerPtr planner = make_planner(space, request.planner);
+  auto planner = std::make_shared<og::BITstar>(space);
+  planner->setSamplesPerBatch(200);
   planner->setProblemDefinition(problem);
   planner->setup();
   return {problem, planner};
@@ -100,23 +80,9 @@ Setup set_up(const FreeSpace& free_space, const SearchRequest& request) {
 
 }  // namespace
 
-const char* search_planner_name(SearchPlanner planner) {
-  switch (planner) {
-    case SearchPlanner::bit_star:
-      return "bit_star";
-    case SearchPlanner::abit_star:
-      return "abit_star";
-    case SearchPlanner::rrt_star:
-      return "rrt_star";
-    case SearchPlanner::informed_rrt_star:
-      return "informed_rrt_star";
-  }
-  return "";
-}
-
 SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request) {
   SearchResult result;
-  result.planner = search_planner_name(request.planner);
+  result.planner = "bit_star";
   const Point2 &a = request.start_m, &b = request.goal_m;
   if (!request.cost.rate && DiscLineCheck(space, a, b, request.cells)(a, b)) {
     result.polyline_m = {a, b};

@@ -10,10 +10,6 @@
 
 namespace joulepath {
 
-enum class SearchPlanner { bit_star, abit_star, rrt_star, informed_rrt_star };
-
-[[nodiscard]] const char* search_planner_name(SearchPlanner planner);
-
 /// Cost of a metre of travel: the search minimizes the integral of `rate` along the way.
 struct TravelCost {
   /// Cost per metre at a point, heading along the travel; absent: `least_rate` everywhere (length).
@@ -27,7 +23,6 @@ struct SearchRequest {
   Point2 start_m{};
   Point2 goal_m{};
   FreeSpace::Cells cells{FreeSpace::Cells::clear};  ///< cells that the disc may use
-  SearchPlanner planner{SearchPlanner::bit_star};
   TravelCost cost{};
   std::uint64_t seed{1};
   unsigned max_iterations{30000};  ///< of the planner's loop; the search does not read a clock
@@ -41,7 +36,7 @@ struct SearchResult {
   std::string planner{};
 };
 
-/// Searches with one of OMPL's optimizing planners in R^2. The same request gives the same bytes, on any
+/// Searches with OMPL's BIT* in R^2. The same request gives the same bytes, on any
 /// number of threads: every random number comes from the request's seed.
 [[nodiscard]] SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request);
 

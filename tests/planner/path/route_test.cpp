@@ -131,25 +131,21 @@ bool same_bytes(const RouteResult& a, const RouteResult& b) {
 TEST(Route, SameSeedSameBytesOnAnyNumberOfThreads) {
   const OccupancyGrid map = warehouse_grid(1, 30, 20);
   const RouteSpace space(map, nullptr, kDisc, 0.05);
-  for (const SearchPlanner planner : {SearchPlanner::bit_star, SearchPlanner::abit_star}) {
-    std::vector<RouteRequest> requests;
-    for (int i = 0; i < 6; ++i) {
-      requests.push_back(across(1.2, 1.2 + 0.1 * i, 28.5, 18.2));
-      requests.back().planner = planner;
-      requests.back().seed = static_cast<std::uint64_t>(i + 1);
-    }
-    std::vector<RouteResult> alone, threaded(requests.size());
-    for (const RouteRequest& request : requests) alone.push_back(plan_route(space, request));
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < requests.size(); ++i)
-      threads.emplace_back([&, i] { threaded[i] = plan_route(space, requests[i]); });
-    for (std::thread& thread : threads) thread.join();
-    for (std::size_t i = 0; i < requests.size(); ++i) {
-      ASSERT_TRUE(alone[i].found());
-      EXPECT_GT(alone[i].search_iterations, 100u);
-      EXPECT_TRUE(same_bytes(alone[i], threaded[i]))
-          << "planner " << search_planner_name(planner) << ", seed " << i + 1;
-    }
+  std::vector<RouteRequest> requests;
+  for (int i = 0; i < 6; ++i) {
+    requests.push_back(across(1.2, 1.2 + 0.1 * i, 28.5, 18.2));
+    requests.back().seed = static_cast<std::uint64_t>(i + 1);
+  }
+  std::vector<RouteResult> alone, threaded(requests.size());
+  for (const RouteRequest& request : requests) alone.push_back(plan_route(space, request));
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    threads.emplace_back([&, i] { threaded[i] = plan_route(space, requests[i]); });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    ASSERT_TRUE(alone[i].found());
+    EXPECT_GT(alone[i].search_iterations, 100u);
+    EXPECT_TRUE(same_bytes(alone[i], threaded[i])) << "seed " << i + 1;
   }
 }
 
