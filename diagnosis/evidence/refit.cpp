@@ -57,7 +57,7 @@ double value_at(const ModelState& state, const Column& column) {
   return candidate.shape.parameters.at(shape_parameters(candidate.shape.name)[part]);
 }
 
-bool is_edge(const ModelState& state, const Column& column) {
+bool moves_in_steps(const ModelState& state, const Column& column) {
   if (column.kind != Column::Kind::shape) return false;
   const Candidate& candidate = state.effects[static_cast<std::size_t>(column.owner)].candidate;
   const std::string name = shape_parameters(candidate.shape.name)[static_cast<std::size_t>(column.part)];
@@ -70,7 +70,7 @@ bool hardly_moves(const Refit& fit, const ModelState& from, const ModelState& to
     const Column& column = fit.equations.columns[static_cast<std::size_t>(fit.columns[i])];
     const auto at = static_cast<Eigen::Index>(i);
     const double least = kConvergedStep * std::sqrt(fit.covariance(at, at));
-    if (!is_edge(from, column) && std::abs(value_at(to, column) - value_at(from, column)) > least)
+    if (!moves_in_steps(from, column) && std::abs(value_at(to, column) - value_at(from, column)) > least)
       return false;
   }
   return true;
