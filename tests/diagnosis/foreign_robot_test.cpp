@@ -93,7 +93,7 @@ TEST(ForeignRobot, IsToldBesideAFaultOfOneRun) {
       std::ranges::fill(day.runs[faulty].log.motor_current_A.left, 0.0);
       const Diagnosis d = diagnose(day);
       EXPECT_EQ(d.foreign_constants.empty(), factor == 1.0) << factor << " in run " << faulty;
-      if (factor == 1.0) EXPECT_EQ(d.verdict, Verdict::data_suspect) << faulty;
+      EXPECT_EQ(d.verdict, factor == 1.0 ? Verdict::data_suspect : Verdict::unexplained) << faulty;
     }
 }
 
