@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "model/printable.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/text/document.hpp"
 
@@ -86,10 +87,12 @@ CLI::Validator number_check(const std::string& accepted, bool (*fits)(double)) {
   return {check, ""};
 }
 
-/// A script's variable that is not set gives an empty text.
+/// A script's variable that is not set gives an empty text. A name with a line break would forge a line
+/// wherever it is printed.
 CLI::Validator text_check() {
-  const auto check = [](const std::string& text) {
-    return std::string(text.empty() ? "found an empty text, accepted: a value" : "");
+  const auto check = [](const std::string& text) -> std::string {
+    if (text.empty()) return "found an empty text, accepted: a value";
+    return keeps_its_line(text) ? "" : "found '" + printable(text) + "', accepted: no control characters";
   };
   return {check, ""};
 }

@@ -35,6 +35,19 @@ void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<O
   d.verdict = verdict_with(d.simulator);
 }
 
+/// A fault of single runs is none of the file: another robot's file is wrong in the runs without one, too.
+std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, const RunsByUse& runs,
+                                                        const std::vector<DataCheck>& checks) {
+  std::set<std::size_t> faulty;
+  for (const DataCheck& check : checks)
+    if (!check.run.empty()) faulty.insert(check.runs.begin(), check.runs.end());
+  std::vector<RunSignals> sound;
+  std::ranges::copy_if(runs.signals, std::back_inserter(sound),
+                       [&](const RunSignals& run) { return !faulty.contains(run.run_index); });
+  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound).empty()) return {};
+  return foreign_constants(dataset.robot, runs.signals);
+}
+
 /// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs
 /// none of them.
 Diagnosis of_another_robot(const Dataset& dataset, const RunsByUse& runs,
@@ -227,10 +240,8 @@ Diagnosis diagnose(const Dataset& dataset, const DiagnoseOptions& options) {
   const auto examined = [&]() -> Diagnosis {
     RunsByUse runs = sort_runs(dataset);
     auto checks = check_data(dataset, runs);
-    // A fault of single runs is none of the file; one of all runs may be that of another robot's file.
-    if (std::ranges::all_of(checks, [](const DataCheck& check) { return check.run.empty(); }))
-      if (auto constants = foreign_constants(dataset.robot, runs.signals); !constants.empty())
-        return of_another_robot(dataset, runs, std::move(constants));
+    if (auto constants = constants_of_another_robot(dataset, runs, checks); !constants.empty())
+      return of_another_robot(dataset, runs, std::move(constants));
     if (!checks.empty()) return stopped_by(dataset, runs, std::move(checks));
     if (runs.signals.empty()) return diagnose_energies(dataset, options);
     return diagnose_logs(dataset, with_estimated_payloads(std::move(runs)), options);

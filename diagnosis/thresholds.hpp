@@ -330,6 +330,11 @@ inline constexpr double kUsualPayload_kg = 5.0;
 inline constexpr double kUsualAcceleration_m_s2 = 0.2;
 /// The same of the time of the day. Physical scale: a drive's temperature.
 inline constexpr double kUsualTime_s = 200.0;
+/// A fit is at its end where a further step is shorter than this, in standard deviations. Derived: such a step
+/// adds 0.05 nats.
+inline constexpr double kConvergedStep = 0.3;
+/// Steps of a fit. Declared: ends one that alternates between two points.
+inline constexpr int kMostFitSteps = 10;
 /// Prior width of a shape parameter over its value. Chosen.
 inline constexpr double kShapeSpread = 0.5;
 /// Step of the scan for a region on the floor; its edges are known as well before a fit. Chosen.

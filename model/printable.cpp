@@ -70,6 +70,15 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+bool keeps_its_line(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const Character character = decode(text.substr(at));
+    if (character.bytes > 0 && (is_control(character.code) || is_layout_mark(character.code))) return false;
+    at += character.bytes == 0 ? 1 : character.bytes;
+  }
+  return true;
+}
+
 std::string first_control_character(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const Character character = decode(text.substr(at));

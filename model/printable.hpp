@@ -14,6 +14,9 @@ namespace joulepath {
 /// UTF-8 appear as `\x1b`, separators of lines and marks of the direction of writing as `\u2028`.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// Whether no control character and no mark of the direction of writing moves what is printed after the text.
+[[nodiscard]] bool keeps_its_line(std::string_view text);
+
 /// The first control character other than tab, line feed and carriage return, as `U+001B`; empty: none.
 [[nodiscard]] std::string first_control_character(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "diagnosis/correction/companions.hpp"
 #include "diagnosis/correction/parameters.hpp"
 #include "diagnosis/evidence/fitted_model.hpp"
 #include "diagnosis/evidence/materiality.hpp"
@@ -29,7 +30,7 @@ double gap_percent(const Examination& x, const JudgedModel& model) {
 /// With the unknown terms of the best explanation; alone where such a term can stand for a name.
 Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
   const auto fit = [&](const std::set<std::string>& unknowns) {
-    return fit_effects(x.runs.diagnosis, x.id, named, 2, unknowns);
+    return fit_effects(x.runs.diagnosis, x.id, named, unknowns);
   };
   const std::set<std::string> unknowns =
       named.empty() ? std::set<std::string>{} : unknown_labels(x.id.equations, x.best());
@@ -39,19 +40,32 @@ Refit fit_names(const Examination& x, const std::vector<ActiveEffect>& named) {
   return fitted;
 }
 
-/// Fits the names, without those whose size a fit cannot tell from 0 or that lie outside their range. The
-/// evidence for them stays: without any name left the gap is unexplained.
+/// A member that is not named; below the materiality floor it is listed.
+void withdraw(std::size_t member, const std::string& why, Validation& v) {
+  std::vector<ActiveEffect>& named = v.judgment.named;
+  const std::string label = named[member].candidate.label();
+  v.judgment.notes.push_back(label + " is not named: its " + why);
+  std::ranges::copy_if(v.judgment.sizes.of_names, std::back_inserter(v.listed),
+                       [&](const SmallEffect& name) { return name.effect == label && name.size < 1; });
+  named.erase(named.begin() + static_cast<std::ptrdiff_t>(member));
+}
+
+/// Fits the names, without companions of the others, without those whose size a fit cannot tell from 0 or
+/// that lie outside their range. The evidence for them stays: without any name left the gap is unexplained.
 void fit_what_can_be_told(const Examination& x, Validation& v) {
   std::vector<ActiveEffect>& named = v.judgment.named;
   std::string dropped;
   v.fitted = fit_names(x, named);
+  while (const std::optional<std::size_t> companion = weakest_companion(x, v.fitted)) {
+    withdraw(*companion, "own evidence beside the other names is too small", v);
+    v.fitted = fit_names(x, named);
+  }
   for (std::size_t e = named.size(); e-- > 0;) {
     if (is_told_from_zero(v.fitted, e) && is_inside_range(v.fitted, e, x.dataset.robot)) continue;
     const std::string why =
         is_told_from_zero(v.fitted, e) ? "size lies outside what is physical" : "size cannot be told from 0";
-    v.judgment.notes.push_back(named[e].candidate.label() + " is not named: its " + why);
     dropped = "goes with " + named[e].candidate.label() + ", whose " + why;
-    named.erase(named.begin() + static_cast<std::ptrdiff_t>(e));
+    withdraw(e, why, v);
     v.fitted = fit_names(x, named);
   }
   if (dropped.empty() || !named.empty()) return;  // the verdict stays what the race says
@@ -121,8 +135,8 @@ std::vector<Draft> drafts_of(const Examination& x, const Refit& fitted, JudgedMo
 }
 
 /// The first part of the names that is better than the file on held-out runs and that the program reads.
-/// Constants are moved only where that reduces the gap. Names that widen it by more than kMaterialGap_percent are
-/// withdrawn.
+/// Constants are moved only where that reduces the gap. Names that widen it by more than kMaterialGap_percent
+/// are withdrawn.
 void choose_correction(const Examination& x, double before, Validation& v) {
   const bool widens = gap_percent(x, v.model) > before + kMaterialGap_percent;
   for (const std::vector<ActiveEffect>& part : parts_of(v.judgment.named)) {
@@ -138,7 +152,8 @@ void choose_correction(const Examination& x, double before, Validation& v) {
     }
   }
   if (!v.refused.empty()) {
-    v.judgment.notes.push_back("no correction is written: the program would refuse its robot file, " + v.refused);
+    v.judgment.notes.push_back("no correction is written: the program would refuse its robot file, " +
+                               v.refused);
     if (v.judgment.verdict == Verdict::explained) v.judgment.verdict = Verdict::partly_explained;
     return;
   }

@@ -10,7 +10,7 @@ struct Validation {
   Judgment judgment{};
   Refit fitted{};       ///< the names fitted on the diagnosis runs (calibration alone without names)
   JudgedModel model{};  ///< of the names, for the held-out runs
-  std::vector<SmallEffect> listed{};  ///< that were named, but are no gap
+  std::vector<SmallEffect> listed{};  ///< below the materiality floor, that were named before the fit
   /// The names, or the part of them, that may be written: it shrinks the held-out gap.
   std::optional<ModelState> corrected{};
   std::string refused{};  ///< why the program would not read a correction; empty: it reads all

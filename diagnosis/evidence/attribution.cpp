@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/numerics/parallel.hpp"
@@ -113,23 +114,38 @@ double evidence_needed(const Candidate& candidate, double size, const SearchOpti
   return options.small_effect_evidence;
 }
 
-/// Whether an effect below the materiality floor has enough evidence: alone it must add a minimum.
+/// Score that a candidate adds to a set.
+double score_added(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
+                   int candidate, const SearchOptions& options, double empty_evidence) {
+  std::vector<int> others = explanation.candidates;
+  others.erase(std::ranges::find(others, candidate));
+  return explanation.score -
+         evaluate(problem, equations, std::move(others), explanation.unknowns, options, empty_evidence).score;
+}
+
+/// What a candidate's evidence is above what it takes to name it; below 0: it is not named. Any is enough at
+/// the materiality floor and above, below it alone it must add a minimum.
 /// Inexact forms of a large effect bring a small share of its evidence, so the minimum includes that share,
 /// in proportion to the part of the signature that the other effects can reproduce.
-bool beyond_doubt(const LinearProblem& problem, const Equations& equations, const Explanation& explanation,
-                  int candidate, const SearchOptions& options, double empty_evidence) {
-  std::vector<int> others = explanation.candidates;
-  const auto at = std::ranges::find(others, candidate);
-  const double size = explanation.size[static_cast<std::size_t>(at - others.begin())];
-  if (size < kLeastSize) return false;
-  others.erase(at);
-  const double without =
-      evaluate(problem, equations, std::move(others), explanation.unknowns, options, empty_evidence).score;
+double spare_evidence(const LinearProblem& problem, const Equations& equations,
+                      const Explanation& explanation, int candidate, const SearchOptions& options,
+                      double empty_evidence) {
+  const double added = score_added(problem, equations, explanation, candidate, options, empty_evidence);
+  if (std::ranges::count(explanation.small, candidate) == 0) return added;
+  const double size = explanation.size[static_cast<std::size_t>(
+      std::ranges::find(explanation.candidates, candidate) - explanation.candidates.begin())];
+  if (size < kLeastSize) return -std::numeric_limits<double>::infinity();
   const double needed =
       evidence_needed(equations.candidates[static_cast<std::size_t>(candidate)], size, options) +
       ghost_share(problem, equations, explanation, candidate) * kShareOfFormError *
           std::max(0.0, explanation.score);
-  return evidence_beyond_model_error(explanation.score - without, size) >= needed;
+  return evidence_beyond_model_error(added, size) - needed;
+}
+
+std::vector<int> indices(std::size_t count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 void insert_sorted(std::vector<int>& set, int member) {
@@ -246,10 +262,26 @@ std::vector<Explanation> search_explanations(const LinearProblem& problem, const
   if (std::isfinite(options.small_effect_evidence))
     parallel_for(std::min(met.size(), kMostReconsidered), [&](std::size_t k) {
       std::erase_if(met[k].small, [&](int candidate) {
-        return beyond_doubt(problem, equations, met[k], candidate, options, empty_evidence);
+        return spare_evidence(problem, equations, met[k], candidate, options, empty_evidence) >= 0;
       });
     });
   return met;
+}
+
+std::optional<int> weakest_member(const LinearProblem& problem, const Equations& equations,
+                                  const SearchOptions& asked) {
+  SearchOptions options = asked;
+  options.cost_of_unknown = costs_of_unknowns(problem, equations, options.dispersion);
+  const double empty_evidence = solve(problem, {}, options.dispersion, false).log_evidence;
+  const Explanation whole = evaluate(problem, equations, indices(equations.candidates.size()),
+                                     indices(equations.unknowns.size()), options, empty_evidence);
+  std::optional<int> weakest;
+  double least = 0;
+  for (int c : whole.candidates) {
+    const double spare = spare_evidence(problem, equations, whole, c, options, empty_evidence);
+    if (spare < least) least = spare, weakest = c;
+  }
+  return weakest;
 }
 
 void erase_immaterial(std::vector<Explanation>& explanations) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/evidence/linear_fit.hpp"
@@ -58,6 +59,11 @@ struct SearchOptions {
 [[nodiscard]] std::vector<Explanation> search_explanations(const LinearProblem& problem,
                                                            const Equations& equations,
                                                            const SearchOptions& options);
+
+/// The member of the set of all candidates and unknown terms whose own evidence beside the others lies
+/// furthest below what it takes to name it at its size.
+[[nodiscard]] std::optional<int> weakest_member(const LinearProblem& problem, const Equations& equations,
+                                                const SearchOptions& options);
 
 /// Erases the sets that cannot be an answer: those with a small effect. Where the best set holds an effect
 /// that may be named beside it, sets like it stay: a worse set would name what explains less.

@@ -11,7 +11,7 @@ namespace joulepath {
 /// The identification's calibration refitted on the diagnosis runs with the given effects, and with unknown
 /// terms (by label) beside them.
 [[nodiscard]] Refit fit_effects(const LogSet& diagnosis, const Identification& identification,
-                                const std::vector<ActiveEffect>& effects, int iterations = 1,
+                                const std::vector<ActiveEffect>& effects,
                                 const std::set<std::string>& unknowns = {});
 
 }  // namespace joulepath

@@ -104,7 +104,7 @@ void adopt_best(const LogSet& logs, Identification& id) {
   const Eigen::VectorXd parameters = fit_parameters(id.equations, runs, best.columns, id.dispersion);
   Refit fitted = refit(logs, runs, id.nuisances,
                        adopt(id.equations, id.nuisances, id.state, best, parameters), id.equations.noise,
-                       id.equations.run_variance, id.dispersion, 2, unknown_labels(id.equations, best));
+                       id.equations.run_variance, id.dispersion, unknown_labels(id.equations, best));
   id.state = std::move(fitted.state);
   id.signals = std::move(fitted.signals);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence/run_covariance.hpp"
+#include "diagnosis/thresholds.hpp"
 
 namespace joulepath {
 namespace {
@@ -46,6 +47,35 @@ ModelState moved(const Equations& equations, const std::vector<Nuisance>& nuisan
   return state;
 }
 
+/// What a column stands for, at a state. Unknown terms and time stamps stay columns: 0.
+double value_at(const ModelState& state, const Column& column) {
+  const auto owner = static_cast<std::size_t>(column.owner), part = static_cast<std::size_t>(column.part);
+  if (column.kind == Column::Kind::nuisance) return state.nuisance_fraction[owner];
+  if (column.kind == Column::Kind::amplitude) return state.effects[owner].amplitude[part];
+  if (column.kind != Column::Kind::shape) return 0.0;
+  const Candidate& candidate = state.effects[owner].candidate;
+  return candidate.shape.parameters.at(shape_parameters(candidate.shape.name)[part]);
+}
+
+bool moves_in_steps(const ModelState& state, const Column& column) {
+  if (column.kind != Column::Kind::shape) return false;
+  const Candidate& candidate = state.effects[static_cast<std::size_t>(column.owner)].candidate;
+  const std::string name = shape_parameters(candidate.shape.name)[static_cast<std::size_t>(column.part)];
+  return candidate.effect().find(name)->role == ParameterRole::edge;
+}
+
+/// Whether a fit is at its end. Edges move in steps past the samples: what they change shows in the strength.
+bool hardly_moves(const Refit& fit, const ModelState& from, const ModelState& to) {
+  for (std::size_t i = 0; i < fit.columns.size(); ++i) {
+    const Column& column = fit.equations.columns[static_cast<std::size_t>(fit.columns[i])];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double least = kConvergedStep * std::sqrt(fit.covariance(at, at));
+    if (!moves_in_steps(from, column) && std::abs(value_at(to, column) - value_at(from, column)) > least)
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisances, const ModelState& state,
@@ -73,8 +103,7 @@ ModelState adopt(const Equations& equations, const std::vector<Nuisance>& nuisan
 
 Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
             const std::vector<Nuisance>& nuisances, ModelState state, const NoiseModel& noise,
-            const Eigen::VectorXd& run_variance, double dispersion, int iterations,
-            const std::set<std::string>& unknowns) {
+            const Eigen::VectorXd& run_variance, double dispersion, const std::set<std::string>& unknowns) {
   Refit result;
   EquationOptions options{.whole_catalog = false,
                           .dictionary = false,
@@ -83,7 +112,7 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
                           .noise = &noise,
                           .run_variance = &run_variance};
   double read_delay_s = std::nan("");
-  for (int iteration = 0; iteration <= iterations; ++iteration) {
+  for (int step = 0;; ++step) {
     if (channel_delay_s(state) != read_delay_s) {
       read_delay_s = channel_delay_s(state);
       result.signals = read_signals(logs, read_delay_s);
@@ -98,8 +127,9 @@ Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
     result.columns.insert(result.columns.end(), effect_columns.begin(), effect_columns.end());
     result.parameters =
         fit_parameters(result.equations, fit_runs, effect_columns, dispersion, &result.covariance);
-    if (iteration == iterations) break;
-    state = moved(result.equations, nuisances, state, result.parameters);
+    ModelState next = moved(result.equations, nuisances, state, result.parameters);
+    if (step == kMostFitSteps || hardly_moves(result, state, next)) break;
+    state = std::move(next);
   }
   result.state = state;
   result.dispersion = dispersion;

@@ -25,11 +25,11 @@ struct Refit {
   double dispersion{1.0};
 };
 
-/// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given. The unknown
-/// terms of the given labels are fitted along with it.
+/// Refines a state on some of the log set's runs (indices into LogSet::runs), noise model given, until a step
+/// hardly moves it. The unknown terms of the given labels are fitted along with it.
 [[nodiscard]] Refit refit(const LogSet& logs, const std::vector<std::size_t>& fit_runs,
                           const std::vector<Nuisance>& nuisances, ModelState state, const NoiseModel& noise,
-                          const Eigen::VectorXd& run_variance, double dispersion, int iterations = 3,
+                          const Eigen::VectorXd& run_variance, double dispersion,
                           const std::set<std::string>& unknowns = {});
 
 /// The state that some runs alone give: one step from the fitted one on their equations.

@@ -121,14 +121,21 @@ std::string unknown_words(const Diagnosis& d) {
          (shares.empty() ? d.leftover_description : "depends on " + text_of_list(shares, "; then ")) + ".";
 }
 
-/// "these runs cannot tell viscous friction from quadratic drag, stribeck friction".
+/// "these runs cannot tell viscous friction, 0.01 N m s/rad (probability 0.5) from quadratic drag": each
+/// cause that has a group, then the others.
 std::string group_words(const Diagnosis& d) {
+  std::vector<std::string> groups;
+  std::vector<Cause> single;
   for (const Cause& cause : d.causes) {
-    if (cause.indistinguishable_from.empty()) continue;
-    return "these runs cannot tell " + strength_words(cause) + " (probability " +
-           three_digits(cause.probability) + ") from " + others_words(cause) + ".";
+    if (cause.indistinguishable_from.empty())
+      single.push_back(cause);
+    else
+      groups.push_back(strength_words(cause) + " (probability " + three_digits(cause.probability) +
+                       ") from " + others_words(cause));
   }
-  return "the likeliest cause is uncertain: " + causes_words(d.causes) + ".";
+  if (groups.empty()) return "the likeliest cause is uncertain: " + causes_words(single) + ".";
+  return "these runs cannot tell " + text_of_list(groups, "; nor ") +
+         (single.empty() ? "" : "; beside it " + causes_words(single)) + ".";
 }
 
 /// A sentence after a colon.

@@ -69,6 +69,25 @@ TEST(CommandLine, ANameOfSeveralLinesIsPrintedInOne) {
   }
 }
 
+/// A file's name on the command line cannot either: every command that takes one refuses it, in one line.
+TEST(CommandLine, ATextThatMovesTheTerminalIsRefused) {
+  const ScratchDirectory scratch;
+  for (const std::string mark : {"\r", "\n", "\t", "\x1b[2J", "\u2028", "\u202e", "\u0085"}) {
+    const std::string name = "'" + scratch.at("x" + mark + "forged: ok") + "'";
+    for (const std::string& command :
+         {"estimate " + name + " --robot r.yaml", "plan m.yaml --out " + name,
+          "diagnose d.yaml --out " + name, "simulate p --robot r.yaml --out " + name, "check " + name,
+          "batch " + name + " --out o", "diagnose d.yaml --out o --without " + name}) {
+      const auto refused = run_program(scratch, command);
+      EXPECT_EQ(refused.code, 2) << command;
+      EXPECT_EQ(refused.out, "") << command;
+      EXPECT_NE(refused.err.find("accepted: no control characters"), std::string::npos) << refused.err;
+      EXPECT_EQ(refused.err.find("\nforged"), std::string::npos) << refused.err;
+      EXPECT_TRUE(mark == "\n" || refused.err.find(mark) == std::string::npos) << refused.err;
+    }
+  }
+}
+
 /// Logs too short for the smoothing: named, and an error where there are no others.
 TEST(CommandLine, AShortLogIsLeftOutOrAnError) {
   const ScratchDirectory scratch;
@@ -319,8 +338,8 @@ TEST(CommandLine, AProofIsToldWithWhatItIsAbout) {
   const ScratchDirectory scratch;
   const std::string path = scratch.write("path.csv", "x_m,y_m\n0,0\n2,0.5\n4,0\n");
   const auto told = [&](const std::string& robot, const std::string& out) {
-    const auto result = run_program(scratch, "plan " + path + " --nodes 40 --solver fast --robot " + robot +
-                                                 " --out " + scratch.at(out));
+    const auto result = run_program(
+        scratch, "plan " + path + " --nodes 40 --solver fast --robot " + robot + " --out " + scratch.at(out));
     EXPECT_EQ(result.code, 0) << result.err;
     return result.out;
   };

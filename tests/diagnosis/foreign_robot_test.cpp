@@ -86,6 +86,18 @@ TEST(ForeignRobot, IsNotSeenInAnEffectOfUsualSize) {
   }
 }
 
+/// A dead current of one run: its own fault with the robot's own file, and no excuse for another robot's.
+TEST(ForeignRobot, IsToldBesideAFaultOfOneRun) {
+  for (const double factor : {1.0, 8.0})
+    for (const std::size_t faulty : {0u, 1u, 2u}) {
+      Dataset day = day_of(testing::nomad(), with_mass(factor));
+      std::ranges::fill(day.runs[faulty].log.motor_current_A.left, 0.0);
+      const Diagnosis d = diagnose(day);
+      EXPECT_EQ(d.foreign_constants.empty(), factor == 1.0) << factor << " in run " << faulty;
+      EXPECT_EQ(d.verdict, factor == 1.0 ? Verdict::data_suspect : Verdict::unexplained) << faulty;
+    }
+}
+
 TEST(ForeignRobot, EndsTheDiagnosisWithoutACorrection) {
   const Diagnosis d = diagnose(day_of(testing::nomad(), with_mass(8)));
   EXPECT_EQ(d.verdict, Verdict::unexplained);

@@ -7,6 +7,7 @@
 #include "diagnosis/checks/data_checks.hpp"
 #include "diagnosis/checks/dead_channels.hpp"
 #include "diagnosis/checks/plausible.hpp"
+#include "diagnosis/checks/relations.hpp"
 #include "diagnosis/checks/survey.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "model/config_error.hpp"
@@ -114,6 +115,17 @@ TEST(ShortRuns, NoCutOfASoundRunIsSuspect) {
     dataset.runs.push_back(drive("cut", length_s, rest_s, 100 + static_cast<unsigned>(trial)));
     const std::vector<DataCheck> found = check_data(dataset, sort_runs(dataset));
     EXPECT_TRUE(found.empty()) << length_s << " s, rest " << rest_s << " s: " << described(found);
+  }
+}
+
+/// With fewer rows than ten and its coefficients a law is asked nothing.
+TEST(ShortRuns, OfFewRowsHaveNoRelation) {
+  for (const double length_s : {0.6, 0.8, 1.0}) {
+    const RunSignals signals = make_run_signals(drive("short", length_s, 0.1, 5, 0.01), 0, nomad());
+    ASSERT_GT(signals.size(), 0) << length_s;
+    ASSERT_LE(signals.size(), 10) << length_s;
+    for (const std::optional<Relation>& relation : relations_of(signals, nomad()))
+      EXPECT_FALSE(relation) << relation->law << " of " << signals.size() << " rows";
   }
 }
 

@@ -116,15 +116,24 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
             "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
 }
 
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// To three digits, as a sentence says it: an answer in a file rounds to six.
+double as_said(double value) { return std::stod(digits(value)); }
+
 /// Numbers of all orders, so that every branch is met.
 struct RandomDiagnosis {
   std::mt19937_64 random;
 
   bool coin() { return random() % 2 == 0; }
-  double fraction() { return std::uniform_real_distribution(0.0, 1.0)(random); }
-  double size() { return std::pow(10, std::uniform_real_distribution(-3.0, 2.0)(random)); }
+  double fraction() { return as_said(std::uniform_real_distribution(0.0, 1.0)(random)); }
+  double size() { return as_said(std::pow(10, std::uniform_real_distribution(-3.0, 2.0)(random))); }
   double after(double before) {
-    return before * std::pow(10, std::uniform_real_distribution(-1.5, 0.3)(random));
+    return as_said(before * std::pow(10, std::uniform_real_distribution(-1.5, 0.3)(random)));
   }
 
   SignalGap signal() {
@@ -135,13 +144,19 @@ struct RandomDiagnosis {
             .present = coin()};
   }
 
+  EnergyGap energy() {
+    const double before = size();
+    return {.before_percent = before,
+            .after_percent = after(before),
+            .noise_floor_percent = after(before),
+            .before_J = coin() ? 10.0 : 0.0};
+  }
+
   Diagnosis draw() {
     Diagnosis d{.verdict = static_cast<Verdict>(random() % kVerdicts.size())};
-    const double before = size();
-    d.gap.energy = {.before_percent = before,
-                    .after_percent = after(before),
-                    .noise_floor_percent = after(before),
-                    .before_J = coin() ? 10.0 : 0.0};
+    d.gap.energy = energy();
+    if (coin()) d.gap.battery_energy = energy();
+    d.gap.energy.detectable_percent = size();
     d.gap.position_m = signal(), d.gap.heading_rad = signal();
     const bool names = d.verdict == Verdict::explained || d.verdict == Verdict::partly_explained ||
                        d.verdict == Verdict::ambiguous;
@@ -154,8 +169,12 @@ struct RandomDiagnosis {
     d.leftover_description = d.leftover_significant ? "goes with payload" : "";
     if (d.leftover_significant && coin())
       d.unknowns = {{.depends_on = "speed (current)", .probability = 0.9, .share = fraction()}};
+    if (d.verdict == Verdict::data_suspect)
+      d.data_checks = {{.run = coin() ? "run_2" : "", .channel = "gyro_yaw_rate_rad_s", .kind = "inverted"}};
+    if (d.verdict == Verdict::unexplained && random() % 4 == 0)
+      d.foreign_constants = {{"winding resistance", "ohm", size(), size()}};
     if (coin()) d.below_materiality = {{"floor_patch", 0.97, 20, 0.4}};
-    if (coin()) d.runs_apart = {{"run_3", 100 * (fraction() - 0.5), fraction()}};
+    if (coin()) d.runs_apart = {{"run_3", as_said(100 * (fraction() - 0.5)), fraction()}};
     if (coin()) {
       d.simulator = {.runs = 3,
                      .of_runs = 4,
@@ -169,22 +188,55 @@ struct RandomDiagnosis {
   }
 };
 
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 bool says(const std::string& sentence, const std::string& part) {
   return sentence.find(part) != std::string::npos;
 }
 
-/// A gap is said to shrink where the numbers of the answer do so by a tenth and began above their floor.
-void expect_shrink(const std::string& said, const std::string& subject, double before, double after,
-                   double floor, const std::string& numbers) {
-  const bool shrinks = after <= 0.9 * before && before > floor;
-  EXPECT_EQ(says(said, subject + " gap shrinks from " + numbers), shrinks) << said;
-  EXPECT_EQ(says(said, subject + " gap shrinks"), shrinks) << said;
+/// A gap is said to shrink where causes are named and the numbers of the answer do so by a tenth and began
+/// above their floor.
+void expect_shrink(const std::string& said, const std::string& subject, bool named, double before,
+                   double after, double floor, const std::string& numbers) {
+  const bool shrinks = named && after <= 0.9 * before && before > floor;
+  EXPECT_EQ(says(said, subject + " shrinks from " + numbers), shrinks) << said;
+  EXPECT_EQ(says(said, subject + " shrinks"), shrinks) << said;
+}
+
+/// A gap of energy is told with its numbers where energy was measured, and not where it was not.
+void expect_energy(const std::string& said, const std::string& subject, bool named,
+                   const nlohmann::json& gap) {
+  const double before = gap["before_percent"], after = gap["after_percent"];
+  const bool measured = gap["before_J"] > 0;
+  EXPECT_EQ(says(said, subject + " shrinks from ") || says(said, subject + " is " + digits(before) + " %"),
+            measured)
+      << said;
+  if (measured)
+    expect_shrink(said, subject, named, before, after, gap["noise_floor_percent"],
+                  digits(before) + " % to " + digits(after) + " %");
+}
+
+void expect_motion(const std::string& said, const Diagnosis& d, const nlohmann::json& motion) {
+  const bool named = !d.causes.empty();
+  const SignalGap &position = d.gap.position_m, &heading = d.gap.heading_rad;
+  if (motion.contains("before_rms_m"))
+    expect_shrink(said, "position gap", named, motion["before_rms_m"], motion["after_rms_m"],
+                  motion["noise_floor_rms_m"],
+                  digits(1000 * position.before_rms) + " to " + digits(1000 * position.after_rms) + " mm");
+  if (motion.contains("heading_before_rms_rad"))
+    expect_shrink(said, "heading gap", named, motion["heading_before_rms_rad"],
+                  motion["heading_after_rms_rad"], motion["heading_noise_floor_rms_rad"],
+                  digits(heading.before_rms) + " to " + digits(heading.after_rms) + " rad");
+}
+
+/// Every cause of the answer is told with its probability, and whatever it is not told from.
+void expect_causes(const std::string& said, const nlohmann::json& causes) {
+  for (const auto& cause : causes) {
+    EXPECT_TRUE(says(said, "dragging wheel (" + cause["parameters"]["side"]["value"].get<std::string>()))
+        << said;
+    EXPECT_TRUE(says(said, "(probability " + digits(cause["probability"]))) << said;
+    for (const auto& other : cause["indistinguishable_from"])
+      EXPECT_TRUE(says(said, other == "coulomb_friction" ? "coulomb friction" : "rolling resistance"))
+          << said;
+  }
 }
 
 TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
@@ -202,28 +254,21 @@ TEST(DiagnosisSentence, FollowsFromTheNumbersOfItsAnswer) {
               file_verdict(d) == Verdict::no_gap && !json["below_materiality"].empty())
         << said;
     EXPECT_EQ(says(said, "simulator's energy gap is"), json.contains("simulator")) << said;
-    if (d.causes.empty()) {
-      EXPECT_FALSE(says(said, "shrinks")) << said;
-      continue;
-    }
-    if (file_verdict(d) != Verdict::ambiguous)
-      for (const auto& cause : json["causes"]) {
-        EXPECT_TRUE(says(said, "(probability " + digits(cause["probability"]))) << said;
-        for (const auto& other : cause["indistinguishable_from"])
-          EXPECT_TRUE(says(said, other == "coulomb_friction" ? "coulomb friction" : "rolling resistance"))
-              << said;
-      }
-    const auto& energy = json["gap"]["energy"];
-    const double before = energy["before_percent"], after = energy["after_percent"];
-    if (d.gap.energy.before_J > 0)
-      expect_shrink(said, "energy", before, after, energy["noise_floor_percent"],
-                    digits(before) + " % to " + digits(after) + " %");
-    const auto& motion = json["gap"]["motion"];
-    if (motion.contains("before_rms_m"))
-      expect_shrink(said, "position", motion["before_rms_m"], motion["after_rms_m"],
-                    motion["noise_floor_rms_m"],
-                    digits(1000 * d.gap.position_m.before_rms) + " to " +
-                        digits(1000 * d.gap.position_m.after_rms) + " mm");
+    expect_causes(said, json["causes"]);
+    for (const DataCheck& check : d.data_checks)
+      EXPECT_TRUE(says(said, check.channel + " inverted" + (check.run.empty() ? "." : " in run_2."))) << said;
+    for (const ForeignConstant& one : d.foreign_constants)
+      EXPECT_TRUE(says(said, digits(one.in_file) + " ohm in the file, " + digits(one.in_runs) + " ohm"))
+          << said;
+    if (!d.data_checks.empty() || !d.foreign_constants.empty()) continue;
+    const std::string of_motors =
+        json["gap"].contains("battery_energy") ? "energy gap at the motors" : "energy gap";
+    const std::string whose = json.contains("simulator") ? "The robot file's " : "The ";
+    expect_energy(said, whose + of_motors, !d.causes.empty(), json["gap"]["energy"]);
+    if (d.gap.battery_energy)
+      expect_energy(said, whose + "energy gap at the battery", !d.causes.empty(),
+                    json["gap"]["battery_energy"]);
+    expect_motion(said, d, json["gap"]["motion"]);
     for (const auto& unknown : json["unknowns"])
       EXPECT_TRUE(says(said, digits(100 * unknown["share"].get<double>()) + " % of the explained gap"))
           << said;
