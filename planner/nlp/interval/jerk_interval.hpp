@@ -15,6 +15,7 @@ struct JerkInterval {
   Real u0{}, a0{};
   Real u1{}, a1{};
   Real dt{};
+  mutable PointLoads<Real> loads{};
 
   /// After a share tau of the time.
   Motion<Real> at(double tau) const {

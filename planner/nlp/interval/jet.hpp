@@ -105,4 +105,17 @@ JetOf<N> sqrt(const JetOf<N>& x) {
   return x.through(root, 0.5 / root, -0.25 / (root * x.value));
 }
 
+/// f(x, y), with f's derivatives by these two arguments.
+template <std::size_t N>
+JetOf<N> composed(const Jet& f, const JetOf<N>& x, const JetOf<N>& y) {
+  JetOf<N> r(f.value);
+  for (std::size_t i = 0, k = 0; i < N; ++i) {
+    r.d[i] = f.d[0] * x.d[i] + f.d[1] * y.d[i];
+    for (std::size_t j = 0; j <= i; ++j, ++k)
+      r.dd[k] = f.d[0] * x.dd[k] + f.d[1] * y.dd[k] + f.dd[0] * x.d[i] * x.d[j] +
+                f.dd[1] * (x.d[i] * y.d[j] + y.d[i] * x.d[j]) + f.dd[2] * y.d[i] * y.d[j];
+  }
+  return r;
+}
+
 }  // namespace joulepath::nlp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "model/operating_point.hpp"
@@ -78,6 +79,10 @@ struct Motion {
   Real u{};  ///< rate
 };
 
+/// Loads of both wheels at an interval's limit points, evaluated once: many limits ask for them.
+template <class Real>
+using PointLoads = std::array<std::optional<Sided<WheelLoad<Real>>>, kLimitPoints>;
+
 /// Two neighboring nodes as the input of a term, with constant acceleration between them. Every kind of
 /// interval has `Real`, `segment`, `dt`, at_limit_point() and at_energy_point(); see jerk_interval.hpp.
 template <class R>
@@ -88,6 +93,7 @@ struct Interval {
   Real u0{}, u1{};  ///< rate
   Real a{};         ///< (b1 - b0)/(2 ds), constant in the segment
   Real dt{};        ///< 2 ds/(u0 + u1), exact
+  mutable PointLoads<Real> loads{};
 
   Motion<Real> at_limit_point(std::size_t point) const {
     using std::sqrt;
@@ -132,6 +138,21 @@ Sided<WheelLoad<Real>> wheel_loads(const Segment& segment, const SegmentPoint& p
   }
 }
 
+/// Where a law is not affine it is evaluated with derivatives by acceleration and rate alone: a law of a
+/// motor has no other arguments, and five derivatives cost four times as much.
+template <std::size_t N>
+requires(N > 2) Sided<WheelLoad<JetOf<N>>> wheel_loads(const Segment& segment, const SegmentPoint& point,
+                                                       const Motion<JetOf<N>>& motion) {
+  if (point.affine) return {affine_load(point.wheel.left, motion), affine_load(point.wheel.right, motion)};
+  const Jet a = Jet::variable(0, motion.a.value), u = Jet::variable(1, motion.u.value);
+  return map_sides(wheel_loads(segment, point, Motion<Jet>{a, u * u, u}),
+                   [&](Side, const WheelLoad<Jet>& load) {
+                     const auto by_motion = [&](const Jet& law) { return composed(law, motion.a, motion.u); };
+                     return WheelLoad<JetOf<N>>{by_motion(load.current_A), by_motion(load.voltage_V),
+                                                by_motion(load.force_N), by_motion(load.power_W)};
+                   });
+}
+
 /// Wheel load at one of the limit points.
 template <class AnyInterval, class Real = typename AnyInterval::Real>
 [[gnu::always_inline]] inline WheelLoad<Real> load_at(const AnyInterval& interval, std::size_t point,
@@ -139,7 +160,9 @@ template <class AnyInterval, class Real = typename AnyInterval::Real>
   const SegmentPoint& place = interval.segment.limit_points[point];
   const Motion<Real> motion = interval.at_limit_point(point);
   if (place.affine) return affine_load(place.wheel[side], motion);
-  return wheel_loads(interval.segment, place, motion)[side];
+  auto& loads = interval.loads[point];
+  if (!loads) loads = wheel_loads(interval.segment, place, motion);
+  return (*loads)[side];
 }
 
 /// The interval with derivatives by b0 and b1; a rest end is a constant.
