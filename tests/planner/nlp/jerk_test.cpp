@@ -290,28 +290,5 @@ TEST(Jerk, UnequalAccelerationAndBrakingArePlannedAndBounded) {
   EXPECT_TRUE(solve_profile(request).profile.has_value());
 }
 
-/// A law of a motor with a kink is evaluated once a place for all limits, by acceleration and rate alone: a
-/// profile costs a few times that of an affine law, with and without a jerk limit.
-TEST(Jerk, AMotorsLawWithAKinkCostsAFewTimesAnAffineOne) {
-  constexpr double kMost = 6.5;
-  for (const double jerk_m_s3 : {1.0, kNoLimit}) {
-    ProfileRequest affine = bezier(jerk_m_s3), bent = affine;
-    affine.solver = bent.solver = SolverChoice::fast;
-    affine.time = bent.time = {.mode = TimeMode::time_price, .price_W = 300};
-    bent.plant =
-        make_plant(affine.plant.robot, {{.name = "gear_efficiency", .parameters = {{"loss_fraction", 0.1}}}});
-    const auto least_cpu_s = [](const ProfileRequest& request) {
-      double least_s = kNoLimit;
-      for (int i = 0; i < 3; ++i) {
-        const double begin_s = nlp::thread_cpu_s();
-        EXPECT_TRUE(solve_profile(request).profile);
-        least_s = std::min(least_s, nlp::thread_cpu_s() - begin_s);
-      }
-      return least_s;
-    };
-    EXPECT_LT(least_cpu_s(bent), kMost * least_cpu_s(affine)) << jerk_m_s3;
-  }
-}
-
 }  // namespace
 }  // namespace joulepath
