@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "planner/motion/replay.hpp"
-#include "planner/nlp/fast/thread_clock.hpp"
 #include "planner/profile/profile_solver.hpp"
 #include "planner/values/profile.hpp"
 #include "planner/values/profile_request.hpp"
