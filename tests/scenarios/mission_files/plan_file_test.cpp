@@ -34,7 +34,9 @@ void expect_intervals(const Json& plan, bool are_known) {
   if (plan.contains("battery")) intervals.push_back(plan.at("battery").at("interval_95"));
   for (const Json& interval : intervals) {
     ASSERT_EQ(interval.is_array(), are_known) << plan.dump(1);
-    if (are_known) EXPECT_GT(interval.at(1), interval.at(0));
+    if (are_known) {
+      EXPECT_GT(interval.at(1), interval.at(0));
+    }
   }
   EXPECT_EQ(plan.at("energy_sigma_J").is_null(), !are_known);
   EXPECT_EQ(plan.at("uncertainty").get<std::string>().starts_with("unknown"), !are_known);
