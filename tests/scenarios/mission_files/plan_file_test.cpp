@@ -20,7 +20,7 @@ Json plan_json(const Robot& robot) {
   const LegRequest leg{.path = PathRequest{.bezier_m = {{{{0, 0}, {1, 0}, {2, 0.5}, {2, 2}}}}}, .dwell_s = 2};
   const MissionRequest mission{
       .name = "curve",
-      .legs = {leg, {.path = PathRequest{.bezier_m = {{{{2, 2}, {2, 3}, {2, 4}, {2, 5}}}}}}}};
+      .legs = {leg, {.path = PathRequest{.bezier_m = {{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}}}}}}};
   return Json::parse(plan_json_text(
       plan_mission(mission, {.robot = robot},
                    {.solver = SolverChoice::fast, .nodes = 30, .accuracy = 1e-3, .baselines = false})));
