@@ -38,9 +38,8 @@ struct CommandText {
   std::string examples{};  ///< shown below the options
 };
 
-/// One subcommand. `declare` adds
-/// options bound to its members. `run` reads, calculates, prints results on stdout and messages on stderr,
-/// and returns the exit code. Errors are thrown; program.cpp reports them.
+/// One subcommand. `declare` adds options bound to its members. `run` reads, calculates, prints results on
+/// stdout and messages on stderr, and returns the exit code. Errors are thrown; program.cpp reports them.
 class Command {
  public:
   explicit Command(CommandText text) : text_(std::move(text)) {}

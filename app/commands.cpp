@@ -10,9 +10,20 @@ std::vector<std::unique_ptr<Command>> all_commands() {
 #define JOULEPATH_MAKE(name) commands.push_back(make_##name##_command());
   JOULEPATH_COMMANDS(JOULEPATH_MAKE)
 #undef JOULEPATH_MAKE
-  ProgramParts parts = extension_parts();
-  for (auto& command : parts.commands) commands.push_back(std::move(command));
+  for (const auto& [extension, make] : extension_parts().commands) {
+    commands.push_back(make());
+    commands.back()->belongs_to(extension);
+  }
   return commands;
+}
+
+const ProgramParts& extension_parts() {
+  static const ProgramParts all = [] {
+    ProgramParts parts;
+    add_extension_commands(parts);
+    return parts;
+  }();
+  return all;
 }
 
 void add_common_flags(CommandLine& line, CommonOptions& options, const std::string& which) {

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/command.hpp"
@@ -15,25 +14,36 @@ namespace joulepath {
 /// What the extensions add to the program; files and formats are in the Registry of scenarios/registry.hpp.
 /// Design: docs/decisions/0800-build.md
 struct ProgramParts {
-  std::string extension{};  ///< that adds now
-  std::vector<std::unique_ptr<Command>> commands{};
-  std::vector<std::unique_ptr<ExportTask>> export_tasks{};
-  std::vector<std::unique_ptr<PlanComparison>> comparisons{};
-  std::vector<std::unique_ptr<JobPart>> job_parts{};
+  template <class Part>
+  using Maker = std::unique_ptr<Part> (*)();
+  template <class Part>
+  using Makers = std::vector<Maker<Part>>;
+  struct ExtensionCommand {
+    std::string extension{};
+    Maker<Command> make{};
+  };
 
-  void add(std::unique_ptr<Command> command) {
-    command->belongs_to(extension);
-    commands.push_back(std::move(command));
-  }
+  std::string extension{};  ///< that registers now
+  std::vector<ExtensionCommand> commands{};
+  Makers<ExportTask> export_tasks{};
+  Makers<PlanComparison> comparisons{};
+  Makers<JobPart> job_parts{};
+
+  void add(Maker<Command> make) { commands.push_back({extension, make}); }
 };
 
 /// Made by CMake from JOULEPATH_EXTENSIONS (cmake/joulepath_extension.cmake): calls add_NAME_commands() of
 /// each.
 void add_extension_commands(ProgramParts& parts);
 
-[[nodiscard]] inline ProgramParts extension_parts() {
-  ProgramParts parts;
-  add_extension_commands(parts);
+[[nodiscard]] const ProgramParts& extension_parts();
+
+/// One part of each maker: a command has its own, as parts hold the values of options.
+template <class Part>
+[[nodiscard]] std::vector<std::unique_ptr<Part>> made(
+    const std::vector<std::unique_ptr<Part> (*)()>& makers) {
+  std::vector<std::unique_ptr<Part>> parts;
+  for (const auto make : makers) parts.push_back(make());
   return parts;
 }
 

@@ -38,6 +38,19 @@ bool is_layout_mark(std::uint32_t code) {
          (code >= 0x2066 && code <= 0x2069);
 }
 
+bool moves_print(std::uint32_t code) { return is_control(code) || is_layout_mark(code); }
+
+/// The first character of UTF-8 that fits.
+template <class Fits>
+std::optional<std::uint32_t> first_character(std::string_view text, const Fits& fits) {
+  for (std::size_t at = 0; at < text.size();) {
+    const Character character = decode(text.substr(at));
+    if (character.bytes > 0 && fits(character.code)) return character.code;
+    at += character.bytes == 0 ? 1 : character.bytes;
+  }
+  return std::nullopt;
+}
+
 std::string escaped(std::uint32_t value) {
   char text[12];
   std::snprintf(text, sizeof text, value <= 0xFF ? "\\x%02x" : "\\u%04x", static_cast<unsigned>(value));
@@ -61,7 +74,7 @@ std::string printable(std::string_view text) {
     const Character character = decode(text.substr(at));
     if (character.bytes == 0)
       shown += escaped(static_cast<unsigned char>(text[at]));
-    else if (is_control(character.code) || is_layout_mark(character.code))
+    else if (moves_print(character.code))
       shown += escaped(character.code);
     else
       shown += text.substr(at, character.bytes);
@@ -70,27 +83,15 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
-bool keeps_its_line(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const Character character = decode(text.substr(at));
-    if (character.bytes > 0 && (is_control(character.code) || is_layout_mark(character.code))) return false;
-    at += character.bytes == 0 ? 1 : character.bytes;
-  }
-  return true;
-}
+bool keeps_its_line(std::string_view text) { return !first_character(text, moves_print); }
 
 std::string first_control_character(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const Character character = decode(text.substr(at));
-    const bool layout = character.code == '\t' || character.code == '\n' || character.code == '\r';
-    if (character.bytes > 0 && is_control(character.code) && !layout) {
-      char name[16];
-      std::snprintf(name, sizeof name, "U+%04X", character.code);
-      return name;
-    }
-    at += character.bytes == 0 ? 1 : character.bytes;
-  }
-  return "";
+  const auto code = first_character(
+      text, [](std::uint32_t one) { return is_control(one) && one != '\t' && one != '\n' && one != '\r'; });
+  if (!code) return "";
+  char name[16];
+  std::snprintf(name, sizeof name, "U+%04X", *code);
+  return name;
 }
 
 std::string printable_start(std::string_view text, std::size_t max_bytes) {

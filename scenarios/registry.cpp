@@ -32,15 +32,17 @@ std::string first_json_line(const std::string& file) {
   return line;
 }
 
-bool is_told(const Addition& addition, const std::string& file, const std::string& first_line) {
+bool is_told(const Addition& addition, const std::string& file) {
   if (addition.part == "file") return fs::path(file).extension() == addition.name;
   std::error_code ignored;
   if (addition.part == "folder")
     return fs::is_directory(file, ignored) && fs::exists(fs::path(file) / addition.name, ignored);
-  if (addition.part == "lines")
+  if (addition.part == "lines") {
+    const std::string first_line = first_json_line(file);
     return !first_line.empty() && all_words(addition.name, [&](const std::string& key) {
       return first_line.find('"' + key + '"') != std::string::npos;
     });
+  }
   return addition.part == "messages" &&
          std::any_of(registry().messages.begin(), registry().messages.end(),
                      [&](const MessageReader& reader) { return reader.reads(file); });
@@ -78,9 +80,8 @@ void refuse_absent_word(std::string_view part, const std::string& word, const No
 }
 
 void refuse_absent_file(const std::string& file, const NamedBy& named_by) {
-  const std::string first_line = first_json_line(file);
   for (const Addition& addition : known_additions())
-    if (!addition.is_built && is_told(addition, file, first_line))
+    if (!addition.is_built && is_told(addition, file))
       throw named_by.error(file, "a file of the extension " + std::string(addition.extension),
                            accepted_extension(addition.extension), extension_hint(addition.extension));
 }

@@ -45,7 +45,7 @@ class BatchCommand : public Command {
     if (!results) return kInterrupted;
     const std::string title = printable(std::filesystem::path(source_).filename().string());
     if (run.part) {
-      run.part->write(out, jobs, *results, run, {.command = run.command, .title = title});
+      run.part->write(out, jobs, *results, run, {.title = title});
     } else {
       add_timings(out, *results);
       finish_batch(out, title, lines_of(*results), options_.common);

@@ -118,7 +118,7 @@ class CompareCommand : public Command {
 }  // namespace
 
 std::unique_ptr<Command> make_compare_command() {
-  return std::make_unique<CompareCommand>(extension_parts().comparisons);
+  return std::make_unique<CompareCommand>(made(extension_parts().comparisons));
 }
 
 }  // namespace joulepath

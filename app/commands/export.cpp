@@ -125,7 +125,7 @@ class ExportCommand : public Command {
 }  // namespace
 
 std::unique_ptr<Command> make_export_command() {
-  return std::make_unique<ExportCommand>(extension_parts().export_tasks);
+  return std::make_unique<ExportCommand>(made(extension_parts().export_tasks));
 }
 
 }  // namespace joulepath

@@ -13,7 +13,7 @@ void add_job_options(CommandLine& line, JobOptions& options, const std::string& 
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   line.option("--out", options.out, "directory for " + files).required();
   line.option("-j,--jobs", options.jobs, "number of plans made in parallel").between(1, 256).shows_default();
-  options.parts = extension_parts().job_parts;
+  options.parts = made(extension_parts().job_parts);
   for (const auto& part : options.parts) part->declare(line);
   line.flag("--resume", options.resume,
             "continue an interrupted run; finished plans with unchanged inputs are not repeated");

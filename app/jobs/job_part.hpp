@@ -15,8 +15,7 @@ struct JobRun;
 
 /// What the results of a part say about the whole list of jobs.
 struct JobTitle {
-  std::string command{};  ///< batch or sweep
-  std::string title{};    ///< of the report
+  std::string title{};  ///< of the report
   std::string study_file{}, study_text{};
 };
 
@@ -34,7 +33,8 @@ class JobPart {
 
   /// The files of a part's directory.
   [[nodiscard]] virtual const std::vector<std::string>& files() const = 0;
-  /// Throws ConfigError if the directory holds the finished part of another run, which --resume would replace.
+  /// Throws ConfigError if the directory holds the finished part of another run, which --resume would
+  /// replace.
   virtual void check_finished(const JobList& jobs, const JobRun& run) const = 0;
   /// Writes the results of a part.
   virtual void write(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,

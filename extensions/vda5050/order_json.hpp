@@ -15,7 +15,8 @@ namespace joulepath {
 /// within 1 mm, a node between any two, dwells as actions `wait`. Throws ConfigError for prescribed motions.
 [[nodiscard]] nlohmann::ordered_json order_of_plan(const ExportInput& input, const PartSpeeds& speeds);
 
-/// The order of a mission or of a plan with speeds that a controller without profile follows, and its energy loss.
+/// The order of a mission or of a plan with speeds that a controller without profile follows, and its energy
+/// loss.
 [[nodiscard]] Export export_vda5050(const ExportInput& input);
 
 }  // namespace joulepath

@@ -9,9 +9,9 @@ namespace joulepath {
 
 /// State of charge along a plan, with the loss in the internal resistance; absent where the robot file gives
 /// no capacity. At legs with a charger the battery charges during the dwell, up to a fraction. The 95 %
-/// interval comes from the robot file's uncertainty, propagated to the energy to first order; without one there
-/// is none. Missions per charge are counted down to the reserve, at the upper bound. Sets the plan's sigmas and the charged energy
-/// of its legs.
+/// interval comes from the robot file's uncertainty, propagated to the energy to first order; without one
+/// there is none. Missions per charge are counted down to the reserve, at the upper bound. Sets the plan's
+/// sigmas and the charged energy of its legs.
 [[nodiscard]] std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& plant,
                                                             double start_fraction,
                                                             double charge_to_fraction = 1.0);

@@ -13,13 +13,17 @@ const LogReader* log_reader_of(const std::string& file, const NamedBy& named_by)
   return nullptr;
 }
 
-bool is_log_file(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".csv" || log_reader_of(file);
-}
+namespace {
+
+bool is_csv(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
+
+}  // namespace
+
+bool is_log_file(const std::string& file) { return is_csv(file) || log_reader_of(file); }
 
 bool is_run_log(const std::string& file) {
   if (log_reader_of(file)) return true;
-  if (!is_log_file(file)) return false;
+  if (!is_csv(file)) return false;
   const std::vector<std::string> header = read_csv(file, [](const std::string&) { return false; }).header;
   return std::ranges::count(header, "time_s") > 0;
 }

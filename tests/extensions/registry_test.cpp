@@ -29,13 +29,14 @@ Words names_of(const List& list, Name name) {
 }
 
 TEST(Extensions, CommandsAreDeclared) {
-  EXPECT_EQ(names_of(extension_parts().commands, [](const auto& command) { return command->text().name; }),
-            declared("command"));
+  EXPECT_EQ(
+      names_of(extension_parts().commands, [](const auto& command) { return command.make()->text().name; }),
+      declared("command"));
 }
 
 TEST(Extensions, ExportsAreDeclared) {
   Words names = names_of(registry().exports, [](const auto& format) { return format.name; });
-  names.merge(names_of(extension_parts().export_tasks, [](const auto& task) { return task->name(); }));
+  names.merge(names_of(extension_parts().export_tasks, [](const auto make) { return make()->name(); }));
   EXPECT_EQ(names, declared("export"));
 }
 
@@ -46,7 +47,8 @@ TEST(Extensions, KindsOfFilesAreDeclared) {
 }
 
 TEST(Extensions, KeysOfMissionsAreDeclared) {
-  for (const MissionKey& known : registry().mission_keys) EXPECT_TRUE(declared("key").contains(known.key)) << known.key;
+  for (const MissionKey& known : registry().mission_keys)
+    EXPECT_TRUE(declared("key").contains(known.key)) << known.key;
 }
 
 TEST(Extensions, OptionsAreDeclared) {

@@ -5,8 +5,8 @@
 namespace joulepath {
 
 void add_nav2_commands(ProgramParts& parts) {
-  parts.export_tasks.push_back(make_route_graph_task());
-  parts.comparisons.push_back(make_settings_comparison());
+  parts.export_tasks.push_back(make_route_graph_task);
+  parts.comparisons.push_back(make_settings_comparison);
 }
 
 }  // namespace joulepath

@@ -7,6 +7,7 @@
 
 #include "app/build_id.hpp"
 #include "app/command.hpp"
+#include "app/jobs/job_results.hpp"
 #include "extensions/studies/result_schemas.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
@@ -25,17 +26,11 @@ std::vector<std::string> lines_in(const std::string& text) {
   return lines;
 }
 
-std::string text_of(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
 std::string study_of(const Node& root) {
   std::vector<std::string> lines;
   if (const auto study = root.find("study_text"))
     for (const Node& line : study->items()) lines.push_back(line.text());
-  return text_of(lines);
+  return joined(lines);
 }
 
 using Json = nlohmann::ordered_json;
@@ -63,7 +58,7 @@ std::vector<CommonValue> common_values(const ShardManifest& manifest) {
       {"command", manifest.command}, {"version", manifest.version}, {"build", manifest.build}};
   for (const auto& [option, value] : manifest.options) values.push_back({option, value});
   values.insert(values.end(), {{"of", std::to_string(manifest.shard.of)},
-                               {"study_text", text_of(lines_in(manifest.study_text)), "another study"},
+                               {"study_text", joined(lines_in(manifest.study_text)), "another study"},
                                {"jobs", std::to_string(manifest.jobs)},
                                {"list", manifest.list_digest, "other missions or designs"}});
   return values;

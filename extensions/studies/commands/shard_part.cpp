@@ -47,10 +47,10 @@ class ShardPart : public JobPart {
          "--force overwrites it"});
   }
 
-  void write(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results, const JobRun& run,
-             const JobTitle& about) const override {
+  void write(OutputDirectory& out, const JobList& jobs, const std::vector<JobResult>& results,
+             const JobRun& run, const JobTitle& about) const override {
     const std::string lines = joined(lines_of(results));
-    const ShardManifest manifest{.command = about.command,
+    const ShardManifest manifest{.command = run.command,
                                  .version = JOULEPATH_VERSION,
                                  .build = std::string(kBuildId),
                                  .shard = run.shard,

@@ -5,9 +5,9 @@
 namespace joulepath {
 
 void add_studies_commands(ProgramParts& parts) {
-  parts.add(make_sweep_command());
-  parts.add(make_merge_command());
-  parts.job_parts.push_back(make_shard_part());
+  parts.add(make_sweep_command);
+  parts.add(make_merge_command);
+  parts.job_parts.push_back(make_shard_part);
 }
 
 }  // namespace joulepath

@@ -60,10 +60,7 @@ class SweepCommand : public Command {
     if (!results) return kInterrupted;
     if (run.part) {
       run.part->write(out, jobs, *results, run,
-                      {.command = run.command,
-                       .title = title_of(study),
-                       .study_file = study.file,
-                       .study_text = study.text});
+                      {.title = title_of(study), .study_file = study.file, .study_text = study.text});
     } else {
       const std::vector<std::string> lines = lines_of(*results);
       const std::vector<std::string> optimized =

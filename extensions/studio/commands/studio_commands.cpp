@@ -4,6 +4,6 @@
 
 namespace joulepath {
 
-void add_studio_commands(ProgramParts& parts) { parts.add(make_studio_command()); }
+void add_studio_commands(ProgramParts& parts) { parts.add(make_studio_command); }
 
 }  // namespace joulepath

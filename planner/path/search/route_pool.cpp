@@ -49,7 +49,7 @@ class Pool {
   void search(std::uint64_t seed) {
     const SearchResult found = search_polyline(floor_, {start_, goal_, cells_, cost_, seed});
     iterations_ += found.iterations;
-    add_taut(found.polyline_m, found.planner);
+    add_taut(found.polyline_m, "bit_star");
   }
   void search_away(int classes) {
     const DiscLineCheck free(floor_, start_, goal_, cells_);

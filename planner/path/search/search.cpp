@@ -82,7 +82,6 @@ Setup set_up(const FreeSpace& free_space, const SearchRequest& request) {
 
 SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request) {
   SearchResult result;
-  result.planner = "bit_star";
   const Point2 &a = request.start_m, &b = request.goal_m;
   if (!request.cost.rate && DiscLineCheck(space, a, b, request.cells)(a, b)) {
     result.polyline_m = {a, b};

@@ -33,11 +33,10 @@ struct SearchResult {
   std::vector<Point2> polyline_m{};  ///< empty: nothing found within the budget
   double cost{};                     ///< integral of the rate along it
   unsigned iterations{};
-  std::string planner{};
 };
 
-/// Searches with OMPL's BIT* in R^2. The same request gives the same bytes, on any
-/// number of threads: every random number comes from the request's seed.
+/// Searches with OMPL's BIT* in R^2. The same request gives the same bytes, on any number of threads: every
+/// random number comes from the request's seed.
 [[nodiscard]] SearchResult search_polyline(const FreeSpace& space, const SearchRequest& request);
 
 /// Cost of a polyline under a travel cost, corners left out.
