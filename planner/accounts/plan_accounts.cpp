@@ -66,9 +66,10 @@ std::string breach(const Plan& plan) {
          std::to_string(100 * plan.worst_violation) + " %";
 }
 
+/// To milliseconds; less than some of them to two digits.
 std::string seconds(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", value);
+  std::snprintf(text, sizeof text, std::abs(value) < 0.0095 ? "%.2g s" : "%.3f s", value);
   return text;
 }
 
