@@ -38,6 +38,11 @@ struct CommandText {
   std::string examples{};  ///< shown below the options
 };
 
+/// One line of examples; empty for an empty one. Extensions add theirs to the core's commands.
+[[nodiscard]] inline std::string example_line(const std::string& command, const std::string& arguments) {
+  return arguments.empty() ? "" : "  joulepath " + command + " " + arguments + "\n";
+}
+
 /// One subcommand. `declare` adds options bound to its members. `run` reads, calculates, prints results on
 /// stdout and messages on stderr, and returns the exit code. Errors are thrown; program.cpp reports them.
 class Command {

@@ -19,23 +19,23 @@ struct ExportArguments {
 /// A format of `export` for input that is not a mission: it makes no plan, and may have options of its own.
 class ExportTask {
  public:
-  ExportTask(std::string name, std::string says) : name_(std::move(name)), says_(std::move(says)) {}
+  ExportTask(std::string name, std::string says, std::string example)
+      : name_(std::move(name)), says_(std::move(says)), example_(std::move(example)) {}
   ExportTask(const ExportTask&) = delete;
   ExportTask& operator=(const ExportTask&) = delete;
   virtual ~ExportTask() = default;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& says() const { return says_; }
+  [[nodiscard]] const std::string& example() const { return example_; }
   virtual void declare(CommandLine& line) = 0;
   [[nodiscard]] virtual int run(const ExportArguments& arguments) = 0;
 
  private:
   std::string name_;
   std::string says_;
+  std::string example_;
 };
-
-/// Throws ConfigError without --robot. `input`: "a log".
-void need_robot_for(const std::string& input, const ExportArguments& arguments);
 
 /// All or none: an existing file is reported before anything is written.
 void write_export_files(const std::vector<ExportFile>& files, const CommonOptions& common);

@@ -7,12 +7,8 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(PNG REQUIRED)
-find_package(ZLIB REQUIRED)
-find_package(SQLite3 3.37 REQUIRED) # PRAGMA table_list tells views from tables
 find_package(Boost 1.74 REQUIRED) # headers: odeint (integration), math (distributions)
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
-pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
-pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 if(NOT JOULEPATH_CONSUMER) # of the program alone; projects that use the library do without
   find_package(CLI11 REQUIRED)
 endif()

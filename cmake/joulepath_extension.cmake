@@ -1,5 +1,12 @@
 # Extensions: targets of their own that add readers, exporters and commands to the core. Design: docs/decisions/0800-build.md
-set(JOULEPATH_ALL_EXTENSIONS bags vda5050 nav2 onboard studies studio)
+# In the order of the help.
+set(JOULEPATH_ALL_EXTENSIONS
+  bags
+  vda5050
+  nav2
+  onboard
+  studies
+  studio)
 set(JOULEPATH_EXTENSIONS all CACHE STRING "Extensions to build, separated by semicolons; all: every one; empty: the core alone")
 
 # The chosen extensions, in the order of JOULEPATH_ALL_EXTENSIONS.
@@ -22,11 +29,22 @@ function(joulepath_chosen_extensions out)
   set(${out} "${sorted}" PARENT_SCOPE)
 endfunction()
 
+# Libraries that chosen extensions alone need: their files dependencies.cmake, read in the scope of the whole build.
+joulepath_chosen_extensions(chosen)
+set(JOULEPATH_DEPENDENCY_FILES "")
+foreach(name IN LISTS chosen)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/extensions/${name}/dependencies.cmake)
+    include(${PROJECT_SOURCE_DIR}/extensions/${name}/dependencies.cmake)
+    list(APPEND JOULEPATH_DEPENDENCY_FILES ${name})
+  endif()
+endforeach()
+
 # joulepath_extension(NAME [SOURCES...] [COMMANDS sources...] [PUBLIC libs...] [PRIVATE libs...])
 #
 # SOURCES define `void add_NAME(Registry&)` (scenarios/registry.hpp) and become joulepath::NAME, a module of the library.
 # COMMANDS define `void add_NAME_commands(ProgramParts&)` (app/program_parts.hpp) and are a part of the program alone.
-# The file `adds` beside the CMakeLists.txt lists the words that belong to the extension.
+# The file `adds` beside the CMakeLists.txt lists the words that belong to the extension; dependencies.cmake, if there is
+# one, finds libraries and names their pkg-config modules in JOULEPATH_PKG_CONFIG.
 function(joulepath_extension name)
   cmake_parse_arguments(ARG "" "" "SOURCES;COMMANDS;PUBLIC;PRIVATE" ${ARGN})
   set_property(GLOBAL PROPERTY JOULEPATH_ADDS_OF_${name} ${CMAKE_CURRENT_SOURCE_DIR}/adds)

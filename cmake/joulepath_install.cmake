@@ -15,8 +15,16 @@ install(TARGETS joulepath RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${modules} joulepath_all EXPORT joulepathTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath)
 install(EXPORT joulepathTargets NAMESPACE joulepath:: DESTINATION ${config_dir})
-install(DIRECTORY model planner diagnosis scenarios extensions DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "tests" EXCLUDE PATTERN "commands" EXCLUDE PATTERN "studio" EXCLUDE) # of the library, not of the program
+install(DIRECTORY model planner diagnosis scenarios DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath
+        FILES_MATCHING PATTERN "*.hpp")
+get_property(readers GLOBAL PROPERTY JOULEPATH_READERS)
+foreach(name IN LISTS readers) # of the library, not of the program
+  install(DIRECTORY extensions/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/joulepath/extensions
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "tests" EXCLUDE PATTERN "commands" EXCLUDE)
+endforeach()
+foreach(name IN LISTS JOULEPATH_DEPENDENCY_FILES)
+  install(FILES extensions/${name}/dependencies.cmake DESTINATION ${config_dir} RENAME joulepath_${name}.cmake)
+endforeach()
 
 configure_package_config_file(cmake/joulepathConfig.cmake.in joulepathConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(joulepathConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -31,7 +39,7 @@ foreach(module IN LISTS modules)
     string(APPEND PC_LIBS "-l${module} ")
   endif()
 endforeach()
-set(PC_REQUIRES "ipopt yaml-cpp nlopt libpng zlib liblz4 libzstd sqlite3")
+string(JOIN " " PC_REQUIRES ipopt yaml-cpp nlopt libpng ${JOULEPATH_PKG_CONFIG})
 set(PC_SYSTEM_LIBS "-lompl -pthread")
 set(PC_CFLAGS "-I${OMPL_INCLUDE_DIR} -I${EIGEN3_INCLUDE_DIR}")
 file(RELATIVE_PATH PC_TO_PREFIX "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")

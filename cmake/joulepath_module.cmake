@@ -1,6 +1,6 @@
 # joulepath_module(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...])
 #
-# One static library per folder of the house, with the namespaced alias that everything links:
+# One static library per folder of the architecture, with the namespaced alias that everything links:
 # joulepath::NAME. A module without sources is an interface library (headers only).
 function(joulepath_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

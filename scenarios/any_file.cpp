@@ -9,6 +9,8 @@
 #include "diagnosis/evidence/isolability.hpp"
 #include "diagnosis/evidence/unstated_payload.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/document_kind.hpp"
+#include "scenarios/file_kinds.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
 #include "scenarios/log_files/run_log.hpp"
@@ -139,10 +141,26 @@ std::string kind_of(const Document& document) {
     line->fail("one of: " +
                text_of_list(file_kinds(), [](const auto& kind) { return "joulepath/" + kind.name + "/1"; }));
   }
-  return told_kind(root);
+  return inferred_kind(root);
+}
+
+/// The reader of a given kind, else the first one that fits. Files are recognized before they are loaded.
+template <class Fits>
+const FileReader* reader_of(const std::string& given_kind, bool of_documents, const Fits& fits) {
+  const auto found = std::ranges::find_if(registry().files, [&](const FileReader& reader) {
+    if ((reader.recognizes_file == nullptr) != of_documents) return false;
+    return given_kind.empty() ? fits(reader) : given_kind == reader.kind;
+  });
+  return found == registry().files.end() ? nullptr : &*found;
 }
 
 }  // namespace
+
+std::string checked_kinds() {
+  std::string names = "robot, map, mission, path, dataset, fleet, run log";
+  for (const FileReader& reader : registry().files) names += ", " + reader.kind;
+  return names + ", plan or diagnosis";
+}
 
 FileSummary read_any_file(const std::string& file, const std::string& given_kind, const ReadOptions& options,
                           bool brief) {
@@ -154,16 +172,15 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
     return summary_of_path(read_waypoints(file));
   if (given_kind == "run log" || given_kind == "log" || (given_kind.empty() && extension == ".csv"))
     return summary_of_log(file);
-  for (const FileReader& reader : registry().files)
-    if (reader.told_by_name &&
-        (given_kind == reader.kind || (given_kind.empty() && reader.told_by_name(file))))
-      return reader.check(file, options);
+  const auto by_name = [&](const FileReader& reader) { return reader.recognizes_file(file); };
+  if (const FileReader* reader = reader_of(given_kind, false, by_name)) return reader->check(file, options);
   refuse_absent_file(file);
   const Document document = Document::load(file);
-  for (const FileReader& reader : registry().files)
-    if (reader.told_by_content &&
-        (given_kind == reader.kind || (given_kind.empty() && reader.told_by_content(document))))
-      return reader.check(file, options);
+  const std::string inferred = inferred_kind(document.root());
+  const auto by_content = [&](const FileReader& reader) {
+    return reader.recognizes_document ? reader.recognizes_document(document) : reader.kind == inferred;
+  };
+  if (const FileReader* reader = reader_of(given_kind, true, by_content)) return reader->check(file, options);
   refuse_absent_document(document);
   const std::string kind = given_kind.empty() ? kind_of(document) : given_kind;
   if (kind == "robot") return summary_of_robot(file);
@@ -180,8 +197,7 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
                      empty                ? "an empty file"
                      : given_kind.empty() ? "a file of unknown kind"
                                           : "kind " + given_kind,
-                     "robot, map, mission, order, path, dataset, fleet, study, run log, bag, route graph, "
-                     "plan or diagnosis",
+                     checked_kinds(),
                      "a first line like `schema: joulepath/robot/1` states the kind"});
 }
 

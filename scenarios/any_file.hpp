@@ -17,7 +17,11 @@ struct FileSummary {
   std::vector<DataCheck> data_checks{};  ///< of a dataset: channels that contradict physics
   Isolability isolability{};             ///< of a dataset whose channels are sound
   std::string proposal{};                ///< a proposed file: the dataset of a bag
+  bool proposes{};  ///< files of this kind may have a proposal, which goes to standard output alone
 };
+
+/// The kinds that have a summary, in words.
+[[nodiscard]] std::string checked_kinds();
 
 /// Reads a file of any kind, with the files that it names, to check it. `kind`, the `schema:` line, the
 /// file's extension or its keys determine the kind. `brief`: without the isolability of a dataset, which fits

@@ -1,3 +1,5 @@
+#include "scenarios/file_kinds.hpp"
+
 #include <algorithm>
 #include <iterator>
 

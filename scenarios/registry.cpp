@@ -32,7 +32,7 @@ std::string first_json_line(const std::string& file) {
   return line;
 }
 
-bool is_told(const Addition& addition, const std::string& file) {
+bool is_recognized(const Addition& addition, const std::string& file) {
   if (addition.part == "file") return fs::path(file).extension() == addition.name;
   std::error_code ignored;
   if (addition.part == "folder")
@@ -81,7 +81,7 @@ void refuse_absent_word(std::string_view part, const std::string& word, const No
 
 void refuse_absent_file(const std::string& file, const NamedBy& named_by) {
   for (const Addition& addition : known_additions())
-    if (!addition.is_built && is_told(addition, file))
+    if (!addition.is_built && is_recognized(addition, file))
       throw named_by.error(file, "a file of the extension " + std::string(addition.extension),
                            accepted_extension(addition.extension), extension_hint(addition.extension));
 }

@@ -11,9 +11,9 @@
 
 namespace joulepath {
 
-struct BagChannel;
-struct BagDamage;
-struct BagMessage;
+struct MessageChannel;
+struct MessageDamage;
+struct TimedMessage;
 struct Export;
 struct ExportInput;
 struct FileSummary;
@@ -27,6 +27,7 @@ using ColumnSources = std::map<std::string, ColumnSource>;
 
 /// Reads logs that are no CSV files.
 struct LogReader {
+  std::string says{};                        ///< "bag"
   bool (*reads)(const std::string& file){};  ///< whether this reader is the one of a file
   LogTables (*read)(const std::string& file, const NamedBy& named_by, const ColumnSources& sources,
                     const std::string& run){};
@@ -35,19 +36,20 @@ struct LogReader {
 /// Reads files of messages over time that are no bags: states of a fleet's interface, for example.
 struct MessageReader {
   bool (*reads)(const std::string& file){};
-  BagDamage (*read)(const std::string& file, const NamedBy& named_by,
-                    const std::function<void(const BagChannel&)>& on_channel,
-                    const std::function<void(const BagMessage&)>& on_message){};
+  MessageDamage (*read)(const std::string& file, const NamedBy& named_by,
+                        const std::function<void(const MessageChannel&)>& on_channel,
+                        const std::function<void(const TimedMessage&)>& on_message){};
   std::string_view type{};  ///< of its channels
   /// Columns of a run and the fields that may hold them; the first field that is there counts.
   std::vector<std::pair<std::string, std::vector<std::string>>> columns{};
 };
 
-/// Tells and checks files of one kind, for `check`.
+/// Recognizes and checks files of one kind, for `check`.
 struct FileReader {
   std::string kind{};
-  bool (*told_by_name)(const std::string& file){};  ///< null: no name tells the kind
-  bool (*told_by_content)(const Document& document){};
+  bool (*recognizes_file)(const std::string& file){};       ///< by its name; null: a document
+  bool (*recognizes_document)(const Document& document){};  ///< null: by the schema line or by `key`
+  std::string key{};                                        ///< that documents of this kind alone have
   FileSummary (*check)(const std::string& file, const ReadOptions& options){};
 };
 
@@ -62,9 +64,10 @@ struct MissionKey {
 
 /// Reads a document that stands for a mission; the robot is named on the command line.
 struct MissionDocument {
-  std::string says{};  ///< "a VDA 5050 order"
-  std::string use{};   ///< where it is accepted, for the hint of an error
-  bool (*told)(const Document& document){};
+  std::string says{};     ///< "a VDA 5050 order"
+  std::string use{};      ///< where it is accepted, for the hint of an error
+  std::string example{};  ///< of `plan`
+  bool (*recognizes)(const Document& document){};
   void (*read)(MissionRequest& mission){};  ///< has its file
 };
 
@@ -73,6 +76,7 @@ struct ExportFormat {
   std::string says{};
   Export (*write)(const ExportInput&){};
   std::string (*write_log)(const Trajectory&, const Geometry&){};  ///< of a log; null: of plans alone
+  std::string example{};                                           ///< for the help; empty: none
 };
 
 /// What the extensions add to the formats of the core. Design: docs/decisions/0800-build.md

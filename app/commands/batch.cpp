@@ -5,24 +5,23 @@
 #include "app/jobs/job_results.hpp"
 #include "app/jobs/mission_planner.hpp"
 #include "app/plan/plan_options.hpp"
+#include "app/program_parts.hpp"
 #include "model/printable.hpp"
 
 namespace joulepath {
 namespace {
 
+std::string batch_examples() {
+  std::string text =
+      "  joulepath batch scenarios/missions --out out/batch -j 2\n"
+      "  joulepath batch missions.jsonl --out out/batch --resume\n";
+  for (const auto& part : made(extension_parts().job_parts)) text += example_line("batch", part->example());
+  return text + "\nExit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n";
+}
+
 class BatchCommand : public Command {
  public:
-  BatchCommand()
-      : Command(
-            {.name = "batch",
-             .says = "plan many missions",
-             .examples =
-                 "  joulepath batch scenarios/missions --out out/batch -j 2\n"
-                 "  joulepath batch missions.jsonl --out out/batch --resume\n"
-                 "  joulepath batch missions.jsonl --out shard_2 --shard 2/8   # then: joulepath merge "
-                 "shard_* "
-                 "--out all\n\n"
-                 "Exit code 0: every mission has a line in results.jsonl; its .status has the outcome.\n"}) {}
+  BatchCommand() : Command({.name = "batch", .says = "plan many missions", .examples = batch_examples()}) {}
 
   void declare(CommandLine& line) override {
     line.option(

@@ -42,10 +42,7 @@ class Check : public Command {
                              "  joulepath check dataset.yaml --repair dataset_repaired.yaml"}) {}
 
   void declare(CommandLine& line) override {
-    line.option(
-            "FILE", files_,
-            "robot, map, mission, path, dataset, fleet, study, run log, bag, route graph, plan or diagnosis")
-        .required();
+    line.option("FILE", files_, checked_kinds()).required();
     line.option("--kind", kind_, "kind of the files; default: from their schema line, name and keys");
     line.option("--repair", repair_, "write the dataset with its suspect channels repaired to this file");
     line.flag("--brief", brief_, "check the data of a dataset only, not which effects its runs tell apart");
@@ -100,7 +97,7 @@ class Check : public Command {
                       options_.force);
   }
 
-  /// One dataset file for all bags with the columns of the first.
+  /// One dataset file for all logs with the columns of the first.
   void propose(const std::string& file, const std::string& proposal) {
     static constexpr std::string_view kRuns = "\nruns:\n";
     const auto begin_of_runs = proposal.find(kRuns) + kRuns.size();
@@ -111,13 +108,13 @@ class Check : public Command {
     else
       std::cerr
           << "  note: the topics of " << printable(file)
-          << " differ from those of the first bag: its dataset file is proposed by a check of it alone\n";
+          << " differ from those of the first file: its dataset file is proposed by a check of it alone\n";
   }
 
-  /// The status of a bag goes to standard error: its dataset file alone goes to standard output.
+  /// Where a file is proposed, the status goes to standard error.
   void tell(const std::string& file, const FileSummary& summary) {
     const bool sound = summary.data_checks.empty();
-    std::ostream& out = summary.kind == "bag" ? std::cerr : std::cout;
+    std::ostream& out = summary.proposes ? std::cerr : std::cout;
     out << printable(file) << ": " << paint(out, sound ? Paint::good : Paint::error, sound ? "ok" : "suspect")
         << " (" << summary.kind << (summary.text.empty() ? "" : ": " + printable(summary.text)) << ")\n";
     for (const DataCheck& check : summary.data_checks)

@@ -51,16 +51,21 @@ void print_table(const Plan& plan, const std::vector<ComparedProfile>& compared)
   table.print(std::cout);
 }
 
+std::string compare_examples(const PlanComparisons& comparisons) {
+  std::string text =
+      "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
+      "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
+      "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n";
+  for (const auto& comparison : comparisons) text += example_line("compare", comparison->example());
+  return text;
+}
+
 class CompareCommand : public Command {
  public:
   explicit CompareCommand(PlanComparisons comparisons)
       : Command({.name = "compare",
                  .says = "compare a plan with every classic profile on the same path, each in its own time",
-                 .examples =
-                     "  joulepath compare scenarios/missions/warehouse_pick.yaml\n"
-                     "  joulepath compare mission.yaml --out out/compare   # compare.json and report.html\n"
-                     "  joulepath compare path.csv --robot robot.yaml --payload 5 --time 30\n"
-                     "  joulepath compare mission.yaml --controller nav2_params.yaml\n"}),
+                 .examples = compare_examples(comparisons)}),
         comparisons_(std::move(comparisons)) {}
 
   void declare(CommandLine& line) override {

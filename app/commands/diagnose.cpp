@@ -10,6 +10,7 @@
 #include "model/effects/effect_label.hpp"
 #include "scenarios/log_files/corrected_dataset.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
 #include "scenarios/result_files/diagnosis_sentence.hpp"
 #include "scenarios/result_files/next_step.hpp"
@@ -114,7 +115,8 @@ class Diagnose : public Command {
                      "  joulepath diagnose dataset.yaml --robot other.yaml --out out --fail-on-gap"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("dataset", dataset_, "dataset file (YAML), or a log alone (CSV, bag) with --robot")
+    line.option("dataset", dataset_,
+                "dataset file (YAML), or a log alone (" + log_formats() + ") with --robot")
         .required();
     line.option("--out", out_, "directory for diagnosis.json, report.html and the corrected files")
         .required();

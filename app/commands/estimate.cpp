@@ -8,6 +8,7 @@
 #include "app/terminal.hpp"
 #include "diagnosis/estimation/estimate_dataset.hpp"
 #include "scenarios/log_files/dataset_file.hpp"
+#include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/run_log.hpp"
 
 namespace joulepath {
@@ -78,7 +79,7 @@ class EstimateCommand : public Command {
                              "  joulepath estimate dataset.yaml --json | jq .fitness_percent\n"}) {}
 
   void declare(CommandLine& line) override {
-    line.option("input", input_, "run log (CSV, bag) or dataset (YAML)").required();
+    line.option("input", input_, "run log (" + log_formats() + ") or dataset (YAML)").required();
     line.option("--robot", robot_, "robot file; required for a log, replaces a dataset's");
     line.option("--out", out_, "directory for estimate.json and the power over time of every run");
     line.option("--smoothing-s", reach_s_,

@@ -29,12 +29,10 @@ const ExportFormat& format_named(const std::string& name) {
 std::string examples(const ExportTasks& tasks) {
   std::string text =
       "  joulepath export mission.yaml --to nav2_path --out path.json\n"
-      "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n"
-      "  joulepath export mission.yaml --to controller --out controller.json\n"
-      "  joulepath export order.json --robot robot.yaml --to vda5050 --out slower.json\n"
-      "  joulepath export logs/run_01.csv --robot robot.yaml --to bag --out log.mcap\n"
-      "  joulepath export graph.geojson --robot robot.yaml --payload 5 --to route_graph --out "
-      "energy.geojson\n\nFormats:\n";
+      "  joulepath export path.csv --robot robot.yaml --time 30 --to trajectory --out trajectory.json\n";
+  for (const ExportFormat& format : export_formats()) text += example_line("export", format.example);
+  for (const auto& task : tasks) text += example_line("export", task->example());
+  text += "\nFormats:\n";
   const auto line = [&](const std::string& name, const std::string& says) {
     text += "  " + name + std::string(15 - name.size(), ' ') + says + "\n";
   };
@@ -101,7 +99,7 @@ class ExportCommand : public Command {
   }
 
   int write_log(const ExportFormat& format) const {
-    need_robot_for("a log", arguments_);
+    need_robot(arguments_.source, "a log");
     const Geometry geometry = read_robot(arguments_.source.robot_file).geometry;
     const Trajectory log = read_run_log(arguments_.source.file, geometry).trajectory;
     const std::vector<ExportFile> files{{arguments_.out, format.write_log(log, geometry)}};

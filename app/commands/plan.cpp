@@ -12,6 +12,7 @@
 #include "app/plan/plan_summary.hpp"
 #include "planner/mission/mission.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 namespace {
@@ -22,16 +23,20 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+std::string plan_examples() {
+  std::string text =
+      "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
+      "  joulepath plan mission.yaml --out out --json | jq .energy_J\n";
+  for (const MissionDocument& document : registry().mission_documents)
+    text += example_line("plan", document.example);
+  return text + "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n";
+}
+
 class PlanCommand : public Command {
  public:
   PlanCommand()
-      : Command({.name = "plan",
-                 .says = "plan a mission for the least energy",
-                 .examples =
-                     "  joulepath plan scenarios/missions/warehouse_pick.yaml --out out/warehouse_pick\n"
-                     "  joulepath plan mission.yaml --out out --json | jq .energy_J\n"
-                     "  joulepath plan order.json --robot robot.yaml --out out   # a VDA 5050 order\n"
-                     "  joulepath plan path.csv --robot robot.yaml --payload 5 --time 30 --out out\n"}) {}
+      : Command(
+            {.name = "plan", .says = "plan a mission for the least energy", .examples = plan_examples()}) {}
 
   void declare(CommandLine& line) override {
     add_mission_source(line, source_);

@@ -1,9 +1,8 @@
-#include "scenarios/text/schema.hpp"
-
 #include <iostream>
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "scenarios/file_kinds.hpp"
 
 namespace joulepath {
 namespace {

@@ -27,6 +27,7 @@ class JobPart {
   JobPart& operator=(const JobPart&) = delete;
   virtual ~JobPart() = default;
 
+  [[nodiscard]] virtual std::string example() const = 0;  ///< for the help of `batch`
   virtual void declare(CommandLine& line) = 0;
   /// Sets the run's shard, quarantine and part. Throws UsageError and ConfigError.
   virtual void choose(JobRun& run) const = 0;

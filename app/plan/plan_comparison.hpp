@@ -17,6 +17,7 @@ class PlanComparison {
   PlanComparison& operator=(const PlanComparison&) = delete;
   virtual ~PlanComparison() = default;
 
+  [[nodiscard]] virtual std::string example() const = 0;  ///< for the help of `compare`
   virtual void declare(CommandLine& line) = 0;
   [[nodiscard]] virtual bool is_asked() const = 0;
   /// Prints, and writes `result_file` into `out` where the options ask for it. The exit code.

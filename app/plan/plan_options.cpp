@@ -1,6 +1,7 @@
 #include "app/plan/plan_options.hpp"
 
 #include "app/command_line.hpp"
+#include "scenarios/registry.hpp"
 
 namespace joulepath {
 
@@ -10,8 +11,10 @@ void add_plan_options(CommandLine& line, PlanOptions& options, const std::string
 }
 
 void add_mission_source(CommandLine& line, MissionSource& source, bool with_time) {
-  line.option("mission", source.file,
-              "mission (YAML); or a VDA 5050 order (JSON) or a path (YAML, CSV), with --robot")
+  std::string others;
+  for (const MissionDocument& document : registry().mission_documents)
+    others += document.says + " (JSON) or ";
+  line.option("mission", source.file, "mission (YAML); or " + others + "a path (YAML, CSV), with --robot")
       .required();
   line.option("--robot", source.robot_file, "robot file; replaces the mission's");
   line.option("--map", source.map_file, "map; replaces the mission's");

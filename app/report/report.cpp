@@ -116,22 +116,30 @@ json compact_batch(const json& batch) {
           {"spread", spread},         {"unsolved", unsolved}, {"worst", worst}};
 }
 
-std::string page_of(const std::string& kind, const std::string& title, const json& data) {
-  json versioned = data;
-  versioned["version"] = JOULEPATH_VERSION;
-  return filled(embedded::page,
-                {{"@KIND@", kind},
-                 {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
-                 {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
-                 {"@TABLES@", plain_tables(data.at(kind))},
-                 {"@PAGE_STYLE@", shared_style()},
-                 {"@STYLE@", std::string(embedded::style)},
-                 {"@DATA@", script_safe(versioned)},
-                 {"@MODULES@", module_scripts(shared_modules()) + module_scripts(kReportModules)},
-                 {"@BOOT@", boot_script()}});
+std::string page_of(const std::string& kind, const json& data) {
+  return page_html(kind, data, {}, "report/main.js");
 }
 
 }  // namespace
+
+std::string page_html(const std::string& kind, const json& data, std::span<const Module> own,
+                      const std::string& starts) {
+  const std::string title = data.value("title", "");
+  json versioned = data;
+  versioned["version"] = JOULEPATH_VERSION;
+  return filled(
+      embedded::page,
+      {{"@KIND@", kind},
+       {"@STARTS@", starts},
+       {"@TITLE@", escaped(title.empty() ? "joulepath " + kind : title)},
+       {"@SENTENCE@", escaped(data.value(json::json_pointer("/diagnosis/sentence"), ""))},
+       {"@TABLES@", plain_tables(data.at(kind))},
+       {"@PAGE_STYLE@", shared_style()},
+       {"@STYLE@", std::string(embedded::style)},
+       {"@DATA@", script_safe(versioned)},
+       {"@MODULES@", module_scripts(shared_modules()) + module_scripts(kReportModules) + module_scripts(own)},
+       {"@BOOT@", boot_script()}});
+}
 
 std::string plan_report_html(const json& plan, const Columns& trajectory, const PlanExtras& extras) {
   json data{{"plan", plan}, {"title", extras.title}, {"subtitle", extras.subtitle}};
@@ -142,7 +150,7 @@ std::string plan_report_html(const json& plan, const Columns& trajectory, const 
   for (const Saving& saving : extras.savings)
     data["savings"].push_back(
         {{"name", saving.name}, {"saved_J", saving.saved_J}, {"by_cause", saving.by_cause_J}});
-  return page_of("plan", extras.title, data);
+  return page_of("plan", data);
 }
 
 json runs_json(const std::vector<RunComparison>& runs, std::size_t most_numbers) {
@@ -163,25 +171,21 @@ std::string diagnosis_report_html(const json& diagnosis, const DiagnosisExtras& 
       data["verdict"] = {{"title", words.title}, {"meaning", words.meaning}, {"good", words.good}};
   if (extras.map) data["map"] = json_of(*extras.map);
   data["runs"] = runs_json(extras.runs);
-  return page_of("diagnosis", extras.title, data);
+  return page_of("diagnosis", data);
 }
 
 std::string compare_report_html(const json& compare, const std::vector<NamedColumns>& profiles,
                                 const std::string& title) {
-  return page_of("compare", title, {{"compare", compare}, {"title", title}, {"profiles", json_of(profiles)}});
+  return page_of("compare", {{"compare", compare}, {"title", title}, {"profiles", json_of(profiles)}});
 }
 
 std::string front_report_html(const json& front, const std::vector<NamedColumns>& profiles,
                               const std::string& title) {
-  return page_of("front", title, {{"front", front}, {"title", title}, {"profiles", json_of(profiles)}});
+  return page_of("front", {{"front", front}, {"title", title}, {"profiles", json_of(profiles)}});
 }
 
 std::string batch_report_html(const json& batch, const std::string& title) {
-  return page_of("batch", title, {{"batch", compact_batch(batch)}, {"title", title}});
-}
-
-std::string sweep_report_html(const json& sweep, const std::string& title) {
-  return page_of("sweep", title, {{"sweep", sweep}, {"title", title}});
+  return page_of("batch", {{"batch", compact_batch(batch)}, {"title", title}});
 }
 
 }  // namespace joulepath::report

@@ -3,11 +3,13 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/report/columns.hpp"
 #include "app/report/map_picture.hpp"
+#include "app/report/page_text.hpp"
 
 namespace joulepath::report {
 
@@ -75,7 +77,8 @@ struct DiagnosisExtras {
 /// optimality_gap_percent, message}]}.
 [[nodiscard]] std::string batch_report_html(const nlohmann::json& batch, const std::string& title = {});
 
-/// The page of a sweep: sweep.json with `cloud`, a dot [duration_s, energy_J, within_constraints] per design.
-[[nodiscard]] std::string sweep_report_html(const nlohmann::json& sweep, const std::string& title = {});
+/// The page of an extension's result: `data` holds `kind` and `title`. The module `starts` of `own` draws it.
+[[nodiscard]] std::string page_html(const std::string& kind, const nlohmann::json& data,
+                                    std::span<const Module> own, const std::string& starts);
 
 }  // namespace joulepath::report

@@ -1,8 +1,9 @@
+#include "extensions/bags/bag_export.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "extensions/bags/bag_export.hpp"
 #include "extensions/bags/bag_survey.hpp"
 #include "extensions/bags/mcap_writer.hpp"
 #include "extensions/bags/ros_definitions.hpp"
@@ -22,7 +23,7 @@ const std::vector<std::string> kPlanPower{"battery_power_W",      "energy_J",
                                           "motor_power_left_W",   "motor_power_right_W",
                                           "motor_current_left_A", "motor_current_right_A"};
 
-BagChannel ros_channel(const std::string& topic, const std::string& type) {
+MessageChannel ros_channel(const std::string& topic, const std::string& type) {
   return {.topic = topic,
           .type = type,
           .schema_encoding = "ros2msg",

@@ -85,11 +85,11 @@ bool is_bag(const std::string& file) {
   return extension == ".mcap" || extension == ".db3" || is_folder(file) || message_reader_of(file);
 }
 
-BagDamage read_bag(const std::string& file, const NamedBy& named_by,
-                   const std::function<void(const BagChannel&)>& on_channel,
-                   const std::function<void(const BagMessage&)>& on_message) {
+MessageDamage read_bag(const std::string& file, const NamedBy& named_by,
+                       const std::function<void(const MessageChannel&)>& on_channel,
+                       const std::function<void(const TimedMessage&)>& on_message) {
   std::map<std::pair<std::string, std::string>, std::size_t> topics;
-  BagDamage damage;
+  MessageDamage damage;
   std::string unpacked;
   const std::vector<std::string> parts = is_folder(file) ? files_of(file, named_by) : std::vector{file};
   const std::uint64_t bytes = bytes_in(parts);
@@ -97,12 +97,12 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
   UnpackedBytes sum(file, named_by, bytes);
   for (const std::string& part : parts) {
     std::vector<std::size_t> channels;
-    const auto open = [&](const BagChannel& channel) {
+    const auto open = [&](const MessageChannel& channel) {
       const auto [topic, added] = topics.try_emplace({channel.topic, channel.type}, topics.size());
       channels.push_back(topic->second);
       if (added) on_channel(channel);
     };
-    const auto take = [&](BagMessage message) {
+    const auto take = [&](TimedMessage message) {
       if (messages_left-- == 0)
         throw named_by.error(file, "more messages than " + std::to_string(bytes) + " bytes record",
                              "a bag with a message for a byte at most");
@@ -112,7 +112,7 @@ BagDamage read_bag(const std::string& file, const NamedBy& named_by,
       else
         ++damage.broken_records;
     };
-    const BagDamage more = reader_of(part)(part, named_by, open, take);
+    const MessageDamage more = reader_of(part)(part, named_by, open, take);
     damage.truncated = damage.truncated || more.truncated;
     damage.unread_bytes += more.unread_bytes;
     damage.broken_chunks += more.broken_chunks;

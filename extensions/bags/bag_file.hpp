@@ -11,8 +11,8 @@ namespace joulepath {
 /// Reads a bag of any kind; the files of a folder in the order of its metadata. A topic is one channel, even
 /// with several writers and files. Throws ConfigError, also for more messages or unpacked bytes than the size
 /// of the files explains: memory stays in proportion to it.
-[[nodiscard]] BagDamage read_bag(const std::string& file, const NamedBy& named_by,
-                                 const std::function<void(const BagChannel&)>& on_channel,
-                                 const std::function<void(const BagMessage&)>& on_message);
+[[nodiscard]] MessageDamage read_bag(const std::string& file, const NamedBy& named_by,
+                                     const std::function<void(const MessageChannel&)>& on_channel,
+                                     const std::function<void(const TimedMessage&)>& on_message);
 
 }  // namespace joulepath

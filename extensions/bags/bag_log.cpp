@@ -50,8 +50,8 @@ class BagLogReader {
       if (column != "time_s") any_given_ = any_given_ || (!source.from.empty() && !names_column(source));
     use(suggested_columns(survey_bag(file, named_by)));
     damage_ = read_bag(
-        file, named_by, [&](const BagChannel& channel) { open(channel); },
-        [&](const BagMessage& message) { take(message); });
+        file, named_by, [&](const MessageChannel& channel) { open(channel); },
+        [&](const TimedMessage& message) { take(message); });
   }
 
   LogTables finish(const NamedBy& named_by) {
@@ -111,7 +111,7 @@ class BagLogReader {
                          "joulepath check lists the topics and proposes a dataset");
   }
 
-  void open(const BagChannel& channel) {
+  void open(const MessageChannel& channel) {
     topics_.push_back({.samples = {.name = channel.topic}});
     Topic& topic = topics_.back();
     TopicSamples& samples = topic.samples;
@@ -138,7 +138,7 @@ class BagLogReader {
     samples.values.resize(paths.size());
   }
 
-  void take(const BagMessage& message) {
+  void take(const TimedMessage& message) {
     ++messages_;
     Topic& topic = topics_[message.channel];
     if (!topic.reader) return;
@@ -193,7 +193,7 @@ class BagLogReader {
   std::string run_;
   LogTables log_{};
   bool any_given_{};
-  BagDamage damage_{};
+  MessageDamage damage_{};
   std::size_t messages_{};
   std::vector<Topic> topics_{};
   std::vector<double> numbers_{};

@@ -186,11 +186,11 @@ BagSurvey survey_bag(const std::string& file, const NamedBy& named_by) {
   std::uint64_t first_ns = ~std::uint64_t{0}, last_ns = 0;
   survey.damage = read_bag(
       file, named_by,
-      [&](const BagChannel& channel) {
+      [&](const MessageChannel& channel) {
         readers.push_back(message_numbers(channel));
         survey.topics.push_back({.channel = channel, .readable = readers.back() != nullptr});
       },
-      [&](const BagMessage& message) {
+      [&](const TimedMessage& message) {
         BagTopic& topic = survey.topics[message.channel];
         first_ns = std::min(first_ns, message.log_time_ns);
         last_ns = std::max(last_ns, message.log_time_ns);

@@ -13,7 +13,7 @@ inline constexpr const char* kPowerType = "joulepath/power/1";
 
 /// A topic of a bag and its possible columns of a run.
 struct BagTopic {
-  BagChannel channel{};
+  MessageChannel channel{};
   std::size_t messages{};
   bool readable{};                      ///< its encoding and its definition are known
   std::vector<std::string> elements{};  ///< names beside its arrays (joints)
@@ -22,7 +22,7 @@ struct BagTopic {
 
 struct BagSurvey {
   std::vector<BagTopic> topics{};
-  BagDamage damage{};
+  MessageDamage damage{};
   double duration_s{};  ///< between the first and the last log time
 };
 

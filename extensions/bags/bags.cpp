@@ -16,7 +16,7 @@ namespace {
 FileSummary check_bag(const std::string& file, const ReadOptions&) {
   const BagSurvey survey = survey_bag(file);
   std::size_t messages = 0;
-  FileSummary summary{.kind = "bag"};
+  FileSummary summary{.kind = "bag", .proposes = true};
   for (const BagTopic& topic : survey.topics) {
     messages += topic.messages;
     summary.notes.push_back(topic.channel.topic + ": " + counted(topic.messages, "message") + " of " +
@@ -43,13 +43,14 @@ FileSummary check_bag(const std::string& file, const ReadOptions&) {
 }  // namespace
 
 void add_bags(Registry& registry) {
-  registry.logs.push_back({is_bag, read_bag_log});
-  registry.files.push_back({.kind = "bag", .told_by_name = is_bag, .check = check_bag});
+  registry.logs.push_back({"bag", is_bag, read_bag_log});
+  registry.files.push_back({.kind = "bag", .recognizes_file = is_bag, .check = check_bag});
   registry.exports.push_back({.name = "bag",
                               .says = "nav_msgs/Path and Odometry (CDR) and the power (JSON) over time, for "
                                       "Foxglove and PlotJuggler (MCAP)",
                               .write = export_bag,
-                              .write_log = log_bag});
+                              .write_log = log_bag,
+                              .example = "logs/run_01.csv --robot robot.yaml --to bag --out log.mcap"});
 }
 
 }  // namespace joulepath

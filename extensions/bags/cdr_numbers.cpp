@@ -243,7 +243,7 @@ class CdrNumbers : public MessageNumbers {
 
 }  // namespace
 
-std::unique_ptr<MessageNumbers> cdr_numbers(const BagChannel& channel) {
+std::unique_ptr<MessageNumbers> cdr_numbers(const MessageChannel& channel) {
   const bool defined = channel.schema_encoding == "ros2msg" && !channel.schema.empty();
   const std::string definition = defined ? channel.schema : ros_definition(channel.type);
   auto layout = layout_of(channel.type, definition);

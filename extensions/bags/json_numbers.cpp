@@ -78,7 +78,7 @@ class JsonNumbers : public MessageNumbers {
 
 std::unique_ptr<MessageNumbers> json_numbers() { return std::make_unique<JsonNumbers>(); }
 
-std::unique_ptr<MessageNumbers> message_numbers(const BagChannel& channel) {
+std::unique_ptr<MessageNumbers> message_numbers(const MessageChannel& channel) {
   if (channel.encoding == "json") return json_numbers();
   return channel.encoding == "cdr" ? cdr_numbers(channel) : nullptr;
 }

@@ -44,8 +44,8 @@ void decompress_zstd(std::string_view from, std::string& to) {
 class McapReader {
  public:
   McapReader(const std::string& file, const NamedBy& named_by,
-             const std::function<void(const BagChannel&)>& on_channel,
-             const std::function<void(const BagMessage&)>& on_message)
+             const std::function<void(const MessageChannel&)>& on_channel,
+             const std::function<void(const TimedMessage&)>& on_message)
       : in_(file, std::ios::binary), on_channel_(on_channel), on_message_(on_message) {
     if (!in_) throw named_by.error(file, "no readable file", "a bag in the MCAP format");
     in_.seekg(0, std::ios::end);
@@ -57,7 +57,7 @@ class McapReader {
       throw named_by.error(file, "no MCAP file", "a bag in the MCAP format");
   }
 
-  BagDamage read() {
+  MessageDamage read() {
     std::uint64_t at = kMcapMagic.size(), begin = at;
     std::string content;
     for (;; begin = at) {
@@ -104,7 +104,7 @@ class McapReader {
 
   void schema(ByteReader& in) {
     const auto id = in.number<std::uint16_t>();
-    BagChannel described;
+    MessageChannel described;
     described.type = in.text();
     described.schema_encoding = in.text();
     described.schema = in.text();
@@ -115,7 +115,7 @@ class McapReader {
     const auto id = in.number<std::uint16_t>();
     const auto schema_id = in.number<std::uint16_t>();
     const auto described = schemas_.find(schema_id);
-    BagChannel channel = described == schemas_.end() ? BagChannel{} : described->second;
+    MessageChannel channel = described == schemas_.end() ? MessageChannel{} : described->second;
     channel.topic = in.text();
     channel.encoding = in.text();
     if (channels_.contains(id) || channels_.size() >= kMostChannels) return;
@@ -126,7 +126,7 @@ class McapReader {
   void message(ByteReader& in) {
     const auto known = channels_.find(in.number<std::uint16_t>());
     in.number<std::uint32_t>();  // sequence
-    BagMessage message{.log_time_ns = in.number<std::uint64_t>()};
+    TimedMessage message{.log_time_ns = in.number<std::uint64_t>()};
     in.number<std::uint64_t>();  // publish time
     if (known == channels_.end()) throw BytesEnd();
     message.channel = known->second;
@@ -170,30 +170,30 @@ class McapReader {
   std::ifstream in_;
   std::uint64_t size_{};
   std::optional<UnpackedBytes> unpacked_{};
-  const std::function<void(const BagChannel&)>& on_channel_;
-  const std::function<void(const BagMessage&)>& on_message_;
-  std::map<std::uint16_t, BagChannel> schemas_{};
+  const std::function<void(const MessageChannel&)>& on_channel_;
+  const std::function<void(const TimedMessage&)>& on_message_;
+  std::map<std::uint16_t, MessageChannel> schemas_{};
   std::unordered_map<std::uint16_t, std::size_t> channels_{};
   std::string chunk_{};
-  BagDamage damage_{};
+  MessageDamage damage_{};
 };
 
 }  // namespace
 
-std::string truncation_text(const BagDamage& damage) {
+std::string truncation_text(const MessageDamage& damage) {
   const std::string text = "the bag is truncated";
   return damage.unread_bytes == 0
              ? text
              : text + ": its last " + std::to_string(damage.unread_bytes) + " bytes were not read";
 }
 
-std::string no_message_text(const BagDamage& damage) {
+std::string no_message_text(const MessageDamage& damage) {
   return "no message" + (damage.truncated ? ": " + truncation_text(damage) : "");
 }
 
-BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
-                    const std::function<void(const BagChannel&)>& on_channel,
-                    const std::function<void(const BagMessage&)>& on_message) {
+MessageDamage read_mcap(const std::string& file, const NamedBy& named_by,
+                        const std::function<void(const MessageChannel&)>& on_channel,
+                        const std::function<void(const TimedMessage&)>& on_message) {
   return McapReader(file, named_by, on_channel, on_message).read();
 }
 

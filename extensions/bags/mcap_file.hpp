@@ -29,15 +29,15 @@ enum class McapRecord : std::uint8_t {
 };
 
 /// "the bag is truncated", with the bytes that were not read.
-[[nodiscard]] std::string truncation_text(const BagDamage& damage);
+[[nodiscard]] std::string truncation_text(const MessageDamage& damage);
 /// "no message", and why.
-[[nodiscard]] std::string no_message_text(const BagDamage& damage);
+[[nodiscard]] std::string no_message_text(const MessageDamage& damage);
 
 /// Reads an MCAP file from start to end, without its index: chunks uncompressed, lz4 or zstd. Broken parts
 /// are skipped and counted; an announced size is checked before memory is allocated. Throws ConfigError if
 /// the file cannot be read, is not an MCAP file, or unpacks without bound (UnpackedBytes).
-[[nodiscard]] BagDamage read_mcap(const std::string& file, const NamedBy& named_by,
-                                  const std::function<void(const BagChannel&)>& on_channel,
-                                  const std::function<void(const BagMessage&)>& on_message);
+[[nodiscard]] MessageDamage read_mcap(const std::string& file, const NamedBy& named_by,
+                                      const std::function<void(const MessageChannel&)>& on_channel,
+                                      const std::function<void(const TimedMessage&)>& on_message);
 
 }  // namespace joulepath

@@ -55,7 +55,7 @@ McapWriter::McapWriter() : bytes_(kMcapMagic) {
   put_record(bytes_, McapRecord::header, header);
 }
 
-std::uint16_t McapWriter::channel(const BagChannel& channel) {
+std::uint16_t McapWriter::channel(const MessageChannel& channel) {
   const std::uint16_t id = ++channels_;
   std::string content, schema, record;
   put(content, id);

@@ -17,7 +17,7 @@ class McapWriter {
   McapWriter();
 
   /// Adds a topic; returns its number for message().
-  std::uint16_t channel(const BagChannel& channel);
+  std::uint16_t channel(const MessageChannel& channel);
   void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
   /// The whole file.
   [[nodiscard]] std::string finish();

@@ -29,10 +29,10 @@ class MessageNumbers {
 
 /// The reader of a topic's messages (CDR with a ros2msg definition or of a known type, or JSON); null for
 /// other encodings.
-[[nodiscard]] std::unique_ptr<MessageNumbers> message_numbers(const BagChannel& channel);
+[[nodiscard]] std::unique_ptr<MessageNumbers> message_numbers(const MessageChannel& channel);
 
 /// For CDR (little-endian, version 1) and for JSON.
-[[nodiscard]] std::unique_ptr<MessageNumbers> cdr_numbers(const BagChannel& channel);
+[[nodiscard]] std::unique_ptr<MessageNumbers> cdr_numbers(const MessageChannel& channel);
 [[nodiscard]] std::unique_ptr<MessageNumbers> json_numbers();
 
 }  // namespace joulepath

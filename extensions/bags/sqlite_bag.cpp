@@ -111,12 +111,12 @@ void check_tables(const Database& database, const std::string& file, const Named
   if (found < 2) throw named_by.error(file, "no tables of topics and messages", "a bag of rosbag2 (sqlite3)");
 }
 
-std::map<std::string, BagChannel> definitions_of(const Database& database) {
-  std::map<std::string, BagChannel> definitions;
+std::map<std::string, MessageChannel> definitions_of(const Database& database) {
+  std::map<std::string, MessageChannel> definitions;
   const Statement rows =
       prepared(database, "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions");
   while (rows && sqlite3_step(rows.get()) == SQLITE_ROW) {
-    BagChannel channel;
+    MessageChannel channel;
     channel.schema_encoding = bytes_of(rows, 1);
     channel.schema = bytes_of(rows, 2);
     definitions[std::string(bytes_of(rows, 0))] = std::move(channel);
@@ -126,9 +126,9 @@ std::map<std::string, BagChannel> definitions_of(const Database& database) {
 
 }  // namespace
 
-BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
-                          const std::function<void(const BagChannel&)>& on_channel,
-                          const std::function<void(const BagMessage&)>& on_message) {
+MessageDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
+                              const std::function<void(const MessageChannel&)>& on_channel,
+                              const std::function<void(const TimedMessage&)>& on_message) {
   const std::int64_t size = size_of(file);
   std::int64_t calls_left = (kSteps + kStepsPerByte * size) / kStepsPerCall, bytes_left = size;
   const Database database = opened(file, named_by);
@@ -142,13 +142,13 @@ BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
     if (calls_left < 0 || bytes_left < 0)
       throw named_by.error(file, "rows without end", "a bag with no more rows than its size holds");
   };
-  const std::map<std::string, BagChannel> definitions = definitions_of(database);
+  const std::map<std::string, MessageChannel> definitions = definitions_of(database);
   refuse_endless();
   std::map<std::int64_t, std::size_t> channels;
   while (sqlite3_step(topics.get()) == SQLITE_ROW) {
     const std::string type(bytes_of(topics, 2));
     const auto defined = definitions.find(type);
-    BagChannel channel = defined == definitions.end() ? BagChannel{} : defined->second;
+    MessageChannel channel = defined == definitions.end() ? MessageChannel{} : defined->second;
     channel.topic = bytes_of(topics, 1);
     channel.type = type;
     channel.encoding = bytes_of(topics, 3);
@@ -156,7 +156,7 @@ BagDamage read_sqlite_bag(const std::string& file, const NamedBy& named_by,
     on_channel(channel);
   }
   refuse_endless();
-  BagDamage damage;
+  MessageDamage damage;
   int code = SQLITE_ROW;
   while ((code = sqlite3_step(messages.get())) == SQLITE_ROW) {
     const std::string_view data = bytes_of(messages, 2);

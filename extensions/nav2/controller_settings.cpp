@@ -7,6 +7,7 @@
 
 #include "extensions/nav2/exports.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/text/document.hpp"
 
 namespace joulepath {
@@ -236,7 +237,7 @@ double least(std::initializer_list<std::optional<double>> settings) {
 
 ControllerFile read_controller_settings(const std::string& file) {
   const Document document = Document::load(file);
-  const std::string kind = told_kind(document.root());
+  const std::string kind = inferred_kind(document.root());
   if (kind == "controller") return {.file = file, .legs = legs_of(document)};
   ControllerReader reader;
   reader.read(document.root());

@@ -8,8 +8,6 @@
 namespace joulepath {
 namespace {
 
-bool is_route_graph(const Document& document) { return told_kind(document.root()) == "route graph"; }
-
 FileSummary check_route_graph(const std::string& file, const ReadOptions&) {
   return {"route graph", counted(read_route_graph(file).nodes.size(), "node"), {}};
 }
@@ -23,14 +21,13 @@ void read_named_graph(const MissionRequest& mission, MissionWorld& world) {
 }  // namespace
 
 void add_nav2(Registry& registry) {
-  registry.files.push_back(
-      {.kind = "route graph", .told_by_content = is_route_graph, .check = check_route_graph});
+  registry.files.push_back({.kind = "route graph", .key = "features", .check = check_route_graph});
   registry.kinds.push_back({"controller", controller_schema, "result of export --to controller"});
   registry.mission_keys.push_back({.key = "route_graph", .read_file = read_named_graph});
   registry.exports.push_back(
       {"controller",
        "speed, acceleration and deceleration for each leg, with the resulting energy loss (JSON)",
-       export_controller});
+       export_controller, nullptr, "mission.yaml --to controller --out controller.json"});
   registry.exports.push_back({"nav2_settings",
                               "velocity smoother, RPP, MPPI and diff_drive_controller settings, with the "
                               "resulting energy loss (YAML)",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/schema.hpp"
 
@@ -86,7 +87,7 @@ class GraphReader {
 RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
   const Document document = Document::load(file, named_by);
   const Node root = document.root();
-  if (const std::string kind = told_kind(root); !kind.empty() && kind != "route graph")
+  if (const std::string kind = inferred_kind(root); !kind.empty() && kind != "route graph")
     root.fail_found("a file of kind " + kind, "a route graph (GeoJSON FeatureCollection)");
   if (root.kind() != Value::Kind::map || root.text_or("type", "") != "FeatureCollection")
     root.fail("a route graph (GeoJSON FeatureCollection)");

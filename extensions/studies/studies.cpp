@@ -7,8 +7,6 @@
 namespace joulepath {
 namespace {
 
-bool is_study(const Document& document) { return told_kind(document.root()) == "study"; }
-
 FileSummary check_study(const std::string& file, const ReadOptions& options) {
   const Study study = study_from(Document::load(file), options);
   const std::vector<MissionItem> missions = study_missions(study);
@@ -24,7 +22,7 @@ FileSummary check_study(const std::string& file, const ReadOptions& options) {
 }  // namespace
 
 void add_studies(Registry& registry) {
-  registry.files.push_back({.kind = "study", .told_by_content = is_study, .check = check_study});
+  registry.files.push_back({.kind = "study", .key = "parameters", .check = check_study});
   registry.kinds.push_back(
       {"study", study_schema, "designs of a robot or a mission to compare: joulepath sweep"});
   registry.kinds.push_back({"sweep", sweep_schema, "result of sweep: sweep.json"});

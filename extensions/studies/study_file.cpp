@@ -5,6 +5,7 @@
 #include <set>
 
 #include "model/number_text.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/robot_files/robot_file.hpp"
 

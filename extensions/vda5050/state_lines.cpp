@@ -77,12 +77,12 @@ bool is_state_lines(const std::string& file) {
          (first.contains("batteryState") || first.contains("powerSupply"));
 }
 
-BagDamage read_state_lines(const std::string& file, const NamedBy& named_by,
-                           const std::function<void(const BagChannel&)>& on_channel,
-                           const std::function<void(const BagMessage&)>& on_message) {
+MessageDamage read_state_lines(const std::string& file, const NamedBy& named_by,
+                               const std::function<void(const MessageChannel&)>& on_channel,
+                               const std::function<void(const TimedMessage&)>& on_message) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw named_by.error(file, "a file that cannot be read", "VDA 5050 states, one per line");
-  BagDamage damage;
+  MessageDamage damage;
   std::map<std::string, std::size_t> robots;
   for (std::string line; next_state_line(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;

@@ -19,9 +19,9 @@ inline constexpr std::string_view kStateType = "vda5050/State";
 
 /// Reads such a file as a bag: one channel per robot, named by its serial number; the time of a message is
 /// its timestamp. Other lines are counted as broken. Throws ConfigError if the file cannot be read.
-[[nodiscard]] BagDamage read_state_lines(const std::string& file, const NamedBy& named_by,
-                                         const std::function<void(const BagChannel&)>& on_channel,
-                                         const std::function<void(const BagMessage&)>& on_message);
+[[nodiscard]] MessageDamage read_state_lines(const std::string& file, const NamedBy& named_by,
+                                             const std::function<void(const MessageChannel&)>& on_channel,
+                                             const std::function<void(const TimedMessage&)>& on_message);
 
 /// `2026-05-01T10:00:00.25Z` as nanoseconds since 1970; empty if the text is not such a time.
 [[nodiscard]] std::optional<std::uint64_t> utc_nanoseconds(std::string_view text);

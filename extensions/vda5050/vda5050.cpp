@@ -44,17 +44,20 @@ std::vector<std::pair<std::string, std::vector<std::string>>> state_columns() {
 
 void add_vda5050(Registry& registry) {
   registry.messages.push_back({is_state_lines, read_state_lines, kStateType, state_columns()});
-  registry.files.push_back({.kind = "order", .told_by_content = is_order, .check = check_order_file});
+  registry.files.push_back(
+      {.kind = "order", .recognizes_document = is_order, .key = "orderId", .check = check_order_file});
   registry.mission_keys.push_back({.key = "order", .read = read_named_order});
   registry.mission_documents.push_back(
       {.says = "a VDA 5050 order",
        .use = "plan takes an order with --robot; elsewhere a mission names it with order:",
-       .told = is_order,
+       .example = "order.json --robot robot.yaml --out out   # a VDA 5050 order",
+       .recognizes = is_order,
        .read = read_order_as_mission});
   registry.exports.push_back(
       {.name = "vda5050",
        .says = "the order with a maximum speed on each edge (JSON), and the resulting energy loss",
-       .write = export_vda5050});
+       .write = export_vda5050,
+       .example = "order.json --robot robot.yaml --to vda5050 --out slower.json"});
 }
 
 }  // namespace joulepath

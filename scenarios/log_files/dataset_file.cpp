@@ -6,6 +6,7 @@
 
 #include "diagnosis/checks/plausible.hpp"
 #include "model/number_text.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/log_files/clock_jumps.hpp"
 #include "scenarios/log_files/log_tables.hpp"
 #include "scenarios/log_files/partial_channels.hpp"

@@ -19,6 +19,12 @@ bool is_csv(const std::string& file) { return std::filesystem::path(file).extens
 
 }  // namespace
 
+std::string log_formats() {
+  std::string names = "CSV";
+  for (const LogReader& reader : registry().logs) names += ", " + reader.says;
+  return names;
+}
+
 bool is_log_file(const std::string& file) { return is_csv(file) || log_reader_of(file); }
 
 bool is_run_log(const std::string& file) {

@@ -22,6 +22,9 @@ struct LogTables {
 /// extension which this program was built without.
 [[nodiscard]] const LogReader* log_reader_of(const std::string& file, const NamedBy& named_by = {});
 
+/// The formats of logs in words: "CSV, bag".
+[[nodiscard]] std::string log_formats();
+
 /// Whether a file is a log by itself, not a dataset that names logs: CSV, or one of a LogReader.
 [[nodiscard]] bool is_log_file(const std::string& file);
 /// Of these, one with times: a CSV file of waypoints has none.

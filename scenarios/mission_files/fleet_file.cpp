@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/image.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/motion_entry.hpp"
 #include "scenarios/registry.hpp"
 
@@ -239,7 +240,7 @@ MissionRequest mission_from(const Document& document, const ReadOptions& options
 
 const MissionDocument* mission_document_of(const Document& document) {
   for (const MissionDocument& known : registry().mission_documents)
-    if (known.told(document)) return &known;
+    if (known.recognizes(document)) return &known;
   return nullptr;
 }
 

@@ -9,15 +9,6 @@
 namespace joulepath {
 namespace {
 
-void need_robot(const MissionSource& source, const char* what) {
-  if (source.robot_file.empty() && !source.robot_at_hand)
-    throw ConfigError({{source.file, 1, 1},
-                       "",
-                       std::string(what) + ", which names no robot",
-                       "--robot with the name of a robot file",
-                       ""});
-}
-
 /// The file's name without its extension; a name that is not UTF-8 is shown as such.
 std::string name_of(const std::string& file) {
   return printable(std::filesystem::path(file).stem().string());
@@ -33,13 +24,22 @@ void refuse_beside_mission(const char* option, const char* key, bool given) {
 }
 
 MissionRequest mission_of(const MissionSource& source, const MissionDocument& document) {
-  need_robot(source, document.says.c_str());
+  need_robot(source, document.says);
   MissionRequest mission{.file = source.file, .name = name_of(source.file)};
   document.read(mission);
   return mission;
 }
 
 }  // namespace
+
+void need_robot(const MissionSource& source, const std::string& input) {
+  if (source.robot_file.empty() && !source.robot_at_hand)
+    throw ConfigError({{source.file, 1, 1},
+                       "",
+                       input + ", which names no robot",
+                       "--robot with the name of a robot file",
+                       ""});
+}
 
 MissionRequest mission_along(const MissionSource& source, Path path) {
   need_robot(source, "a path");

@@ -19,6 +19,9 @@ struct MissionSource {
   std::optional<double> duration_s{};  ///< paths only; absent: the time of least energy
 };
 
+/// Throws ConfigError where neither the source nor the caller names a robot. `input`: "a path".
+void need_robot(const MissionSource& source, const std::string& input);
+
 /// One leg along a path, from rest to rest.
 [[nodiscard]] MissionRequest mission_along(const MissionSource& source, Path path);
 

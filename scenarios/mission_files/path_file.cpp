@@ -7,6 +7,7 @@
 
 #include "planner/path/shape/bezier_chain.hpp"
 #include "planner/path/shape/waypoint_path.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/mission_files/motion_entry.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
 #include "scenarios/text/csv_table.hpp"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "model/limit_table.hpp"
+#include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/effect_list.hpp"
 #include "scenarios/robot_files/robot_check.hpp"
 

@@ -138,14 +138,6 @@ Schema of_kind(Schema::Kind kind) {
   return schema;
 }
 
-std::pair<std::string, std::string> kind_and_version(const std::string& line) {
-  const std::string prefix = "joulepath/";
-  const auto slash = line.rfind('/');
-  if (line.compare(0, prefix.size(), prefix) != 0 || slash == std::string::npos || slash < prefix.size())
-    return {};
-  return {line.substr(prefix.size(), slash - prefix.size()), line.substr(slash + 1)};
-}
-
 }  // namespace
 
 Schema Schema::with_exactly_one(std::vector<std::string> group) && {
@@ -270,52 +262,6 @@ void check_value(const Node& node, const Schema& schema) {
       if (node.kind() != Value::Kind::map) node.fail(accepted_by(schema));
       for (const auto& [name, child] : node.entries()) check_value(child, schema.parts.front());
   }
-}
-
-std::string told_kind(const Node& root) {
-  if (root.kind() != Value::Kind::map) return "";
-  if (const auto line = root.find("schema"); line && line->kind() == Value::Kind::scalar)
-    return kind_and_version(line->text()).first;
-  for (const auto& [key, kind] : {std::pair{"image", "map"},
-                                  {"resolution", "map"},
-                                  {"runs", "dataset"},
-                                  {"parameters", "study"},
-                                  {"missions", "fleet"},
-                                  {"legs", "mission"},
-                                  {"visit", "mission"},
-                                  {"order", "mission"},
-                                  {"bezier_m", "path"},
-                                  {"waypoints", "path"},
-                                  {"features", "route graph"},
-                                  {"orderId", "order"},
-                                  {"geometry", "robot"},
-                                  {"motor", "robot"},
-                                  {"inertia", "robot"}})
-    if (root.has(key)) return kind;
-  for (const auto& [name, node] : root.entries())
-    if (node.kind() == Value::Kind::map && node.has("ros__parameters")) return "ROS parameters";
-  return "";
-}
-
-void check_document(const Document& document, const std::string& kind, const Schema& schema) {
-  const Node root = document.root();
-  if (root.kind() != Value::Kind::map)
-    root.fail(root.kind() == Value::Kind::null ? "a file of kind " + kind + "; this one is empty"
-                                               : accepted_by(schema));
-  if (const auto line = root.find("schema")) {
-    const std::string expected = "joulepath/" + kind + "/1";
-    const auto [found_kind, version] = kind_and_version(line->text());
-    if (found_kind == kind && version != "1")
-      line->fail(expected, "this program reads version 1 of this kind of file");
-    if (found_kind != kind)
-      line->fail(expected, found_kind.empty() ? ""
-                                              : "this is a file of kind " + found_kind +
-                                                    ", where one of kind " + kind + " is needed");
-  } else if (const std::string told = told_kind(root);
-             told == "route graph" || told == "order" || told == "map" || told == "ROS parameters") {
-    if (told != kind) root.fail_found("a file of kind " + told, "one of kind " + kind);
-  }
-  check_value(root, schema);
 }
 
 }  // namespace joulepath

@@ -65,25 +65,18 @@ struct Schema::Key {
 [[nodiscard]] Schema::Key required(std::string name, Schema schema, std::string says = {});
 [[nodiscard]] Schema::Key optional(std::string name, Schema schema, std::string says = {});
 
-/// The kinds of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's format without such a line.
+/// A kind of file, as in `schema: joulepath/<kind>/1`; `map` is Nav2's format without such a line.
 struct FileKind {
   std::string name{};
   Schema (*schema)(){};
   std::string says{};
 };
-[[nodiscard]] const std::vector<FileKind>& file_kinds();
 
 /// The accepted values in words: `a number > 0`, `one of: wheel, bus`.
 [[nodiscard]] std::string accepted_by(const Schema& schema);
 
 /// Checks a value and all values below it. Throws ConfigError at the first mistake.
 void check_value(const Node& node, const Schema& schema);
-
-/// The kind of a document: from its schema line, else from a key that only one kind has; empty if unknown.
-[[nodiscard]] std::string told_kind(const Node& root);
-
-/// Checks the `schema:` line (absent: version 1 of the kind expected) and the whole document.
-void check_document(const Document& document, const std::string& kind, const Schema& schema);
 
 /// JSON Schema (draft 2020-12) of a kind, pretty-printed.
 [[nodiscard]] std::string json_schema(const FileKind& kind);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks of documents: links and cited files exist, decisions have a status and are cited, no page tells
-of its making, versions agree.
+of its making, lines of prose end, versions agree.
 
 usage: check_documents.py SOURCE_DIR VERSION
 """
@@ -19,7 +19,7 @@ def slug(heading):
 
 
 def broken_links(source):
-    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md"), *source.glob("extensions/*/README.md"),
+    documents = [*source.glob("*.md"), *source.glob("docs/*.md"), *source.glob("docs/decisions/*.md"), *source.glob("extensions/*/README.md"), source / "scenarios/README.md",
                  source / "benchmarks/README.md"]
     for document in documents:
         for target in LINK.findall(re.sub(r"```.*?```", "", document.read_text(), flags=re.DOTALL)):
@@ -105,6 +105,22 @@ def histories(source):
                 yield f"{document.relative_to(source)}:{number}: tells of its making: {word}"
 
 
+WIDTH = 110
+WRITTEN_BY_COMMANDS = ("benchmarks/results/", "docs/effects.md")
+
+
+def long_lines(source):
+    """Lines of prose are at most WIDTH characters; tables, code, headings and lines with an address are exempt."""
+    for document in sorted(source.rglob("*.md")):
+        name = document.relative_to(source).as_posix()
+        if name.startswith((*WRITTEN_BY_COMMANDS, "build", "out")):
+            continue
+        text = re.sub(r"^```.*?^```", lambda code: re.sub(".", "", code[0]), document.read_text(), flags=re.DOTALL | re.MULTILINE)
+        for number, line in enumerate(text.splitlines(), 1):
+            if len(line) > WIDTH and not line.startswith(("|", "#", "    ")) and not re.search(r"\]\(|https?:", line):
+                yield f"{name}:{number}: {len(line)} characters, at most {WIDTH}"
+
+
 def differences(source, version):
     consumer = (source / "tests/consumer/plan_and_print.cpp").read_text()
     if consumer not in (source / "README.md").read_text():
@@ -118,7 +134,7 @@ def differences(source, version):
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     problems = [*broken_links(source), *missing_paths(source), *missing_documents(source), *decisions(source),
-                *histories(source), *differences(source, sys.argv[2])]
+                *histories(source), *long_lines(source), *differences(source, sys.argv[2])]
     print("\n".join(problems) or "documents: links, paths, program and versions agree")
     return 1 if problems else 0
 

@@ -11,46 +11,16 @@
 #include "planner/accounts/edge_energy.hpp"
 #include "planner/accounts/plan_trajectory.hpp"
 #include "planner/controller/planned_speed.hpp"
-#include "planner/mission/mission.hpp"
 #include "scenarios/any_file.hpp"
-#include "scenarios/export/exports.hpp"
 #include "scenarios/mission_files/map_file.hpp"
-#include "scenarios/mission_files/mission_file.hpp"
+#include "tests/scenarios/export/continuous_plans.hpp"
+#include "tests/scenarios/export/planned_curves.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 
-namespace joulepath {
+namespace joulepath::testing {
 namespace {
 
 using Json = nlohmann::json;
-
-/// A planned mission with all inputs of an export.
-struct Planned {
-  MissionRequest mission{};
-  MissionWorld world{};
-  Plan plan{};
-  Plant plant{};
-
-  explicit Planned(MissionRequest request) : mission(std::move(request)) {
-    mission.robot_file = JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml";
-    world = read_world(mission);
-    plan = plan_mission(mission, world, {.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3});
-    plant = make_plant(world.robot);
-  }
-  ExportInput input(const std::string& file) const { return {mission, world, plan, plant, file, {}}; }
-};
-
-/// The paper's curve, a turn and a straight; a dwell between them, and more time than the robot needs.
-const Planned& curves() {
-  static const Planned planned = [] {
-    LegRequest curve{.path = PathRequest{.bezier_m = {{{{0, 0}, {2.7, 0}, {2.7, 0}, {2.7, 2.7}}}}},
-                     .payload = {5.7, 5.7},
-                     .dwell_s = 5};
-    LegRequest back{.path = PathRequest{.bezier_m = {{{{0, 0}, {-1, 0}, {-3, 0}, {-4, 0}}}}},
-                    .payload = {1, 1}};
-    return Planned({.name = "curves", .legs = {curve, back}, .objective = {.deadline_s = 40}});
-  }();
-  return planned;
-}
 
 const Planned& order() {
   static const Planned planned = [] {
@@ -62,61 +32,26 @@ const Planned& order() {
   return planned;
 }
 
-double relative(double a, double b) { return std::abs(a - b) / std::abs(b); }
-
-TEST(Export, RowsOfEdgesAddUpToThePlan) {
-  for (const Planned* planned : {&curves(), &order()}) {
-    double energy_J = 0, duration_s = 0, distance_m = 0;
-    for (const EdgeEnergy& edge : edge_energies(planned->plan, planned->plant)) {
-      EXPECT_NEAR(edge.start_s, duration_s, 1e-9);
-      energy_J += edge.energy.total_J();
-      duration_s += edge.duration_s;
-      distance_m += edge.distance_m;
-    }
-    EXPECT_LT(relative(energy_J, planned->plan.energy.total_J()), 1e-7);
-    EXPECT_LT(relative(duration_s, planned->plan.duration_s), 1e-9);
-    EXPECT_LT(relative(distance_m, planned->plan.distance_m), 1e-9);
-  }
+TEST(Export, EdgesOfAnOrderHaveItsNamesAndAddUp) {
   const Json table = Json::parse(export_edges(order().input("edges.json")).files.at(0).content);
   EXPECT_EQ(table["edges"][0]["edge"], "dock_n13");
-  const std::string csv = export_edges(order().input("edges.csv")).files.at(0).content;
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<long>(table["edges"].size()) + 1);
+  double energy_J = 0;
+  for (const Json& edge : table["edges"]) energy_J += edge["energy_J"].get<double>();
+  EXPECT_NEAR(energy_J, order().plan.energy.total_J(), 1e-7 * energy_J);
 }
 
-TEST(Export, LastRowOfTheTrajectoryIsThePlansEnergy) {
-  for (const Planned* planned : {&curves(), &order()}) {
-    const Trajectory motion = plan_trajectory(planned->plan, planned->plant);
-    EXPECT_LT(relative(motion.energy_J.back(), planned->plan.energy.total_J()), 1e-7);
+TEST(ContinuousPlan, AnOrderBeginsWhereThePlanDoes) {
+  const ScratchDirectory scratch;
+  for (const PlannedMission& plan : continuous_plans()) {
+    if (std::any_of(plan.plan.legs.begin(), plan.plan.legs.end(),
+                    [](const LegPlan& leg) { return leg.prescribed.has_value(); }))
+      continue;
+    const Json order = Json::parse(export_vda5050(plan.input(scratch.at("o.json"))).files[0].content);
+    const Json& place = order["nodes"][0]["nodePosition"];
+    const Trajectory motion = plan_trajectory(plan.plan, plan.plant);
+    EXPECT_NEAR(place["x"].get<double>(), motion.position_x_m[0], 1e-9) << plan.name;
+    EXPECT_NEAR(place["theta"].get<double>(), wrapped_angle_rad(motion.heading_rad[0]), 1e-9) << plan.name;
   }
-}
-
-TEST(Export, RosMessagesEndWithThePlan) {
-  const Plan& plan = curves().plan;
-  const Json trajectory = Json::parse(export_trajectory(curves().input("t.json")).files.at(0).content);
-  const Json path = Json::parse(export_nav2_path(curves().input("p.json")).files.at(0).content);
-  const auto time_of = [](const Json& item) {
-    const Json& stamp = item["header"]["stamp"];
-    return stamp["sec"].get<double>() + 1e-9 * stamp["nanosec"].get<double>();
-  };
-  EXPECT_NEAR(time_of(trajectory["points"].back()), plan.duration_s, 1e-8);
-  EXPECT_NEAR(time_of(path["poses"].back()), plan.duration_s, 1e-8);
-  double distance_m = 0;
-  const Json& points = trajectory["points"];
-  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    const auto speed = [&](std::size_t i) { return points[i]["velocity"]["linear"]["x"].get<double>(); };
-    distance_m += 0.5 * (speed(k) + speed(k + 1)) * (time_of(points[k + 1]) - time_of(points[k]));
-    const Json& q = points[k]["pose"]["orientation"];
-    EXPECT_NEAR(std::hypot(q["z"].get<double>(), q["w"].get<double>()), 1, 1e-12);
-  }
-  EXPECT_NEAR(distance_m, plan.distance_m, 0.01 * plan.distance_m);
-}
-
-TEST(Export, PlotJugglerHasOneColumnPerName) {
-  const std::string csv = export_plotjuggler(curves().input("j.csv")).files.at(0).content;
-  const auto line = [&](std::size_t from) { return csv.substr(from, csv.find('\n', from) - from); };
-  const std::string header = line(0), row = line(header.size() + 1);
-  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
-  EXPECT_EQ(header.find("time_s"), 0u);
 }
 
 TEST(Export, ControllerKeepsItsLimitsAndThePlansTime) {
@@ -236,4 +171,4 @@ TEST(Export, CapsAtThePlansSpeedsLoseLessThanNone) {
 }
 
 }  // namespace
-}  // namespace joulepath
+}  // namespace joulepath::testing

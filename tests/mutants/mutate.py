@@ -25,7 +25,7 @@ import sys
 import time
 
 from sites import AREAS, PER_AREA, ROOT, drawn, identity, key, mutated, with_mutants
-from verdicts import VERDICTS, commit, equivalent, equivalents, first, known, read, report
+from verdicts import VERDICTS, commit, drop_gone, equivalent, equivalents, first, known, read, report
 
 OUT = os.path.join(ROOT, "build/mutants")
 TREE = os.path.join(OUT, "tree")
@@ -252,7 +252,9 @@ def main():
         print("\n".join(area + " " + key(site) + "  " + site["source"] for area in asked.area or AREAS for site in queues[area][:asked.sites]))
         return 0
     os.makedirs(TREE, exist_ok=True)
-    if not asked.report:
+    if asked.report:
+        drop_gone()
+    else:
         judge_all(queues, asked)
     report(queues)
     return 0

@@ -26,6 +26,25 @@ def known():
     return {entry["identity"]: entry for entry in map(json.loads, read(VERDICTS).splitlines())}
 
 
+@functools.cache
+def lines_of(file):
+    path = os.path.join(ROOT, file)
+    return {line.strip() for line in read(path).splitlines()} if os.path.exists(path) else set()
+
+
+def is_there(file, source):
+    return source in lines_of(file)
+
+
+def drop_gone():
+    """Leaves the last verdict on each mutant whose line is still in its file."""
+    before = known()
+    left = [entry for name, entry in before.items() if is_there(*name.rsplit(" | ", 3)[0].split(" | ", 1))]
+    with open(VERDICTS, "w") as stream:
+        stream.writelines(json.dumps(entry) + "\n" for entry in left)
+    print("dropped %d of %d verdicts: their lines are gone" % (len(before) - len(left), len(before)))
+
+
 def equivalents():
     """Mutants that no test can notice: file, source line, old, new, argument; separated by tabs."""
     rows = [line.split("\t") for line in read(os.path.join(ROOT, "tests/mutants/equivalent.tsv")).split("\n") if line and line[0] != "#"]

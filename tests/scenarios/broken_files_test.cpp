@@ -11,6 +11,7 @@
 #include "model/limit_table.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/any_file.hpp"
+#include "scenarios/file_kinds.hpp"
 #include "scenarios/registry.hpp"
 #include "tests/scenarios/scratch_directory.hpp"
 #include "tests/support/locations.hpp"
@@ -30,7 +31,8 @@ std::map<std::string, std::string> names_of_tables() {
   }
   for (const EffectDescription& effect : effect_catalog()) effects.emplace_back(effect.info.name);
   for (const FileKind& kind : file_kinds()) schemas.push_back("joulepath/" + kind.name + "/1");
-  return {{"<limits>", text_of_list(limits)},
+  return {{"<kinds>", checked_kinds()},
+          {"<limits>", text_of_list(limits)},
           {"<limits by payload>", text_of_list(by_payload)},
           {"<effects>", text_of_list(effects)},
           {"<schemas>", text_of_list(schemas)}};

@@ -4,6 +4,5 @@ import "report/plan.js";
 import "report/diagnosis.js";
 import "report/compare.js";
 import "report/batch.js";
-import "report/sweep.js";
 
-jp.start(({plan: jp.draw_plan, diagnosis: jp.draw_diagnosis, compare: jp.draw_compare, front: jp.draw_front, batch: jp.draw_batch, sweep: jp.draw_sweep})[document.documentElement.dataset.kind]);
+jp.start(({plan: jp.draw_plan, diagnosis: jp.draw_diagnosis, compare: jp.draw_compare, front: jp.draw_front, batch: jp.draw_batch})[document.documentElement.dataset.kind]);

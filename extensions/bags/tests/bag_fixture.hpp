@@ -17,7 +17,7 @@ namespace joulepath::testing {
 
 inline constexpr std::uint64_t kSecond_ns = 1'000'000'000, kStart_ns = 1'700'000'000 * kSecond_ns;
 
-inline BagChannel ros(const std::string& topic, const std::string& type) {
+inline MessageChannel ros(const std::string& topic, const std::string& type) {
   return {.topic = topic,
           .type = type,
           .schema_encoding = "ros2msg",

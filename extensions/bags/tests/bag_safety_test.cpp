@@ -27,8 +27,8 @@ Reading reading(const std::string& file) {
   Reading seen;
   try {
     (void)read_bag(
-        file, {}, [](const BagChannel&) {},
-        [&](const BagMessage& message) {
+        file, {}, [](const MessageChannel&) {},
+        [&](const TimedMessage& message) {
           ++seen.messages;
           seen.bytes += message.data.size();
           seen.times_ns.push_back(message.log_time_ns);

@@ -13,6 +13,8 @@ namespace {
 /// What the settings of a file cost on the plan's path; no classic profiles.
 class SettingsComparison : public PlanComparison {
  public:
+  [[nodiscard]] std::string example() const override { return "mission.yaml --controller nav2_params.yaml"; }
+
   void declare(CommandLine& line) override {
     line.option(
         "--controller", controller_,

@@ -16,7 +16,8 @@ class RouteGraphTask : public ExportTask {
       : ExportTask(
             "route_graph",
             "a Nav2 route graph (GeoJSON) with energy, time and speed on each edge, and the route server's "
-            "settings (YAML)") {}
+            "settings (YAML)",
+            "graph.geojson --robot robot.yaml --payload 5 --to route_graph --out energy.geojson") {}
 
   void declare(CommandLine& line) override {
     line.option("--corner-radius", corner_radius_m_,
@@ -28,8 +29,8 @@ class RouteGraphTask : public ExportTask {
   }
 
   int run(const ExportArguments& arguments) override {
-    need_robot_for("a route graph", arguments);
     const MissionSource& source = arguments.source;
+    need_robot(source, "a route graph");
     const Robot robot = read_robot(source.robot_file);
     const double payload_kg = source.payload_kg.value_or(0.0);
     check_payload(payload_kg, robot, source.robot_file, {{"--payload", 0, 0}, ""});

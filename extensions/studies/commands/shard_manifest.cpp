@@ -11,6 +11,7 @@
 #include "extensions/studies/result_schemas.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
+#include "scenarios/document_kind.hpp"
 
 namespace joulepath {
 namespace {

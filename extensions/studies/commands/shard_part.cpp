@@ -14,6 +14,10 @@ namespace {
 /// Every N-th job from the K-th on, in a directory for `joulepath merge`.
 class ShardPart : public JobPart {
  public:
+  [[nodiscard]] std::string example() const override {
+    return "missions.jsonl --out shard_2 --shard 2/8   # then: joulepath merge shard_* --out all";
+  }
+
   void declare(CommandLine& line) override {
     line.option("--shard", shard_,
                 "K/N: plan only every N-th one, from the K-th on; `joulepath merge` joins the N directories");

@@ -7,6 +7,7 @@
 #include "app/report/report.hpp"
 #include "app/terminal.hpp"
 #include "extensions/studies/commands/sweep_result.hpp"
+#include "extensions/studies/modules.hpp"
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/text/counted.hpp"
@@ -69,7 +70,8 @@ void finish_sweep(OutputDirectory& out, const Study& study, const std::vector<st
     if (totals[k].planned)
       page["cloud"].push_back(
           {totals[k].sums.at("duration_s"), totals[k].sums.at("energy_J"), totals[k].is_within()});
-  out.write("report.html", report::sweep_report_html(page, title_of(study)));
+  out.write("report.html", report::page_html("sweep", {{"sweep", page}, {"title", title_of(study)}},
+                                             report::kStudiesModules, "studies/sweep.js"));
   out.commit();
   if (common.json) {
     std::cout << text;

@@ -10,7 +10,7 @@
 #include "extensions/studio/server/http.hpp"
 #include "extensions/studio/server/page.hpp"
 #include "model/stop.hpp"
-#include "scenarios/text/schema.hpp"
+#include "scenarios/file_kinds.hpp"
 
 namespace joulepath::studio {
 namespace {

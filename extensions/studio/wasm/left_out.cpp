@@ -59,7 +59,7 @@ const std::vector<Addition>& known_additions() {
 }
 Value read_yaml_text(const std::string&, std::string_view, int) { refuse("a file in YAML"); }
 
-/// Replaces scenarios/text/number_text.cpp: this library has no from_chars for floating-point numbers. The
+/// Replaces scenarios/text/parse_number.cpp: this library has no from_chars for floating-point numbers. The
 /// JSON parser has checked the text; the locale is "C".
 std::optional<double> parse_number(std::string_view text) {
   const std::string copy(text);

@@ -8,59 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "extensions/bags/bag_export.hpp"
-#include "planner/accounts/plan_trajectory.hpp"
-#include "planner/mission/mission.hpp"
 #include "planner/path/geometry/path.hpp"
 #include "scenarios/export/exports.hpp"
-#include "scenarios/log_files/run_log.hpp"
-#include "tests/scenarios/scratch_directory.hpp"
-#include "tests/support/nomad.hpp"
+#include "tests/scenarios/export/lopsided_plan.hpp"
 
-namespace joulepath {
+namespace joulepath::testing {
 namespace {
 
 using Json = nlohmann::json;
-
-Robot lopsided() {
-  Robot robot = testing::nomad();
-  robot.geometry.wheel_radius_m = {0.1, 0.102};
-  robot.motor.right.resistance_ohm = 3.1;
-  robot.motor.right.voltage_constant_V_s_rad = 0.066;
-  robot.power.regeneration_efficiency = 0.5;
-  return robot;
-}
-
-/// A curve to the left, a dwell, a turn on the spot, and a curve to the right with a load; it ends at (4, 0).
-struct PlannedCurves {
-  MissionRequest mission{};
-  MissionWorld world{.robot = lopsided()};
-  Plan plan{};
-  Plant plant{};
-
-  PlannedCurves() {
-    const LegRequest left{.path = PathRequest{.bezier_m = {{{{0, 0}, {1.5, 0}, {2, 0.5}, {2, 2}}}}},
-                          .dwell_s = 1};
-    const LegRequest right{.path = PathRequest{.bezier_m = {{{{0, 0}, {0, -1.5}, {-0.5, -2}, {-2, -2}}}}},
-                           .payload = {6, 6}};
-    mission = {.name = "curves", .legs = {left, right}, .objective = {.deadline_s = 25}};
-    plan = plan_mission(mission, world,
-                        {.solver = SolverChoice::fast, .nodes = 60, .accuracy = 1e-3, .baselines = false});
-    plant = make_plant(world.robot);
-  }
-  ExportInput input(const std::string& file) const { return {mission, world, plan, plant, file, 50.0}; }
-};
-
-const PlannedCurves& lopsided_plan() {
-  static const PlannedCurves planned;
-  return planned;
-}
-
-/// The plan at the samples of an export.
-const Trajectory& lopsided_rows() {
-  static const Trajectory rows = plan_trajectory(lopsided_plan().plan, lopsided_plan().plant, 50.0);
-  return rows;
-}
 
 double stamp_s(const Json& item) {
   const Json& stamp = item["header"]["stamp"];
@@ -144,7 +99,6 @@ std::map<std::string, std::vector<double>> plotted_columns(const std::string& cs
 }
 
 /// Of each side: U = R i + Kv n w, P = U i, T = Kt n i, and r w = v -+ l yaw rate [P1, Eqs. (2), (14)-(16)].
-/// (2), (14)-(16)].
 TEST(ExportLaws, SignalsOfAPlotKeepTheEquationsOfEachMotor) {
   auto of = plotted_columns(export_plotjuggler(lopsided_plan().input("j.csv")).files.at(0).content);
   const Robot& robot = lopsided_plan().world.robot;
@@ -179,41 +133,6 @@ TEST(ExportLaws, SignalsOfAPlotKeepTheEquationsOfEachMotor) {
   EXPECT_EQ(of["mission/leg"].back(), 1);
 }
 
-TEST(ExportLaws, ABagReadsBackAsThePlanAtEverySample) {
-  const ScratchDirectory scratch;
-  const std::string file =
-      scratch.write("plan.mcap", export_bag(lopsided_plan().input("b.mcap")).files.at(0).content);
-  ColumnSources sources;
-  const std::vector<std::pair<std::string, std::string>> topics{
-      {"linear_speed_m_s", "/plan/odom.twist.twist.linear.x"},
-      {"angular_speed_rad_s", "/plan/odom.twist.twist.angular.z"},
-      {"position_x_m", "/plan/odom.pose.pose.position.x"},
-      {"position_y_m", "/plan/odom.pose.pose.position.y"},
-      {"motor_power_left_W", "/plan/power.motor_power_left_W"},
-      {"motor_power_right_W", "/plan/power.motor_power_right_W"},
-      {"motor_current_left_A", "/plan/power.motor_current_left_A"},
-      {"motor_current_right_A", "/plan/power.motor_current_right_A"}};
-  for (const auto& [column, topic] : topics) sources[column].from = {topic};
-  const Trajectory back =
-      read_run_log({{file, {}}}, sources, lopsided_plan().world.robot.geometry, "run").trajectory;
-  const Trajectory alone =
-      read_run_log(file, lopsided_plan().world.robot.geometry).trajectory;  // heading from the orientation
-  ASSERT_EQ(back.size(), lopsided_rows().size());
-  ASSERT_EQ(alone.size(), lopsided_rows().size());
-  for (std::size_t k = 0; k < back.size(); ++k) {
-    ASSERT_NEAR(back.time_s[k], lopsided_rows().time_s[k], 1e-8) << k;
-    ASSERT_NEAR(back.linear_speed_m_s[k], lopsided_rows().linear_speed_m_s[k], 1e-9) << k;
-    ASSERT_NEAR(back.angular_speed_rad_s[k], lopsided_rows().angular_speed_rad_s[k], 1e-9) << k;
-    ASSERT_NEAR(back.position_x_m[k], lopsided_rows().position_x_m[k], 1e-9) << k;
-    ASSERT_NEAR(back.position_y_m[k], lopsided_rows().position_y_m[k], 1e-9) << k;
-    ASSERT_NEAR(wrapped_angle_rad(alone.heading_rad[k] - lopsided_rows().heading_rad[k]), 0, 1e-9) << k;
-    for (const Side side : kSides) {
-      ASSERT_NEAR(back.motor_power_W[side][k], lopsided_rows().motor_power_W[side][k], 1e-9) << k;
-      ASSERT_NEAR(back.motor_current_A[side][k], lopsided_rows().motor_current_A[side][k], 1e-9) << k;
-    }
-  }
-}
-
 /// What all exports have from one function keeps the laws of motion itself: a plan's rows are not only alike.
 TEST(ExportLaws, RowsOfAPlanMoveAsTheirSpeedsSay) {
   const Trajectory& rows = lopsided_rows();
@@ -230,4 +149,4 @@ TEST(ExportLaws, RowsOfAPlanMoveAsTheirSpeedsSay) {
 }
 
 }  // namespace
-}  // namespace joulepath
+}  // namespace joulepath::testing

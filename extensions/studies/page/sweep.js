@@ -58,3 +58,5 @@ jp.draw_sweep = function (data) {
     sweep.planned > 1 ? jp.section("Effect of each parameter on the time", jp.sweep_effects(sweep.effects.duration_s, "s")) : null,
     reasons.length ? jp.section("Not counted", jp.table(["reason", {n: "plans"}], reasons.map(([reason, count]) => [words(reason), {n: String(count)}]))) : null);
 };
+
+jp.start(jp.draw_sweep);

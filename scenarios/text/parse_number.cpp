@@ -1,8 +1,7 @@
-#include "model/number_text.hpp"
-
 #include <charconv>
 #include <cmath>
 
+#include "model/number_text.hpp"
 #include "scenarios/text/document.hpp"
 #include "scenarios/text/significant.hpp"
 
