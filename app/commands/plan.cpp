@@ -52,9 +52,11 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn in place there), refinement; or baselines (several: with commas)")
+                "shortest), stops (turn in place there), refinement, joint (path and speed together); or "
+                "baselines "
+                "(several: with commas)")
         .comma_separated()
-        .one_of({"corners", "routes", "stops", "refinement", "baselines"});
+        .one_of({"corners", "routes", "stops", "refinement", "joint", "baselines"});
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
@@ -108,6 +110,7 @@ class PlanCommand : public Command {
     if (step == "routes") options_.steps.routes = false;
     if (step == "stops") options_.steps.stops = false;
     if (step == "refinement") options_.steps.refinement = false;
+    if (step == "joint") options_.steps.joint = false;
     if (step == "baselines") options_.baselines = false;
   }
 
