@@ -47,9 +47,10 @@ class PlanCommand : public Command {
         .shows_default();
     line.option("--without", without_,
                 "omit a step of the choice of ways, for comparison: corners (stop, turn, go), routes (the "
-                "shortest), stops (turn in place there), refinement; or baselines (several: with commas)")
+                "shortest), stops (turn in place there), refinement; or baselines, path_bound (several: with "
+                "commas)")
         .comma_separated()
-        .one_of({"corners", "routes", "stops", "refinement", "baselines"});
+        .one_of({"corners", "routes", "stops", "refinement", "baselines", "path_bound"});
     line.option("-j,--jobs", options_.threads, "number of legs planned in parallel")
         .between(1, 256)
         .shows_default();
@@ -104,6 +105,7 @@ class PlanCommand : public Command {
     if (step == "stops") options_.steps.stops = false;
     if (step == "refinement") options_.steps.refinement = false;
     if (step == "baselines") options_.baselines = false;
+    if (step == "path_bound") options_.path_bound = false;
   }
 
   MissionSource source_{};
@@ -111,7 +113,7 @@ class PlanCommand : public Command {
   std::string solver_{"ipopt"};
   std::string cache_{};
   std::vector<std::string> without_{};
-  PlanOptions options_{};
+  PlanOptions options_{.path_bound = true};
   CommonOptions common_{};
 };
 
