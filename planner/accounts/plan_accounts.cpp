@@ -79,6 +79,10 @@ double saving_percent(double energy_J, double baseline_J) {
   return baseline_J > 0 ? 100.0 * (baseline_J - energy_J) / baseline_J : 0.0;
 }
 
+double path_gap_percent(const PathBound& bound, double energy_J) {
+  return 100 * (energy_J - bound.energy_J.value_or(std::nan(""))) / std::max(1e-9, std::abs(energy_J));
+}
+
 namespace {
 
 /// Adds the two trapezoids to the stretches of a leg, in the plan's times, and their totals to the leg.
