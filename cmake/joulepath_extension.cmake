@@ -1,5 +1,5 @@
 # Extensions: targets of their own that add readers, exporters and commands to the core. Design: docs/decisions/0800-build.md
-set(JOULEPATH_ALL_EXTENSIONS bags vda5050 nav2 onboard studies studio)
+set(JOULEPATH_ALL_EXTENSIONS bags vda5050 nav2 onboard studies studio fleet)
 set(JOULEPATH_EXTENSIONS all CACHE STRING "Extensions to build, separated by semicolons; all: every one; empty: the core alone")
 
 # The chosen extensions, in the order of JOULEPATH_ALL_EXTENSIONS.

@@ -1,0 +1,1 @@
+"""Fleets with few chargers: who drives what, when and where to charge."""
