@@ -3,7 +3,7 @@
 #include "scenarios/any_file.hpp"
 #include "scenarios/registry.hpp"
 #include "scenarios/text/counted.hpp"
-// Design: docs/decisions/0604-fleets.md
+// Design: docs/decisions/0701-python.md
 
 namespace joulepath {
 namespace {

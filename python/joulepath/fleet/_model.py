@@ -126,7 +126,7 @@ class FleetModel:
     def _add_ways(self, node: Node, j: int) -> None:
         """The ways from a node to a mission: direct at several speeds, or by a charger."""
         m, p, mission = self.model, self.problem, self.problem.missions[j]
-        literals = []
+        literals: list[Any] = []
         for t in self._types(node, j):
             standby = p.types[t].standby
             for k, way in enumerate(p.ways[t, node.place, mission.first]):
@@ -256,7 +256,7 @@ class FleetModel:
         for r, robot in enumerate(p.robots):
             m.add(present[r] >= sum(min(d.duration_s for d in p.missions[j].drives[robot.type]) * self.assigned[j][r]
                                     for j in self.missions if r in self.assigned[j]))
-        alike = {}
+        alike: dict[tuple[Any, ...], int] = {}
         for r, robot in enumerate(p.robots):
             key = (robot.type, robot.start, robot.level, robot.from_s, robot.to_s, robot.use_price,
                    tuple(r in x.robots for x in p.missions))

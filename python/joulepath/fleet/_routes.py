@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import math
+import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -250,3 +251,24 @@ def sequence_cost(problem: Problem, r: int, order: Sequence[int]) -> float:
     if clock > robot.to_s:
         cost += 1e7 * (clock - robot.to_s)
     return cost + kind.standby * (clock - robot.from_s)
+
+
+def reinserted(problem: Problem, orders: Sequence[Sequence[int]], chance: random.Random) -> list[list[int]]:
+    """Orders with some missions, near each other in place or time, taken out and inserted where they cost least."""
+    missions = problem.missions
+    center = missions[chance.randrange(len(missions))]
+    t = next(iter(center.drives))
+
+    def far(m: int) -> float:
+        way = problem.ways.get((t, missions[m].last, center.first)) or problem.ways.get((t, center.last, missions[m].first))
+        return (way[0].duration_s if way else 0) + 0.2 * abs(missions[m].ready_s - center.ready_s) + chance.uniform(0, 60)
+
+    taken = sorted(range(len(missions)), key=far)[:chance.randint(3, 8)]
+    left = [[m for m in order if m not in taken] for order in orders]
+    costs = [sequence_cost(problem, r, order) for r, order in enumerate(left)]
+    chance.shuffle(taken)
+    for m in taken:
+        (extra, position), r = min((_insertion(problem, r, left[r], costs[r], m), r) for r in missions[m].robots)
+        left[r].insert(position, m)
+        costs[r] += extra
+    return left

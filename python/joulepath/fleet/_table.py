@@ -25,6 +25,7 @@ class FleetFile:
                  progress: Callable[[int, int], None] | None = None) -> None:
         """Reads the file and plans its legs. Raises ConfigError with file, line and key, before any leg is planned where it can."""
         self._value = _core.load_fleet(file_name("fleet", file), cache)
+        self.reason: dict[str, Any] | None = None  #: why there is no schedule
         self.content: dict[str, Any] = json.loads(self._value.json)
         legs = sorted(self._legs())
         self.table: dict[Leg, Points] = {}
@@ -40,8 +41,8 @@ class FleetFile:
 
     def payload_kg(self, stop: dict[str, Any]) -> float:
         """A payload, rounded up to its band."""
-        band: float = self.content["payload_band_kg"]
-        return band * math.ceil(stop["payload_kg"] / band - 1e-9)
+        band = float(self.content["payload_band_kg"])
+        return band * math.ceil(float(stop["payload_kg"]) / band - 1e-9)
 
     def _types(self, mission: dict[str, Any]) -> list[int]:
         return sorted({self.content["robots"][r]["type"] for r in mission["robots"]})
