@@ -6,7 +6,8 @@ set(JOULEPATH_ALL_EXTENSIONS
   nav2
   onboard
   studies
-  studio)
+  studio
+  fleet)
 set(JOULEPATH_EXTENSIONS all CACHE STRING "Extensions to build, separated by semicolons; all: every one; empty: the core alone")
 
 # The chosen extensions, in the order of JOULEPATH_ALL_EXTENSIONS.

@@ -14,7 +14,6 @@
 #include "scenarios/log_files/dataset_file.hpp"
 #include "scenarios/log_files/repaired_dataset.hpp"
 #include "scenarios/log_files/run_log.hpp"
-#include "scenarios/mission_files/fleet_file.hpp"
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/path_file.hpp"
@@ -95,19 +94,6 @@ FileSummary summary_of_log(const std::string& file) {
   return {"run log", counted(log.trajectory.size(), "sample"), notes_of(log.artifacts)};
 }
 
-FileSummary summary_of_fleet(const std::string& file, const ReadOptions& options) {
-  const Fleet fleet = read_fleet(file, options);
-  for (const auto& robot : fleet.robots)
-    static_cast<void>(read_robot(robot.robot_file, {robot.marks.at("robot"), robot.marks.key_path("robot")}));
-  for (std::size_t i = 0; i < fleet.mission_files.size(); ++i) {
-    const NamedBy named(fleet.mission_marks[i].item, fleet.mission_marks[i].path);
-    static_cast<void>(mission_from(Document::load(fleet.mission_files[i], named), options));
-  }
-  return {"fleet",
-          counted(fleet.robots.size(), "robot") + ", " + counted(fleet.mission_files.size(), "mission"),
-          {}};
-}
-
 FileSummary summary_of_path(const Path& path) {
   char length[32];
   std::snprintf(length, sizeof length, "%.4g m", path.distance_m());
@@ -157,7 +143,7 @@ const FileReader* reader_of(const std::string& given_kind, bool of_documents, co
 }  // namespace
 
 std::string checked_kinds() {
-  std::string names = "robot, map, mission, path, dataset, fleet, run log";
+  std::string names = "robot, map, mission, path, dataset, run log";
   for (const FileReader& reader : registry().files) names += ", " + reader.kind;
   return names + ", plan or diagnosis";
 }
@@ -188,7 +174,6 @@ FileSummary read_any_file(const std::string& file, const std::string& given_kind
   if (kind == "mission") return summary_of_mission(file, options);
   if (kind == "dataset") return summary_of_dataset(file, options, brief);
   if (kind == "path") return summary_of_chain(document, options);
-  if (kind == "fleet") return summary_of_fleet(file, options);
   for (const auto& known : file_kinds())
     if (known.name == kind) return summary_of_output(document, known);
   const bool empty = document.root().kind() == Value::Kind::null;

@@ -24,7 +24,6 @@ std::string kind_by_keys(const Node& root) {
   for (const auto& [key, kind] : {std::pair{"image", "map"},
                                   {"resolution", "map"},
                                   {"runs", "dataset"},
-                                  {"missions", "fleet"},
                                   {"legs", "mission"},
                                   {"visit", "mission"},
                                   {"bezier_m", "path"},

@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "scenarios/log_files/dataset_file.hpp"
-#include "scenarios/mission_files/fleet_file.hpp"
 #include "scenarios/mission_files/map_file.hpp"
 #include "scenarios/mission_files/mission_file.hpp"
 #include "scenarios/mission_files/path_file.hpp"
@@ -22,7 +21,6 @@ const std::vector<FileKind>& file_kinds() {
         {"dataset", dataset_schema, "run logs, their sensors, and the mapping of their columns"},
         {"mission", mission_schema, "stops or legs of a robot, with payloads and deadlines"},
         {"path", path_schema, "a path on its own, for plan, compare, front and export with --robot"},
-        {"fleet", fleet_schema, "robots, chargers and missions of a fleet"},
         {"plan", plan_schema, "result of plan: plan.json"},
         {"diagnosis", diagnosis_schema, "result of diagnose: diagnosis.json"},
         {"edges", edges_schema, "result of export --to edges as JSON"},

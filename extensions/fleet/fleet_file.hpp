@@ -2,14 +2,15 @@
 
 #include <string>
 
-#include "planner/values/fleet_request.hpp"
+#include "extensions/fleet/fleet_request.hpp"
 #include "scenarios/text/schema.hpp"
 
 namespace joulepath {
 
 [[nodiscard]] Schema fleet_schema();
 
-/// Reads a fleet file; robots and missions that it names are resolved, not read. Throws ConfigError.
+/// Reads a fleet file; the files that it names are resolved, not read. Throws ConfigError.
 [[nodiscard]] Fleet read_fleet(const std::string& file, const ReadOptions& options = {});
+[[nodiscard]] Fleet fleet_from(const Document& document, const ReadOptions& options = {});
 
 }  // namespace joulepath

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "extensions/fleet/fleet_floor.hpp"
+#include "planner/cache/answer_cache.hpp"
+
+namespace joulepath {
+
+/// One leg between two stations, as a robot drives it with a payload.
+struct LegQuestion {
+  std::size_t type{};
+  std::string from{};
+  std::string to{};
+  double payload_kg{};
+};
+
+/// A speed at which a leg can be driven.
+struct LegPoint {
+  double duration_s{};
+  double motion_J{};  ///< without standby
+  double sigma_J{};   ///< 1-sigma of the energy; errors of one robot's legs are correlated
+};
+
+/// Energies of a leg at some points of its front, from the cheapest to the quickest; one point of nothing
+/// where it ends at its start. Points are from a front of kFrontPoints: its cheapest, its middle and its
+/// quickest. Throws ConfigError where the leg cannot be driven: at the key of the station.
+[[nodiscard]] std::vector<LegPoint> leg_points(const FleetFloor& floor, const LegQuestion& leg,
+                                               const SharedAnswers& answers);
+
+/// A fleet for the package: numbers of robots, chargers and missions, and the types' batteries, as JSON.
+[[nodiscard]] std::string fleet_json(const FleetFloor& floor);
+
+}  // namespace joulepath

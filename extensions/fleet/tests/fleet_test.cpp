@@ -1,0 +1,69 @@
+// The files of tests/data/broken/fleet hold the mistakes of fleet files; here are the energies of their legs.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "extensions/fleet/fleet_file.hpp"
+#include "extensions/fleet/leg_energies.hpp"
+#include "tests/support/locations.hpp"
+
+namespace joulepath {
+namespace {
+
+const FleetFloor& good_floor() {
+  static const FleetFloor floor =
+      read_fleet_floor(read_fleet(JOULEPATH_SOURCE_DIR "/tests/data/broken/good/fleet.yaml"));
+  return floor;
+}
+
+std::vector<LegPoint> leg(const std::string& from, const std::string& to, double payload_kg) {
+  return leg_points(good_floor(), {0, from, to, payload_kg}, {});
+}
+
+TEST(LegEnergies, AQuickerPointTakesMoreEnergy) {
+  const auto points = leg("dock", "shelf", 0.0);
+  ASSERT_GE(points.size(), 2u);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    EXPECT_LT(points[k].duration_s, points[k - 1].duration_s);
+    EXPECT_GT(points[k].motion_J, points[k - 1].motion_J);
+  }
+  for (const LegPoint& point : points) EXPECT_GT(point.sigma_J, 0.0);
+}
+
+TEST(LegEnergies, APayloadTakesMoreEnergy) {
+  EXPECT_GT(leg("dock", "shelf", 10.0).front().motion_J, leg("dock", "shelf", 0.0).front().motion_J);
+}
+
+TEST(LegEnergies, DirectionsDiffer) {  // the dock has a heading, the shelf has none
+  EXPECT_NE(leg("dock", "shelf", 0.0).front().motion_J, leg("shelf", "dock", 0.0).front().motion_J);
+}
+
+TEST(LegEnergies, ALegToItsStartIsNothing) {
+  const auto points = leg("dock", "dock", 5.0);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points.front().motion_J, 0.0);
+  EXPECT_EQ(points.front().duration_s, 0.0);
+}
+
+TEST(FleetFile, NumbersOfRobotsAndTheirBatteries) {
+  const auto json = nlohmann::json::parse(fleet_json(good_floor()));
+  EXPECT_EQ(json["robots"].size(), 2u);
+  EXPECT_EQ(json["types"].size(), 1u);  // both robots have one file
+  EXPECT_DOUBLE_EQ(json["types"][0]["capacity_J"], 240.0 * 3600.0);
+  EXPECT_EQ(json["missions"][0]["robots"], (std::vector<int>{0, 1}));
+  EXPECT_TRUE(json["robots"][0]["to_s"].is_null());
+}
+
+TEST(FleetFile, ARobotThatMayNotCarryAPayloadIsLeftOut) {
+  FleetMission mission = good_floor().fleet.missions.front();
+  EXPECT_TRUE(may_drive(good_floor(), 0, mission));
+  mission.stops.front().payload_kg = 13.0;  // limits.max_payload_kg: 12
+  EXPECT_FALSE(may_drive(good_floor(), 0, mission));
+  mission.stops.front().payload_kg = 2.0;
+  mission.robots = {"b"};
+  EXPECT_FALSE(may_drive(good_floor(), 0, mission));
+  EXPECT_TRUE(may_drive(good_floor(), 1, mission));
+}
+
+}  // namespace
+}  // namespace joulepath

@@ -1,0 +1,97 @@
+"""Fleets with few chargers: who drives what, when and where to charge, with a bound; needs ``ortools``.
+
+Traffic between robots is not modelled. Design: docs/decisions/0701-python.md
+
+>>> from joulepath import fleet
+>>> night = fleet.plan("scenarios/fleets/night_shift.yaml")  # doctest: +SKIP
+>>> night.status, night.cost_J >= night.bound_J  # doctest: +SKIP
+('optimal', True)
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from collections.abc import Callable
+from pathlib import Path as FilePath
+from typing import Any
+
+from .._errors import refused
+from .._inputs import number, whole
+from ._problem import UNITS_PER_J, Problem, Schedule
+
+__all__ = ["FleetPlan", "plan"]
+
+
+class FleetPlan:
+    """A schedule of a fleet, or the verdict why there is none."""
+
+    def __init__(self, source: Any, status: str, schedule: Schedule | None, help_: list[dict[str, Any]]) -> None:
+        self._source, self.status, self.schedule, self.help = source, status, schedule, help_
+
+    @property
+    def problem(self) -> Problem:
+        """The fleet in whole seconds and tenths of a joule."""
+        problem: Problem = self._source.problem
+        return problem
+
+    @property
+    def cost_J(self) -> float:
+        """Joules to be bought, with the prices of lateness and use; infinite without a schedule."""
+        return self.schedule.cost / UNITS_PER_J if self.schedule else float("inf")
+
+    @property
+    def bound_J(self) -> float:
+        """No schedule of this fleet costs less."""
+        return self.schedule.bound / UNITS_PER_J if self.schedule else float("inf")
+
+    @property
+    def gap_percent(self) -> float:
+        """(cost - bound)/cost."""
+        return 100 * (1 - self.bound_J / self.cost_J) if self.schedule and self.cost_J else 0.0
+
+    @property
+    def json(self) -> dict[str, Any]:
+        """The content of fleet.json."""
+        from ._output import fleet_json
+
+        return fleet_json(self._source, self.status, self.schedule, self.help)
+
+    def save(self, directory: str | os.PathLike[str], *, force: bool = False, missions: bool = True) -> FilePath:
+        """Writes fleet.json and report.html, and of each driven mission, in missions/NAME: plan.json, trajectory.csv, order.json.
+
+        All files are written or none. Files that exist are overwritten with ``force`` alone, else ConfigError.
+        """
+        from ._output import save
+
+        return save(self._source, self.status, self.schedule, self.help, directory, force, missions)
+
+    def __repr__(self) -> str:
+        return f"FleetPlan({self.status}, {self.cost_J:.6g} J, bound {self.bound_J:.6g} J)"
+
+
+def plan(file: str | os.PathLike[str], *, seed: int = 1, workers: int = 8, limit: float = 60.0, threads: int = 2, cache: bool = True,
+         tell: Callable[[str], None] | None = None, stop: Callable[[], bool] | None = None) -> FleetPlan:
+    """Plans a fleet file for the least cost.
+
+    ``limit``: deterministic time of the search, about CPU seconds; the same seed, workers and limit give the same plan.
+    ``threads``: for the energies of legs, which are cached with ``cache``. ``tell`` gets lines about the progress; the search ends
+    with its best schedule when ``stop`` is true. A fleet that cannot be planned has the status ``infeasible`` and the smallest
+    helps that work. Raises ConfigError with file, line and key; ImportError without ortools.
+    """
+    if importlib.util.find_spec("ortools") is None:
+        raise ImportError("joulepath.fleet needs ortools: pip install joulepath[fleet]")
+    from ._search import search
+    from ._table import FleetFile
+    from ._verdict import helps, reason_of
+
+    seed, workers = whole("seed", seed, 0, 2**31 - 1), whole("workers", workers, 1, 256)
+    limit, say = number("limit", limit, above=0.0), tell or (lambda _: None)
+    source = FleetFile(file, threads=threads, cache=cache, progress=lambda done, of: say(f"energies of legs: {done} of {of}"))
+    status, schedule = search(source.problem, seed=seed, workers=workers, limit=limit, tell=say, stop=stop)
+    if status == "infeasible":
+        source.reason = reason_of(source, seed=seed, workers=workers, limit=limit)
+        return FleetPlan(source, status, None, helps(source, seed=seed, workers=workers, limit=limit))
+    if schedule is None:
+        raise refused("limit", f"{limit:g}, in which no schedule was found", "a larger limit")
+    return FleetPlan(source, status, schedule, [])

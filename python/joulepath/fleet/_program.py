@@ -1,0 +1,55 @@
+"""``python -m joulepath fleet FLEET.yaml --out DIR``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+
+from .._errors import ConfigError
+from . import plan
+
+DONE, NO_SCHEDULE, BAD_INPUT = 0, 1, 2
+
+
+def main(words: list[str]) -> int:
+    """Runs the command; its exit code is that of ``joulepath plan``: 0, 1 without a schedule, 2 for bad input."""
+    line = _parser().parse_args(words)
+    stopped: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, _: stopped.append(number))
+    try:
+        found = plan(line.fleet, seed=line.seed, workers=line.workers, limit=line.limit, cache=not line.no_cache,
+                     tell=None if line.quiet else lambda text: print("  " + text, file=sys.stderr), stop=lambda: bool(stopped))
+        if line.out:
+            found.save(line.out, force=line.force)
+    except (ConfigError, ImportError) as error:
+        print(f"joulepath: {error}", file=sys.stderr)
+        return BAD_INPUT
+    if line.json:
+        print(json.dumps(found.json, indent=2))
+    elif not line.quiet:
+        print(f"{found.status}: {found.cost_J:.1f} J, bound {found.bound_J:.1f} J, gap {found.gap_percent:.2f} %"
+              if found.schedule else f"infeasible: {found.json['reason']['says']}; what works: " +
+              ("; ".join(h["says"] for h in found.help) or "nothing that was tried"))
+    if line.simulate and found.schedule:
+        from ._simulate import told
+
+        print(told(found.problem, found.schedule, line.simulate, line.seed))
+    return DONE if found.schedule else NO_SCHEDULE
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="joulepath fleet", description="Who drives what, when and where to charge.")
+    parser.add_argument("fleet", metavar="FLEET", help="fleet file")
+    parser.add_argument("--out", help="directory for fleet.json, report.html and missions/")
+    parser.add_argument("--force", action="store_true", help="overwrite files of an earlier plan")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--workers", type=int, default=8, help="interleaved searches of CP-SAT")
+    parser.add_argument("--limit", type=float, default=60.0, help="deterministic time of the search, about CPU seconds")
+    parser.add_argument("--simulate", type=int, default=0, metavar="N",
+                        help="drive the schedule N times with energies of the model's uncertainty")
+    parser.add_argument("--no-cache", action="store_true", help="no cache of legs on disk")
+    parser.add_argument("--json", action="store_true", help="fleet.json on standard output")
+    parser.add_argument("-q", "--quiet", action="store_true")
+    return parser
