@@ -6,7 +6,7 @@
 #include "model/printable.hpp"
 #include "model/text_of_list.hpp"
 #include "scenarios/document_kind.hpp"
-include "scenarios/mission_files/mission_file.hpp"
+#include "scenarios/mission_files/mission_file.hpp"
 
 namespace joulepath {
 namespace {
