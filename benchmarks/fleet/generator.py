@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import random
 
@@ -76,3 +77,19 @@ def queue_cost(robots: int, need: int, power: int = 1100) -> int:
         total += 2 * 2_000 + 20_000 + standby * (10 + waits + charge_s + 10 + 50)
         waits += charge_s
     return total
+
+
+def large(seed: int, robots: int = 20, missions: int = 200, chargers: int = 3) -> Problem:
+    """A shift of 20 robots on 40 places: windows are wide enough to be kept, and the batteries are not enough for the shift."""
+    chance = random.Random(f"large fleet {seed}")
+    places = {f"p{i}": (chance.uniform(0, 60), chance.uniform(0, 40)) for i in range(40)}
+    names, kind = list(places), RobotType(capacity=800_000, reserve=80_000, standby=100)
+    ways = _ways(chance, places)
+    at = chance.sample(names, chargers)
+    fleet = tuple(Robot(f"r{r}", 0, chance.choice(names), chance.randint(150_000, 500_000), 0, NEVER, 20_000) for r in range(robots))
+    tasks = []
+    for m in range(missions):
+        task = _mission(chance, m, names, ways, robots)
+        ready_s = chance.randint(0, 1500)
+        tasks.append(dataclasses.replace(task, robots=tuple(range(robots)), ready_s=ready_s, due_s=ready_s + chance.randint(600, 1500)))
+    return Problem((kind,), fleet, tuple(Charger(p, 1, 2500, 1000, 0.8) for p in at), tuple(tasks), ways)

@@ -193,3 +193,10 @@ def test_bad_input_is_one_line_and_leaves_nothing(tmp_path):
     run = subprocess.run([sys.executable, "-m", "joulepath", "fleet", str(broken), "--out", str(tmp_path / "out")], capture_output=True, text=True)
     assert run.returncode == 2 and not (tmp_path / "out").exists()
     assert "same_name.yaml:9:12" in run.stderr and run.stderr.count("\n") == 1
+
+
+def test_a_schedule_that_is_not_proven_states_its_own_cost():
+    problem = generator.small(0)
+    start = next(s for s in (drive_orders(problem, inserted(problem)), dispatched(problem)) if s is not None)
+    _, found = solve(problem, workers=1, limit=0.5, start=start)
+    assert found is None or (judge.faults(problem, found) == [] and found.bound <= found.cost)

@@ -11,6 +11,7 @@ from typing import Any
 from ortools.sat.python import cp_model
 
 from ._problem import NEVER, Drive, Problem, Schedule, Step, Visit
+from ._routes import account
 
 
 class Node:
@@ -320,11 +321,12 @@ class _Progress(cp_model.CpSolverSolutionCallback):
 
 
 def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 120.0, start: Schedule | None = None,
-          tell: Any = None, stop: Any = None, relative_gap: float = 0.0) -> tuple[str, Schedule | None]:
+          tell: Any = None, stop: Any = None, relative_gap: float = 0.0, takes_sigint: bool = True) -> tuple[str, Schedule | None]:
     """The cheapest schedule: ``optimal``, ``feasible``, ``infeasible`` or ``unknown``, and the schedule.
 
     ``limit``: deterministic time of CP-SAT, in its seconds. ``workers`` interleave, so that the same seed, workers and limit give the
-    same schedule. ``tell(cost, bound)`` is called for each better schedule; ``stop()`` ends the search.
+    same schedule. ``tell(cost, bound)`` is called for each better schedule; ``stop()`` ends the search; so does SIGINT with
+    ``takes_sigint``.
     """
     fleet = FleetModel(problem, None if start is None else start.cost)
     if start is not None:
@@ -335,6 +337,7 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     solver.parameters.interleave_search = workers > 1
     solver.parameters.max_deterministic_time = limit
     solver.parameters.relative_gap_limit = relative_gap
+    solver.parameters.catch_sigint_signal = takes_sigint
     status = solver.solve(fleet.model, _Progress(tell or (lambda *_: None), stop or (lambda: False)))
     if status == cp_model.INFEASIBLE:
         return "infeasible", None
@@ -342,7 +345,8 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
         return "unknown", None
     found = fleet.schedule(solver)
     word = "optimal" if status == cp_model.OPTIMAL else "feasible"
-    return word, Schedule(found.routes, found.cost, found.bound, status == cp_model.OPTIMAL)
+    cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
+    return word, Schedule(found.routes, cost, min(found.bound, cost), status == cp_model.OPTIMAL)
 
 
 __all__ = ["NEVER", "FleetModel", "solve"]

@@ -11,6 +11,9 @@ from dataclasses import dataclass, field
 from ._problem import Drive, Problem, Robot, RobotType, Schedule, Step, Visit
 
 
+QUEUES_S = (0, 200, 800)  #: waits at chargers that orders are driven for
+
+
 @dataclass
 class _At:
     """Where a robot is after its last step."""
@@ -129,13 +132,19 @@ def _late_choice(drives: tuple[Drive, ...], late_s: Callable[[Drive], int]) -> i
 
 
 def drive_orders(problem: Problem, orders: Sequence[Sequence[int]]) -> Schedule | None:
-    """Robots drive their missions in a given order and charge when the next one would not leave them the way to a charger."""
+    """Robots drive their missions in a given order and charge when the next one would not leave them the way to a charger, with
+    standby for a wait there: the cheapest of several waits."""
+    found = [schedule for wait_s in QUEUES_S if (schedule := _driven(problem, orders, wait_s)) is not None]
+    return min(found, key=lambda schedule: schedule.cost, default=None)
+
+
+def _driven(problem: Problem, orders: Sequence[Sequence[int]], wait_s: int) -> Schedule | None:
     drivers, left = Drivers(problem), [list(order) for order in orders]
     queue = [(at.clock, r) for r, at in enumerate(drivers.at) if left[r]]
     heapq.heapify(queue)
     while queue:
         _, r = heapq.heappop(queue)
-        if not _next(drivers, r, left[r]):
+        if not _next(drivers, r, left[r], wait_s):
             return None
         left[r].pop(0)
         if left[r]:
@@ -143,11 +152,11 @@ def drive_orders(problem: Problem, orders: Sequence[Sequence[int]]) -> Schedule 
     return drivers.schedule()
 
 
-def _next(drivers: Drivers, r: int, order: list[int]) -> bool:
+def _next(drivers: Drivers, r: int, order: list[int], wait_s: int) -> bool:
     p, robot, at = drivers.problem, drivers.problem.robots[r], drivers.at[r]
     kind, mission = p.types[robot.type], p.missions[order[0]]
     spare = at.level - kind.reserve - drivers.needed(r, order[0], at.place, at.clock)
-    onward = drivers.to_dock(r, mission.last) if len(order) > 1 else 0
+    onward = drivers.to_dock(r, mission.last) + kind.standby * wait_s if len(order) > 1 else 0
     if spare >= onward and drivers.go(r, order[0], None):
         return True
     rest = _rest(drivers, r, order)

@@ -78,7 +78,7 @@ def repaired(problem: Problem, best: Schedule, chance: random.Random, workers: i
     number = {m: n for n, m in enumerate(free)}
     here = tuple(tuple(replace(step, mission=number[step.mission]) for step in best.routes[r][len(heads[r]):]) for r in chosen)
     start = Schedule(here, account(part, here))
-    _, found = solve(part, seed=chance.randrange(2**31), workers=workers, limit=REPAIR, start=start)
+    _, found = solve(part, seed=chance.randrange(2**31), workers=workers, limit=REPAIR, start=start, takes_sigint=False)
     if found is None or found.cost >= start.cost:
         return best
     routes = list(best.routes)
