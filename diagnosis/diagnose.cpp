@@ -35,6 +35,14 @@ void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<O
   d.verdict = verdict_with(d.simulator);
 }
 
+/// Whether a scale of the drive's channels was found; without one, a scale is no excuse for other constants.
+bool has_scaled_drive(const std::vector<DataCheck>& checks) {
+  return std::ranges::any_of(checks, [](const DataCheck& check) {
+    return (check.kind == "scaled" || check.kind == "unit" || check.kind == "clock") &&
+           !check.channel.starts_with("battery_");
+  });
+}
+
 /// A fault of single runs is none of the file: another robot's file is wrong in the runs without one, too.
 std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, const RunsByUse& runs,
                                                         const std::vector<DataCheck>& checks) {
@@ -44,8 +52,9 @@ std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, 
   std::vector<RunSignals> sound;
   std::ranges::copy_if(runs.signals, std::back_inserter(sound),
                        [&](const RunSignals& run) { return !faulty.contains(run.run_index); });
-  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound).empty()) return {};
-  return foreign_constants(dataset.robot, runs.signals);
+  const bool scaled = has_scaled_drive(checks);
+  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound, scaled).empty()) return {};
+  return foreign_constants(dataset.robot, runs.signals, scaled);
 }
 
 /// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs

@@ -59,7 +59,10 @@ bool add_ratio(std::string name, std::string unit, double file, double value, do
   const double low = value - kSureSigmas * error, high = value + kSureSigmas * error;
   if (!(low > 0) || !(file > 0)) return false;
   ratios.push_back({{std::move(name), std::move(unit), file, value},
-                    std::log(value / file), std::log(low / file), std::log(high / file), std::log(box)});
+                    std::log(value / file),
+                    std::log(low / file),
+                    std::log(high / file),
+                    std::log(box)});
   return true;
 }
 
@@ -86,14 +89,15 @@ bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::
   std::array<double, 2> value{}, error{};
   const Motor& motor = robot.motor.left;
   return fit.solve(value, error) &&
-         add_ratio("winding resistance", "ohm", motor.resistance_ohm, value[0], error[0],
-                   kMostMeasuredFactor, ratios) &&
+         add_ratio("winding resistance", "ohm", motor.resistance_ohm, value[0], error[0], kMostMeasuredFactor,
+                   ratios) &&
          add_ratio("voltage per wheel speed", "V s/rad", motor.volts_per_speed_V_s_rad(), value[1], error[1],
                    kMostScale, ratios);
 }
 
-/// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous losses, the payload's part taken off; the jerk's
-/// column takes up a delay. The torque per ampere differs from the file's as the voltage per speed does.
+/// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous losses, the payload's part taken off; the
+/// jerk's column takes up a delay. The torque per ampere differs from the file's as the voltage per speed
+/// does.
 bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
   SmallFit<4> fit;
   const double radius_m = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right),
@@ -133,10 +137,11 @@ bool is_scaled_channel(const std::vector<LogRatio>& ratios) {
 
 }  // namespace
 
-std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs) {
+std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs,
+                                               bool may_be_scaled) {
   std::vector<LogRatio> ratios;
   if (!add_windings(robot, runs, ratios) || !add_mass(robot, runs, ratios)) return {};
-  if (is_scaled_channel(ratios)) return {};
+  if (may_be_scaled && is_scaled_channel(ratios)) return {};
   std::vector<ForeignConstant> foreign;
   for (const LogRatio& one : ratios)
     if (one.is_foreign()) foreign.push_back(one.constant);
