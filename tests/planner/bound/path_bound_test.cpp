@@ -1,0 +1,70 @@
+// The bound over all paths in plans of missions.
+#include "planner/bound/path_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planner/mission/mission.hpp"
+#include "tests/planner/path/grids.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath {
+namespace {
+
+Plan planned(const MissionRequest& mission, bool path_bound = true) {
+  MissionWorld world{.robot = testing::nomad()};
+  world.robot.footprint.radius_m = 0.2;
+  world.map = free_grid(240, 160, 0.05);
+  return plan_mission(
+      mission, world,
+      {.solver = SolverChoice::fast, .nodes = 60, .baselines = false, .path_bound = path_bound});
+}
+
+MissionRequest two_legs() {
+  MissionRequest mission;
+  mission.stations = {{"a", {.x_m = 10, .y_m = 1.5}}, {"b", {.x_m = 10, .y_m = 6}}};
+  mission.start.pose = {1, 1, 0};
+  mission.legs = {{.to = "a", .dwell_s = 4}, {.to = "b", .payload = {3, 3}}};
+  return mission;
+}
+
+TEST(PathBounds, LieBelowEachLegAndTheMissionAndAddUp) {
+  const Plan plan = planned(two_legs());
+  ASSERT_LE(plan.status, SolveStatus::feasible);
+  double sum_J = 0;
+  for (const LegPlan& leg : plan.legs) {
+    ASSERT_TRUE(leg.path_bound && leg.path_bound->energy_J) << leg.to;
+    EXPECT_LE(*leg.path_bound->energy_J, leg.energy.total_J()) << leg.to;
+    EXPECT_GE(*leg.path_bound->energy_J, 0.6 * leg.energy.total_J()) << leg.to;
+    sum_J += *leg.path_bound->energy_J;
+  }
+  ASSERT_TRUE(plan.path_bound && plan.path_bound->energy_J);
+  EXPECT_NEAR(*plan.path_bound->energy_J, sum_J, 1e-6);
+  EXPECT_FALSE(planned(two_legs(), false).path_bound);
+}
+
+/// A deadline that is felt raises the bound, as it raises the plan.
+TEST(PathBounds, ContainThePriceOfADeadline) {
+  MissionRequest mission = two_legs();
+  const Plan free = planned(mission);
+  mission.objective.deadline_s = 0.99 * free.duration_s;
+  const Plan hurried = planned(mission);
+  ASSERT_LE(hurried.status, SolveStatus::feasible) << hurried.message;
+  ASSERT_TRUE(hurried.path_bound && hurried.path_bound->energy_J);
+  EXPECT_LE(*hurried.path_bound->energy_J, hurried.energy.total_J());
+  EXPECT_GT(*hurried.path_bound->energy_J, *free.path_bound->energy_J);
+}
+
+TEST(PathBounds, GivenPathsHaveAReasonInstead) {
+  MissionRequest mission = two_legs();
+  mission.legs.push_back(
+      {.to = "path", .path = PathRequest{.bezier_m = {{{{0, 0}, {0.4, 0}, {0.8, 0}, {1.2, 0}}}}}});
+  const Plan plan = planned(mission);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  EXPECT_EQ(plan.legs.back().path_bound->reason, "the leg's path is given");
+  EXPECT_EQ(plan.path_bound->reason, "leg 2: the leg's path is given");
+  EXPECT_FALSE(plan.path_bound->energy_J);
+  EXPECT_TRUE(plan.legs.front().path_bound->energy_J);
+}
+
+}  // namespace
+}  // namespace joulepath
