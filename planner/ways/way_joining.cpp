@@ -43,6 +43,13 @@ std::size_t pieces_for(const Path& path) {
   return std::min<std::size_t>(12, 6 + static_cast<std::size_t>(0.5 * path.distance_m()));
 }
 
+/// Whether turning is a notable share of what the wheels roll: on long straight ways the present curves are
+/// as good, and the search would cost more than it saves.
+bool turns_much(const Path& path, double half_track_m) {
+  constexpr double kNotable = 1.02;
+  return joint::along_path(path, half_track_m, pieces_for(path)).effort_m() > kNotable * path.distance_m();
+}
+
 double effort_m(const std::vector<Sketch>& legs) {
   double sum = 0;
   for (const Sketch& leg : legs) sum += leg.effort_m();
@@ -104,6 +111,11 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   const std::vector<LegPath> present = paths();
   std::vector<Sketch> from_present;
   double found_J = 0;
+  const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
+  if (std::none_of(present.begin() + static_cast<std::ptrdiff_t>(first),
+                   present.begin() + static_cast<std::ptrdiff_t>(first + count),
+                   [&](const LegPath& leg) { return turns_much(leg.path, half_track_m); }))
+    return;
   for (std::size_t k = first; k < first + count; ++k) {
     const ChoiceContext& context = run_.contexts[k];
     query.laws.push_back(law_of(k));
