@@ -31,6 +31,7 @@ class BatchCommand : public Command {
         .existing_path();
     add_job_options(line, options_, "results.jsonl, timings.jsonl, report.html");
     add_plan_options(line, plan_);
+    line.flag("--path-bound", plan_.path_bound, "bound the energy over all paths (takes longer)");
     line.flag("--baselines", plan_.baselines, "compare every mission with trapezoids (takes longer)");
   }
 

@@ -35,6 +35,10 @@ Json plan_line(const Plan& plan) {
   json["duration_s"] = plan.duration_s;
   json["distance_m"] = plan.distance_m;
   json["optimality_gap_percent"] = plan.gap_percent;
+  if (plan.path_bound && plan.path_bound->energy_J) {
+    json["path_lower_bound_J"] = *plan.path_bound->energy_J;
+    json["path_gap_percent"] = path_gap_percent(*plan.path_bound, plan.energy.total_J());
+  }
   for (const BaselineTotal& baseline : plan.baselines)
     if (baseline.name == "trapezoid_best_tuned" && baseline.feasible)
       json["saving_percent"] = saving_percent(baseline.optimum_J, baseline.energy_J);
@@ -43,12 +47,13 @@ Json plan_line(const Plan& plan) {
 }
 
 std::string text_of(const PlanOptions& o) {
-  const Json json{{"seed", o.seed},
-                  {"nodes", o.nodes},
-                  {"accuracy", o.accuracy},
-                  {"solver", static_cast<int>(o.solver)},
-                  {"steps", {o.steps.corners, o.steps.routes, o.steps.stops, o.steps.refinement}},
-                  {"baselines", o.baselines}};
+  Json json{{"seed", o.seed},
+            {"nodes", o.nodes},
+            {"accuracy", o.accuracy},
+            {"solver", static_cast<int>(o.solver)},
+            {"steps", {o.steps.corners, o.steps.routes, o.steps.stops, o.steps.refinement}},
+            {"baselines", o.baselines}};
+  if (o.path_bound) json["path_bound"] = true;
   return json.dump();
 }
 
@@ -72,6 +77,7 @@ std::map<std::string, std::string> MissionPlanner::options() const {
   return {{"--nodes", std::to_string(options_.nodes)},
           {"--seed", std::to_string(options_.seed)},
           {"--baselines", options_.baselines ? "yes" : "no"},
+          {"--path-bound", options_.path_bound ? "yes" : "no"},
           {"--untrusted", reading_.untrusted ? "yes" : "no"}};
 }
 

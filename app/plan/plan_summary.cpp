@@ -67,6 +67,18 @@ std::string optimality_text(const Plan& plan) {
          " <= " + figure(plan.gap_percent, 2) + " %";
 }
 
+/// The gap to any path, or why none is known.
+void print_path_bound(std::ostream& stream, const Plan& plan) {
+  if (!plan.path_bound) return;
+  const PathBound& bound = *plan.path_bound;
+  if (!bound.energy_J) {
+    stream << "no bound over all paths: " << bound.reason << "\n";
+    return;
+  }
+  stream << "no path of any kind takes less than " << figure(*bound.energy_J, 5)
+         << " J in this time, gap <= " << figure(path_gap_percent(bound, plan.energy.total_J()), 2) << " %\n";
+}
+
 void print_battery(std::ostream& stream, const BatteryAccount& battery) {
   stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
          << figure(100 * battery.end_fraction, 5) << " %";
@@ -132,6 +144,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
     stream << "\n"
            << optimality_text(plan) << ", replay " << figure(plan.replay_energy_J, 6)
            << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
+    print_path_bound(stream, plan);
     if (plan.battery) print_battery(stream, *plan.battery);
     stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }

@@ -177,17 +177,18 @@ std::optional<Infeasibility> battery_too_weak(const Robot& robot, const Pose& po
 
 namespace {
 
-/// The resistance, at most `most_ohm`, with which the mission is planned, to a tenth; nothing where a 256th
-/// of it is not enough.
-std::optional<double> planned_resistance_ohm(double most_ohm, const PlansWithResistance& plans) {
-  constexpr int kHalvings = 8, kRefinements = 3;
-  double fails_ohm = most_ohm, works_ohm = most_ohm;
-  int halvings = 0;
-  for (; !plans(works_ohm); works_ohm *= 0.5, ++halvings) {
+/// The largest resistance below `fails_ohm` with which the mission is planned, to a tenth, from a guess on;
+/// nothing where a 256th of that is not enough.
+std::optional<double> planned_resistance_ohm(double guess_ohm, double fails_ohm,
+                                             const PlansWithResistance& plans) {
+  constexpr int kHalvings = 8;
+  constexpr double kClose = 1.1;
+  double works_ohm = guess_ohm;
+  for (int halvings = 0; !plans(works_ohm); works_ohm *= 0.5, ++halvings) {
     fails_ohm = works_ohm;
     if (halvings == kHalvings) return std::nullopt;
   }
-  for (int k = 0; halvings > 0 && k < kRefinements; ++k) {
+  while (fails_ohm > kClose * works_ohm) {
     const double between_ohm = std::sqrt(works_ohm * fails_ohm);
     (plans(between_ohm) ? works_ohm : fails_ohm) = between_ohm;
   }
@@ -209,9 +210,9 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
     verdict.relaxation.erase(power);
     // Power is inverse to the resistance.
     if (needed_W <= stated_W)
-      if (const auto ohm =
-              planned_resistance_ohm(robot.battery.internal_resistance_ohm * most_W / needed_W, plans))
-        verdict.relaxation["internal_resistance_ohm"] = *ohm;
+      if (const double ohm = robot.battery.internal_resistance_ohm;
+          const auto planned = planned_resistance_ohm(ohm * most_W / needed_W, ohm, plans))
+        verdict.relaxation["internal_resistance_ohm"] = *planned;
   }
   std::ostringstream text;
   text.precision(4);

@@ -66,9 +66,10 @@ std::string breach(const Plan& plan) {
          std::to_string(100 * plan.worst_violation) + " %";
 }
 
+/// To milliseconds; less than some of them to two digits.
 std::string seconds(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", value);
+  std::snprintf(text, sizeof text, std::abs(value) < 0.0095 ? "%.2g s" : "%.3f s", value);
   return text;
 }
 
@@ -76,6 +77,10 @@ std::string seconds(double value) {
 
 double saving_percent(double energy_J, double baseline_J) {
   return baseline_J > 0 ? 100.0 * (baseline_J - energy_J) / baseline_J : 0.0;
+}
+
+double path_gap_percent(const PathBound& bound, double energy_J) {
+  return 100 * (energy_J - bound.energy_J.value_or(std::nan(""))) / std::max(1e-9, std::abs(energy_J));
 }
 
 namespace {

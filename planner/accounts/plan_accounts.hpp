@@ -20,6 +20,9 @@ void sum_up(Plan& plan, const Plant& plant, double accuracy);
                                          double s_m, const Pose& pose);
 [[nodiscard]] Infeasibility too_short(double duration_s, double minimum_s, double s_m, const Pose& pose);
 
+/// How far (%) a plan of an energy lies above the bound over all paths at most, relative to its energy.
+[[nodiscard]] double path_gap_percent(const PathBound& bound, double energy_J);
+
 /// Saving (%) of `energy_J` against a baseline's; 0 if the baseline takes no energy.
 [[nodiscard]] double saving_percent(double energy_J, double baseline_J);
 

@@ -175,6 +175,7 @@ void add_leg(const LegPlan& leg, std::size_t index, const PlanRows& rows, NodeRo
       const double elapsed_s = time_s - leg.prescribed->time_s.front();
       to.add({leg.start_s + elapsed_s, index, rows.at(index, elapsed_s)});
     }
+  if (!leg.prescribed && leg.stretches.empty()) to.add({leg.start_s, index, rows.at(index, 0.0)});
   double start_s = leg.start_s, offset_m = 0;
   for (std::size_t k = 0; k < leg.stretches.size(); ++k) {
     const StretchPlan& stretch = leg.stretches[k];

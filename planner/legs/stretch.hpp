@@ -14,6 +14,7 @@ struct WaySteps {
   bool routes{true};      ///< else the shortest route
   bool stops{true};       ///< else the robot turns on the spot at stops
   bool refinement{true};  ///< else corners stay as they were blended
+  bool joint{true};       ///< part of the refinement: else path and speed are not optimized together
 };
 
 struct PlanOptions {
@@ -23,6 +24,7 @@ struct PlanOptions {
   unsigned seed{1};
   WaySteps steps{};
   bool baselines{true};     ///< compare with classic profiles
+  bool path_bound{};        ///< bound the energy over all paths
   unsigned threads{1};      ///< threads for the legs of one mission; the plan does not depend on it
   SharedAnswers answers{};  ///< cached answers of other missions; the plan does not depend on them
   bool draft{};  ///< profiles are drafts (ProfileRequest::draft): no bound, never more than feasible

@@ -7,6 +7,7 @@
 #include "model/workers.hpp"
 #include "planner/accounts/battery_account.hpp"
 #include "planner/accounts/plan_accounts.hpp"
+#include "planner/bound/path_bound.hpp"
 #include "planner/legs/prescribed_leg.hpp"
 #include "planner/mission/charging.hpp"
 #include "planner/mission/mission_time.hpp"
@@ -291,6 +292,7 @@ Plan plan_mission(const MissionRequest& asked, const MissionWorld& world, const 
     });
   }
   if (options.baselines) add_baselines(answer, plant.robot.power.standby_W, options.threads);
+  if (options.path_bound) add_path_bounds(answer, asked, world, plant, space);
   JOULEPATH_ASSERT(answer.status <= SolveStatus::feasible || !answer.message.empty(),
                    "a mission without a plan has a reason");
   return answer;

@@ -10,6 +10,13 @@ namespace joulepath {
 namespace {
 
 constexpr double kHighestPrice_W = 1e7;
+/// The search for a price that arrives in time climbs in logarithms: twice as far each step, evenly from the
+/// first one on.
+constexpr double kEvenClimbs = 8.0, kWidestClimb = 2.0;
+constexpr double kNearFastest = 4.0;  ///< of the same logarithm
+/// Share of a climb's gain in time: at such prices the delay over the fastest drive falls as 1 / price or
+/// faster.
+constexpr double kGainLeft = 0.5;
 constexpr std::uintmax_t kPriceTrials = 24;  ///< of a search within its bracket
 constexpr double kClearlyLate = 1e-3;  ///< relative: more than the differences between solvers of profiles
 /// Relative: an arrival this little before its bound is at it. Times of profiles with a jerk limit scatter
@@ -37,6 +44,51 @@ double arrival_s(const TimeSplitRequest& request, std::size_t first, std::size_t
 
 bool meets(double time_s, double due_s) { return time_s <= due_s * (1 + 1e-9) + 1e-9; }
 
+/// Logarithms of prices, and by how much (s) they arrive late: `high` in time where there is such a price.
+struct PriceBracket {
+  double low{}, late_low_s{};
+  double high{}, late_high_s{};
+};
+
+/// Climbs from 0 to a price that arrives in time. A climb ends, too, where the delay is below that of the
+/// fastest drive and the last step gained too little for another one to be in time.
+template <class LateOf>
+PriceBracket climb(const LateOf& late_s, double late_at_0_s, double late_fastest_s) {
+  const double highest = std::log1p(kHighestPrice_W);
+  PriceBracket at{.low = 0.0, .late_low_s = late_at_0_s, .high = 0.5, .late_high_s = late_s(0.5)};
+  while (at.late_high_s > 0 && at.high < highest) {
+    const double gain_s = at.late_low_s - at.late_high_s;
+    if (at.late_high_s < late_fastest_s && kGainLeft * gain_s < at.late_high_s) break;
+    at.low = at.high, at.late_low_s = at.late_high_s;
+    at.high = std::min({2 * at.high, std::max(kEvenClimbs, at.high + kWidestClimb), highest});
+    at.late_high_s = late_s(at.high);
+  }
+  return at;
+}
+
+/// The logarithm of the price in a bracket that arrives at the bound, `spare_s` before it.
+template <class LateOf>
+double price_within(const PriceBracket& at, const LateOf& late_s, double spare_s) {
+  std::optional<double> at_due;
+  const auto off_s = [&](double x) {
+    const double off = late_s(x) + spare_s;
+    if (std::abs(off) <= spare_s) at_due = x;
+    return off;
+  };
+  // Near the fastest drive the delay is almost a polynomial in 1 / price.
+  const bool near_fastest = at.low >= kNearFastest;
+  const auto to_search = [&](double x) { return near_fastest ? -std::exp(-x) : x; };
+  const auto from_search = [&](double u) { return near_fastest ? -std::log(-u) : u; };
+  const auto close = [&](double a, double b) {
+    return at_due || std::abs(from_search(a) - from_search(b)) < 1e-9 * (1 + std::abs(from_search(a)));
+  };
+  std::uintmax_t iterations = kPriceTrials;
+  const auto bracket = boost::math::tools::toms748_solve(
+      [&](double u) { return off_s(from_search(u)); }, to_search(at.low), to_search(at.high),
+      at.late_low_s + spare_s, at.late_high_s + spare_s, close, iterations);
+  return at_due.value_or(from_search(bracket.second));
+}
+
 /// Smallest price, at least `lowest_W`, at which the legs first..last arrive by `due_s`; empty if there is
 /// none.
 std::optional<double> price_of(const TimeSplitRequest& request, std::size_t first, std::size_t last,
@@ -46,41 +98,24 @@ std::optional<double> price_of(const TimeSplitRequest& request, std::size_t firs
   const auto late_s = [&](double x) {
     return arrival_s(request, first, last, departure_s, price_at(x)) - due_s;
   };
-  double low = 0.0;
-  double late_low_s = late_s(low);
+  const double late_low_s = late_s(0.0);
   if (late_low_s <= 0) return lowest_W;
   const double fastest_s = arrival_s(request, first, last, departure_s, kNoLimit);
-  const double highest = std::log1p(kHighestPrice_W);
   if (!meets(fastest_s, due_s)) {
     // The least time decides before any price is searched. A drive at a high price may be earlier than the
     // fastest one found, but not before the time that is proven.
     const double proven_s = arrival_with_s(request, first, last, departure_s, request.least_s);
-    if (fastest_s > due_s * (1 + kClearlyLate) || !meets(proven_s, due_s) || late_s(highest) > 0)
-      return std::nullopt;
+    if (fastest_s > due_s * (1 + kClearlyLate) || !meets(proven_s, due_s)) return std::nullopt;
   }
-  double high = 0.5;
-  double late_high_s = late_s(high);
-  while (late_high_s > 0 && high < highest) {
-    low = high;
-    late_low_s = late_high_s;
-    high = std::min(2 * high, highest);
-    late_high_s = late_s(high);
+  const PriceBracket found = climb(late_s, late_low_s, fastest_s - due_s);
+  if (found.late_high_s > 0) {  // at most the fastest drive arrives in time
+    if (meets(fastest_s, due_s)) return kNoLimit;
+    return std::nullopt;
   }
-  if (late_high_s > 0) return kNoLimit;  // only the fastest drive arrives in time
   // The search aims at the middle of the times that count as the bound, so that either side of it will do.
   const double spare_s = 0.5 * kSameArrival * due_s;
-  std::uintmax_t iterations = kPriceTrials;
-  std::optional<double> at_due;
-  const auto off_s = [&](double x) {
-    const double off = late_s(x) + spare_s;
-    if (std::abs(off) <= spare_s) at_due = x;
-    return off;
-  };
-  if (late_high_s + spare_s >= 0) return price_at(high);
-  const auto close = [&](double a, double b) { return at_due || std::abs(a - b) < 1e-9 * (1 + std::abs(a)); };
-  const auto bracket = boost::math::tools::toms748_solve(off_s, low, high, late_low_s + spare_s,
-                                                         late_high_s + spare_s, close, iterations);
-  return price_at(at_due.value_or(bracket.second));
+  if (found.late_high_s + spare_s >= 0) return price_at(found.high);
+  return price_at(price_within(found, late_s, spare_s));
 }
 
 /// Legs from the first that is not settled yet to `last`, with one price.

@@ -63,6 +63,16 @@ struct WayImprovement {
   double cost_J{};  ///< energy and time at its price
 };
 
+/// The energy below which no path of any kind leads from stop to stop in the plan's time or less.
+struct PathBound {
+  std::optional<double> energy_J{};  ///< dwell included; absent where there is a reason
+  /// What the bound rests on: a straight line of the length of the shortest way, headings at the stops, or a
+  /// shortest way around corners, which the bound drives as if it were straight.
+  enum class Part { line, headings, corners };
+  Part part{};
+  std::string reason{};  ///< reason why there is no bound
+};
+
 struct LegPlan {
   std::string to{};  ///< station, `path` or `motion`
   std::string path_source{};
@@ -85,6 +95,7 @@ struct LegPlan {
   std::optional<double> energy_sigma_J{};  ///< 1-sigma, as of the plan
   double charger_W{};                      ///< of the charger at its stop, where the planner inserted it
   double charged_J{};                      ///< energy charged there
+  std::optional<PathBound> path_bound{};   ///< absent: not asked for
   std::vector<BaselineTotal> baselines{};
   std::vector<PathAlternative> alternatives{};
   std::vector<WayImprovement> improvements{};
@@ -144,6 +155,7 @@ struct Plan {
   std::string worst_limit{};
   std::optional<BatteryAccount> battery{};
   std::optional<VisitOrder> visit{};
+  std::optional<PathBound> path_bound{};  ///< absent: not asked for
   std::vector<BaselineTotal> baselines{};
   std::optional<PlanInfeasibility> infeasibility{};
 };

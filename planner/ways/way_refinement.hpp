@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "planner/joint/joint_search.hpp"
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
 #include "planner/ways/stop_swing.hpp"
@@ -25,6 +26,10 @@ class RefinedRun {
   /// Replaces turns in place at the stops by curves where that is cheaper: optimizes each leg in turn as a
   /// whole from the robot's present heading (best_swing), then each stop between two such legs (best_stop).
   void swing();
+
+  /// Replaces the curves of up to three consecutive legs by those that optimize path and speed together,
+  /// headings at the stops between included, where their certified drive is cheaper.
+  void join();
 
   /// The paths of the legs, turns in place included.
   [[nodiscard]] std::vector<LegPath> paths() const;
@@ -64,6 +69,10 @@ class RefinedRun {
                                          const std::optional<double>& arrives_rad);
   const std::optional<StopResult>& stop_swing(std::size_t k, const FreeSpline& arriving);
   void swing_through(std::size_t k, bool checked);
+  joint::DriveLaw law_of(std::size_t k) const;
+  std::vector<std::vector<joint::Sketch>> rough_paths(std::size_t first,
+                                                      const joint::JointQuery& query) const;
+  void join(std::size_t first, std::size_t count);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;
 

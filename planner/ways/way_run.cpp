@@ -188,6 +188,7 @@ std::vector<LegPath> RunChoice::choose() {
   if (!run_.quick && steps_.refinement) {
     refined.refine();
     refined.swing();
+    if (steps_.joint) refined.join();
   }
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {

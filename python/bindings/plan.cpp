@@ -68,7 +68,8 @@ PlanOptions plan_options(const std::string& solver, std::size_t nodes, unsigned 
           .nodes = nodes,
           .accuracy = accuracy,
           .seed = seed,
-          .baselines = baselines};
+          .baselines = baselines,
+          .path_bound = true};
 }
 
 double thread_cpu_s() {

@@ -60,6 +60,12 @@ class Plan(Value):
         return None if bound is None else float(bound)
 
     @property
+    def path_lower_bound_J(self) -> float | None:
+        """No path of any kind from stop to stop takes less in this time; None where the bound does not cover the mission."""
+        bound = self.json.get("path_lower_bound_J")
+        return None if bound is None else float(bound)
+
+    @property
     def duration_s(self) -> float:
         """Driving, waiting and dwell."""
         return float(self.json.duration_s)

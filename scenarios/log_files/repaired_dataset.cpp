@@ -96,7 +96,7 @@ void describe_repairs(const Dataset& dataset, const Document& document, std::vec
 
 std::string data_check_text(const DataCheck& check) {
   return (check.run.empty() ? "all runs" : check.run) + ": " + check.channel + " " + check.kind + ". " +
-         check.evidence + ". Repair: " + check.repair;
+         check.evidence + (check.evidence.ends_with('?') ? " Repair: " : ". Repair: ") + check.repair;
 }
 
 std::string repaired_dataset_text(const Dataset& dataset, const std::vector<DataCheck>& checks,

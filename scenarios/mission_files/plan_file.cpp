@@ -111,6 +111,23 @@ std::size_t longest_stretch(const LegPlan& leg) {
   return longest;
 }
 
+const char* part_name(PathBound::Part part) {
+  if (part == PathBound::Part::corners) return "corners";
+  return part == PathBound::Part::headings ? "headings" : "line";
+}
+
+/// The bound over all paths and the gap to it, where it was asked for.
+void add_path_bound(const std::optional<PathBound>& bound, double energy_J, Json& json) {
+  if (!bound) return;
+  const bool known = bound->energy_J.has_value();
+  json["path_lower_bound_J"] = known ? number(*bound->energy_J) : Json(nullptr);
+  json["path_gap_percent"] = known ? number(path_gap_percent(*bound, energy_J)) : Json(nullptr);
+  if (known)
+    json["path_bound_part"] = part_name(bound->part);
+  else
+    json["path_bound_reason"] = bound->reason;
+}
+
 Json leg_json(const LegPlan& leg) {
   Json json{{"to", leg.to},
             {"status", solve_status_name(leg.status)},
@@ -133,6 +150,7 @@ Json leg_json(const LegPlan& leg) {
             {"alternatives", Json::array()},
             {"improvements", Json::array()},
             {"baselines", Json::array()}};
+  add_path_bound(leg.path_bound, leg.energy.total_J(), json);
   if (leg.charger_W > 0) json["charged_J"] = leg.charged_J;
   for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
   for (const PathAlternative& alternative : leg.alternatives)
@@ -182,6 +200,7 @@ void add_results(const Plan& plan, Json& json) {
   json["lower_bound_J"] = number(plan.lower_bound_J);
   json["optimality_gap_percent"] = number(plan.gap_percent);
   json["bound_without_jerk"] = limits_jerk(plan);
+  add_path_bound(plan.path_bound, plan.energy.total_J(), json);
   json["local"] = plan.local;
   json["energy_by_cause_J"] = cause_json(plan.energy);
   json["solver"] = {{"name", plan.solver}, {"iterations", plan.iterations}};

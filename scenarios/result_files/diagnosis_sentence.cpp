@@ -151,6 +151,18 @@ std::string suspects_words(const std::vector<DataCheck>& checks) {
   return text_of_list(words, "; ");
 }
 
+/// One factor on a quantity of the drive in all runs may as well be the file of a robot with another motor
+/// and mass.
+std::string another_robots_words(const std::vector<DataCheck>& checks) {
+  const bool alike = std::ranges::any_of(checks, [](const DataCheck& check) {
+    return check.kind == "scaled" && check.run.empty() &&
+           (check.channel.starts_with("motor_") || check.channel.starts_with("wheel_speed_"));
+  });
+  return alike ? " Another robot's file gives the same picture: compare its motor and mass with the robot's "
+                 "first."
+               : "";
+}
+
 /// The meaning of a verdict on the robot file: without a gap, effects may be listed that are too small to
 /// count.
 std::string file_meaning(const Diagnosis& d) {
@@ -173,7 +185,8 @@ std::string model_sentence(const Diagnosis& d, Verdict verdict) {
     case Verdict::ambiguous:
       return title + group_words(d) + gap_words(d);
     case Verdict::data_suspect:
-      return title + suspects_words(d.data_checks) + ". " + words.next_step;
+      return title + suspects_words(d.data_checks) + ". " + words.next_step +
+             another_robots_words(d.data_checks);
     case Verdict::unexplained:
       return title + clause(words.meaning) + gap_words(d) + unknown_words(d);
     case Verdict::too_little_data:

@@ -51,20 +51,35 @@ constexpr const char* kBoundMeans =
 constexpr const char* kWithoutJerk =
     "the bound, drafts and the choice of ways leave the jerk limit out: the gap holds its price, too";
 
+constexpr const char* kPathBoundMeans =
+    "no path of any kind from stop to stop takes less in this time; null where it is not covered";
+constexpr const char* kPathGapMeans = "to that bound, relative to the energy";
+constexpr const char* kPathPartMeans =
+    "line | headings | corners: what the bound rests on; corners: it takes the way around them as straight";
+constexpr const char* kPathReasonMeans = "reason why that bound is null";
+
 Schema leg_result_schema() {
   return open(
-      map({required("to", text()), required("status", plan_status()), required("energy_J", result()),
+      map({required("to", text()),
+           required("status", plan_status()),
+           required("energy_J", result()),
            optional("energy_interval_95_J", interval(), "from the robot file's uncertainty"),
            optional("lower_bound_J", result(), kBoundMeans),
            optional("optimality_gap_percent", result(),
                     "on this path, relative to the energy; for least time, relative to the time"),
            optional("bound_without_jerk", boolean(), kWithoutJerk),
+           optional("path_lower_bound_J", result(), kPathBoundMeans),
+           optional("path_gap_percent", result(), kPathGapMeans),
+           optional("path_bound_part", text(), kPathPartMeans),
+           optional("path_bound_reason", text(), kPathReasonMeans),
            optional("charged_J", result(), "at the charger of an inserted stop"),
-           required("duration_s", result(), "without dwell"), required("distance_m", result()),
+           required("duration_s", result(), "without dwell"),
+           required("distance_m", result()),
            required("payload_kg",
                     any_of({number(), open(map({required("from", number()), required("to", number())}))})),
            required("price_of_time_W", result(), "-dE/dT: the energy that one more second would save"),
-           required("energy_by_cause_J", causes_schema()), required("baselines", baselines_schema()),
+           required("energy_by_cause_J", causes_schema()),
+           required("baselines", baselines_schema()),
            optional("alternatives", alternatives_schema(),
                     "candidate ways, turns included; scored without the jerk limit"),
            optional("improvements", improvements_schema(),
@@ -197,8 +212,12 @@ Schema plan_schema() {
        optional("duration_s", result()),
        optional("distance_m", result()),
        optional("lower_bound_J", result(), kBoundMeans),
-       optional("optimality_gap_percent", result(), "on these paths; other paths are not bounded"),
+       optional("optimality_gap_percent", result(), "on these paths"),
        optional("bound_without_jerk", boolean(), kWithoutJerk),
+       optional("path_lower_bound_J", result(), kPathBoundMeans),
+       optional("path_gap_percent", result(), kPathGapMeans),
+       optional("path_bound_part", text(), kPathPartMeans),
+       optional("path_bound_reason", text(), kPathReasonMeans),
        optional("energy_by_cause_J", causes_schema(), "adds up to energy_J"),
        optional("solver", open(map({required("name", text()), required("iterations", number())}))),
        optional("replay", open(map({required("energy_J", result()), required("worst_violation", result()),

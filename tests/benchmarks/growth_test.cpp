@@ -1,5 +1,5 @@
 // Growth of the work with the size of the input, by what is counted: iterations, allocations, bytes.
-// Design: docs/decisions/0801-tests-and-ci.md
+// Design: docs/decisions/0800-build.md
 #include <gtest/gtest.h>
 
 #include "benchmarks/growth/growths.hpp"

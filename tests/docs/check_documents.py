@@ -110,14 +110,14 @@ WRITTEN_BY_COMMANDS = ("benchmarks/results/", "docs/effects.md")
 
 
 def long_lines(source):
-    """Lines of prose are at most WIDTH characters; tables, code, headings and lines with an address are exempt."""
+    """Lines of prose are at most WIDTH characters; tables, code, headings, formulas and lines with an address are exempt."""
     for document in sorted(source.rglob("*.md")):
         name = document.relative_to(source).as_posix()
         if name.startswith((*WRITTEN_BY_COMMANDS, "build", "out")):
             continue
         text = re.sub(r"^```.*?^```", lambda code: re.sub(".", "", code[0]), document.read_text(), flags=re.DOTALL | re.MULTILINE)
         for number, line in enumerate(text.splitlines(), 1):
-            if len(line) > WIDTH and not line.startswith(("|", "#", "    ")) and not re.search(r"\]\(|https?:", line):
+            if len(line) > WIDTH and not line.startswith(("|", "#", "    ", "$$")) and not re.search(r"\]\(|https?:", line):
                 yield f"{name}:{number}: {len(line)} characters, at most {WIDTH}"
 
 

@@ -1,6 +1,6 @@
 """The sites that a mutant changes, their draw by a committed seed, and the source text with all mutants in it.
 
-Design: docs/decisions/0801-tests-and-ci.md
+Design: docs/decisions/0800-build.md
 """
 import hashlib
 import os

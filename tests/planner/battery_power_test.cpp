@@ -60,6 +60,8 @@ void expect_supplied(const MissionRequest& mission, const Robot& robot) {
   EXPECT_LT(better.battery.internal_resistance_ohm, robot.battery.internal_resistance_ohm);
   EXPECT_LE(supplied_plan(mission, better).status, SolveStatus::feasible)
       << supplied_plan(mission, better).message;
+  better.battery.internal_resistance_ohm *= 1.15;
+  EXPECT_EQ(supplied_plan(mission, better).status, SolveStatus::infeasible) << "a smaller change works";
 }
 
 TEST(BatteryPower, NoPlanTakesMoreThanTheBatterySupplies) {

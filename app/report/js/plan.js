@@ -46,6 +46,7 @@ jp.plan_tiles = function (plan, savings) {
   });
   tiles.push(jp.tile("Duration", with_unit(plan.duration_s, "s"), jp.time_text(plan)), jp.tile("Distance", with_unit(plan.distance_m, "m")));
   if (is_number(plan.optimality_gap_percent)) tiles.push(jp.tile("Gap on these paths", percent(plan.optimality_gap_percent, 2), "at most this far from their optimum" + jp.bound_text(plan)));
+  if (is_number(plan.path_gap_percent)) tiles.push(jp.tile("Gap to any path", percent(plan.path_gap_percent, 2), `no path of any kind takes less than ${with_unit(plan.path_lower_bound_J, "J")} in this time`));
   const battery = plan.battery;
   if (battery && is_number(battery.end_fraction)) tiles.push(jp.tile("Battery left", fraction(battery.end_fraction, 4), "from " + fraction(battery.start_fraction, 4)));
   return h("div", {class: "tiles"}, tiles);
@@ -144,13 +145,23 @@ jp.battery_section = function (plan) {
       is_number(plan.battery_loss_J) ? `Lost inside the battery: ${with_unit(plan.battery_loss_J, "J")}.` : ""].join("")));
 };
 
+/** What each gap means, for readers who know neither. */
+jp.gap_texts = function (plan) {
+  const texts = [];
+  if (is_number(plan.optimality_gap_percent)) texts.push("The gap on these paths is how much energy a better speed profile on the same paths could save at most.");
+  if (is_number(plan.path_gap_percent)) texts.push("The gap to any path is how much energy any other paths between the same stops, driven at any speeds in this time, could save at most; what can really be saved is usually far less." + (plan.path_bound_part === "corners" ? " It counts the shortest ways around obstacles as if they were straight, so part of it is the price of corners." : ""));
+  return texts;
+};
+
 jp.trust_section = function (plan) {
   const rows = [["status on these paths", words(plan.status)]];
   if (is_number(plan.optimality_gap_percent)) rows.push(["gap to their optimum" + jp.bound_text(plan), percent(plan.optimality_gap_percent, 2)]);
+  if (is_number(plan.path_gap_percent)) rows.push(["gap to any path", percent(plan.path_gap_percent, 2)]);
+  else if (plan.path_bound_reason) rows.push(["gap to any path", "unknown: " + plan.path_bound_reason]);
   if (plan.replay) rows.push(["energy by the replay (its own integrator)", with_unit(plan.replay.energy_J, "J", 7)],
     ["worst violation of a limit, relative", number(plan.replay.worst_violation, 2) + (plan.replay.limit ? ` (${words(plan.replay.limit)})` : "")]);
   if (plan.solver) rows.push(["solver", `${plan.solver.name}, ${plan.solver.iterations} iterations`]);
-  return rows.length > 1 ? jp.section("Verification", jp.table(["", ""], rows)) : null;
+  return rows.length > 1 ? jp.section("Verification", jp.table(["", ""], rows), jp.gap_texts(plan).map((text) => h("p", {class: "soft"}, text))) : null;
 };
 
 /** Plots of the motion with the baselines beside it, and limits. */

@@ -46,6 +46,14 @@ CurveSegment moved(const BezierSegment& segment, const Similarity& to) {
   return BezierSegment::rational(curve);
 }
 
+/// A larger path turns at a smaller curvature: the half track, which only scales phi, grows with it.
+CurveSegment moved(const DirectionSegment& segment, const Similarity& to) {
+  DirectionSegment::Shape shape = segment.shape();
+  shape.length_m *= to.scale;
+  shape.half_track_m *= to.scale;
+  return DirectionSegment(to(segment.start()), shape);
+}
+
 PathPiece moved(const TurnInPlace& turn, const Similarity& to) {
   return TurnInPlace{to(turn.start), turn.angle_rad};
 }

@@ -1,5 +1,6 @@
 #include "extensions/studio/answer/path_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "model/config_error.hpp"
@@ -26,6 +27,12 @@ json segment_json(const BezierSegment& segment) {
   return {{"bezier", segment.points_m()}};
 }
 
+json segment_json(const DirectionSegment& segment) {
+  const Pose& from = segment.start();
+  const auto& [from_rad, to_rad, length_m, half_track_m] = segment.shape();
+  return {{"direction", {from.x_m, from.y_m, from.heading_rad, from_rad, to_rad, length_m, half_track_m}}};
+}
+
 json piece_json(const TurnInPlace& turn) {
   return {{"turn", {turn.start.x_m, turn.start.y_m, turn.start.heading_rad, turn.angle_rad}}};
 }
@@ -42,6 +49,14 @@ CurveSegment arc_from(const std::array<double, 6>& arc) {
   return LinearCurvature({arc[0], arc[1], arc[2]}, arc[3], arc[4], arc[5]);
 }
 
+CurveSegment direction_from(const std::array<double, 7>& d) {
+  const bool forward = std::cos(d[3]) > 0 && std::cos(d[4]) > 0;
+  if (!forward || !(d[5] > 0) || !(d[6] > 0))
+    refuse("a direction segment that does not drive forward",
+           "directions within a quarter turn, lengths above 0");
+  return DirectionSegment({d[0], d[1], d[2]}, {d[3], d[4], d[5], d[6]});
+}
+
 CurveSegment bezier_from(const BezierPoints& points_m) {
   const std::vector<BezierFinding> defects = bezier_defects(points_m, 0);
   if (!defects.empty()) refuse(defects.front().message, "a curve without a cusp");
@@ -51,6 +66,8 @@ CurveSegment bezier_from(const BezierPoints& points_m) {
 CurveSegment segment_from(const json& segment) {
   if (segment.contains("arc")) return arc_from(segment.at("arc").get<std::array<double, 6>>());
   if (segment.contains("bezier")) return bezier_from(segment.at("bezier").get<BezierPoints>());
+  if (segment.contains("direction"))
+    return direction_from(segment.at("direction").get<std::array<double, 7>>());
   RationalBezier curve{segment.at("rational").get<std::vector<RationalBezier::Point>>()};
   if (curve.points.size() < 2 || curve.points.size() > RationalBezier::kMostDegree + 1)
     refuse("a rational curve of " + std::to_string(curve.points.size()) + " points", "2 to 10 points");

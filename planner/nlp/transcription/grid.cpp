@@ -21,10 +21,11 @@ constexpr double kSafeShare = 0.7;
 bool wheel_may_reverse(const CurveSegment& segment, double half_track_m) {
   return std::visit(
       [&](const auto& part) {
-        constexpr bool linear = std::is_same_v<std::decay_t<decltype(part)>, LinearCurvature>;
+        // The curvature of the others is monotone: it is largest at an end.
+        constexpr bool linear = !std::is_same_v<std::decay_t<decltype(part)>, BezierSegment>;
         if constexpr (!linear)
           if (part.curvature_bound_per_m() * half_track_m <= kSafeShare) return false;
-        const int looks = linear ? 1 : kLooksPerSegment;  // linear curvature is largest at an end
+        const int looks = linear ? 1 : kLooksPerSegment;
         double most_per_m = 0;
         for (int i = 0; i <= looks; ++i)
           most_per_m = std::max(most_per_m, std::abs(part.bend(part.length_m() * i / looks).curvature_per_m));

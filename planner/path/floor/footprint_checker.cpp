@@ -147,6 +147,7 @@ double largest_curvature_per_m(const CurveSegment& segment) {
     return largest;
   };
   if (const auto* linear = std::get_if<LinearCurvature>(&segment)) return sampled(*linear, 1);
+  if (const auto* turning = std::get_if<DirectionSegment>(&segment)) return turning->curvature_bound_per_m();
   return 1.2 * sampled(std::get<BezierSegment>(segment), 64);
 }
 

@@ -151,4 +151,29 @@ ObstacleField::Extent ObstacleField::extent_m() const {
   return extent;
 }
 
+std::vector<Pose> ObstacleField::convex_corners() const {
+  std::vector<Pose> corners;
+  for (const LayerField& field : layers_) {
+    const OccupancyGrid& grid = field.grid;
+    const auto blocked = [&](int column, int row) {
+      const OccupancyGrid::CellIndex cell{column, row};
+      return grid.contains(cell) ? field.blocked[grid.index_of(cell)] != 0 : field.outside_blocked;
+    };
+    for (int row = 0; row < grid.height; ++row)
+      for (int column = 0; column < grid.width; ++column) {
+        if (!blocked(column, row)) continue;
+        for (const int dx : {-1, 1})
+          for (const int dy : {-1, 1}) {
+            if (blocked(column + dx, row) || blocked(column, row + dy)) continue;
+            const auto center = grid.center_of({column, row});
+            const double heading_rad = grid.origin.heading_rad + std::atan2(dy, dx),
+                         half_m = std::sqrt(0.5) * grid.resolution_m;
+            corners.push_back({center[0] + half_m * std::cos(heading_rad),
+                               center[1] + half_m * std::sin(heading_rad), heading_rad});
+          }
+      }
+  }
+  return corners;
+}
+
 }  // namespace joulepath

@@ -49,6 +49,10 @@ class ObstacleField {
     double heading_rad{};
     Layer layer{};
   };
+  /// The corners of blocked cells around which a shortest way can bend: floor on three of their four sides.
+  /// `heading_rad` points away from the obstacle along the diagonal.
+  [[nodiscard]] std::vector<Pose> convex_corners() const;
+
   /// Calls visit(cell) for all blocked cells that may have a point within a distance of a place.
   template <class Visit>
   void for_blocked_cells(double x_m, double y_m, double within_m, const Visit& visit) const;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/path/geometry/bezier.hpp"
+#include "planner/path/geometry/direction_segment.hpp"
 #include "planner/path/geometry/linear_curvature.hpp"
 #include "planner/path/geometry/path_point.hpp"
 
@@ -12,7 +13,7 @@ namespace joulepath {
 enum class Direction { forward, reverse };
 
 /// One smooth stretch with its own arc length from 0; heading is that of the tangent.
-using CurveSegment = std::variant<LinearCurvature, BezierSegment>;
+using CurveSegment = std::variant<LinearCurvature, BezierSegment, DirectionSegment>;
 
 /// A planar curve by arc length with continuous position, heading and curvature.
 ///

@@ -10,6 +10,12 @@ SegmentRecord record_of_segment(const CurveSegment& segment) {
             .length_m = linear->length_m(),
             .curvature_per_m = linear->curvature_per_m(),
             .curvature_slope_per_m2 = linear->curvature_slope_per_m2()};
+  if (const auto* turning = std::get_if<DirectionSegment>(&segment)) {
+    const auto& [from_rad, to_rad, length_m, half_track_m] = turning->shape();
+    return {.kind = SegmentRecord::Kind::direction,
+            .start = turning->start(),
+            .direction = {from_rad, to_rad, length_m, half_track_m}};
+  }
   const BezierSegment& bezier = std::get<BezierSegment>(segment);
   if (bezier.rational())
     return {.kind = SegmentRecord::Kind::rational, .rational = bezier.rational()->points};
@@ -22,6 +28,10 @@ CurveSegment segment_of_record(const SegmentRecord& record) {
       return BezierSegment(record.cubic_m);
     case SegmentRecord::Kind::rational:
       return BezierSegment::rational({record.rational});
+    case SegmentRecord::Kind::direction: {
+      const auto& [from_rad, to_rad, length_m, half_track_m] = record.direction;
+      return DirectionSegment(record.start, {from_rad, to_rad, length_m, half_track_m});
+    }
     case SegmentRecord::Kind::linear:
       break;
   }

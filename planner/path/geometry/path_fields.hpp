@@ -9,12 +9,13 @@ namespace joulepath {
 
 /// What a curve's segment is made from.
 struct SegmentRecord {
-  enum class Kind { linear, cubic, rational };
+  enum class Kind { linear, cubic, rational, direction };
   Kind kind{};
   Pose start{};
   double length_m{}, curvature_per_m{}, curvature_slope_per_m2{};
   BezierPoints cubic_m{};
   std::vector<RationalBezier::Point> rational{};
+  std::array<double, 4> direction{};  ///< of DirectionSegment::Shape, in its order
 };
 
 /// What a piece of path is made from: it is built again to the last bit.
@@ -37,11 +38,12 @@ void each_field(Archive& archive, Pose& value) {
 
 template <class Archive>
 void each_field(Archive& archive, SegmentRecord& value) {
-  auto& [kind, start, length_m, curvature, slope, cubic_m, rational] = value;
+  auto& [kind, start, length_m, curvature, slope, cubic_m, rational, direction] = value;
   archive(kind);
   if (kind == SegmentRecord::Kind::linear) archive(start, length_m, curvature, slope);
   if (kind == SegmentRecord::Kind::cubic) archive(cubic_m);
   if (kind == SegmentRecord::Kind::rational) archive(rational);
+  if (kind == SegmentRecord::Kind::direction) archive(start, direction);
 }
 
 template <class Archive>

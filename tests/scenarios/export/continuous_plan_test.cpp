@@ -51,6 +51,19 @@ TEST(ContinuousPlan, RowsOfEdgesBeginWhereTheOnesBeforeEnd) {
   }
 }
 
+/// A plan's rows begin with it and end with its energy, whatever its first leg is.
+TEST(ContinuousPlan, RowsOfNodesHoldTheWholePlan) {
+  for (const PlannedMission& plan : continuous_plans()) {
+    const Trajectory nodes = plan_nodes(plan.plan, plan.plant).rows;
+    ASSERT_FALSE(nodes.time_s.empty()) << plan.name;
+    EXPECT_EQ(nodes.time_s.front(), 0.0) << plan.name;
+    EXPECT_NEAR(nodes.time_s.back(), plan.plan.duration_s, 1e-9) << plan.name;
+    EXPECT_EQ(nodes.energy_J.front(), 0.0) << plan.name;
+    EXPECT_NEAR(nodes.energy_J.back(), plan.plan.energy.total_J(), 1e-6 * plan.plan.energy.total_J())
+        << plan.name;
+  }
+}
+
 TEST(ContinuousPlan, EnergyAndChargeFollowEachOther) {
   for (const PlannedMission& plan : continuous_plans()) {
     const Trajectory motion = plan_trajectory(plan.plan, plan.plant);

@@ -116,6 +116,21 @@ TEST(DiagnosisSentence, OfAGroupNamesItsMembersAndOfASuspectChannelItsRun) {
             "Suspect data: gyro_yaw_rate_rad_s inverted in run_03.csv. Repair the dataset first.");
 }
 
+/// Currents that are 6.9 times too large in all runs: so they are beside a file of a robot with another motor.
+TEST(DiagnosisSentence, NamesTheOtherReadingOfAScaledDrive) {
+  const auto sentence_of = [](const char* channel, const char* kind, const char* run) {
+    return diagnosis_sentence({.verdict = Verdict::data_suspect,
+                               .data_checks = {{.run = run, .channel = channel, .kind = kind}}});
+  };
+  const auto has_other_reading = [](const std::string& said) {
+    return said.find("Another robot's file gives the same picture") != std::string::npos;
+  };
+  EXPECT_TRUE(has_other_reading(sentence_of("motor_current_left_A, motor_current_right_A", "scaled", "")));
+  EXPECT_FALSE(has_other_reading(sentence_of("motor_current_left_A", "unit", "")));
+  EXPECT_FALSE(has_other_reading(sentence_of("motor_current_left_A", "scaled", "run_2")));
+  EXPECT_FALSE(has_other_reading(sentence_of("gyro_yaw_rate_rad_s", "scaled", "")));
+}
+
 std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);

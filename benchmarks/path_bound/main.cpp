@@ -1,0 +1,174 @@
+// Attempts to beat the bound over all paths, and its distance from the best known paths.
+// usage: bench_path_bound OUT MOTIONS NOTE
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "benchmarks/path_bound/judge_robot.hpp"
+#include "benchmarks/support/cpu_time.hpp"
+#include "benchmarks/ways/poses.hpp"
+#include "planner/bound/path_bound.hpp"
+#include "scenarios/robot_files/robot_file.hpp"
+
+namespace joulepath::path_bound {
+namespace {
+
+constexpr double kWays_m[] = {0.3, 0.7, 1.5, 2.6, 4.0, 10.0};
+
+std::string text(double value, int digits) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
+  return buffer;
+}
+
+struct Tally {
+  long judged{}, exceptions{};
+  double least_percent{kNoLimit};
+  void add(double energy_J, double bound_J) {
+    ++judged;
+    exceptions += energy_J < bound_J;
+    least_percent = std::min(least_percent, 100 * (energy_J / bound_J - 1));
+  }
+};
+
+/// Judged motions of one robot, by their kind; bounds at the motion's own length.
+void judge(const Robot& robot, double payload_kg, int motions, unsigned seed,
+           std::map<std::string, Tally>& by_kind, Tally& all) {
+  const PowerForm form = power_form(make_plant(robot), *robot.limits, payload_kg);
+  const JudgeRobot judge = judge_robot(robot, *robot.limits, payload_kg);
+  std::mt19937 random(seed);
+  for (const double way_m : kWays_m) {
+    const LineBound bound = line_bound(form, way_m, 0.0);
+    const auto add = [&](const Motion& motion) {
+      const Driven driven = drive(judge, motion);
+      if (!driven.within_limits || driven.way_m < way_m) return;
+      by_kind[motion.kind.substr(0, motion.kind.find(','))].add(driven.energy_J, bound.at(driven.way_m));
+      all.add(driven.energy_J, bound.at(driven.way_m));
+    };
+    for (const Motion& motion : worst_motions(judge, way_m * 1.0002)) add(motion);
+    for (int k = 0; k < motions; ++k) add(random_motion(judge, way_m * 1.001, random));
+  }
+}
+
+void write_motions(std::ostream& out, int motions) {
+  const Robot nomad = read_robot("scenarios/robots/nomad_super_scout.yaml");
+  std::map<std::string, Tally> by_kind;
+  Tally all;
+  out << "## Motions made by other code\n\n"
+      << "Random and constructed motions, driven by an integrator and a power model that share nothing with "
+         "the product, against the bound at "
+         "their own length.\n\n| robot | motions | below the bound | least margin |\n|---|---:|---:|---:|\n";
+  unsigned seed = 1;
+  for (const Variant& variant : kVariants) {
+    Tally one;
+    const int each = motions / static_cast<int>(std::size(kVariants) * std::size(kWays_m));
+    judge(robot_of(nomad, variant), variant.payload_kg, each, seed++, by_kind, one);
+    out << "| " << variant.name << " | " << one.judged << " | " << one.exceptions << " | "
+        << text(one.least_percent, 2) << " % |\n";
+    all.judged += one.judged, all.exceptions += one.exceptions,
+        all.least_percent = std::min(all.least_percent, one.least_percent);
+  }
+  out << "| all | " << all.judged << " | " << all.exceptions << " | " << text(all.least_percent, 2)
+      << " % |\n\n"
+      << "| kind | motions | below the bound | least margin |\n|---|---:|---:|---:|\n";
+  for (const auto& [kind, one] : by_kind)
+    out << "| " << kind << " | " << one.judged << " | " << one.exceptions << " | "
+        << text(one.least_percent, 2) << " % |\n";
+}
+
+struct KnownPose {
+  ways::Problem problem{};
+  double best_J{};
+};
+
+std::vector<KnownPose> reference_poses() {
+  std::ifstream file("benchmarks/ways/reference.csv");
+  std::string line;
+  std::getline(file, line);
+  std::vector<KnownPose> poses;
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::string index, floor, word;
+    double value[7];
+    words >> index >> floor;
+    for (double& x : value) words >> word, x = std::strtod(word.c_str(), nullptr);
+    if (!std::isfinite(value[6])) continue;
+    KnownPose pose{{.floor = floor, .start = {value[0], value[1], value[2]}, .goal_m = {value[3], value[4]}},
+                   value[6]};
+    if (std::isfinite(value[5])) pose.problem.goal_heading_rad = value[5];
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+double share(std::vector<double> values, double at) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::lround(at * static_cast<double>(values.size() - 1)))];
+}
+
+void write_poses(std::ostream& out) {
+  out << "\n## Distance from the best known paths\n\nThe poses of [ways.md](ways.md), 1 to 10 m apart, with "
+         "random headings; best known energy less the bound, relative to "
+         "that energy.\n\n| floor | poses | below the bound | median gap | 95 % | largest | poses within 3 "
+         "m: median | CPU of a leg, median |\n|---|---:|---:|---:|---:|---:|---:|---:|\n";
+  const std::vector<KnownPose> poses = reference_poses();
+  for (const char* floor : {"empty", "depot", "warehouse"}) {
+    const ways::World world = ways::make_world(floor);
+    const Plant plant = make_plant(world.world.robot);
+    std::vector<double> gaps, near, times_ms;
+    long exceptions = 0;
+    for (const KnownPose& pose : poses) {
+      if (pose.problem.floor != floor) continue;
+      LegBounds bounds(plant, world.world.robot, &world.space);
+      const double begin_ms = cpu_ms();
+      const LegEnds ends{
+          {pose.problem.start.x_m, pose.problem.start.y_m}, pose.problem.goal_m, 0.0, pose.best_J / 10};
+      const LegBound bound = bounds.find(ends, 0.0);
+      times_ms.push_back(cpu_ms() - begin_ms);
+      exceptions += bound.cost_J > pose.best_J;
+      gaps.push_back(100 * (1 - bound.cost_J / pose.best_J));
+      if (pose.problem.reach_m() < 3) near.push_back(gaps.back());
+    }
+    out << "| " << floor << " | " << gaps.size() << " | " << exceptions << " | " << text(share(gaps, 0.5), 1)
+        << " % | " << text(share(gaps, 0.95), 1) << " % | " << text(share(gaps, 1), 1) << " % | "
+        << text(share(near, 0.5), 1) << " % | " << text(share(times_ms, 0.5), 0) << " ms |\n";
+  }
+}
+
+void write_lines(std::ostream& out) {
+  const Robot robot = read_robot("scenarios/robots/nomad_super_scout.yaml");
+  const PowerForm form = power_form(make_plant(robot), *robot.limits, 0);
+  out << "\n## Straight lines\n\nThe bound drives a straight line; what it loses there it loses "
+         "everywhere.\n\n| length | least energy of the line | bound | "
+         "difference | CPU |\n|---:|---:|---:|---:|---:|\n";
+  const ways::World world = ways::make_world("empty");
+  for (const double way_m : {1.0, 2.0, 4.0, 10.0}) {
+    const ways::Problem problem{.floor = "empty", .start = {5, 5, 0}, .goal_m = {5 + way_m, 5}};
+    const double line_J = ways::planned(world, problem).energy_J, begin_ms = cpu_ms();
+    const double bound_J = line_bound(form, way_m, 0.0).energy_J;
+    out << "| " << text(way_m, 0) << " m | " << text(line_J, 2) << " J | " << text(bound_J, 2) << " J | "
+        << text(line_J - bound_J, 2) << " J | " << text(cpu_ms() - begin_ms, 0) << " ms |\n";
+  }
+}
+
+}  // namespace
+}  // namespace joulepath::path_bound
+
+int main(int count, char** words) {
+  using namespace joulepath::path_bound;
+  if (count < 4) return 2;
+  std::ofstream out(words[1]);
+  out << "# A bound over all paths\n\n"
+      << words[3]
+      << "\n\nWhat it bounds, and the proof: [nlp.md](../../docs/nlp.md). The robot is the Nomad Super "
+         "Scout.\n\n";
+  write_motions(out, std::atoi(words[2]));
+  write_poses(out);
+  write_lines(out);
+  return 0;
+}

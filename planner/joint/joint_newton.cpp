@@ -1,0 +1,580 @@
+#include "planner/joint/joint_newton.hpp"
+
+#include <cmath>
+
+#include "planner/joint/clearance_rows.hpp"
+#include "planner/joint/interior_rows.hpp"
+#include "planner/joint/joint_segment.hpp"
+#include "planner/joint/path_geometry.hpp"
+
+namespace joulepath::joint {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using Jet = nlp::JetOf<kSegmentVariables>;
+
+constexpr double kCostScale = 100;     ///< the cost of a start in the program's unit
+constexpr double kMostTurn_rad = 0.5;  ///< of a knot's phi in one step
+constexpr double kLeastRegularization = 1e-3;
+constexpr double kPhiWeight = 10;      ///< of phi in the regularization; of a length: 1/length^2
+constexpr double kLeastSquare = 1e-7;  ///< of b, relative to the largest
+constexpr double kStartShare = 0.6;    ///< of the limits that a start uses
+
+/// A part of a piece between two nodes of the speed.
+struct Part {
+  std::size_t piece{};
+  double f0{}, f1{};
+  Index b0{-1}, b1{-1};  ///< unknowns; -1: at rest
+};
+
+class Newton {
+ public:
+  Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares);
+  JointSolution run();
+
+ private:
+  struct Sums {
+    double cost{}, duration_s{}, complementarity{}, primal{}, dual{};
+    double error() const { return std::max({complementarity, primal, 0.1 * dual}) / std::max(cost, 1e-3); }
+  };
+  struct Values {
+    std::vector<SegmentValues<double>> parts{};
+    std::vector<double> clearance{};
+    VectorXd errors{};
+  };
+
+  void lay_out();
+  void begin_speed();
+  double cap(const Part& part, double f) const;
+  void begin_rows();
+  template <class Each>
+  void for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each);
+  const DriveLaw& law(const Part& part) const { return program_.laws[program_.pieces[part.piece].law]; }
+  double loss(const Part& part) const { return 1 - law(part).efficiency; }
+  std::array<Index, 3> columns(const Part& part) const {
+    const Piece& piece = program_.pieces[part.piece];
+    return {piece.from, piece.to, program_.length_of(part.piece)};
+  }
+  template <class Real>
+  SegmentValues<Real> values_of(std::size_t k, const VectorXd& squares, const VectorXd& parameters) const;
+  Values values(const VectorXd& squares, const VectorXd& parameters) const;
+
+  Sums assemble();
+  void add_part(std::size_t k, Sums& sums);
+  void add_to_blocks(const Part& part, const std::array<double, kSegmentVariables>& gradient,
+                     const std::array<double, kSegmentVariables>& lagrangian,
+                     const std::array<double, Jet::kTriangle>& hessian);
+  void add_rows_of_bounds(Sums& sums);
+  void direction();
+  void solve_tridiagonal(Eigen::Ref<MatrixXd> x) const;
+  StepLengths step_rows();
+  double merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step);
+  void search(const StepLengths& lengths);
+  void correct(VectorXd& parameters, double step, const VectorXd& errors) const;
+  void lower_barrier(const Sums& sums);
+
+  Program program_;
+  NewtonOptions options_;
+  double scale_{1};  ///< program's unit per J
+  std::vector<Part> parts_{};
+  Index free_{};           ///< number of unknown squares
+  double most_square_{1};  ///< scale of b
+  VectorXd b_{}, p_{};     ///< squares at all nodes; parameters
+
+  std::vector<SegmentValues<Jet>> jets_{};
+  std::vector<std::array<Row, kSegmentRows>> rows_{};
+  std::vector<std::array<Recovery, 2>> channels_{};
+  std::vector<Row> bounds_{};
+  ClearanceRows clearance_;
+  PathGeometry geometry_;
+  VectorXd lambda_{}, lambda_new_{};
+
+  double mu_{};
+  std::size_t pairs_{};
+  VectorXd gb_{}, gp_{}, lb_{}, lp_{}, diagonal_{}, beside_{}, pivot_{}, lower_{};
+  MatrixXd border_{}, hpp_{}, range_{};  ///< range_: of the targets' gradient
+  Eigen::PartialPivLU<MatrixXd> on_range_{};
+  VectorXd errors_{}, db_{}, dp_{};
+  MatrixXd targets_{};
+  double regularization_{0}, penalty_{0}, step_{1};
+};
+
+Newton::Newton(const Start& start, const NewtonOptions& options, const VectorXd& squares)
+    : program_(start.program),
+      options_(options),
+      p_(start.parameters),
+      clearance_(program_),
+      geometry_(program_) {
+  lay_out();
+  if (squares.size()) {
+    b_ = squares;
+  } else {
+    reach_targets(program_, p_, 8);
+    begin_speed();
+  }
+}
+
+void Newton::lay_out() {
+  for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
+    const Piece& piece = program_.pieces[j];
+    for (std::size_t i = 0; i < piece.segments; ++i) {
+      Part part{.piece = j,
+                .f0 = static_cast<double>(i) / static_cast<double>(piece.segments),
+                .f1 = static_cast<double>(i + 1) / static_cast<double>(piece.segments)};
+      part.b0 = parts_.empty() ? -1 : parts_.back().b1;
+      const bool ends = i + 1 == piece.segments, last = ends && j + 1 == program_.pieces.size();
+      part.b1 = last || (ends && piece.rests_after) ? -1 : free_++;
+      parts_.push_back(part);
+    }
+  }
+  clearance_.lay_out();
+  const Limits& most = program_.laws.front().limits;
+  const double fastest = std::isfinite(most.speed_m_s) ? most.speed_m_s : 1.0;
+  most_square_ = fastest * fastest;
+}
+
+/// Square of the rate that a start has at most at a place.
+double Newton::cap(const Part& part, double f) const {
+  const Limits& most = law(part).limits;
+  const auto [a, b, l] = columns(part);
+  const PieceRates<double> rates = piece_rates(p_[a], p_[b], program_.half_track_m());
+  const double A = std::abs(rates.A(f)) + 1e-9, W = std::abs(rates.W(f)) + 1e-9, length_m = p_[l];
+  const auto least = [](double x, double y) { return std::isfinite(y) ? std::min(x, y) : x; };
+  double cap = 0.9 * most_square_ / (A * A);
+  cap = least(cap, 0.9 * most.speed_m_s * most.speed_m_s / (A * A));
+  cap = least(cap, kStartShare * most.lateral_acceleration_m_s2 / (A * W));
+  cap = least(cap, kStartShare * most.yaw_rate_rad_s * most.yaw_rate_rad_s / (W * W));
+  cap = least(cap, 0.5 * most.yaw_acceleration_rad_s2 * length_m / (std::abs(rates.dW) + 1e-9));
+  return least(cap, 0.5 * most.acceleration_m_s2 * length_m / (std::abs(rates.dA) + 1e-9));
+}
+
+/// Forward and backward pass at a share of the limits.
+void Newton::begin_speed() {
+  const auto count = static_cast<Index>(parts_.size());
+  b_.setConstant(count + 1, kNoLimit);
+  VectorXd gain(count);
+  for (Index k = 0; k < count; ++k) {
+    const Part& part = parts_[static_cast<std::size_t>(k)];
+    b_[k] = std::min(b_[k], cap(part, part.f0));
+    b_[k + 1] = cap(part, part.f1);
+    if (part.b0 < 0) b_[k] = 0;
+    if (part.b1 < 0) b_[k + 1] = 0;
+    const auto [from, to, l] = columns(part);
+    const PieceRates<double> rates = piece_rates(p_[from], p_[to], program_.half_track_m());
+    const double A = std::max(std::abs(rates.A(part.f0)), std::abs(rates.A(part.f1))),
+                 W = std::max(std::abs(rates.W(part.f0)), std::abs(rates.W(part.f1)));
+    const Limits& most = law(part).limits;
+    const double along = std::min({most.acceleration_m_s2, most.deceleration_m_s2, most_square_});
+    const double turning = std::min(most.yaw_acceleration_rad_s2, most_square_ / program_.half_track_m());
+    gain[k] = 2 * p_[l] * (part.f1 - part.f0) *
+              std::min(kStartShare * along / (A + 1e-3), 0.4 * turning / (W + 1e-3));
+  }
+  for (Index k = 0; k < count; ++k) b_[k + 1] = std::min(b_[k + 1], b_[k] + gain[k]);
+  for (Index k = count; k-- > 0;) b_[k] = std::min(b_[k], b_[k + 1] + gain[k]);
+  for (Index k = 0; k < count; ++k)
+    if (parts_[static_cast<std::size_t>(k)].b1 >= 0) b_[k + 1] = std::max(b_[k + 1], 1e-4 * most_square_);
+}
+
+template <class Real>
+SegmentValues<Real> Newton::values_of(std::size_t k, const VectorXd& squares, const VectorXd& p) const {
+  const Part& part = parts_[k];
+  const auto [a, b, l] = columns(part);
+  const auto at = static_cast<Index>(k);
+  const std::array<double, kSegmentVariables> x{squares[at], squares[at + 1], p[a], p[b], p[l]};
+  std::array<Real, kSegmentVariables> variables;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if constexpr (std::is_same_v<Real, double>)
+      variables[i] = x[i];
+    else
+      variables[i] =
+          (i == 0 && part.b0 < 0) || (i == 1 && part.b1 < 0) ? Real(x[i]) : Real::variable(i, x[i]);
+  SegmentValues<Real> out;
+  evaluate_segment(law(part), program_.pieces[part.piece].sign, variables, part.f0, part.f1, out);
+  for (Real& energy : out.energy_J) energy = energy * scale_;
+  return out;
+}
+
+Newton::Values Newton::values(const VectorXd& squares, const VectorXd& parameters) const {
+  Values all;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    all.parts.push_back(values_of<double>(k, squares, parameters));
+  PathGeometry geometry(program_);
+  geometry.place(parameters);
+  all.errors = geometry.errors();
+  all.clearance = clearance_.values(geometry);
+  return all;
+}
+
+/// Calls each(row, value, parameter, sign) for the bounds of squares (parameter: none), knots and lengths.
+template <class Each>
+void Newton::for_bounds(const VectorXd& squares, const VectorXd& parameters, const Each& each) {
+  std::size_t row = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (parts_[k].b1 >= 0)
+      each(bounds_[row++], squares[static_cast<Index>(k) + 1] / most_square_ - kLeastSquare, parts_[k].b1,
+           true, 1 / most_square_);
+  for (std::size_t j = 0; j < program_.pieces.size(); ++j) {
+    const Piece& piece = program_.pieces[j];
+    const double about = piece.sign > 0 ? 0.0 : M_PI;
+    const bool new_knot = j == 0 || program_.pieces[j - 1].to != piece.from;
+    for (const Index knot : {piece.from, piece.to}) {
+      if (knot == piece.from && !new_knot) continue;
+      each(bounds_[row++], kMostDirection_rad + (parameters[knot] - about), knot, false, 1.0);
+      each(bounds_[row++], kMostDirection_rad - (parameters[knot] - about), knot, false, -1.0);
+    }
+    const Index length = program_.length_of(j);
+    each(bounds_[row++], parameters[length] - kShortestPiece_m, length, false, 1.0);
+  }
+}
+
+void Newton::begin_rows() {
+  const double at_start = [&] {
+    double cost = 0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const auto v = values_of<double>(k, b_, p_);
+      cost += law(parts_[k]).price_W * v.duration_s;
+      for (const double E : v.energy_J) cost += std::max(E, 0.0);
+    }
+    return cost;
+  }();
+  scale_ = kCostScale / at_start;
+  const Values v = values(b_, p_);
+  pairs_ = parts_.size() * (kSegmentRows + 4) + v.clearance.size();
+  bounds_.resize(static_cast<std::size_t>(free_ + 3 * program_.parameters()));
+  std::size_t used = 0;
+  for_bounds(b_, p_, [&](Row&, double, Index, bool, double) { ++used; });
+  bounds_.resize(used);
+  pairs_ += used;
+  mu_ = options_.gap * kCostScale / static_cast<double>(pairs_);
+  for_bounds(b_, p_, [&](Row& row, double value, Index, bool, double) { row.begin(value, 1e-3, mu_); });
+  rows_.resize(parts_.size());
+  channels_.resize(parts_.size());
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].begin(v.parts[k].rows[r], 2e-2, mu_);
+    for (std::size_t c = 0; c < 2; ++c) channels_[k][c].begin(v.parts[k].energy_J[c], loss(parts_[k]), mu_);
+  }
+  clearance_.begin(v.clearance, mu_);
+  lambda_.setZero(v.errors.size());
+}
+
+void Newton::add_to_blocks(const Part& part, const std::array<double, kSegmentVariables>& gradient,
+                           const std::array<double, kSegmentVariables>& lagrangian,
+                           const std::array<double, Jet::kTriangle>& hessian) {
+  const std::array<Index, 2> unknown{part.b0, part.b1};
+  const std::array<Index, 3> column = columns(part);
+  for (std::size_t i = 0, at = 0; i < kSegmentVariables; ++i)
+    for (std::size_t n = 0; n <= i; ++n, ++at) {
+      const double h = hessian[at];
+      if (i < 2) {
+        if (unknown[i] < 0 || unknown[n] < 0) continue;
+        (i == n ? diagonal_[unknown[i]] : beside_[unknown[n]]) += h;
+      } else if (n < 2) {
+        if (unknown[n] >= 0) border_(unknown[n], column[i - 2]) += h;
+      } else {
+        hpp_(column[i - 2], column[n - 2]) += h;
+        if (n < i) hpp_(column[n - 2], column[i - 2]) += h;
+      }
+    }
+  for (std::size_t i = 0; i < kSegmentVariables; ++i) {
+    if (i < 2 && unknown[i] < 0) continue;
+    (i < 2 ? gb_[unknown[i]] : gp_[column[i - 2]]) += gradient[i];
+    (i < 2 ? lb_[unknown[i]] : lp_[column[i - 2]]) += lagrangian[i];
+  }
+}
+
+void Newton::add_part(std::size_t k, Sums& sums) {
+  const SegmentValues<Jet>& x = jets_[k];
+  const double price = law(parts_[k]).price_W * scale_, lost = loss(parts_[k]);
+  std::array<double, kSegmentVariables> gradient{}, lagrangian{};
+  std::array<double, Jet::kTriangle> hessian{};
+  const auto add = [&](const Jet& f, double of_gradient, double of_lagrangian, double of_hessian,
+                       double of_square) {
+    for (std::size_t i = 0, at = 0; i < kSegmentVariables; ++i) {
+      gradient[i] += of_gradient * f.d[i];
+      lagrangian[i] += of_lagrangian * f.d[i];
+      for (std::size_t n = 0; n <= i; ++n, ++at)
+        hessian[at] += of_hessian * f.dd[at] + of_square * f.d[i] * f.d[n];
+    }
+  };
+  add(x.duration_s, price, price, price, 0);
+  sums.cost += price * x.duration_s.value;
+  sums.duration_s += x.duration_s.value;
+  for (std::size_t c = 0; c < 2; ++c) {
+    Recovery& channel = channels_[k][c];
+    add(x.energy_J[c], channel.pull(lost, mu_), 1 - channel.y, 1 - channel.y, channel.stiffness());
+    sums.cost += channel.E + lost * channel.zeta;
+    sums.complementarity += channel.u * channel.zeta + channel.y * channel.w;
+    sums.primal += std::abs(channel.residual()) * channel.y;
+    sums.dual += std::abs(lost - channel.u - channel.y) * channel.zeta;
+  }
+  for (std::size_t r = 0; r < kSegmentRows; ++r) {
+    if (r < kCapRows && parts_[k].b1 < 0) continue;  // at rest every cap holds
+    const Row& row = rows_[k][r];
+    add(x.rows[r], -row.push(mu_), -row.z, -row.z, row.stiffness());
+    sums.complementarity += row.s * row.z;
+    sums.primal += std::abs(row.residual()) * row.z;
+  }
+  add_to_blocks(parts_[k], gradient, lagrangian, hessian);
+}
+
+void Newton::add_rows_of_bounds(Sums& sums) {
+  for_bounds(b_, p_, [&](Row& row, double value, Index at, bool square, double slope) {
+    row.value = value;
+    (square ? gb_ : gp_)[at] -= slope * row.push(mu_);
+    (square ? lb_ : lp_)[at] -= slope * row.z;
+    (square ? diagonal_[at] : hpp_(at, at)) += slope * slope * row.stiffness();
+    sums.complementarity += row.s * row.z;
+    sums.primal += std::abs(row.residual()) * row.z;
+  });
+}
+
+Newton::Sums Newton::assemble() {
+  const Index n = program_.parameters();
+  gb_.setZero(free_);
+  lb_.setZero(free_);
+  gp_.setZero(n);
+  diagonal_.setZero(free_);
+  beside_.setZero(free_);
+  border_.setZero(free_, n);
+  hpp_.setZero(n, n);
+  Sums sums;
+  geometry_.differentiate(p_);
+  errors_ = geometry_.errors();
+  targets_ = geometry_.error_gradient();
+  lp_ = targets_.transpose() * lambda_;
+  jets_.resize(parts_.size());
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    jets_[k] = values_of<Jet>(k, b_, p_);
+    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].value = jets_[k].rows[r].value;
+    for (std::size_t c = 0; c < 2; ++c) channels_[k][c].E = jets_[k].energy_J[c].value;
+    add_part(k, sums);
+  }
+  add_rows_of_bounds(sums);
+  const auto clear = clearance_.assemble(geometry_, mu_, {gp_, lp_, hpp_});
+  sums.complementarity += clear.complementarity;
+  sums.primal += clear.primal;
+  geometry_.finish_curvature(lambda_, hpp_);
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (parts_[k].b1 >= 0) sums.dual += std::abs(lb_[parts_[k].b1]) * b_[static_cast<Index>(k) + 1];
+  for (Index i = 0; i < n; ++i) sums.dual += std::abs(lp_[i]) * std::max(std::abs(p_[i]), 0.3);
+  for (Index i = 0; i < errors_.size(); ++i)
+    sums.primal += std::abs(errors_[i]) * std::max(std::abs(lambda_[i]), 20.0);
+  return sums;
+}
+
+void Newton::solve_tridiagonal(Eigen::Ref<MatrixXd> x) const {
+  for (Index k = 1; k < free_; ++k) x.row(k) -= lower_[k] * x.row(k - 1);
+  for (Index k = 0; k < free_; ++k) x.row(k) /= pivot_[k];
+  for (Index k = free_ - 1; k-- > 0;) x.row(k) -= lower_[k + 1] * x.row(k + 1);
+}
+
+/// The step from [T B 0; B' H A'; 0 A 0]: the squares' tridiagonal block is eliminated, the rest is solved in
+/// the null space of the targets' gradient A, with as much regularization as makes it positive definite.
+void Newton::direction() {
+  const Index n = program_.parameters(), rows = errors_.size();
+  pivot_ = diagonal_;
+  lower_.setZero(free_);
+  for (Index k = 0; k < free_; ++k) {
+    if (k > 0) {
+      lower_[k] = beside_[k - 1] / pivot_[k - 1];
+      pivot_[k] -= lower_[k] * beside_[k - 1];
+    }
+    if (!(pivot_[k] > 1e-9 * std::abs(diagonal_[k]))) pivot_[k] = 1e-2 * std::abs(diagonal_[k]) + 1e-6;
+  }
+  MatrixXd x(free_, n + 1);
+  x << border_, gb_;
+  solve_tridiagonal(x);
+  const MatrixXd schur = hpp_ - border_.transpose() * x.leftCols(n);
+  const VectorXd gradient = gp_ - border_.transpose() * x.col(n);
+
+  const MatrixXd q =
+      Eigen::HouseholderQR<MatrixXd>(targets_.transpose()).householderQ() * MatrixXd::Identity(n, n);
+  range_ = q.leftCols(rows);
+  const MatrixXd null = q.rightCols(n - rows);
+  on_range_.compute(targets_ * range_);
+  const VectorXd to_targets = range_ * on_range_.solve(-errors_);
+  VectorXd weight(n);
+  for (Index i = 0; i < n; ++i)
+    weight[i] = i < program_.knots ? kPhiWeight : 1 / std::max(0.01, p_[i] * p_[i]);
+  const MatrixXd reduced = null.transpose() * schur * null,
+                 damping = null.transpose() * weight.asDiagonal() * null;
+  const VectorXd right = -null.transpose() * (gradient + schur * to_targets);
+  regularization_ = std::max(kLeastRegularization, 0.2 * regularization_);
+  Eigen::LLT<MatrixXd> cholesky(reduced + regularization_ * damping);
+  for (int i = 0; cholesky.info() != Eigen::Success && i < 30; ++i)
+    cholesky.compute(reduced + (regularization_ *= 6) * damping);
+  dp_ = to_targets + null * cholesky.solve(right);
+  const VectorXd rest = -(gradient + schur * dp_ + regularization_ * weight.cwiseProduct(dp_));
+  lambda_new_ = on_range_.transpose().solve(range_.transpose() * rest);
+  db_ = -x.col(n) - x.leftCols(n) * dp_;
+}
+
+StepLengths Newton::step_rows() {
+  StepLengths lengths;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& part = parts_[k];
+    const auto [a, b, l] = columns(part);
+    const std::array<double, kSegmentVariables> d{part.b0 < 0 ? 0 : db_[part.b0],
+                                                  part.b1 < 0 ? 0 : db_[part.b1], dp_[a], dp_[b], dp_[l]};
+    const auto change = [&](const Jet& f) {
+      double sum = 0;
+      for (std::size_t i = 0; i < d.size(); ++i) sum += f.d[i] * d[i];
+      return sum;
+    };
+    for (std::size_t r = part.b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r)
+      rows_[k][r].step(change(jets_[k].rows[r]), mu_, lengths);
+    for (std::size_t c = 0; c < 2; ++c)
+      channels_[k][c].step(change(jets_[k].energy_J[c]), loss(part), mu_, lengths);
+    if (part.b1 >= 0) StepLengths::shorten(lengths.primal, b_[static_cast<Index>(k) + 1], db_[part.b1]);
+  }
+  for_bounds(b_, p_, [&](Row& row, double, Index at, bool square, double slope) {
+    row.step(slope * (square ? db_ : dp_)[at], mu_, lengths);
+  });
+  clearance_.step(dp_, mu_, lengths);
+  for (Index i = 0; i < dp_.size(); ++i) {
+    const double most = i < program_.knots ? kMostTurn_rad : 0.5 * p_[i] + 0.1;
+    if (std::abs(dp_[i]) > most) lengths.primal = std::min(lengths.primal, most / std::abs(dp_[i]));
+    if (i >= program_.knots && dp_[i] < 0)
+      lengths.primal = std::min(lengths.primal, 0.9 * (p_[i] - 0.3 * kShortestPiece_m) / -dp_[i]);
+  }
+  return lengths;
+}
+
+double Newton::merit(const Values& at, const VectorXd& squares, const VectorXd& parameters, double step) {
+  double sum = penalty_ * at.errors.lpNorm<1>();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    sum += law(parts_[k]).price_W * scale_ * at.parts[k].duration_s;
+    for (std::size_t c = 0; c < 2; ++c)
+      sum += channels_[k][c].merit(step, at.parts[k].energy_J[c], loss(parts_[k]), mu_);
+    for (std::size_t r = parts_[k].b1 < 0 ? kCapRows : 0; r < kSegmentRows; ++r)
+      sum += rows_[k][r].merit(step, at.parts[k].rows[r], mu_, 0.05);
+  }
+  for_bounds(squares, parameters,
+             [&](Row& row, double value, Index, bool, double) { sum += row.merit(step, value, mu_, 0.05); });
+  return sum + clearance_.merit(at.clearance, step, mu_);
+}
+
+/// Second-order correction: moves back to what the linearized targets promise ([NocedalWright2006], 18.3).
+void Newton::correct(VectorXd& parameters, double step, const VectorXd& errors) const {
+  PathGeometry geometry(program_);
+  for (int i = 0; i < 2; ++i) {
+    geometry.place(parameters);
+    const VectorXd excess = geometry.errors() - (1 - step) * errors;
+    if (excess.norm() < 1e-7) return;
+    const VectorXd back = range_ * on_range_.solve(excess);
+    if (back.norm() > 0.5 * step * dp_.norm() + 1e-12) return;
+    parameters -= back;
+  }
+}
+
+void Newton::search(const StepLengths& lengths) {
+  constexpr int kHalvings = 7;
+  penalty_ = std::max(0.5 * penalty_, 1.2 * std::max(1.0, lambda_new_.lpNorm<Eigen::Infinity>()));
+  Values now;
+  now.errors = errors_;
+  now.clearance = clearance_.present();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    SegmentValues<double>& part = now.parts.emplace_back();
+    part.duration_s = jets_[k].duration_s.value;
+    for (std::size_t c = 0; c < 2; ++c) part.energy_J[c] = jets_[k].energy_J[c].value;
+    for (std::size_t r = 0; r < kSegmentRows; ++r) part.rows[r] = jets_[k].rows[r].value;
+  }
+  const double before = merit(now, b_, p_, 0);
+  step_ = lengths.primal;
+  VectorXd b, p;
+  Values next;
+  int halvings = 0;
+  for (;; ++halvings) {
+    b = b_;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (parts_[k].b1 >= 0) b[static_cast<Index>(k) + 1] += step_ * db_[parts_[k].b1];
+    p = p_ + step_ * dp_;
+    correct(p, step_, errors_);
+    for (Index i = program_.knots; i < p.size(); ++i) p[i] = std::max(p[i], 0.3 * kShortestPiece_m);
+    next = values(b, p);
+    const double after = merit(next, b, p, step_);
+    if (halvings == kHalvings - 1 || (std::isfinite(after) && after <= before + 1e-7 * std::abs(before)))
+      break;
+    step_ *= 0.5;
+  }
+  if (halvings >= 3) regularization_ = std::max(6 * regularization_, 1e-2);
+  const double dual = std::min(lengths.dual, std::max(step_, lengths.primal < 1 ? step_ : lengths.dual));
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    for (std::size_t r = 0; r < kSegmentRows; ++r) rows_[k][r].take(step_, dual, next.parts[k].rows[r], mu_);
+    for (std::size_t c = 0; c < 2; ++c) channels_[k][c].take(step_, dual, next.parts[k].energy_J[c]);
+  }
+  for_bounds(b, p, [&](Row& row, double value, Index, bool, double) { row.take(step_, dual, value, mu_); });
+  clearance_.take(next.clearance, step_, dual, mu_);
+  lambda_ += step_ * (lambda_new_ - lambda_);
+  b_ = std::move(b);
+  p_ = std::move(p);
+}
+
+/// The barrier falls with the step's length, never below a tenth of the other residuals.
+void Newton::lower_barrier(const Sums& sums) {
+  const auto pairs = static_cast<double>(pairs_);
+  const double rest = std::max(sums.primal, 0.1 * sums.dual),
+               last = 0.05 * options_.tolerance * sums.cost / pairs;
+  const double factor = step_ > 0.6 ? std::max(0.1, 1 - step_) : step_ > 0.25 ? 0.5 : 1.0;
+  const double aim = std::min(mu_, sums.complementarity / pairs) * factor;
+  mu_ = std::max(last, std::min(mu_, std::max(aim, std::max(last, 0.1 * rest / pairs))));
+}
+
+JointSolution Newton::run() {
+  begin_rows();
+  JointSolution solution;
+  for (;; ++solution.steps) {
+    const Sums sums = assemble();
+    solution.cost_J = sums.cost / scale_;
+    solution.duration_s = sums.duration_s;
+    const double error = sums.error();
+    solution.converged = error < options_.tolerance;
+    if (solution.converged || !std::isfinite(error) || solution.steps == options_.most_steps) break;
+    const bool settled = sums.complementarity < 0.05 * sums.cost && sums.primal < 0.01 * sums.cost &&
+                         0.1 * sums.dual < 0.05 * sums.cost;
+    if (settled && (sums.cost - sums.complementarity - 0.2 * sums.dual) / scale_ > options_.give_up_J) break;
+    direction();
+    if (!dp_.allFinite() || !db_.allFinite()) break;
+    search(step_rows());
+    lower_barrier(sums);
+  }
+  solution.parameters = p_;
+  solution.squares = b_;
+  return solution;
+}
+
+}  // namespace
+
+JointSolution solve(const Start& start, const NewtonOptions& options, const VectorXd& squares) {
+  return Newton(start, options, squares).run();
+}
+
+void reach_targets(const Program& program, VectorXd& p, int steps) {
+  PathGeometry geometry(program);
+  const Index knots = program.knots, n = program.parameters();
+  for (int step = 0; step < steps; ++step) {
+    geometry.differentiate(p);
+    const VectorXd errors = geometry.errors();
+    if (errors.norm() < 1e-13) return;
+    const MatrixXd gradient = geometry.error_gradient();
+    VectorXd ease(n);
+    for (Index i = 0; i < n; ++i) ease[i] = i < knots ? 0.2 : std::max(0.02, p[i] * p[i]);
+    const MatrixXd eased = gradient * ease.asDiagonal();
+    const VectorXd change = -eased.transpose() * (eased * gradient.transpose()).ldlt().solve(errors);
+    double share = 1;
+    for (Index i = 0; i < n; ++i) {
+      if (i < knots)
+        share = std::min(share, 0.6 / std::abs(change[i]));
+      else if (change[i] < 0)
+        share = std::min(share, 0.7 * (p[i] - 0.3 * kShortestPiece_m) / -change[i]);
+    }
+    p += share * change;
+    for (const Piece& piece : program.pieces)
+      for (const Index knot : {piece.from, piece.to}) {
+        const double about = piece.sign > 0 ? 0.0 : M_PI, most = kMostDirection_rad - 1e-6;
+        p[knot] = std::clamp(p[knot], about - most, about + most);
+      }
+  }
+}
+
+}  // namespace joulepath::joint

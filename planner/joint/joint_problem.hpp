@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "planner/joint/drive_law.hpp"
+#include "planner/path/floor/footprint_checker.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
+
+// Design: docs/decisions/0212-joint-path-and-speed.md
+namespace joulepath::joint {
+
+/// A piece of path between two knots of the direction phi (DirectionSegment), `segments` equal parts of its
+/// length for the speed.
+struct Piece {
+  Eigen::Index from{}, to{};  ///< knots
+  int sign{1};                ///< 1: phi about 0, forward; -1: phi about pi, in reverse
+  std::size_t law{};          ///< index into the laws
+  bool rests_after{};         ///< the robot stands at its end: phi may jump
+  std::size_t segments{};
+};
+
+/// A pose that the path must reach at the end of a piece, in the frame of the start.
+struct Target {
+  std::size_t piece{};
+  Point2 at_m{};
+  std::optional<double> heading_rad{};  ///< whole turns included
+};
+
+/// Path and speed of legs as one program. The path begins at the origin with heading 0: `frame` is the start
+/// on the floor.
+struct Program {
+  std::vector<Piece> pieces{};
+  Eigen::Index knots{};
+  std::vector<Target> targets{};
+  std::vector<DriveLaw> laws{};
+  Pose frame{};
+  const FootprintChecker* checker{};  ///< null: an open floor
+  double margin_m{};                  ///< beyond the checker's clearance
+
+  Eigen::Index parameters() const { return knots + static_cast<Eigen::Index>(pieces.size()); }
+  /// Index of a piece's length among the parameters: the knots' phi (rad), then the lengths tau (m).
+  Eigen::Index length_of(std::size_t piece) const { return knots + static_cast<Eigen::Index>(piece); }
+  double half_track_m() const { return laws.front().half_track_m; }
+};
+
+inline constexpr double kMostDirection_rad =
+    1.45;  ///< of |phi|, or of |phi - pi|: curvature 8.2 / half track
+inline constexpr double kShortestPiece_m = 0.03;
+
+/// A program and parameters to begin with.
+struct Start {
+  Program program{};
+  Eigen::VectorXd parameters{};
+};
+
+}  // namespace joulepath::joint

@@ -1,0 +1,177 @@
+#include "planner/joint/joint_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/joint/joint_newton.hpp"
+#include "planner/joint/path_geometry.hpp"
+
+namespace joulepath::joint {
+namespace {
+
+constexpr std::size_t kCoarse = 5, kFine = 10, kMostFine = 40;  ///< segments per piece
+constexpr double kNode_m = 0.1;  ///< between nodes at most, where obstacles are near
+constexpr double kGiveUp = 1.02, kNearBest = 1.01, kSame = 3e-4;
+constexpr std::size_t kRefined = 2;
+constexpr double kFineTolerance = 1e-4, kWarmGap = 2e-3;
+constexpr int kMarginRounds = 3;
+constexpr double kMarginStep_m = 1e-3;
+
+struct Candidate {
+  Start start{};
+  JointSolution solution{};
+};
+
+/// Squares of the rate on another grid of the same pieces, linear in between.
+Eigen::VectorXd on_grid(const Program& before, const Eigen::VectorXd& squares, const Program& after) {
+  std::vector<double> values{squares[0]};
+  Eigen::Index first = 0;
+  for (std::size_t j = 0; j < before.pieces.size(); ++j) {
+    const auto old_count = static_cast<double>(before.pieces[j].segments);
+    for (std::size_t i = 1; i <= after.pieces[j].segments; ++i) {
+      const double at = static_cast<double>(i) / static_cast<double>(after.pieces[j].segments) * old_count;
+      const double cell = std::min(old_count - 1, std::floor(at));
+      const auto k = first + static_cast<Eigen::Index>(cell);
+      values.push_back(squares[k] + (at - cell) * (squares[k + 1] - squares[k]));
+    }
+    first += static_cast<Eigen::Index>(before.pieces[j].segments);
+  }
+  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+bool near_obstacles(const Program& program, const Eigen::VectorXd& parameters) {
+  if (!program.checker) return false;
+  const std::vector<Path> paths = paths_of(program, parameters);
+  return std::any_of(paths.begin(), paths.end(), [&](const Path& path) {
+    return program.checker->with_clearance(program.checker->clearance_m() + kNode_m)
+        .first_collision(path)
+        .has_value();
+  });
+}
+
+/// The solution on a finer grid from a coarse one; the coarse one where the method fails.
+Candidate refined(const Candidate& coarse, JointCounts& counts) {
+  Candidate fine = coarse;
+  const bool dense = near_obstacles(coarse.start.program, coarse.solution.parameters);
+  for (std::size_t j = 0; j < fine.start.program.pieces.size(); ++j) {
+    const double length_m = coarse.solution.parameters[coarse.start.program.length_of(j)];
+    fine.start.program.pieces[j].segments =
+        dense ? std::clamp(static_cast<std::size_t>(std::ceil(length_m / kNode_m)), kCoarse, kMostFine)
+              : kFine;
+  }
+  fine.start.parameters = coarse.solution.parameters;
+  const Eigen::VectorXd squares = on_grid(coarse.start.program, coarse.solution.squares, fine.start.program);
+  fine.solution = solve(fine.start, {.tolerance = kFineTolerance, .gap = kWarmGap}, squares);
+  counts.steps += fine.solution.steps;
+  return fine.solution.converged ? fine : coarse;
+}
+
+/// Largest missing clearance along paths; negative: a path cannot be driven as it is.
+double short_by_m(const std::vector<Path>& paths, const FootprintChecker* checker) {
+  double worst_m = 0;
+  if (checker)
+    for (const Path& path : paths)
+      for (const PathPiece& piece : path.pieces) {
+        if (!checker->first_collision(piece)) continue;
+        const double length = piece_length(piece);
+        const int looks = 1 + static_cast<int>(length / 0.005);
+        for (int i = 0; i <= looks; ++i)
+          worst_m = std::max(worst_m, -checker->near_slack_m(piece_point(piece, length * i / looks).pose));
+        worst_m = std::max(worst_m, 1e-6);
+      }
+  return worst_m;
+}
+
+/// Paths that meet their goals to rounding and are free; rows only at nodes let a path cut a corner, which
+/// a larger margin mends.
+std::optional<JointPaths> finished(Candidate candidate, JointCounts& counts) {
+  for (int round = 0; round <= kMarginRounds; ++round) {
+    Eigen::VectorXd exact = candidate.solution.parameters;
+    reach_targets(candidate.start.program, exact, 10);
+    PathGeometry geometry(candidate.start.program);
+    geometry.place(exact);
+    const bool reached =
+        geometry.errors().norm() < 1e-10 && (exact - candidate.solution.parameters).norm() < 0.05;
+    if (!reached) return std::nullopt;
+    JointPaths paths{paths_of(candidate.start.program, exact), candidate.solution.cost_J};
+    const double short_m = short_by_m(paths.legs, candidate.start.program.checker);
+    if (short_m == 0) return paths;
+    candidate.start.program.margin_m += short_m + kMarginStep_m;
+    candidate.start.parameters = candidate.solution.parameters;
+    const JointSolution again =
+        solve(candidate.start, {.tolerance = kFineTolerance, .gap = 1e-2}, candidate.solution.squares);
+    counts.steps += again.steps;
+    if (!again.parameters.allFinite()) return std::nullopt;
+    candidate.solution = again;
+  }
+  return std::nullopt;
+}
+
+CurveSegment segment_of(const Program& program, const Piece& piece, const Pose& start,
+                        const Eigen::VectorXd& p, double length_m) {
+  const auto phi = [&](Eigen::Index knot) { return piece.sign > 0 ? p[knot] : std::numbers::pi - p[knot]; };
+  Pose along = start;
+  if (piece.sign < 0) along.heading_rad -= std::numbers::pi;
+  return DirectionSegment(along, {phi(piece.from), phi(piece.to), length_m, program.half_track_m()});
+}
+
+}  // namespace
+
+std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
+  std::vector<Path> paths(1);
+  std::vector<CurveSegment> segments;
+  Pose here = program.frame;
+  for (std::size_t j = 0; j < program.pieces.size(); ++j) {
+    const Piece& piece = program.pieces[j];
+    segments.push_back(segment_of(program, piece, here, p, p[program.length_of(j)]));
+    const auto& placed = std::get<DirectionSegment>(segments.back());
+    here = placed.at(placed.length_m()).pose;
+    if (piece.sign < 0) here.heading_rad += std::numbers::pi;
+    const bool last = j + 1 == program.pieces.size();
+    if (!last && !piece.rests_after) continue;
+    paths.back().pieces.push_back(
+        Curve(std::move(segments), piece.sign > 0 ? Direction::forward : Direction::reverse));
+    segments.clear();
+    if (!last && program.pieces[j + 1].law != piece.law) paths.emplace_back();
+  }
+  return paths;
+}
+
+std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<std::vector<Sketch>> starts,
+                                         JointCounts* counted) {
+  JointCounts counts;
+  const double half_track_m = query.laws.front().half_track_m;
+  std::vector<Candidate> found;
+  double best_J = kNoLimit;
+  for (const std::vector<Sketch>& sketches : starts) {
+    Candidate candidate{assemble(sketches, query.goals, query.start, half_track_m, kCoarse), {}};
+    candidate.start.program.laws = query.laws;
+    candidate.start.program.checker = query.checker;
+    candidate.solution = solve(candidate.start, {.give_up_J = kGiveUp * best_J});
+    ++counts.starts;
+    counts.steps += candidate.solution.steps;
+    counts.failed += !candidate.solution.converged && !(candidate.solution.cost_J > kGiveUp * best_J);
+    if (!candidate.solution.converged) continue;
+    best_J = std::min(best_J, candidate.solution.cost_J);
+    found.push_back(std::move(candidate));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.solution.cost_J < b.solution.cost_J;
+  });
+  std::vector<JointPaths> best;
+  double last_J = 0;
+  for (const Candidate& candidate : found) {
+    const double cost_J = candidate.solution.cost_J;
+    if (best.size() == kRefined || (cost_J > kNearBest * best_J && !best.empty())) break;
+    if (std::abs(cost_J - last_J) < kSame * cost_J) continue;
+    last_J = cost_J;
+    if (auto paths = finished(refined(candidate, counts), counts)) best.push_back(std::move(*paths));
+  }
+  std::stable_sort(best.begin(), best.end(),
+                   [](const JointPaths& a, const JointPaths& b) { return a.cost_J < b.cost_J; });
+  if (counted) *counted = counts;
+  return best;
+}
+
+}  // namespace joulepath::joint

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/joint/joint_starts.hpp"
+
+// Design: docs/decisions/0212-joint-path-and-speed.md
+namespace joulepath::joint {
+
+/// Legs to be planned together: the robot stands at each stop and leaves it in the heading of its arrival.
+struct JointQuery {
+  Pose start{};
+  std::vector<LegGoal> goals{};
+  std::vector<DriveLaw> laws{};       ///< per leg
+  const FootprintChecker* checker{};  ///< null: an open floor
+};
+
+/// Paths of the legs and what they cost by the joint program.
+struct JointPaths {
+  std::vector<Path> legs{};
+  double cost_J{};
+};
+
+struct JointCounts {
+  int starts{}, failed{}, steps{};
+};
+
+/// The cheapest paths found from the starts, in the order of their cost: all starts on a coarse grid, a start
+/// given up as soon as it cannot be the best, the best of them on a finer one. Each reaches its goals to
+/// rounding and is free of collisions along its whole length. Deterministic.
+[[nodiscard]] std::vector<JointPaths> best_joint_paths(const JointQuery& query,
+                                                       std::vector<std::vector<Sketch>> starts,
+                                                       JointCounts* counts = nullptr);
+
+/// The paths of parameters, one per leg, turned and moved to the program's frame.
+[[nodiscard]] std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& parameters);
+
+}  // namespace joulepath::joint

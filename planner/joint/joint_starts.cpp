@@ -1,0 +1,220 @@
+#include "planner/joint/joint_starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace joulepath::joint {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kLeastArc_m = 0.08, kLeastLine_m = 0.06;
+constexpr double kMostArc_rad = 5.2;  ///< of an arc of a word
+constexpr double kNone_rad = 0.03;    ///< a whole turn less than this is none
+constexpr double kRouteRadius_m = 0.25, kBendRadius_m = 0.5;
+constexpr double kMostPhi_rad = 1.4;
+
+double sense_turn_rad(double turn_rad, int sense) {
+  const double shorter = std::remainder(turn_rad, 2 * kPi);
+  if (sense == 0) return shorter;
+  double turn = sense * std::fmod(sense * shorter + 2 * kPi, 2 * kPi);
+  return std::abs(turn) > 2 * kPi - kNone_rad ? 0.0 : turn;
+}
+
+/// Two pieces that turn at a radius and lead to or from a straight line.
+void append_arc(Sketch& sketch, double turn_rad, double radius_m, double half_track_m, bool first) {
+  double phi = std::atan2(half_track_m, radius_m);
+  const double across = std::abs(turn_rad) * half_track_m / 1.5;
+  const double length_m = std::max(kLeastArc_m, across / std::sin(phi));
+  phi = std::copysign(std::asin(std::min(0.95, across / length_m)), turn_rad);
+  if (first) {
+    sketch.parts.push_back({phi, phi, length_m});
+    sketch.parts.push_back({phi, 0, length_m});
+  } else {
+    sketch.parts.push_back({0, phi, length_m});
+    sketch.parts.push_back({phi, phi, length_m});
+  }
+}
+
+void append_bend(Sketch& sketch, double turn_rad, double half_track_m) {
+  const double phi = std::atan2(half_track_m, kBendRadius_m), across = std::abs(turn_rad) * half_track_m;
+  const double length_m = std::max(0.1, across / std::sin(phi));
+  const double bend = std::copysign(std::asin(std::min(0.9, across / length_m)), turn_rad);
+  sketch.parts.push_back({0, bend, length_m});
+  sketch.parts.push_back({bend, 0, length_m});
+}
+
+void append_line(Sketch& sketch, double length_m) {
+  sketch.parts.push_back({0, 0, std::max(kLeastLine_m, length_m)});
+}
+
+/// The word that turns to `first`, drives straight and turns to `last` (0: any heading at the goal).
+std::optional<Sketch> word(const Pose& start, const LegGoal& goal, double half_track_m, int first, int last,
+                           double radius_m) {
+  const auto center = [&](double x_m, double y_m, double heading_rad, int sense) {
+    return Point2{x_m - sense * radius_m * std::sin(heading_rad),
+                  y_m + sense * radius_m * std::cos(heading_rad)};
+  };
+  const Point2 from = center(start.x_m, start.y_m, start.heading_rad, first);
+  const Point2 to = last ? center(goal.at_m[0], goal.at_m[1], *goal.heading_rad, last) : goal.at_m;
+  const double offset_m = (last - first) * radius_m;
+  const double apart_m = std::hypot(to[0] - from[0], to[1] - from[1]);
+  if (apart_m <= std::abs(offset_m) + 0.02) return std::nullopt;
+  const double line_m = std::sqrt(apart_m * apart_m - offset_m * offset_m);
+  const double heading_rad = std::atan2(to[1] - from[1], to[0] - from[0]) - std::atan2(offset_m, line_m);
+  const double begin_rad = sense_turn_rad(heading_rad - start.heading_rad, first);
+  const double end_rad = last ? sense_turn_rad(*goal.heading_rad - heading_rad, last) : 0.0;
+  if (std::abs(begin_rad) > kMostArc_rad || std::abs(end_rad) > kMostArc_rad) return std::nullopt;
+  Sketch sketch;
+  append_arc(sketch, std::copysign(begin_rad, first), radius_m, half_track_m, true);
+  const int lines = last ? 2 : 3;
+  for (int i = 0; i < lines; ++i) append_line(sketch, line_m / lines);
+  if (last) append_arc(sketch, std::copysign(end_rad, last), radius_m, half_track_m, false);
+  return sketch;
+}
+
+/// Direction phi along a path by its length tau.
+struct Course {
+  std::vector<double> tau_m{0}, phi_rad{};
+  void add(double length_m, double phi) {
+    tau_m.push_back(tau_m.back() + length_m);
+    phi_rad.push_back(phi);
+  }
+  double phi_at(double tau) const {
+    const auto after = std::upper_bound(tau_m.begin(), tau_m.end(), tau) - tau_m.begin();
+    return phi_rad[static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(phi_rad.size()) - 1))];
+  }
+};
+
+Course course_of(const Path& path, double half_track_m) {
+  constexpr int kLooks = 120;
+  Course course;
+  for (const PathPiece& piece : path.pieces) {
+    const double length = piece_length(piece);
+    for (int i = 0; i < kLooks; ++i) {
+      const double step = length / kLooks;
+      if (is_turn(piece)) {
+        course.add(step * half_track_m, turn_sign(piece) * 0.5 * kPi);
+        continue;
+      }
+      const double across = half_track_m * piece_bend(piece, (i + 0.5) * step).curvature_per_m;
+      course.add(step * std::hypot(1.0, across), std::atan(across));
+    }
+  }
+  return course;
+}
+
+}  // namespace
+
+double Sketch::turn_rad(double half_track_m) const {
+  double turn = 0;
+  for (const Part& part : parts)
+    turn += 0.5 * part.length_m * (std::sin(part.from_rad) + std::sin(part.to_rad)) / half_track_m;
+  return turn;
+}
+
+double Sketch::effort_m() const {
+  double sum = 0;
+  for (const Part& part : parts)
+    sum += part.length_m * (1 + std::abs(std::sin(part.from_rad) + std::sin(part.to_rad)));
+  return sum;
+}
+
+std::vector<Sketch> words(const Pose& start, const LegGoal& goal, double half_track_m,
+                          const std::vector<double>& radii_m) {
+  const double apart_m = std::hypot(goal.at_m[0] - start.x_m, goal.at_m[1] - start.y_m);
+  std::vector<Sketch> words;
+  double before_m = 0;
+  for (const double wanted_m : radii_m) {
+    const double radius_m = std::min(wanted_m, std::max(0.05, 0.22 * apart_m));
+    if (before_m > 0 && std::abs(radius_m / before_m - 1) < 0.2) continue;
+    before_m = radius_m;
+    for (const int first : {1, -1})
+      for (const int last : goal.heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0})
+        if (auto sketch = word(start, goal, half_track_m, first, last, radius_m))
+          words.push_back(std::move(*sketch));
+  }
+  return words;
+}
+
+Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
+                   const std::optional<double>& heading_rad, int first, int last, double half_track_m) {
+  Sketch sketch;
+  double heading = start.heading_rad;
+  for (std::size_t i = 0; i + 1 < route_m.size(); ++i) {
+    const double dx = route_m[i + 1][0] - route_m[i][0], dy = route_m[i + 1][1] - route_m[i][1];
+    const double turn = sense_turn_rad(std::atan2(dy, dx) - heading, i == 0 ? first : 0);
+    if (i == 0)
+      append_arc(sketch, turn, kRouteRadius_m, half_track_m, true);
+    else
+      append_bend(sketch, turn, half_track_m);
+    append_line(sketch, std::max(0.15, 0.8 * std::hypot(dx, dy)));
+    heading += turn;
+  }
+  const double end_rad = heading_rad ? sense_turn_rad(*heading_rad - heading, last) : 0.0;
+  append_arc(sketch, end_rad, kRouteRadius_m, half_track_m, false);
+  return sketch;
+}
+
+Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
+  const Course course = course_of(path, half_track_m);
+  const double whole_m = course.tau_m.back();
+  std::vector<double> weight{0};
+  for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
+    const double change = i > 0 ? std::abs(course.phi_rad[i] - course.phi_rad[i - 1]) : 0.0;
+    weight.push_back(weight.back() + change + 3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
+  }
+  std::vector<double> knots{0};
+  for (std::size_t k = 1; k < count; ++k) {
+    const double part = weight.back() * static_cast<double>(k) / static_cast<double>(count);
+    const auto at =
+        static_cast<std::size_t>(std::lower_bound(weight.begin(), weight.end(), part) - weight.begin());
+    knots.push_back(std::max(course.tau_m[at], knots.back() + kShortestPiece_m));
+  }
+  knots.push_back(std::max(whole_m, knots.back() + kShortestPiece_m));
+  Sketch sketch;
+  const auto phi = [&](double tau) { return std::clamp(course.phi_at(tau), -kMostPhi_rad, kMostPhi_rad); };
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+    sketch.parts.push_back({phi(knots[k]), phi(knots[k + 1]), knots[k + 1] - knots[k]});
+  return sketch;
+}
+
+Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goals, const Pose& start,
+               double half_track_m, std::size_t segments) {
+  Start built;
+  Program& program = built.program;
+  program.frame = start;
+  std::vector<double> phi, lengths;
+  double turned = 0;
+  const double c = std::cos(start.heading_rad), s = std::sin(start.heading_rad);
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    for (const Sketch::Part& part : legs[leg].parts) {
+      const bool jumps = program.pieces.empty() || program.pieces.back().rests_after;
+      if (jumps) phi.push_back(part.from_rad);
+      const auto from = static_cast<Eigen::Index>(phi.size()) - 1;
+      phi.push_back(part.to_rad);
+      lengths.push_back(part.length_m);
+      program.pieces.push_back({.from = from,
+                                .to = from + 1,
+                                .sign = part.sign,
+                                .law = leg,
+                                .rests_after = part.rests_after,
+                                .segments = segments});
+    }
+    program.pieces.back().rests_after = true;
+    turned += legs[leg].turn_rad(half_track_m);
+    const LegGoal& goal = goals[leg];
+    const double dx = goal.at_m[0] - start.x_m, dy = goal.at_m[1] - start.y_m;
+    Target target{.piece = program.pieces.size() - 1, .at_m = {c * dx + s * dy, c * dy - s * dx}};
+    if (goal.heading_rad)
+      target.heading_rad = turned + std::remainder(*goal.heading_rad - start.heading_rad - turned, 2 * kPi);
+    program.targets.push_back(target);
+  }
+  program.knots = static_cast<Eigen::Index>(phi.size());
+  phi.insert(phi.end(), lengths.begin(), lengths.end());
+  built.parameters = Eigen::Map<Eigen::VectorXd>(phi.data(), static_cast<Eigen::Index>(phi.size()));
+  return built;
+}
+
+}  // namespace joulepath::joint

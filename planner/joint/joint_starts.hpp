@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/joint/joint_problem.hpp"
+#include "planner/path/geometry/path.hpp"
+
+namespace joulepath::joint {
+
+/// A rough path of one leg, as pieces of linear direction.
+struct Sketch {
+  struct Part {
+    double from_rad{}, to_rad{}, length_m{};  ///< phi and tau
+    int sign{1};
+    bool rests_after{};
+  };
+  std::vector<Part> parts{};
+
+  double turn_rad(double half_track_m) const;
+  /// Length plus what its turning takes, to sort starts.
+  double effort_m() const;
+};
+
+/// One leg of a program: from where it begins to its stop.
+struct LegGoal {
+  Point2 at_m{};
+  std::optional<double> heading_rad{};
+};
+
+/// Arc, line, arc between a pose and a goal, in each combination of senses of turning and for the radii.
+[[nodiscard]] std::vector<Sketch> words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                        const std::vector<double>& radii_m);
+
+/// Arc, line, and a bend and a line for each corner of a route; a last arc, to a heading where one is asked.
+/// `first`, `last`: senses of these arcs, +1 to the left, -1 to the right, 0 the shorter way round.
+[[nodiscard]] Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
+                                 const std::optional<double>& heading_rad, int first, int last,
+                                 double half_track_m);
+
+/// A path in `count` pieces: knots where its direction changes; turns in place become tight arcs.
+[[nodiscard]] Sketch along_path(const Path& path, double half_track_m, std::size_t count);
+
+/// The start of a program of legs from one rough path each. Sets everything but the laws.
+[[nodiscard]] Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goals,
+                             const Pose& start, double half_track_m, std::size_t segments);
+
+}  // namespace joulepath::joint

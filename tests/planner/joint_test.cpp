@@ -1,0 +1,318 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "model/limit_table.hpp"
+#include "planner/joint/joint_newton.hpp"
+#include "planner/joint/joint_search.hpp"
+#include "planner/joint/joint_segment.hpp"
+#include "planner/joint/path_geometry.hpp"
+#include "planner/mission/mission.hpp"
+#include "planner/motion/motion_energy.hpp"
+#include "planner/motion/path_motion.hpp"
+#include "planner/profile/profile_solver.hpp"
+#include "tests/planner/path/curve_laws.hpp"
+#include "tests/planner/path/grids.hpp"
+#include "tests/support/nomad.hpp"
+
+namespace joulepath::joint {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Both motors alike: what is mirrored costs the same.
+Robot even_nomad() {
+  Robot robot = testing::nomad();
+  robot.motor.left = robot.motor.right;
+  return robot;
+}
+
+DriveLaw law_of(const Robot& robot) {
+  return drive_law(make_nominal_plant(robot), limits_for_payload(robot, 0), 0, {}, 0);
+}
+
+std::vector<JointPaths> paths_between(const Robot& robot, const Pose& start, const LegGoal& goal,
+                                      const FootprintChecker* checker = nullptr) {
+  std::vector<std::vector<Sketch>> starts;
+  for (Sketch& word : words(start, goal, robot.geometry.half_track_m, {0.15, 0.5}))
+    starts.push_back({std::move(word)});
+  return best_joint_paths({start, {goal}, {law_of(robot)}, checker}, std::move(starts));
+}
+
+/// The energy of a path by the profile solver, time free.
+double driven_J(const Robot& robot, const Path& path) {
+  const Plant plant = make_nominal_plant(robot);
+  const ProfileRequest request{.piece = path.pieces.front(),
+                               .plant = plant,
+                               .limits = limits_for_payload(robot, 0),
+                               .solver = SolverChoice::fast};
+  const ProfileResult result = solve_profile(request);
+  return result.profile ? energy_by_cause(path_motion(request), *result.profile).total_J() : kNoLimit;
+}
+
+TEST(DirectionSegment, ChannelsAreIntegralsOfEachOther) {
+  for (const auto& [from, to, length_m] :
+       {std::array{1.4, -0.3, 0.6}, std::array{-0.2, 1.45, 1.5}, std::array{0.9, 0.9, 2.0}}) {
+    const Curve curve({DirectionSegment({1, -2, 0.7}, {from, to, length_m, 0.165})});
+    const CurveBreach breach = curve_breach(curve);
+    EXPECT_LT(breach.position_m, 1e-10);
+    EXPECT_LT(breach.heading_rad, 1e-7);
+    EXPECT_LT(breach.curvature_per_m, 1e-3);
+    const double most = std::get<DirectionSegment>(curve.segments().front()).curvature_bound_per_m();
+    EXPECT_NEAR(most, std::tan(std::max(std::abs(from), std::abs(to))) / 0.165, 1e-9);
+  }
+}
+
+/// Three pieces with a stop after the second one, and two targets.
+Program bent_program(const DriveLaw& law) {
+  Program program;
+  program.pieces = {{0, 1, 1, 0, false, 5}, {1, 2, 1, 0, true, 5}, {3, 4, 1, 1, true, 5}};
+  program.knots = 5;
+  program.targets = {{1, {0.4, 0.1}, {}}, {2, {0.8, 0.5}, 1.2}};
+  program.laws = {law, law};
+  return program;
+}
+Eigen::VectorXd bent_parameters() {
+  Eigen::VectorXd p(8);
+  p << 0.7, -0.3, 0.4, 1.1, 0.2, 0.5, 0.3, 0.6;
+  return p;
+}
+
+TEST(JointGeometry, FirstDerivativesAreThoseOfDifferences) {
+  const Program program = bent_program(law_of(even_nomad()));
+  const Eigen::VectorXd p = bent_parameters();
+  PathGeometry geometry(program);
+  geometry.differentiate(p);
+  const Eigen::MatrixXd gradient = geometry.error_gradient();
+  constexpr double h = 1e-6;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    Eigen::VectorXd up = p, down = p;
+    up[i] += h;
+    down[i] -= h;
+    PathGeometry a(program), b(program);
+    a.place(up);
+    b.place(down);
+    EXPECT_LT((gradient.col(i) - (a.errors() - b.errors()) / (2 * h)).norm(), 1e-8) << i;
+  }
+}
+
+// The contracted second derivatives of both targets and of a place with a heading in between.
+TEST(JointGeometry, SecondDerivativesAreThoseOfDifferences) {
+  const Program program = bent_program(law_of(even_nomad()));
+  const Eigen::VectorXd p = bent_parameters();
+  const Eigen::VectorXd lambda = (Eigen::VectorXd(5) << 1.3, -0.7, 0.4, 2.0, -1.1).finished();
+  const PoseMultiplier inside{0.8, -0.5, 0.9};
+  constexpr std::size_t kPiece = 1;
+  constexpr double kShare = 0.6, h = 1e-6;
+  const auto slope = [&](const Eigen::VectorXd& at) {
+    PathGeometry geometry(program);
+    geometry.differentiate(at);
+    const auto place = geometry.gradient(kPiece, geometry.local(kPiece, kShare));
+    return Eigen::VectorXd(geometry.error_gradient().transpose() * lambda + inside.x * place.col(0) +
+                           inside.y * place.col(1) + inside.heading * place.col(2));
+  };
+  PathGeometry geometry(program);
+  geometry.differentiate(p);
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(p.size(), p.size());
+  geometry.add_curvature(kPiece, geometry.local(kPiece, kShare), inside, hessian);
+  geometry.finish_curvature(lambda, hessian);
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    Eigen::VectorXd up = p, down = p;
+    up[i] += h;
+    down[i] -= h;
+    EXPECT_LT((hessian.col(i) - (slope(up) - slope(down)) / (2 * h)).norm(), 1e-7) << i;
+  }
+}
+
+TEST(JointSegment, DerivativesAreThoseOfDifferences) {
+  using Jet = nlp::JetOf<kSegmentVariables>;
+  const DriveLaw law = law_of(testing::nomad());
+  const std::array<double, kSegmentVariables> x{0.2, 0.25, 0.7, -0.4, 0.8};
+  const auto values = [&](const std::array<double, kSegmentVariables>& at) {
+    SegmentValues<double> out;
+    evaluate_segment(law, 1, at, 0.2, 0.4, out);
+    std::vector<double> all{out.energy_J[0], out.energy_J[1], out.duration_s};
+    all.insert(all.end(), out.rows.begin(), out.rows.end());
+    return all;
+  };
+  std::array<Jet, kSegmentVariables> variables;
+  for (std::size_t i = 0; i < x.size(); ++i) variables[i] = Jet::variable(i, x[i]);
+  SegmentValues<Jet> out;
+  evaluate_segment(law, 1, variables, 0.2, 0.4, out);
+  std::vector<Jet> exact{out.energy_J[0], out.energy_J[1], out.duration_s};
+  exact.insert(exact.end(), out.rows.begin(), out.rows.end());
+  constexpr double h = 1e-4;
+  const auto moved = [&](std::size_t i, double di, std::size_t j, double dj) {
+    auto at = x;
+    at[i] += di;
+    at[j] += dj;
+    return values(at);
+  };
+  for (std::size_t i = 0, k = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++k) {
+      const auto pp = moved(i, h, j, h), pm = moved(i, h, j, -h), mp = moved(i, -h, j, h),
+                 mm = moved(i, -h, j, -h);
+      const auto up = moved(i, h, i, 0), down = moved(i, -h, i, 0);
+      for (std::size_t f = 0; f < exact.size(); ++f) {
+        EXPECT_NEAR(exact[f].dd[k], (pp[f] - pm[f] - mp[f] + mm[f]) / (4 * h * h),
+                    2e-5 * (1 + std::abs(exact[f].dd[k])))
+            << f << ": " << i << ", " << j;
+        EXPECT_NEAR(exact[f].d[i], (up[f] - down[f]) / (2 * h), 1e-5 * (1 + std::abs(exact[f].d[i]))) << f;
+      }
+    }
+}
+
+// The law's power is the model's, also with a center of mass beside the axle.
+TEST(JointSegment, PowerIsTheModels) {
+  Robot robot = testing::nomad();
+  robot.geometry.center_of_mass_offset_m = 0.07;
+  const Plant plant = make_nominal_plant(robot);
+  const DriveLaw law = drive_law(plant, limits_for_payload(robot, 3), 3, {}, 0);
+  for (const BodyMotion<double>& motion :
+       {BodyMotion<double>{0.7, 0.3, 0.4, -0.6}, BodyMotion<double>{0.1, -0.2, 1.2, 0.5}}) {
+    const Site site = site_of(robot.geometry, {}, 3, motion.speed_m_s, motion.yaw_rate_rad_s);
+    const auto wheels = operating_point(plant, motion, site);
+    for (const Side side : kSides)
+      EXPECT_NEAR(motor_power_W(law.wheel[side], motion, site.wheel_direction[side]), wheels[side].power_W,
+                  1e-9);
+  }
+}
+
+TEST(Joint, ReachesTheEndPoseToRounding) {
+  const Robot robot = testing::nomad();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<> angle(-kPi, kPi), reach(0.7, 8);
+  for (int trial = 0; trial < 12; ++trial) {
+    const Pose start{1, -2, angle(random)};
+    const double bearing = angle(random), reach_m = reach(random), heading = angle(random);
+    LegGoal goal{{1 + reach_m * std::cos(bearing), -2 + reach_m * std::sin(bearing)}, {}};
+    if (trial % 2) goal.heading_rad = heading;
+    const auto found = paths_between(robot, start, goal);
+    ASSERT_FALSE(found.empty()) << trial;
+    const Path& path = found.front().legs.front();
+    EXPECT_NEAR(wrapped_angle_rad(path.start().heading_rad - start.heading_rad), 0, 1e-12);
+    EXPECT_LT(std::hypot(path.end().x_m - goal.at_m[0], path.end().y_m - goal.at_m[1]), 1e-9) << trial;
+    if (goal.heading_rad) {
+      EXPECT_NEAR(wrapped_angle_rad(path.end().heading_rad - *goal.heading_rad), 0, 1e-9) << trial;
+    }
+  }
+}
+
+// A leg straight ahead: the path is the line, the energy that of the profile solver on it.
+TEST(Joint, StraightAheadIsTheLine) {
+  const Robot robot = even_nomad();
+  const auto found = paths_between(robot, {0, 0, 0.3}, {{5 * std::cos(0.3), 5 * std::sin(0.3)}, 0.3});
+  ASSERT_FALSE(found.empty());
+  const Path& path = found.front().legs.front();
+  EXPECT_NEAR(path.distance_m(), 5, 1e-5);
+  const double line_J = driven_J(robot, Path{{straight_piece({0, 0, 0.3}, 5)}});
+  EXPECT_NEAR(found.front().cost_J, line_J, 2e-3 * line_J);
+}
+
+// Another solver, grid and treatment of friction drives the same curve.
+TEST(Joint, ItsEnergyIsThatOfTheProfileSolver) {
+  const Robot robot = testing::nomad();
+  for (const double bearing : {0.4, 1.3, 2.2, 3.0}) {
+    const LegGoal goal{{3 * std::cos(bearing), 3 * std::sin(bearing)}, bearing - 1};
+    const auto found = paths_between(robot, {}, goal);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found.front().cost_J / driven_J(robot, found.front().legs.front()), 1, 8e-3) << bearing;
+  }
+}
+
+void expect_same(const Path& path, const std::function<Pose(const Pose&)>& moved, const Path& other) {
+  const Curve &a = std::get<Curve>(path.pieces.front()), &b = std::get<Curve>(other.pieces.front());
+  ASSERT_NEAR(a.length_m(), b.length_m(), 1e-6);
+  for (int i = 0; i <= 20; ++i) {
+    const Pose p = moved(a.at(a.length_m() * i / 20).pose), q = b.at(b.length_m() * i / 20).pose;
+    EXPECT_NEAR(p.x_m, q.x_m, 1e-6);
+    EXPECT_NEAR(p.y_m, q.y_m, 1e-6);
+    EXPECT_NEAR(wrapped_angle_rad(p.heading_rad - q.heading_rad), 0, 1e-6);
+  }
+}
+
+TEST(Joint, AMirroredOrMovedProblemGivesTheMirroredOrMovedCurve) {
+  const Robot robot = even_nomad();
+  const Pose start{2, 1, 0.5};
+  const LegGoal goal{{4.1, 2.6}, 2.7};
+  const auto found = paths_between(robot, start, goal);
+  ASSERT_FALSE(found.empty());
+  const auto check = [&](const std::function<Pose(const Pose&)>& moved) {
+    const Pose end = moved({goal.at_m[0], goal.at_m[1], *goal.heading_rad});
+    const auto other = paths_between(robot, moved(start), {{end.x_m, end.y_m}, end.heading_rad});
+    ASSERT_FALSE(other.empty());
+    expect_same(found.front().legs.front(), moved, other.front().legs.front());
+  };
+  check([](const Pose& p) { return Pose{p.x_m, -p.y_m, -p.heading_rad}; });
+  check([](const Pose& p) { return Pose{p.x_m + 7, p.y_m - 3, p.heading_rad}; });
+  check([](const Pose& p) {
+    const double c = std::cos(1.1), s = std::sin(1.1);
+    return Pose{c * p.x_m - s * p.y_m, s * p.x_m + c * p.y_m, p.heading_rad + 1.1};
+  });
+}
+
+// The heading at a stop is found with the curves; it costs no more than any that is asked for.
+TEST(Joint, AFreeHeadingAtAStopIsNoDearerThanAnAskedOne) {
+  const Robot robot = testing::nomad();
+  const DriveLaw law = law_of(robot);
+  const double half_track_m = robot.geometry.half_track_m;
+  const auto cost = [&](const std::optional<double>& stop_rad) {
+    const std::vector<LegGoal> goals{{{3, 1}, stop_rad}, {{2, 4}, {}}};
+    const Sketch first = along_route({}, {{0, 0}, {3, 1}}, stop_rad, 0, 0, half_track_m);
+    const Sketch second =
+        along_route({3, 1, first.turn_rad(half_track_m)}, {{3, 1}, {2, 4}}, {}, 0, 0, half_track_m);
+    const auto found = best_joint_paths({{}, goals, {law, law}, nullptr}, {{first, second}});
+    if (!found.empty()) {
+      EXPECT_NEAR(
+          wrapped_angle_rad(found[0].legs[0].end().heading_rad - found[0].legs[1].start().heading_rad), 0,
+          1e-9);
+    }
+    return found.empty() ? kNoLimit : found.front().cost_J;
+  };
+  const double free_J = cost({});
+  ASSERT_TRUE(std::isfinite(free_J));
+  for (const double heading : {0.3, 0.9, 1.4, 1.9}) EXPECT_LE(free_J, cost(heading) * (1 + 2e-4)) << heading;
+}
+
+/// A wall with a door of 0.9 m in a room of 8 x 6 m.
+OccupancyGrid door() {
+  OccupancyGrid grid = free_grid(160, 120, 0.05);
+  for (int row = 0; row < 120; ++row)
+    for (int column = 78; column < 82; ++column)
+      if (row < 48 || row >= 66) grid.occupancy_percent[static_cast<std::size_t>(row * 160 + column)] = 100;
+  return grid;
+}
+
+TEST(Joint, KeepsItsClearanceAndPassesADoorInACurve) {
+  const Robot robot = testing::nomad();
+  const ObstacleField field(door());
+  const FootprintChecker checker(field, robot.footprint, 0.05);
+  const Pose start{2, 1, kPi / 2};
+  const LegGoal goal{{6, 4.5}, {}};
+  const auto rough = along_route(start, {{2, 1}, {4, 2.85}, {6, 4.5}}, {}, 0, 0, robot.geometry.half_track_m);
+  const auto found = best_joint_paths({start, {goal}, {law_of(robot)}, &checker}, {{rough}});
+  ASSERT_FALSE(found.empty());
+  EXPECT_FALSE(checker.first_collision(found.front().legs.front()));
+}
+
+// The joint program is a further candidate: a plan with it is never dearer.
+TEST(Joint, APlanIsNeverDearerWithIt) {
+  for (int trial = 0; trial < 4; ++trial) {
+    MissionRequest mission{.name = "pose", .clearance_m = 0.05};
+    mission.stations["goal"] = {.x_m = 5.5 + 0.3 * trial, .y_m = 1.5 + 0.7 * trial};
+    if (trial % 2) mission.stations["goal"].heading_rad = 2.0 * trial;
+    mission.start.pose = {2, 3, 1.6 * trial};
+    mission.legs = {{.to = "goal"}};
+    PlanOptions options{.solver = SolverChoice::fast, .nodes = 100, .accuracy = 1e-3, .baselines = false};
+    const MissionWorld world{.robot = testing::nomad(), .map = door()};
+    const double with_J = plan_mission(mission, world, options).energy.total_J();
+    options.steps.joint = false;
+    EXPECT_LE(with_J, plan_mission(mission, world, options).energy.total_J() * (1 + 1e-6)) << trial;
+  }
+}
+
+}  // namespace
+}  // namespace joulepath::joint
