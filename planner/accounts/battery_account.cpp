@@ -204,7 +204,7 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
   const double most_W = planned_battery_power_W(robot.battery);
   const double stated_W = limits_between_payloads(robot, payload.from_kg, payload.to_kg).battery_power_W;
   if (most_W >= stated_W) return;
-  const std::string told = sentence(verdict);
+  const std::string cause = sentence(verdict);
   if (power != verdict.relaxation.end()) {
     const double needed_W = power->second;
     verdict.relaxation.erase(power);
@@ -217,7 +217,7 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
   std::ostringstream text;
   text.precision(4);
   text << "the battery supplies at most " << most_W << " W at its terminals; " << sentence(verdict);
-  if (verdict.message.rfind(told, 0) == 0) text << verdict.message.substr(told.size());
+  if (verdict.message.rfind(cause, 0) == 0) text << verdict.message.substr(cause.size());
   plan.message = verdict.message = text.str();
 }
 

@@ -29,7 +29,7 @@ double* shaping_limit(Limits& limits, std::string_view name) {
 }
 
 Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const Profile& profile) {
-  constexpr int kLooks = 4;
+  constexpr int kSamples = 4;
   Worst worst;
   double jump_s = 0;
   if (std::isfinite(request.limits.jerk_m_s3) && !is_turn(request.piece) &&
@@ -37,8 +37,8 @@ Worst worst_use(const ProfileRequest& request, const PathMotion& motion, const P
     return {kNoLimit, "jerk", jump_s};
   for (std::size_t k = 0; k + 1 < profile.time_s.size(); ++k) {
     const double from_s = profile.time_s[k], length_s = profile.time_s[k + 1] - from_s;
-    for (int i = 0; i <= kLooks; ++i) {
-      const double share = std::clamp(static_cast<double>(i) / kLooks, 1e-7, 1 - 1e-7);
+    for (int i = 0; i <= kSamples; ++i) {
+      const double share = std::clamp(static_cast<double>(i) / kSamples, 1e-7, 1 - 1e-7);
       const ProfileState state = profile.at_time(from_s + share * length_s);
       for_each_limit_use(motion, request.limits, request.speed_caps, state, profile.jerk[k],
                          [&](std::string_view name, double ratio) {

@@ -17,7 +17,7 @@ struct PatternMinimum {
 template <class Function>
 [[nodiscard]] PatternMinimum pattern_search(const Function& f) {
   PatternMinimum best;
-  const auto look = [&](double x, double y) {
+  const auto sample = [&](double x, double y) {
     x = std::min(0.0, x);
     y = std::min(0.0, y);
     const double value = f(x, y);
@@ -26,7 +26,7 @@ template <class Function>
     return true;
   };
   for (double x = 0; x > -4.0; x -= 0.5)
-    for (double y = 0; y > -4.0; y -= 0.5) look(x, y);
+    for (double y = 0; y > -4.0; y -= 0.5) sample(x, y);
   if (best.value == std::numeric_limits<double>::infinity()) return best;
   constexpr struct {
     double x, y;
@@ -34,7 +34,7 @@ template <class Function>
   for (double step = 0.25; step > 1e-3;) {
     const PatternMinimum from = best;
     bool better = false;
-    for (const auto& way : kWays) better |= look(from.x + step * way.x, from.y + step * way.y);
+    for (const auto& way : kWays) better |= sample(from.x + step * way.x, from.y + step * way.y);
     if (!better) step /= 2;
   }
   return best;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "joulepath answer 1\n";
-constexpr std::uint64_t kLooksPerLimit =
+constexpr std::uint64_t kScansPerLimit =
     16;                             ///< written bytes after which the size of the folder is computed again
 constexpr double kKeptShare = 0.9;  ///< of the limit, after a deletion
 constexpr std::chrono::hours kAbandoned{1};  ///< an older temporary file has no writer any more
@@ -106,9 +106,9 @@ void DiskStore::keep(const ContentKey& key, const std::string& answer) {
   if (!whole || error) fs::remove(draft, error);
   const std::lock_guard lock(mutex_);
   written_bytes_ += writer.bytes().size();
-  if (looked_ && written_bytes_ < limit_bytes_ / kLooksPerLimit) return;
+  if (scanned_ && written_bytes_ < limit_bytes_ / kScansPerLimit) return;
   delete_oldest();
-  looked_ = true;
+  scanned_ = true;
   written_bytes_ = 0;
 }
 

@@ -35,7 +35,7 @@ class DiskStore {
   std::uint64_t limit_bytes_;
   std::mutex mutex_{};
   std::uint64_t written_bytes_{};  ///< since the size of the folder was computed
-  bool looked_{};
+  bool scanned_{};
 };
 
 }  // namespace joulepath

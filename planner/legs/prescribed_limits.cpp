@@ -45,7 +45,7 @@ struct LimitSearch {
     for (std::size_t k = 0; k + 1 < motion.size(); ++k)
       for (const double share : {1e-6, 0.5, 1 - 1e-6}) {
         const double time_s = motion.time_s[k] + share * (motion.time_s[k + 1] - motion.time_s[k]);
-        look(driven, sampled_state(motion, time_s), time_s, limits, excesses);
+        sample(driven, sampled_state(motion, time_s), time_s, limits, excesses);
       }
     if (limits.jerk_m_s3 < kNoLimit) look_for_jumps(limits.jerk_m_s3, excesses);
     return excesses;
@@ -62,8 +62,8 @@ struct LimitSearch {
       *same = one;
   }
 
-  void look(const SampledMotion& driven, const SampledState& state, double time_s, const Limits& limits,
-            std::vector<Excess>& excesses) const {
+  void sample(const SampledMotion& driven, const SampledState& state, double time_s, const Limits& limits,
+              std::vector<Excess>& excesses) const {
     const BodyMotion<double>& body = state.motion;
     const double gain_m_s2 = body.acceleration_m_s2 * (body.speed_m_s < 0 ? -1.0 : 1.0);
     for_each_limit(limit_state(plant, body, driven.at(time_s).site, gain_m_s2, 0.0), limits,

@@ -38,7 +38,7 @@ double wait_of(const std::vector<ProfileResult>& results, double duration_s) {
 }
 
 /// Replays and accounts for a leg's profiles.
-void settle_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
+void finish_leg(LegPlan& leg, const LegTiming& timing, const std::vector<ProfileResult>& results,
                 double price_W, double duration_s, const UncertainPlant& uncertain,
                 const SharedAnswers& answers) {
   const Plant& plant = uncertain.plant;
@@ -107,9 +107,9 @@ TimedLegs time_legs(const MissionRequest& mission, const MissionWorld& world, co
   };
   for (int round = 0; space && round < kRounds; ++round) {
     if (!choose(true) || !share(true)) return timed;
-    const bool settled = !moved(price_W, timed.split.price_W);
+    const bool converged = !moved(price_W, timed.split.price_W);
     price_W = timed.split.price_W;
-    if (settled) break;
+    if (converged) break;
   }
   if (!choose(false)) return timed;
   check_end_speeds(timed.prepared, mission);
@@ -192,7 +192,7 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
     legs[k].start_s = k == 0 ? 0.0 : split.arrival_s[k - 1] + legs[k - 1].dwell_s;
     // A robot that arrives before the stop's window opens waits there: the wait is part of the leg.
     const double duration_s = std::max(split.duration_s[k], split.arrival_s[k] - legs[k].start_s);
-    settle_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
+    finish_leg(legs[k], timing[k], results[k], split.price_W[k], duration_s, uncertain_plant,
                options.answers);
   });
   plan.legs = std::move(legs);

@@ -29,7 +29,7 @@ double supply_at(const PathMotion& motion, const ProfileState& state) {
 constexpr int kChecks = 8;             ///< of a segment, equal in time
 constexpr std::size_t kPlaces = 4000;  ///< about as many along a path, where its parts are few
 constexpr double kLeastStep = 1e-12;   ///< of a segment's duration
-constexpr double kEdge = 1e-7;         ///< of a part: its law may change at its ends, so looks are inside
+constexpr double kEdge = 1e-7;         ///< of a part: its law may change at its ends, so samples are inside
 
 /// Places between which neither curvature nor caps change much: some of every smooth part of the path.
 std::vector<double> places_along(const ProfileRequest& request) {
@@ -120,7 +120,7 @@ struct Replayer {
     }
   }
 
-  /// A profile of few nodes may pass a corner between two checks of a long segment: looks at every place
+  /// A profile of few nodes may pass a corner between two checks of a long segment: samples every place
   /// inside of segments that have more places than checks.
   void look_along(const Profile& profile) {
     const std::vector<double> places = places_along(request);

@@ -68,13 +68,13 @@ double psi_at_rest(const CostModel& model, double s, double time_s, double accel
 /// Mean over the time of dH/da at rest.
 double mean_slope_at_rest(const CostModel& model, const Profile& profile) {
   constexpr double kStep = 1e-3;  // of acceleration: the power is quadratic
-  constexpr std::size_t kLooks = 20;
+  constexpr std::size_t kSamples = 20;
   double sum = 0;
-  for (std::size_t i = 0; i < kLooks; ++i) {
+  for (std::size_t i = 0; i < kSamples; ++i) {
     const ProfileState state =
-        profile.at_time(profile.time_s.back() * (static_cast<double>(i) + 0.5) / kLooks);
+        profile.at_time(profile.time_s.back() * (static_cast<double>(i) + 0.5) / kSamples);
     const PlaceCost place(model, state.s, state.time_s);
-    sum += (place.at(0, kStep) - place.at(0, -kStep)) / (2 * kStep * kLooks);
+    sum += (place.at(0, kStep) - place.at(0, -kStep)) / (2 * kStep * kSamples);
   }
   return sum;
 }

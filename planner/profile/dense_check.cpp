@@ -14,10 +14,10 @@ namespace joulepath::nlp {
 namespace {
 
 /// Samples per segment, equal in time: where it begins or ends at rest, the rate is not smooth in s.
-constexpr std::size_t kLooks = 8;
-constexpr double kWorthALook =
+constexpr std::size_t kSamples = 8;
+constexpr double kWorthSampling =
     1 - 1e-3;  ///< the peak of a limit with a smaller use is below 1 between two samples
-constexpr std::size_t kPeakLooks = 3;
+constexpr std::size_t kPeakSamples = 3;
 constexpr double kSamePeak = 1e-7;   ///< a peak that is higher by less ends the search for it
 constexpr double kTolerated = 3e-7;  ///< relative
 constexpr double kCoarse = 5e-3;     ///< a larger violation needs a node, not only tightening
@@ -33,9 +33,10 @@ double peak_of(const std::array<double, 3>& at, const std::array<double, 3>& val
 /// Samples the limits of one segment; between the samples it checks the peak of a parabola through three of
 /// them, then of the parabola through that peak and its neighbors: on a long segment the first one is beside
 /// the limit's peak.
-class SegmentLook {
+class SegmentSamples {
  public:
-  SegmentLook(const ProfileRequest& request, const PathMotion& motion, const Profile& profile, std::size_t k)
+  SegmentSamples(const ProfileRequest& request, const PathMotion& motion, const Profile& profile,
+                 std::size_t k)
       : request_(request),
         motion_(motion),
         profile_(profile),
@@ -46,8 +47,8 @@ class SegmentLook {
   /// Worst use of each limit, by name.
   std::vector<std::pair<std::string_view, double>> worst_uses() const {
     std::vector<Uses> all;
-    for (std::size_t i = 0; i <= kLooks; ++i)
-      look(static_cast<double>(i) / kLooks, [&](std::string_view name, double ratio) {
+    for (std::size_t i = 0; i <= kSamples; ++i)
+      sample(static_cast<double>(i) / kSamples, [&](std::string_view name, double ratio) {
         auto uses = std::find_if(all.begin(), all.end(), [&](const Uses& some) { return some.name == name; });
         if (uses == all.end()) uses = all.insert(all.end(), {.name = name});
         uses->ratio[i] = std::max(uses->ratio[i], ratio);
@@ -61,29 +62,29 @@ class SegmentLook {
  private:
   struct Uses {
     std::string_view name{};
-    std::array<double, kLooks + 1> ratio{};
+    std::array<double, kSamples + 1> ratio{};
   };
   /// The limits at a share of the segment's time.
   template <class Use>
-  void look(double share, Use&& use) const {
+  void sample(double share, Use&& use) const {
     const ProfileState state = profile_.at_time(from_s_ + duration_s_ * std::clamp(share, 1e-7, 1 - 1e-7));
     for_each_limit_use(motion_, request_.limits, request_.speed_caps, state, jerk_, use);
   }
 
-  double peak(std::string_view name, const std::array<double, kLooks + 1>& ratios) const {
+  double peak(std::string_view name, const std::array<double, kSamples + 1>& ratios) const {
     double most = *std::max_element(ratios.begin(), ratios.end());
-    if (most < kWorthALook || !std::isfinite(most)) return most;
-    for (std::size_t i = 1; i < kLooks; ++i) {
+    if (most < kWorthSampling || !std::isfinite(most)) return most;
+    for (std::size_t i = 1; i < kSamples; ++i) {
       const auto own = static_cast<double>(i);
       std::array<double, 3> at{own - 1, own, own + 1}, value{ratios[i - 1], ratios[i], ratios[i + 1]};
       // The parabola beside an end of the segment holds up to that end.
-      const double first = i == 1 ? 0.0 : own - 0.5, last = i + 1 == kLooks ? own + 1.0 : own + 0.5;
-      for (std::size_t k = 0; k < kPeakLooks; ++k) {
+      const double first = i == 1 ? 0.0 : own - 0.5, last = i + 1 == kSamples ? own + 1.0 : own + 0.5;
+      for (std::size_t k = 0; k < kPeakSamples; ++k) {
         const double top = peak_of(at, value);
         if (!(top >= first && top <= last) ||
-            ratios[static_cast<std::size_t>(std::lround(top))] < kWorthALook)
+            ratios[static_cast<std::size_t>(std::lround(top))] < kWorthSampling)
           break;
-        const double found = use_of(name, top / kLooks), higher = found - value[1];
+        const double found = use_of(name, top / kSamples), higher = found - value[1];
         most = std::max(most, found);
         if (higher < kSamePeak) break;
         const std::size_t side = top > at[1] ? 0 : 2;  // the old middle is the new neighbor there
@@ -97,7 +98,7 @@ class SegmentLook {
   /// The largest use of one limit at a share of the segment's time.
   double use_of(std::string_view name, double share) const {
     double most = 0;
-    look(share, [&](std::string_view limit, double ratio) {
+    sample(share, [&](std::string_view limit, double ratio) {
       if (limit == name) most = std::max(most, ratio);
     });
     return most;
@@ -126,7 +127,7 @@ DenseCheck check_densely(const Problem& problem, const PathMotion& motion, const
   std::vector<double> error_J(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double from = profile.s[k], ds = profile.s[k + 1] - from;
-    const auto worst = SegmentLook(request, motion, profile, k).worst_uses();
+    const auto worst = SegmentSamples(request, motion, profile, k).worst_uses();
     for (const auto& [name, ratio] : worst) {
       result.worst_ratio = std::max(result.worst_ratio, ratio);
       if (ratio <= 1 + kTolerated || !std::isfinite(ratio)) continue;

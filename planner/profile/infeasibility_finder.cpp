@@ -17,15 +17,15 @@ namespace joulepath {
 namespace {
 
 /// A value that a verdict may relax: a limit, or the speed at an end.
-struct Knob {
+struct RelaxableLimit {
   std::string_view name{}, key{}, unit{};
   const Limit* limit{};
   double ProfileRequest::*rate{};
 };
 
-const std::vector<Knob>& knobs() {
-  static const std::vector<Knob> all = [] {
-    std::vector<Knob> list;
+const std::vector<RelaxableLimit>& relaxable_limits() {
+  static const std::vector<RelaxableLimit> all = [] {
+    std::vector<RelaxableLimit> list;
     for (const Limit& row : kLimits)
       if (row.value != nullptr)
         list.push_back({.name = row.name, .key = row.key, .unit = row.unit, .limit = &row});
@@ -37,26 +37,26 @@ const std::vector<Knob>& knobs() {
 }
 
 /// The value in force: a speed cap on a zone may be lower than the robot's own limit.
-double value_of(const ProfileRequest& request, const Knob& knob) {
-  if (knob.rate != nullptr) return request.*knob.rate;
+double value_of(const ProfileRequest& request, const RelaxableLimit& relaxable) {
+  if (relaxable.rate != nullptr) return request.*relaxable.rate;
   const Sided<Motor>& motor = request.plant.robot.motor;
-  double value = std::min(limit_of(*knob.limit, request.limits, motor, Side::left),
-                          limit_of(*knob.limit, request.limits, motor, Side::right));
-  if (knob.name == "speed" && !is_turn(request.piece))
+  double value = std::min(limit_of(*relaxable.limit, request.limits, motor, Side::left),
+                          limit_of(*relaxable.limit, request.limits, motor, Side::right));
+  if (relaxable.name == "speed" && !is_turn(request.piece))
     for (const SpeedCap& cap : request.speed_caps) value = std::min(value, cap.speed_m_s);
   return value;
 }
 
 /// The request with a limit raised to at least a value, or an end's speed set to it.
-ProfileRequest changed(ProfileRequest request, const Knob& knob, double value) {
+ProfileRequest changed(ProfileRequest request, const RelaxableLimit& relaxable, double value) {
   const auto raise = [&](double& limit) { limit = std::max(limit, value); };
-  if (knob.rate != nullptr)
-    request.*knob.rate = value;
-  else if (knob.limit->field != nullptr)
-    raise(request.limits.*knob.limit->field);
+  if (relaxable.rate != nullptr)
+    request.*relaxable.rate = value;
+  else if (relaxable.limit->field != nullptr)
+    raise(request.limits.*relaxable.limit->field);
   else
-    for (const Side side : kSides) raise(request.plant.robot.motor[side].*knob.limit->rating);
-  if (knob.name == "speed")
+    for (const Side side : kSides) raise(request.plant.robot.motor[side].*relaxable.limit->rating);
+  if (relaxable.name == "speed")
     for (SpeedCap& cap : request.speed_caps) raise(cap.speed_m_s);
   return request;
 }
@@ -73,13 +73,13 @@ bool passes(const ProfileRequest& request, const std::vector<double>& s) {
 
 /// Smallest (largest for start and end speeds) value for which a profile exists, to 1e-5 of it and not below
 /// 1e-6; none if no value works.
-std::optional<double> smallest_relaxation(const ProfileRequest& request, const Knob& knob,
+std::optional<double> smallest_relaxation(const ProfileRequest& request, const RelaxableLimit& relaxable,
                                           const std::vector<double>& s) {
   constexpr double kLargest = 1e9, kLeast = 1e-6, kClose = 1e-5;
-  const auto possible = [&](double value) { return passes(changed(request, knob, value), s); };
-  double bad = value_of(request, knob), good = knob.rate != nullptr ? 0.0 : kLargest;
+  const auto possible = [&](double value) { return passes(changed(request, relaxable, value), s); };
+  double bad = value_of(request, relaxable), good = relaxable.rate != nullptr ? 0.0 : kLargest;
   if (!possible(good)) return std::nullopt;
-  if (knob.rate == nullptr) {
+  if (relaxable.rate == nullptr) {
     good = std::max(2 * bad, kLeast);
     for (; good < kLargest && !possible(good); good *= 2) bad = good;
     if (bad < kLeast) return good;
@@ -106,16 +106,16 @@ class Trials {
 
   /// A value with which the planner finds a profile: that of the envelope, else the next one beyond, to 1 %,
   /// or the nearest one tried; nothing where none of those tried works.
-  std::optional<double> planned(const Knob& knob, double value) {
+  std::optional<double> planned(const RelaxableLimit& relaxable, double value) {
     constexpr double kBeyond[] = {1e-3, 1e-2, 0.1, 0.5, 2};
     constexpr double kClose = 0.01;
-    if (possible(knob, value)) return value;
+    if (possible(relaxable, value)) return value;
     for (const double share : kBeyond) {
-      double bad = value, good = knob.rate != nullptr ? value / (1 + share) : value * (1 + share);
-      if (!possible(knob, good)) continue;
+      double bad = value, good = relaxable.rate != nullptr ? value / (1 + share) : value * (1 + share);
+      if (!possible(relaxable, good)) continue;
       while (left() && std::abs(good - bad) > kClose * std::abs(good)) {
         const double middle = 0.5 * (good + bad);
-        (possible(knob, middle) ? good : bad) = middle;
+        (possible(relaxable, middle) ? good : bad) = middle;
       }
       return good;
     }
@@ -125,17 +125,17 @@ class Trials {
  private:
   static constexpr int kMost = 16;
 
-  bool possible(const Knob& knob, double value) {
-    return made_++ < kMost && plans(changed(request_, knob, value));
+  bool possible(const RelaxableLimit& relaxable, double value) {
+    return made_++ < kMost && plans(changed(request_, relaxable, value));
   }
 
   const ProfileRequest& request_;
   int made_{};
 };
 
-const Knob* knob_named(std::string_view name) {
-  for (const Knob& knob : knobs())
-    if (knob.name == name) return &knob;
+const RelaxableLimit* relaxable_limit_named(std::string_view name) {
+  for (const RelaxableLimit& relaxable : relaxable_limits())
+    if (relaxable.name == name) return &relaxable;
   return nullptr;
 }
 
@@ -158,8 +158,9 @@ std::vector<std::string_view> relaxations_to_try(const ProfileRequest& request, 
   names.push_back(limit);
   if (request.end_rate > 0) names.push_back("end_speed");
   if (request.start_rate > 0) names.push_back("start_speed");
-  for (const Knob& knob : knobs())
-    if (knob.limit != nullptr && std::isfinite(value_of(request, knob))) names.push_back(knob.name);
+  for (const RelaxableLimit& relaxable : relaxable_limits())
+    if (relaxable.limit != nullptr && std::isfinite(value_of(request, relaxable)))
+      names.push_back(relaxable.name);
   return names;
 }
 
@@ -192,17 +193,17 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
   std::string_view name = blocked.limit.empty() ? std::string_view("path") : blocked.limit;
   Trials trials(request);
   for (std::string_view candidate : relaxations_to_try(request, problem, blocked, name)) {
-    const Knob* knob = knob_named(candidate);
-    if (knob == nullptr || !trials.left()) continue;
-    std::optional<double> value = smallest_relaxation(request, *knob, problem.s);
-    if (value) value = trials.planned(*knob, *value);
+    const RelaxableLimit* relaxable = relaxable_limit_named(candidate);
+    if (relaxable == nullptr || !trials.left()) continue;
+    std::optional<double> value = smallest_relaxation(request, *relaxable, problem.s);
+    if (value) value = trials.planned(*relaxable, *value);
     if (!value) continue;
     double s = problem.s[blocked.node];
     if (candidate == "end_speed") s = problem.s.back();
     Infeasibility verdict = at_place(request, std::string(candidate), s);
-    verdict.amount = std::abs(*value - value_of(request, *knob));
-    verdict.unit = knob->unit;
-    verdict.relaxation[std::string(knob->key)] = *value;
+    verdict.amount = std::abs(*value - value_of(request, *relaxable));
+    verdict.unit = relaxable->unit;
+    verdict.relaxation[std::string(relaxable->key)] = *value;
     verdict.message = sentence(verdict);
     return verdict;
   }
@@ -210,12 +211,12 @@ Infeasibility explain_blocked(const ProfileRequest& request, const nlp::Problem&
 }
 
 void offer_what_plans(const ProfileRequest& request, Infeasibility& verdict) {
-  for (const Knob& knob : knobs()) {
-    const auto offered = verdict.relaxation.find(std::string(knob.key));
+  for (const RelaxableLimit& relaxable : relaxable_limits()) {
+    const auto offered = verdict.relaxation.find(std::string(relaxable.key));
     if (offered == verdict.relaxation.end()) continue;
-    if (const auto value = Trials(request).planned(knob, offered->second)) {
+    if (const auto value = Trials(request).planned(relaxable, offered->second)) {
       offered->second = *value;
-      verdict.amount = std::abs(*value - value_of(request, knob));
+      verdict.amount = std::abs(*value - value_of(request, relaxable));
     } else {
       verdict.relaxation.erase(offered);
     }

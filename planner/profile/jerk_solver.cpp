@@ -70,20 +70,20 @@ class JerkSolver {
           *problem_, motion_, *best_, counted_energy_J(*problem_, found_.motion), request_.accuracy);
       const bool accurate =
           check.energy_error_J <= request_.accuracy * std::max(1e-9, std::abs(check.energy_J));
-      const bool kept = check.worst_ratio <= 1 + kSettled;
-      if (kept) keep();
+      const bool within = check.worst_ratio <= 1 + kLimitTolerance;
+      if (within) keep();
       std::vector<bool> cut = check.cut;
-      if (!sharpen(cut) && kept && accurate) {
-        if (to_settle()) settle();
+      if (!sharpen(cut) && within && accurate) {
+        if (must_polish()) polish();
         break;
       }
       worst_ratio = check.worst_ratio;
       tightenings_.insert(tightenings_.end(), check.tighten.begin(), check.tighten.end());
       s_ = nlp::cut_segments(s_, cut);
     }
-    if (kept_) {
-      kept_->summary.status = SolveStatus::feasible;
-      return std::move(*kept_);
+    if (incumbent_) {
+      incumbent_->summary.status = SolveStatus::feasible;
+      return std::move(*incumbent_);
     }
     if (solved)
       result_.summary.message =
@@ -95,21 +95,21 @@ class JerkSolver {
   bool minimum_time() const { return request_.time.mode == TimeMode::minimum_time; }
 
   void keep() {
-    kept_ = result_;
-    kept_->profile = best_;
+    incumbent_ = result_;
+    incumbent_->profile = best_;
   }
 
   /// The fast solver finds the grid; if Ipopt is requested, it solves again on that grid.
-  bool to_settle() const {
+  bool must_polish() const {
     return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
   }
 
   /// Runs Ipopt from the fast solver's solution on the same grid; its result is used if it keeps the limits.
-  void settle() {
+  void polish() {
     if (!take(nlp::solve_with_ipopt(program(found_.motion), {.warm = true}), "ipopt")) return;
     const nlp::DenseCheck check = nlp::check_densely(
         *problem_, motion_, *best_, counted_energy_J(*problem_, found_.motion), request_.accuracy);
-    if (check.worst_ratio <= 1 + kSettled) keep();
+    if (check.worst_ratio <= 1 + kLimitTolerance) keep();
   }
 
   /// Jerk switches at places between the nodes: cuts the segments there as long as that lowers the objective.
@@ -248,8 +248,8 @@ class JerkSolver {
   std::optional<nlp::Problem> problem_{};
   nlp::JerkSolution found_{};
   std::optional<Profile> best_{};
-  std::optional<ProfileResult> kept_{};     ///< the last within the limits
-  std::optional<ProfileResult> fastest_{};  ///< once computed
+  std::optional<ProfileResult> incumbent_{};  ///< the last within the limits
+  std::optional<ProfileResult> fastest_{};    ///< once computed
   double least_objective_{kNoLimit};
   int sharpened_{};
 };

@@ -42,10 +42,12 @@ constexpr std::size_t kMostNodes = 4;
 /// the kink of its recovery, the error is of first order in h.
 constexpr std::size_t kManyNodes = 1000;
 /// Of Ipopt from the fast solver's solution: it takes a few, or hundreds that change nothing.
-constexpr int kSettlingIterations = 30;
+constexpr int kPolishIterations = 30;
 constexpr int kGridHalvings = 2;  ///< of a grid on which no solver converges: it does on most others
 constexpr const char* kFastestSolver = "forward_backward";
 
+/// Finds grid and profile together: solves, checks between the nodes, tightens and cuts, until a profile
+/// keeps the limits and a finer grid does not improve its bound.
 class ProfileSolver {
  public:
   /// `explains`: a path that no profile passes gets a verdict; otherwise the status alone says so.
@@ -53,55 +55,98 @@ class ProfileSolver {
       : request_(request), motion_(path_motion(request)), explains_(explains) {}
 
   ProfileResult solve() {
-    std::vector<double> s =
-        nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000));
-    std::vector<nlp::Tightening> tightenings;
-    for (int round = 0; round < kRounds; ++round) {
-      const Problem problem = nlp::transcribe(request_, motion_, s, tightenings, best_ ? &*best_ : nullptr);
+    grid_.s = nlp::make_grid(motion_, request_, std::clamp<std::size_t>(request_.nodes, 4, 100000));
+    for (int round = 0; stage_ != Stage::done && round < kRounds;) {
+      const Problem problem =
+          nlp::transcribe(request_, motion_, grid_.s, grid_.tightenings, best_ ? &best_->profile : nullptr);
       result_.summary.nodes = problem.node_count();
-      if (late(problem)) {
-        std::vector<double> finer = towards_least_time(problem);
-        if (finer.empty()) return answer();
-        s = std::move(finer);
-        --round;
-        continue;
-      }
-      if (!solve_on(problem, !tightenings.empty())) {
-        if (kept_ || result_.infeasibility || halvings_++ == kGridHalvings) return answer();
-        given_over_ = false;
-        if (blocked_) tightenings.clear();
-        s = halved(problem);
-        continue;
-      }
-      if (request_.draft) return sketch();
-      const double accuracy = problem.node_count() > kManyNodes ? kNoLimit : request_.accuracy;
-      const nlp::DenseCheck check =
-          nlp::check_densely(problem, motion_, *best_, nlp::counted_energy_J(problem, best_b_), accuracy);
-      const bool accurate = check.energy_error_J <= accuracy * std::max(1e-9, std::abs(check.energy_J));
-      const bool last = round + 1 == kRounds;
-      if (check.worst_ratio <= 1 + kSettled && (accurate || last)) {
-        std::vector<double> finer = prove(problem, check.energy_J);
-        keep();
-        if (finer.empty() && !to_settle()) return answer();
-        settling_ = finer.empty();
-        if (!settling_) s = std::move(finer);
-        continue;
-      }
-      last_ratio_ = check.worst_ratio;
-      for (nlp::Tightening limit : check.tighten) {
-        const double reach = round < kWidened ? 0.0 : (limit.to - limit.from) * (1 << (round - kWidened));
-        limit.from -= reach, limit.to += reach;
-        tightenings.push_back(limit);
-      }
-      s = nlp::cut_segments(s, check.cut);
+      if (late(problem))
+        approach_least_time(problem);
+      else
+        improve(problem, round++);
     }
-    result_.summary.status = SolveStatus::failed;
-    result_.summary.message =
-        "limits do not settle between nodes (worst use " + std::to_string(last_ratio_) + ")";
-    return answer();
+    if (stage_ != Stage::done)
+      fail("limits do not settle between nodes (worst use " + std::to_string(grid_.worst_ratio) + ")");
+    return incumbent_ ? std::move(*incumbent_) : std::move(result_);
   }
 
  private:
+  enum class Stage {
+    search,     ///< the fast solver solves on each grid
+    fall_back,  ///< it did not converge: Ipopt solves on each grid
+    polish,     ///< Ipopt solves on the last grid, from the fast solver's solution
+    done
+  };
+  enum class Outcome { solved, failed, blocked, infeasible };
+
+  struct Grid {
+    std::vector<double> s{};
+    std::vector<nlp::Tightening> tightenings{};
+    double worst_ratio{};  ///< use of a limit between its nodes
+    int sharpenings{}, halvings{};
+  };
+  struct Candidate {
+    std::vector<double> b{};  ///< squares of the rate
+    Profile profile{};
+  };
+
+  /// One round: solves on the grid, then takes the profile or makes the next grid.
+  void improve(const Problem& problem, int round) {
+    if (const Outcome outcome = solve_on(problem); outcome != Outcome::solved) return retry(problem, outcome);
+    if (request_.draft) return finish_draft();
+    const double accuracy = problem.node_count() > kManyNodes ? kNoLimit : request_.accuracy;
+    const nlp::DenseCheck check = nlp::check_densely(problem, motion_, best_->profile,
+                                                     nlp::counted_energy_J(problem, best_->b), accuracy);
+    const bool accurate = check.energy_error_J <= accuracy * std::max(1e-9, std::abs(check.energy_J));
+    if (check.worst_ratio <= 1 + kLimitTolerance && (accurate || round + 1 == kRounds))
+      accept(problem, check.energy_J);
+    else
+      tighten(check, round);
+  }
+
+  /// Another grid after one without a profile, unless there is an answer.
+  void retry(const Problem& problem, Outcome outcome) {
+    if (incumbent_ || outcome == Outcome::infeasible || grid_.halvings++ == kGridHalvings) {
+      stage_ = Stage::done;
+      return;
+    }
+    stage_ = Stage::search;
+    if (outcome == Outcome::blocked) grid_.tightenings.clear();
+    grid_.s = halved(problem);
+  }
+
+  /// Keeps a profile within the limits; then a finer grid for its bound, Ipopt on this one, or the end.
+  void accept(const Problem& problem, double driving_J) {
+    std::vector<double> finer = prove(problem, driving_J);
+    keep();
+    if (!finer.empty())
+      grid_.s = std::move(finer);
+    else
+      stage_ = must_polish() ? Stage::polish : Stage::done;
+  }
+
+  void tighten(const nlp::DenseCheck& check, int round) {
+    grid_.worst_ratio = check.worst_ratio;
+    for (nlp::Tightening limit : check.tighten) {
+      const double reach = round < kWidened ? 0.0 : (limit.to - limit.from) * (1 << (round - kWidened));
+      limit.from -= reach, limit.to += reach;
+      grid_.tightenings.push_back(limit);
+    }
+    grid_.s = nlp::cut_segments(grid_.s, check.cut);
+  }
+
+  void fail(std::string message) {
+    result_.summary.status = SolveStatus::failed;
+    result_.summary.message = std::move(message);
+  }
+
+  Outcome refuse(Infeasibility verdict) {
+    result_.summary.status = SolveStatus::infeasible;
+    result_.summary.message = verdict.message;
+    result_.infeasibility = std::move(verdict);
+    return Outcome::infeasible;
+  }
+
   /// True if the fastest profile of a grid is after the deadline.
   static bool late(const Problem& problem) {
     if (problem.duration_row == nlp::DurationRow::none) return false;
@@ -110,24 +155,24 @@ class ProfileSolver {
   }
 
   /// A grid with a faster fastest profile: where the limit that determines the profile changes within a
-  /// segment, the profile is slower than the path requires. Empty where the deadline is before the least
+  /// segment, the profile is slower than the path requires. The end where the deadline is before the least
   /// time, or where no grid comes close enough to it; result_ then contains the reason.
-  std::vector<double> towards_least_time(const Problem& problem) {
+  void approach_least_time(const Problem& problem) {
     const LeastTime bound = least_time(CostModel(request_, motion_), problem.s);
-    if (problem.duration_s < bound.lower_s) {
-      give_up(explain_late(request_, bound.lower_s));
-      return {};
-    }
     const Profile fastest = profile_from_squares(problem.s, nlp::rate_envelope(problem).fastest);
-    if (sharpened_++ == kSharpenings) {
-      result_.summary.status = SolveStatus::failed;
-      result_.summary.message = "the fastest profile found takes " + std::to_string(fastest.duration_s()) +
-                                " s; the proven least time is " + std::to_string(bound.lower_s) + " s";
-      return {};
+    if (problem.duration_s < bound.lower_s) {
+      refuse(explain_late(request_, bound.lower_s));
+      stage_ = Stage::done;
+    } else if (grid_.sharpenings++ == kSharpenings) {
+      fail("the fastest profile found takes " + std::to_string(fastest.duration_s()) +
+           " s; the proven least time is " + std::to_string(bound.lower_s) + " s");
+      stage_ = Stage::done;
+    } else {
+      const double late_s = fastest.duration_s() - problem.duration_s;
+      grid_.s =
+          nlp::cut_by_excess(problem.s, time_excess_s(fastest, bound),
+                             0.5 * late_s / static_cast<double>(problem.segment_count()), bound.switches);
     }
-    const double late_s = fastest.duration_s() - problem.duration_s;
-    return nlp::cut_by_excess(problem.s, time_excess_s(fastest, bound),
-                              0.5 * late_s / static_cast<double>(problem.segment_count()), bound.switches);
   }
 
   static std::vector<double> time_excess_s(const Profile& fastest, const LeastTime& bound) {
@@ -143,78 +188,71 @@ class ProfileSolver {
 
   /// A grid that nothing passes is a verdict only with the limits as they are, and if nothing passes a finer
   /// grid either.
-  bool stop_at(const Problem& problem, const nlp::Blocked& blocked, bool tightened) {
-    blocked_ = true;
+  Outcome stop_at(const Problem& problem, const nlp::Blocked& blocked) {
     const auto passes_finer = [&] {
       const Problem finer = nlp::transcribe(request_, motion_, halved(problem), {}, nullptr);
       return !nlp::rate_envelope(finer).blocked;
     };
-    if (tightened || (!request_.draft && passes_finer())) {
-      result_.summary.status = SolveStatus::failed;
-      result_.summary.message = "no profile passes " + std::string(blocked.limit.empty() ? "the path" : blocked.limit) +
-                                " on the grids tried; whether there is one is not known";
-      return false;
+    if (!grid_.tightenings.empty() || (!request_.draft && passes_finer())) {
+      fail("no profile passes " + std::string(blocked.limit.empty() ? "the path" : blocked.limit) +
+           " on the grids tried; whether there is one is not known");
+      return Outcome::blocked;
     }
-    if (explains_) return give_up(explain_blocked(request_, problem, blocked));
+    if (explains_) return refuse(explain_blocked(request_, problem, blocked));
     result_.summary.status = SolveStatus::infeasible;
-    halvings_ = kGridHalvings;
-    return false;
+    return Outcome::infeasible;
   }
 
-  /// Sets best_; false when the request is infeasible or the solver failed (result_ then contains the
-  /// reason).
-  bool solve_on(const Problem& problem, bool tightened) {
+  /// Sets best_, or result_ contains the reason.
+  Outcome solve_on(const Problem& problem) {
     const nlp::RateEnvelope envelope = nlp::rate_envelope(problem);
-    blocked_ = false;
-    if (envelope.blocked) return stop_at(problem, *envelope.blocked, tightened);
+    if (envelope.blocked) return stop_at(problem, *envelope.blocked);
     const double minimum_s = duration_of(problem, envelope.fastest);
     const bool limited = problem.duration_row != nlp::DurationRow::none;
-    if (std::isnan(problem.duration_s)) return give_up(explain_late(request_, minimum_s));
+    if (std::isnan(problem.duration_s)) return refuse(explain_late(request_, minimum_s));
     const bool no_choice = limited && problem.duration_s <= minimum_s * (1 + kSameTime);
     if (request_.time.mode == TimeMode::minimum_time || no_choice || problem.unknown_count() == 0)
       return take(problem, envelope.fastest, kFastestSolver);
     if (problem.duration_row == nlp::DurationRow::equal) {
       const double maximum_s = duration_of(problem, blend(envelope, 1e-12));
-      if (problem.duration_s > maximum_s) return give_up(explain_long(request_, maximum_s));
+      if (problem.duration_s > maximum_s) return refuse(explain_long(request_, maximum_s));
     }
     return optimize(problem, envelope, minimum_s);
   }
 
-  bool optimize(const Problem& problem, const nlp::RateEnvelope& envelope, double minimum_s) {
+  Outcome optimize(const Problem& problem, const nlp::RateEnvelope& envelope, double minimum_s) {
     const bool equal = problem.duration_row == nlp::DurationRow::equal;
     const double aim_s =
         equal ? problem.duration_s : std::min(0.9 * problem.duration_s + 0.1 * minimum_s, 1.5 * minimum_s);
     const std::vector<double> start = first_guess(problem, envelope, aim_s);
     SolveSummary& summary = result_.summary;
-    const char* solver = "fast";
-    if (!settling_ && !given_over_) {
-      solution_ = nlp::solve_fast(problem, start);
-      summary.iterations += solution_.iterations;
-      given_over_ = !solution_.converged;
-      if (given_over_ && request_.solver == SolverChoice::fast) summary.handed_over = solution_.message;
-    }
-    if (settling_ || given_over_) {
-      solver = "ipopt";
-      solution_ = settle(problem, start);
-    }
+    if (stage_ == Stage::search) solution_ = by_fast_solver(problem, start);
+    if (stage_ != Stage::search) solution_ = by_ipopt(problem, start);
+    const char* solver = stage_ == Stage::search ? "fast" : "ipopt";
     if (!solution_.converged) {
       summary.solver = solver;
-      summary.status = SolveStatus::failed;
-      summary.message = solution_.message;
-      return false;
+      fail(solution_.message);
+      return Outcome::failed;
     }
     const bool priced = request_.time.mode == TimeMode::time_price;
     summary.price_of_time_W = solution_.price_W + (priced ? request_.time.price_W : 0.0);
     return take(problem, solution_.b, solver);
   }
 
-  /// Solves with Ipopt: from the fast solver's solution, which stays the answer where that takes long, else
-  /// from a guess.
-  nlp::Solution settle(const Problem& problem, const std::vector<double>& guess) {
-    const bool near = settling_ && solution_.b.size() == problem.node_count() &&
+  nlp::Solution by_fast_solver(const Problem& problem, const std::vector<double>& guess) {
+    nlp::Solution found = nlp::solve_fast(problem, guess);
+    result_.summary.iterations += found.iterations;
+    if (found.converged) return found;
+    stage_ = Stage::fall_back;
+    if (request_.solver == SolverChoice::fast) result_.summary.handed_over = found.message;
+    return found;
+  }
+
+  /// From the fast solver's solution, which stays the answer where that takes long, else from a guess.
+  nlp::Solution by_ipopt(const Problem& problem, const std::vector<double>& guess) {
+    const bool near = stage_ == Stage::polish && solution_.b.size() == problem.node_count() &&
                       solution_.row_multiplier.size() == problem.rows.size();
-    const nlp::IpoptOptions from_near{
-        .max_iterations = kSettlingIterations, .warm = true, .near = &solution_};
+    const nlp::IpoptOptions from_near{.max_iterations = kPolishIterations, .warm = true, .near = &solution_};
     nlp::Solution found =
         near ? nlp::solve_with_ipopt(problem, solution_.b, from_near) : nlp::solve_with_ipopt(problem, guess);
     result_.summary.iterations += found.iterations;
@@ -222,54 +260,47 @@ class ProfileSolver {
   }
 
   /// True if Ipopt must solve again on the final grid, which the fast solver found.
-  bool to_settle() const {
+  bool must_polish() const {
     return request_.solver == SolverChoice::ipopt && result_.summary.solver == std::string("fast");
   }
 
-  bool take(const Problem& problem, const std::vector<double>& b, const char* solver) {
+  Outcome take(const Problem& problem, const std::vector<double>& b, const char* solver) {
     result_.summary.solver = solver;
     result_.summary.message.clear();
-    best_b_ = b;
-    best_ = profile_from_squares(problem.s, b);
-    return true;
+    best_ = {b, profile_from_squares(problem.s, b)};
+    return Outcome::solved;
   }
 
-  bool give_up(Infeasibility verdict) {
-    result_.summary.status = SolveStatus::infeasible;
-    result_.summary.message = verdict.message;
-    result_.infeasibility = std::move(verdict);
-    return false;
-  }
-
-  ProfileResult sketch() {
+  void finish_draft() {
     const bool priced = request_.time.mode == TimeMode::time_price;
     result_.summary.status = SolveStatus::feasible;
     result_.summary.counted_J =
-        solution_.objective - (priced ? request_.time.price_W * best_->duration_s() : 0.0);
-    result_.profile = std::move(best_);
-    return std::move(result_);
+        solution_.objective - (priced ? request_.time.price_W * best_->profile.duration_s() : 0.0);
+    result_.profile = std::move(best_->profile);
+    stage_ = Stage::done;
   }
 
   /// Computes the bound and returns a grid with a tighter one; empty where refinement is not worth its cost.
   std::vector<double> prove(const Problem& problem, double driving_J) {
     SolveSummary& summary = result_.summary;
+    const Profile& profile = best_->profile;
     const bool fastest = summary.solver == kFastestSolver;
     LeastTime least{};
     DualGap gap{};
     if (fastest)
-      least = certify_time(problem, motion_, *best_, summary);
+      least = certify_time(problem, motion_, profile, summary);
     else
-      gap = certify_energy(problem, motion_, solution_, *best_, driving_J, summary);
+      gap = certify_energy(problem, motion_, solution_, profile, driving_J, summary);
     const double share = 0.01 * summary.gap_percent;
     const double aim = (fastest ? kProvenTime : kProven) * request_.accuracy;
     const bool better = share < kWorthAProof * least_gap_;
     least_gap_ = std::min(least_gap_, share);
-    if (share <= aim || !better || settling_ || summary.local ||
+    if (share <= aim || !better || stage_ == Stage::polish || summary.local ||
         problem.node_count() > kMostNodes * request_.nodes)
       return {};
-    const std::vector<double> excess = fastest ? time_excess_s(*best_, least) : gap.of_segment;
+    const std::vector<double> excess = fastest ? time_excess_s(profile, least) : gap.of_segment;
     if (excess.empty()) return {};
-    const double total = fastest ? best_->duration_s() - least.lower_s : gap.total();
+    const double total = fastest ? profile.duration_s() - least.lower_s : gap.total();
     return nlp::cut_by_excess(problem.s, excess, total * aim / share / static_cast<double>(excess.size()),
                               least.switches);
   }
@@ -277,29 +308,21 @@ class ProfileSolver {
   /// Stores a profile within the limits, with the status that follows from its bound.
   void keep() {
     const bool closed = result_.summary.gap_percent <= 100 * request_.accuracy;
-    kept_ = result_;
-    kept_->summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
-    kept_->profile = best_;
+    incumbent_ = result_;
+    incumbent_->summary.status = closed ? SolveStatus::optimal : SolveStatus::feasible;
+    incumbent_->profile = best_->profile;
   }
 
-  /// The last profile within the limits, whatever the result of a finer grid; else the verdict.
-  ProfileResult answer() { return kept_ ? std::move(*kept_) : std::move(result_); }
-
   const ProfileRequest& request_;
-  PathMotion motion_;
-  bool explains_{};
-  ProfileResult result_{};
-  std::vector<double> best_b_{};  ///< squares of the rate
-  std::optional<Profile> best_{};
-  std::optional<ProfileResult> kept_{};
+  const PathMotion motion_;
+  const bool explains_{};
+  Stage stage_{Stage::search};
+  Grid grid_{};
   nlp::Solution solution_{};
-  bool given_over_{};  ///< the fast solver did not converge: Ipopt solves the rest
-  bool settling_{};    ///< Ipopt solves on the last grid
-  bool blocked_{};     ///< nothing passed the last grid
-  double last_ratio_{};
+  std::optional<Candidate> best_{};
+  std::optional<ProfileResult> incumbent_{};  ///< the last within the limits, whatever a finer grid gives
+  ProfileResult result_{};
   double least_gap_{kNoLimit};
-  int sharpened_{};
-  int halvings_{};
 };
 
 bool jerk_limited(const ProfileRequest& request) {
@@ -312,8 +335,8 @@ std::optional<double> least_time_found_s(ProfileRequest request) {
   if (senseless(request)) return std::nullopt;
   request.time = {.mode = TimeMode::minimum_time};
   request.solver = SolverChoice::fast;
-  const ProfileResult found = jerk_limited(request) ? find_profile_with_jerk_limit(request)
-                                                    : ProfileSolver(request, false).solve();
+  const ProfileResult found =
+      jerk_limited(request) ? find_profile_with_jerk_limit(request) : ProfileSolver(request, false).solve();
   return found.profile ? std::optional(found.profile->duration_s()) : std::nullopt;
 }
 

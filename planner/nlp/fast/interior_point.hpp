@@ -167,8 +167,8 @@ class InteriorPoint {
       const double change = std::abs(open_.objective - before);
       at_rest = rests(change, options.tolerance) ? at_rest + 1 : 0;
       if (!std::isfinite(open_.error())) return FastOutcome::no_descent;
-      const bool settled = !kinks_ || kinks_->is_settled();
-      if (settled && (open_.error() <= options.tolerance || at_rest >= kAtRest))
+      const bool smooth_enough = !kinks_ || kinks_->has_converged();
+      if (smooth_enough && (open_.error() <= options.tolerance || at_rest >= kAtRest))
         return FastOutcome::converged;
       if (std::isfinite(options.until_cpu_s) && thread_cpu_s() >= options.until_cpu_s)
         return FastOutcome::time_used;

@@ -51,6 +51,6 @@ void NarrowingKinks::narrow(double open) {
   open_before_ = open;
 }
 
-bool NarrowingKinks::is_settled() const { return !rounded_ || rounding_.width <= least_width_; }
+bool NarrowingKinks::has_converged() const { return !rounded_ || rounding_.width <= least_width_; }
 
 }  // namespace joulepath::nlp

@@ -29,7 +29,7 @@ class NarrowingKinks {
   /// Narrows after a step; `open` is what is still open of the optimality conditions, of the objective.
   void narrow(double open);
   /// Whether the kinks are as narrow as they will be.
-  bool is_settled() const;
+  bool has_converged() const;
 
  private:
   const Problem& original_;
