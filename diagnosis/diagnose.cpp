@@ -35,11 +35,11 @@ void judge_simulator(const std::vector<RunSignals>& signals, const std::vector<O
   d.verdict = verdict_with(d.simulator);
 }
 
-/// Whether a scale of the drive's channels was found; without one, a scale is no excuse for other constants.
-bool has_scaled_drive(const std::vector<DataCheck>& checks) {
+/// Whether the checks found a fault of the drive's channels that is an excuse for other constants. A dead
+/// channel is none: its readings determined the constants.
+bool has_excuse(const std::vector<DataCheck>& checks) {
   return std::ranges::any_of(checks, [](const DataCheck& check) {
-    return (check.kind == "scaled" || check.kind == "unit" || check.kind == "clock") &&
-           !check.channel.starts_with("battery_");
+    return check.kind != "dead" && !check.channel.starts_with("battery_");
   });
 }
 
@@ -52,9 +52,10 @@ std::vector<ForeignConstant> constants_of_another_robot(const Dataset& dataset, 
   std::vector<RunSignals> sound;
   std::ranges::copy_if(runs.signals, std::back_inserter(sound),
                        [&](const RunSignals& run) { return !faulty.contains(run.run_index); });
-  const bool scaled = has_scaled_drive(checks);
-  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound, scaled).empty()) return {};
-  return foreign_constants(dataset.robot, runs.signals, scaled);
+  const bool excused = has_excuse(checks);
+  if (!faulty.empty() && !sound.empty() && foreign_constants(dataset.robot, sound, excused).empty())
+    return {};
+  return foreign_constants(dataset.robot, runs.signals, excused);
 }
 
 /// Causes relative to another robot's constants say nothing about this one; a simulator's prediction needs

@@ -98,6 +98,23 @@ TEST(ForeignRobot, IsToldBesideAFaultOfOneRun) {
     }
 }
 
+/// A file of a robot five times as heavy with strong motors: one scale of the currents would excuse it, which
+/// the checks then have to find.
+TEST(ForeignRobot, IsExcusedByAScaleOnlyWhereAChannelMayBeScaled) {
+  Robot file = with_mass(5.2);
+  for (Side side : kSides) {
+    file.motor[side].resistance_ohm *= 0.15;
+    file.motor[side].torque_constant_Nm_A *= 0.9;
+    file.motor[side].voltage_constant_V_s_rad *= 0.9;
+  }
+  const Dataset day = day_of(testing::nomad(), file);
+  std::vector<RunSignals> signals;
+  for (std::size_t r = 0; r < day.runs.size(); ++r)
+    signals.push_back(make_run_signals(day.runs[r], r, day.robot));
+  EXPECT_TRUE(foreign_constants(day.robot, signals, true).empty());
+  EXPECT_FALSE(foreign_constants(day.robot, signals, false).empty());
+}
+
 TEST(ForeignRobot, EndsTheDiagnosisWithoutACorrection) {
   const Diagnosis d = diagnose(day_of(testing::nomad(), with_mass(8)));
   EXPECT_EQ(d.verdict, Verdict::unexplained);
