@@ -160,12 +160,12 @@ Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
 Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
   const Course course = course_of(path, half_track_m);
   const double whole_m = course.tau_m.back();
-  std::vector<double> weight{0};
+  std::vector<double> weight{0.0};
   for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
     const double change = i > 0 ? std::abs(course.phi_rad[i] - course.phi_rad[i - 1]) : 0.0;
     weight.push_back(weight.back() + change + 3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
   }
-  std::vector<double> knots{0};
+  std::vector<double> knots{0.0};
   for (std::size_t k = 1; k < count; ++k) {
     const double part = weight.back() * static_cast<double>(k) / static_cast<double>(count);
     const auto at =
