@@ -58,6 +58,10 @@ struct Need {
   std::string key{};
 };
 
+bool is_named(const FleetMission& mission, const std::string& robot) {
+  return mission.robots.empty() || std::ranges::find(mission.robots, robot) != mission.robots.end();
+}
+
 class Checks {
  public:
   explicit Checks(const FleetFloor& floor) : floor_(floor), fleet_(floor.fleet) {}
@@ -125,10 +129,6 @@ class Checks {
     throw *reason;
   }
 
-  static bool is_named(const FleetMission& mission, const std::string& robot) {
-    return mission.robots.empty() || std::ranges::find(mission.robots, robot) != mission.robots.end();
-  }
-
   const FleetFloor& floor_;
   const Fleet& fleet_;
 };
@@ -136,8 +136,7 @@ class Checks {
 }  // namespace
 
 bool may_drive(const FleetFloor& floor, std::size_t robot, const FleetMission& mission) {
-  const auto& names = mission.robots;
-  if (!names.empty() && std::ranges::find(names, floor.fleet.robots[robot].name) == names.end()) return false;
+  if (!is_named(mission, floor.fleet.robots[robot].name)) return false;
   const double most_kg = payload_limit_kg(floor.types[floor.type_of[robot]].world.robot);
   return std::ranges::all_of(mission.stops,
                              [&](const FleetStop& stop) { return stop.payload_kg <= most_kg; });

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/watt_hours.hpp"
 #include "planner/mission/mission.hpp"
 #include "planner/mission/plan_front.hpp"
 
@@ -70,7 +71,7 @@ Json mission_json(const FleetFloor& floor, const FleetMission& mission) {
 Json type_json(const FleetType& type) {
   const Robot& robot = type.world.robot;
   return {{"robot_file", type.robot_file},
-          {"capacity_J", 3600.0 * robot.battery.capacity_Wh},
+          {"capacity_J", kJoulesPerWh * robot.battery.capacity_Wh},
           {"reserve_fraction", robot.battery.reserve_fraction},
           {"standby_W", robot.power.standby_W}};
 }

@@ -45,9 +45,9 @@ std::size_t pieces_for(const Path& path) {
 
 /// Whether turning is a notable share of what the wheels roll: on long straight ways the present curves are
 /// as good, and the search would cost more than it saves.
-bool turns_much(const Path& path, double half_track_m) {
+bool turns_much(const Sketch& along, const Path& path) {
   constexpr double kNotable = 1.02;
-  return joint::along_path(path, half_track_m, pieces_for(path)).effort_m() > kNotable * path.distance_m();
+  return along.effort_m() > kNotable * path.distance_m();
 }
 
 double effort_m(const std::vector<Sketch>& legs) {
@@ -112,10 +112,13 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   std::vector<Sketch> from_present;
   double found_J = 0;
   const double half_track_m = run_.contexts[first].world.robot.geometry.half_track_m;
-  if (std::none_of(present.begin() + static_cast<std::ptrdiff_t>(first),
-                   present.begin() + static_cast<std::ptrdiff_t>(first + count),
-                   [&](const LegPath& leg) { return turns_much(leg.path, half_track_m); }))
-    return;
+  bool worth_it = false;
+  for (std::size_t k = first; k < first + count; ++k) {
+    const Path& path = present[k].path;
+    from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
+    worth_it = worth_it || turns_much(from_present.back(), path);
+  }
+  if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {
     const ChoiceContext& context = run_.contexts[k];
     query.laws.push_back(law_of(k));
@@ -123,8 +126,6 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
-    from_present.push_back(
-        joint::along_path(present[k].path, query.laws.back().half_track_m, pieces_for(present[k].path)));
     found_J += certified_J(present[k].path, run_.first + k, context);
   }
   std::vector<std::vector<Sketch>> starts = rough_paths(first, query);
