@@ -65,6 +65,10 @@ inline constexpr double kLongestNoisePeriod_s = 0.2;
 inline constexpr double kLeastTurningSpeed_rad_s = 0.5;
 /// Below it the direction of a wheel's rotation is uncertain. Chosen.
 inline constexpr double kBlurredWheel_rad_s = 0.2;
+/// The same of a sample's, in standard deviations of its noise: one in 16,000 samples is beyond. Chosen.
+inline constexpr double kWheelOverNoise = 4.0;
+/// The least of it. Physical scale: an encoder without noise.
+inline constexpr double kStillWheel_rad_s = 0.02;
 /// The same of the body's speed. Physical scale: a log's noise.
 inline constexpr double kStillSpeed_m_s = 0.02;
 /// Below it the direction of a turn is uncertain. Physical scale: the noise of a smoothed yaw rate, of
@@ -330,8 +334,8 @@ inline constexpr double kUsualPayload_kg = 5.0;
 inline constexpr double kUsualAcceleration_m_s2 = 0.2;
 /// The same of the time of the day. Physical scale: a drive's temperature.
 inline constexpr double kUsualTime_s = 200.0;
-/// A fit is at its end where a further step is shorter than this, in standard deviations. Derived: such a step
-/// adds 0.05 nats.
+/// A fit is at its end where a further step is shorter than this, in standard deviations. Derived: such a
+/// step adds 0.05 nats.
 inline constexpr double kConvergedStep = 0.3;
 /// Steps of a fit. Declared: ends one that alternates between two points.
 inline constexpr int kMostFitSteps = 10;

@@ -51,6 +51,7 @@ def missions(robot):
             "hook": {"legs": [leg(HOOK, s, load / 2)], "objective": slow},
             "test": {"legs": [stand, drive("forward"), stand, spin(1), drive("forward"), stand]},
             "test_loaded": {"legs": [{**l, "payload_kg": load} for l in (stand, drive("forward"), stand, spin(-1), drive("forward"), stand)]},
+            "spins": {"legs": [l for sign in (1, -1, 1, -1) for l in (stand, spin(sign))] + [stand]},
             "back": {"legs": [stand, drive("forward"), stand, drive("reverse"), stand]},
             "long": {"legs": [l for k in range(8) for l in (stand, drive("forward"), {"motion": {"profile": "stand", "duration_s": 3}},
                                                             spin((-1) ** k), drive("forward"), stand)]}}
@@ -64,6 +65,8 @@ KINDS = {
     "five missions, 25 runs": ("starter", ("curve", "line", "bend", "hook", "test"), 5, (), None),
     "one mission, 50 runs": ("starter", ("corner",), 50, (), None),
     "one mission, 500 runs": ("starter", ("short",), 500, (), None),
+    "turns on the spot": ("starter", ("spins",), 12, (), None),
+    "recovers over a bus": ("recovering", ("bend", "back"), 6, (), None),
     "one long log": ("starter", ("long",), 1, (), None),
     "no payload stated": ("starter", ("curve", "hook"), 6, (), "no payload"),
     "coarse sensors": ("starter", ("bend", "test"), 6, (), "coarse"),
@@ -73,7 +76,7 @@ KINDS = {
     "1 kHz": ("starter", ("curve", "test"), 3, ("--sample-rate-Hz", "1000"), None),
     **{name: (name, ("bend", "test"), 6, (), None)
        for name in ("nomad_super_scout", "amr_150kg", "tug_600kg", "kobuki", "husky_a200")}}
-SHORT = ("one mission, 6 runs", "two missions, 12 runs", "no payload stated", "battery alone", "kobuki")
+SHORT = ("one mission, 6 runs", "two missions, 12 runs", "no payload stated", "battery alone", "turns on the spot", "kobuki")
 
 
 def run(program, *arguments, check=True):
@@ -84,13 +87,19 @@ def run(program, *arguments, check=True):
 
 
 def robot_file(program, name, keep):
-    """The robot file `name`, with limits; `starter` is that of `joulepath init`."""
+    """The robot file `name`, with limits; `starter` is that of `joulepath init`, `recovering` with a common bus."""
     file = keep / "robots" / f"{name}.yaml"
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
-        if name == "starter":
-            run(program, "init", keep / "starter", "--quiet", "--force")
-            file.write_text((keep / "starter/robot.yaml").read_text())
+        if name in ("starter", "recovering"):
+            run(program, "init", keep / name, "--quiet", "--force")
+            recovers = {"starter": {}, "recovering": {"regeneration_efficiency: 0.0": "regeneration_efficiency: 0.6, sharing: bus",
+                                                      "  speed_m_s: 1.0": "  jerk_m_s3: 2.0\n  speed_m_s: 1.0"}}
+            text = (keep / name / "robot.yaml").read_text()
+            for old, new in recovers[name].items():
+                assert old in text, old
+                text = text.replace(old, new)
+            file.write_text(text)
         else:
             file.write_text((ROBOTS / f"{name}.yaml").read_text() + ASSUMED_LIMITS.get(name, ""))
     return file

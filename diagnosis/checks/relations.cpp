@@ -6,7 +6,6 @@
 
 #include "diagnosis/checks/box_fit.hpp"
 #include "diagnosis/numerics/rms.hpp"
-#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/dynamics.hpp"
 #include "model/kinematics.hpp"
@@ -23,7 +22,9 @@ bool has(const RunSignals& run, const VectorXd& channel) {
   return channel.size() == run.size() && run.size() > 0;
 }
 
-VectorXd directions(const VectorXd& speed) { return speed.unaryExpr(&friction_direction); }
+VectorXd directions(const VectorXd& speed) {
+  return speed.unaryExpr([](double each) { return friction_direction(each); });
+}
 
 VectorXd increments(const VectorXd& values) {
   const Eigen::Index n = values.size() - kIncrementRows;
@@ -174,7 +175,8 @@ VectorXd kernel_change(const RunSignals& run, const VectorXd& values) {
   for (Eigen::Index j = 0; j <= last; ++j) {
     const Eigen::Index before = std::max<Eigen::Index>(j - 1, 0), after = std::min(j + 1, last);
     if (after > before)
-      change[j] = run.kernel_sigma_s * (values[after] - values[before]) / (run.time_s[after] - run.time_s[before]);
+      change[j] =
+          run.kernel_sigma_s * (values[after] - values[before]) / (run.time_s[after] - run.time_s[before]);
   }
   return change;
 }
@@ -186,8 +188,8 @@ SupplyAccount expected_account(const RunSignals& run, const Robot& robot, const 
     const VectorXd current = expected.current_A(side),
                    voltage = robot.motor[side].resistance_ohm * current +
                              robot.motor[side].volts_per_speed_V_s_rad() * run.wheel_speed_rad_s[side];
-    const VectorXd power = voltage.cwiseProduct(current) +
-                           kernel_change(run, voltage).cwiseProduct(kernel_change(run, current));
+    const VectorXd power =
+        voltage.cwiseProduct(current) + kernel_change(run, voltage).cwiseProduct(kernel_change(run, current));
     account.draw_W += power.binaryExpr(kernel_change(run, power), &mean_positive_W);
     account.return_W += power;
   }
@@ -249,7 +251,7 @@ ExpectedMotors expected_motors(const RunSignals& run, const Robot& robot) {
       expected.inertia_A[side][j] = motor_current_A(motor, torque_Nm);
       expected.viscous_A[side][j] = motor_current_A(motor, motor.viscous_friction_Nm_s_rad * speed);
       expected.friction_A[side][j] =
-          motor_current_A(motor, motor.friction_torque_Nm * friction_direction(speed));
+          motor_current_A(motor, motor.friction_torque_Nm * run.direction(side, j));
     }
   }
   return expected;

@@ -59,7 +59,8 @@ Sums sums_of(const RunSignals& run, const ModelPoint& point, const Prediction& b
                              base.voltage_V[side].cwiseProduct(base.current_A[side]);
   }
   for (Eigen::Index j = 0; j < changed.battery_power_W.size(); ++j)
-    changed.battery_power_W[j] += logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
+    changed.battery_power_W[j] +=
+        supply_W(run, point.robot.power, changed, j) - supply_W(run, point.robot.power, base, j);
   if (changed.battery_power_W.size() > 0) changed.battery_power_W += rows.col(kDriverPower);
   if (changed.battery_voltage_V.size() > 0) changed.battery_voltage_V += rows.col(kSupplyVoltage);
   const auto from_start = [&](Channel c) { return (rows.col(c).array() - rows(0, c)).matrix(); };

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "diagnosis/prediction/rows.hpp"
-#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/limit_table.hpp"
 
@@ -272,7 +271,7 @@ std::vector<Eigen::MatrixXd> run_signatures(const RunSignals& signals, const Rob
     const std::size_t s = side == Side::left ? 0 : 1;
     const Motor& motor = robot.motor[side];
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double direction = friction_direction(signals.wheel_speed_rad_s[side][j]);
+      const double direction = signals.direction(side, j);
       own[s](j, kCurrentLeft + static_cast<int>(s)) = direction / motor.torque_per_ampere_Nm_A();
       own[2 + s](j, kWindingLeft + static_cast<int>(s)) = base.current_A[side][j];
       if (signals.motor_current_A[side].size() != n)

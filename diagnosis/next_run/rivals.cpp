@@ -74,7 +74,7 @@ double loss_of(const std::vector<RunEquations>& runs, const Equations& equations
 /// What the motors of a predicted run take and return.
 SupplyAccount account_of_prediction(const Prediction& shown, PowerSharing sharing) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(shown.battery_power_W.size());
-  SupplyAccount account{zero, zero, zero};
+  SupplyAccount account{.draw_W = zero, .return_W = zero, .mixed_W = zero, .motor_W = shown.power_W};
   for (Eigen::Index j = 0; j < zero.size(); ++j) {
     const SupplyShares shares = supply_shares(sharing, {shown.power_W.left[j], shown.power_W.right[j]},
                                               {shown.power_change_W.left[j], shown.power_change_W.right[j]});

@@ -10,14 +10,13 @@
 #include "diagnosis/prediction/contact_creep.hpp"
 #include "diagnosis/prediction/region_edge.hpp"
 #include "diagnosis/signals/friction_direction.hpp"
+#include "diagnosis/signals/site.hpp"
 #include "model/channel_delay.hpp"
 #include "model/mean_power.hpp"
 #include "model/operating_point.hpp"
 
 namespace joulepath {
 namespace {
-
-double soft_sign(double value, double width) { return std::clamp(value / width, -1.0, 1.0); }
 
 /// Separates effects of instruments from effects of the robot, which belong to the plant.
 struct SplitModel {
@@ -39,30 +38,6 @@ SplitModel split_model(const ModelPoint& point) {
   collect(point.robot.effects);
   collect(point.effects);
   return split;
-}
-
-/// Mean sign of the yaw rate over the kernel: of a rate that changes evenly, with a noise of
-/// kStillYawRate_rad_s.
-double turn_direction(const BodyMotion<double>& motion, double kernel_sigma_s) {
-  const double width_rad_s = std::hypot(kStillYawRate_rad_s, motion.yaw_acceleration_rad_s2 * kernel_sigma_s);
-  return std::erf(motion.yaw_rate_rad_s / (std::numbers::sqrt2 * width_rad_s));
-}
-
-Site site_at(const RunSignals& signals, Eigen::Index j, const Geometry& geometry,
-             const BodyMotion<double>& motion, const EffectMemory& memory) {
-  const double across_m_s = geometry.half_track_m * motion.yaw_rate_rad_s;
-  const double size_m_s = std::sqrt(motion.speed_m_s * motion.speed_m_s + across_m_s * across_m_s +
-                                    kStillSpeed_m_s * kStillSpeed_m_s);
-  const bool placed = signals.x_m.size() > 0;
-  return {.pose = {placed ? signals.x_m[j] : 0.0, placed ? signals.y_m[j] : 0.0, signals.heading_rad[j]},
-          .time_of_day_s = signals.time_of_day_s[j],
-          .payload_kg = signals.payload_kg[j],
-          .travel_direction = soft_sign(motion.speed_m_s, kStillSpeed_m_s),
-          .turn_direction = turn_direction(motion, signals.kernel_sigma_s),
-          .wheel_direction = {friction_direction(signals.wheel_speed_rad_s.left[j]),
-                              friction_direction(signals.wheel_speed_rad_s.right[j])},
-          .course = across_m_s / size_m_s,
-          .memory = memory};
 }
 
 /// The voltage drop of a driver changes sign with the current. Near zero current the predicted sign is
@@ -145,15 +120,6 @@ struct Slip {
   }
 };
 
-Sided<WheelChange> change_at(const Plant& plant, const RunSignals& signals, Eigen::Index j,
-                             const BodyMotion<double>& motion, const Site& site) {
-  Twist<double> jerk{};
-  const Sided<Eigen::VectorXd>& wheels = signals.wheel_jerk_rad_s3;
-  if (wheels.left.size() == signals.size())
-    jerk = body_twist(plant.robot.geometry, Sided<double>{wheels.left[j], wheels.right[j]});
-  return change_within(plant, motion, jerk, site, signals.kernel_sigma_s);
-}
-
 void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index j,
                      Sided<WheelState<double>> state, const Sided<WheelChange>& change, Prediction& out) {
   const Robot& robot = plant.robot;
@@ -161,12 +127,12 @@ void write_electrics(const Plant& plant, const RunSignals& signals, Eigen::Index
     blur_driver_drop(plant.driver_voltage_drop_V, signals.motor_current_A[side], j, state[side]);
     out.current_A[side][j] = state[side].current_A;
     out.voltage_V[side][j] = state[side].voltage_V;
-    out.power_W[side][j] = state[side].power_W + change[side].product_W();
+    const Eigen::VectorXd& logged_W = signals.motor_covariance_W[side];
+    out.power_W[side][j] =
+        state[side].power_W + (logged_W.size() > 0 ? logged_W[j] : change[side].product_W());
     out.power_change_W[side][j] = change[side].power_W;
   }
-  out.battery_power_W[j] = mean_supply_power_W(robot.power, {out.power_W.left[j], out.power_W.right[j]},
-                                               {out.power_change_W.left[j], out.power_change_W.right[j]}) +
-                           robot.power.standby_W;
+  out.battery_power_W[j] = supply_W(signals, robot.power, out, j) + robot.power.standby_W;
   if (signals.battery_current_A.size() > 0)
     out.battery_voltage_V[j] = robot.battery.open_circuit_voltage_V -
                                robot.battery.internal_resistance_ohm * signals.battery_current_A[j];
@@ -221,6 +187,18 @@ std::optional<ContactCreep> creep_of(const Plant& plant, const RunSignals& signa
 }
 
 }  // namespace
+
+double supply_W(const RunSignals& signals, const PowerSupply& supply, const Prediction& prediction,
+                Eigen::Index j) {
+  const auto of_means_W = [&](const Sided<double>& mean_W) {
+    return mean_supply_power_W(supply, mean_W,
+                               {prediction.power_change_W.left[j], prediction.power_change_W.right[j]});
+  };
+  const double mean_W = of_means_W({prediction.power_W.left[j], prediction.power_W.right[j]});
+  if (signals.expected_beyond_mean_W.size() > 0) return mean_W + signals.expected_beyond_mean_W[j];
+  const SupplyAccount& logged = signals.motors_at_supply;
+  return logged.empty() ? mean_W : mean_W + logged.supply_W(supply, j) - of_means_W(logged.mean_W(j));
+}
 
 Prediction predict(const RunSignals& signals, const ModelPoint& point) {
   const SplitModel split = split_model(point);

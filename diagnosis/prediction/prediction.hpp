@@ -35,6 +35,11 @@ struct Prediction {
   Eigen::VectorXd y_m{};
 };
 
+/// What the supply of a predicted run gives to the motors at sample j, W. What a mean over the kernel hides
+/// is as the log shows it, or as its samples let expect it.
+[[nodiscard]] double supply_W(const RunSignals& signals, const PowerSupply& supply,
+                              const Prediction& prediction, Eigen::Index j);
+
 [[nodiscard]] Prediction predict(const RunSignals& signals, const ModelPoint& point);
 
 }  // namespace joulepath

@@ -8,11 +8,6 @@
 #include "model/mean_power.hpp"
 
 namespace joulepath {
-double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j) {
-  return mean_supply_power_W(point.robot.power, {prediction.power_W.left[j], prediction.power_W.right[j]},
-                             {prediction.power_change_W.left[j], prediction.power_change_W.right[j]});
-}
-
 namespace {
 
 /// Removes the mean of a column: the offset of a run's pose is free.
@@ -45,9 +40,9 @@ void fill_motor(const RunSignals& signals, const Prediction& prediction, Side si
   }
 }
 
-/// Whether each wheel turns in one direction within the whole kernel, or stands: slow and without an acceleration
-/// above its noise. Where one reverses, starts or stops, dry friction takes a power that the smoothed motion
-/// does not tell.
+/// Whether each wheel turns in one direction within the whole kernel, or stands: slow and without an
+/// acceleration above its noise. Where one reverses, starts or stops, dry friction takes a power that the
+/// smoothed motion does not tell.
 bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
   for (Side side : kSides) {
     const bool has_noise_taken_off = signals.period_s <= kLongestNoisePeriod_s;
@@ -58,9 +53,9 @@ bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
   return true;
 }
 
-/// Doubt about the motor power as the supply counts it: of its sign, where it changes within the kernel or the
-/// current is below its ripple; and of its mean, where the acceleration may jump. The variance of a jump of
-/// size 1 is 1/4, its slope tells 1/(2 pi).
+/// Doubt about the motor power as the supply counts it: of its sign, where it changes within the kernel or
+/// the current is below its ripple; and of its mean, where the acceleration may jump. The variance of a jump
+/// of size 1 is 1/4, its slope tells 1/(2 pi).
 double doubtful_W(const PowerSupply& supply, const Prediction& prediction, Eigen::Index j) {
   constexpr double kOfAJump = std::numbers::pi / 2 - 1;
   Sided<double> mean_W, change_W;
@@ -87,11 +82,12 @@ void fill_driver(const RunSignals& signals, const ModelPoint& point, const Predi
   const double recovered = point.robot.power.regeneration_efficiency,
                least_W = kResolution * rms(signals.battery_power_W);
   Eigen::VectorXd driver_W = signals.battery_power_W - prediction.battery_power_W;
-  if (shown) driver_W -= motors.draw_W + recovered * motors.return_W;
   for (Eigen::Index j = 0; j < n; ++j) {
-    if (shown) driver_W[j] += logged_supply_W(point, prediction, j);
-    const double doubt_W = shown ? (1 - recovered) * motors.mixed_W[j]
-                                 : doubtful_W(point.robot.power, prediction, j);
+    if (shown)
+      driver_W[j] +=
+          supply_W(signals, point.robot.power, prediction, j) - motors.supply_W(point.robot.power, j);
+    const double doubt_W =
+        shown ? (1 - recovered) * motors.mixed_W[j] : doubtful_W(point.robot.power, prediction, j);
     rows.present(j, kDriverPower) = doubt_W <= least_W && (shown || moves_steadily(signals, j));
   }
   rows.value.col(kDriverPower) = driver_W;
@@ -136,7 +132,8 @@ Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& poin
   Eigen::VectorXd driver_W = changed.battery_power_W - base.battery_power_W;
   if (measures_motors(signals))
     for (Eigen::Index j = 0; j < n; ++j)
-      driver_W[j] -= logged_supply_W(point, changed, j) - logged_supply_W(point, base, j);
+      driver_W[j] -=
+          supply_W(signals, point.robot.power, changed, j) - supply_W(signals, point.robot.power, base, j);
   for (Side side : kSides) {
     const int s = side == Side::left ? 0 : 1;
     const Eigen::VectorXd current = changed.current_A[side] - base.current_A[side];

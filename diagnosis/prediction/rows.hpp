@@ -18,9 +18,6 @@ struct ResidualRows {
 [[nodiscard]] ResidualRows residual_rows(const RunSignals& signals, const ModelPoint& point,
                                          const Prediction& prediction);
 
-/// Motor power drawn from the supply at sample j, W, from the voltages and currents as the log has them.
-[[nodiscard]] double logged_supply_W(const ModelPoint& point, const Prediction& prediction, Eigen::Index j);
-
 /// Difference of the structured rows of two predictions: the signature of the changed parameter. Free of
 /// noise, because only predictions enter.
 [[nodiscard]] Eigen::MatrixXd signature_rows(const RunSignals& signals, const ModelPoint& point,

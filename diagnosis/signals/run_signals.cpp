@@ -13,6 +13,7 @@
 #include "model/assert.hpp"
 #include "model/kinematics.hpp"
 #include "model/limit_table.hpp"
+#include "model/local_fit.hpp"
 #include "model/motor.hpp"
 
 namespace joulepath {
@@ -209,12 +210,25 @@ void fill_rates(RunSignals& signals, const Thinner& thinner, const Sided<Samples
       speed.right - speed.left, thinner.third_difference_gain(kernel.weight), thinner.fine_period_s()));
 }
 
+/// Mean of the direction of the samples: where a wheel starts, stops or reverses within the kernel, dry
+/// friction acts while it turns, which the mean speed does not tell. Noise of the samples is no direction;
+/// where it exceeds what the mean speed leaves in doubt, the mean speed decides.
+Eigen::VectorXd mean_direction(const Thinner& thinner, const Samples& speed_rad_s) {
+  const double blurred_rad_s = std::max(kStillWheel_rad_s, kWheelOverNoise * noise_of(speed_rad_s));
+  if (blurred_rad_s > kBlurredWheel_rad_s) return {};
+  Samples direction(speed_rad_s.size());
+  std::ranges::transform(speed_rad_s, direction.begin(),
+                         [&](double speed) { return friction_direction(speed, blurred_rad_s); });
+  return thinner.smooth(direction);
+}
+
 void fill_wheels(RunSignals& signals, const Thinner& thinner, const Sided<Samples>& wheels,
                  const Samples& heading, double least_speed_rad_s) {
   fill_rates(signals, thinner, wheels);
   for (Side side : kSides) {
     const Samples& speed = wheels[side];
     signals.wheel_speed_rad_s[side] = thinner.smooth(speed);
+    signals.wheel_direction[side] = mean_direction(thinner, speed);
     signals.wheel_angle_rad[side] = thinner.smooth(integrate_to_middle(speed, thinner.grid_period_s()));
     Samples along_x(speed.size()), along_y(speed.size());
     for (std::size_t i = 0; i < speed.size(); ++i) {
@@ -264,7 +278,8 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
     counted.pop_back();
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(thinner.centers().size()));
-  SupplyAccount account{zero, zero, zero};
+  SupplyAccount account{.draw_W = zero, .return_W = zero, .mixed_W = zero};
+  for (Side side : kSides) account.motor_W[side] = thinner.smooth(thinner.on_grid(power[side], delay_s));
   for (Samples& drawn_W : counted) {
     Samples returned_W = drawn_W;
     for (double& power_W : drawn_W) power_W = std::max(0.0, power_W);
@@ -290,6 +305,10 @@ void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& 
     if (power.empty())
       power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
     signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, delay_s));
+    if (!counted[side].empty())
+      signals.motor_covariance_W[side] =
+          thinner.smooth(thinner.on_grid(counted[side], delay_s)) -
+          signals.motor_voltage_V[side].cwiseProduct(signals.motor_current_A[side]);
     if (counted[side].empty()) counted[side] = std::move(power);
   }
   signals.motors_at_supply = account_of(counted, robot.power.sharing, thinner, delay_s);

@@ -4,21 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/dataset.hpp"
 #include "model/kinematics.hpp"
 #include "model/motion.hpp"
+#include "model/power.hpp"
 
 namespace joulepath {
 
-/// What the motors draw from the supply and return to it (negative) as the supply counts it, of the samples of
-/// a log: the power of a mean is not the mean of a power that changes its sign, nor of two factors that
+/// What the motors draw from the supply and return to it (negative) as the supply counts it, of the samples
+/// of a log: the power of a mean is not the mean of a power that changes its sign, nor of two factors that
 /// change. Empty where the log does not show both motors.
 struct SupplyAccount {
   Eigen::VectorXd draw_W{}, return_W{};
-  /// What draw and return have in common within the kernel: of a power that changes its sign, or that is below
-  /// its noise, nobody knows which it is.
+  /// What draw and return have in common within the kernel: of a power that changes its sign, or that is
+  /// below its noise, nobody knows which it is.
   Eigen::VectorXd mixed_W{};
+  Sided<Eigen::VectorXd> motor_W{};  ///< of each motor, positive and negative parts together
+
+  [[nodiscard]] bool empty() const { return draw_W.size() == 0; }
+  /// Of both motors at a sample.
+  [[nodiscard]] double supply_W(const PowerSupply& supply, Eigen::Index j) const {
+    return draw_W[j] + supply.regeneration_efficiency * return_W[j];
+  }
+  /// Of each motor at a sample.
+  [[nodiscard]] Sided<double> mean_W(Eigen::Index j) const { return {motor_W.left[j], motor_W.right[j]}; }
 };
 
 /// One run, smoothed and downsampled for the diagnosis.
@@ -41,7 +52,9 @@ struct RunSignals {
   Sided<Eigen::VectorXd> wheel_speed_rad_s{};
   Sided<Eigen::VectorXd> wheel_acceleration_rad_s2{};
   Sided<Eigen::VectorXd> wheel_jerk_rad_s3{};  ///< zero below its noise; empty: unknown
-  Sided<Eigen::VectorXd> wheel_angle_rad{};    ///< since the run's start
+  /// Mean over the kernel of the direction of the log's samples, -1 to 1; empty: of the mean speed.
+  Sided<Eigen::VectorXd> wheel_direction{};
+  Sided<Eigen::VectorXd> wheel_angle_rad{};  ///< since the run's start
   /// Integrals of a wheel's speed times cosine and sine of the measured heading: the wheel's contribution to
   /// x and y per meter of radius (times two, because the axle's midpoint moves with the mean of both wheels).
   Sided<Eigen::VectorXd> wheel_along_x_rad{};
@@ -49,7 +62,13 @@ struct RunSignals {
   Sided<Eigen::VectorXd> motor_voltage_V{};
   Sided<Eigen::VectorXd> motor_current_A{};
   Sided<Eigen::VectorXd> motor_power_W{};  ///< logged; or V i of each sample; or (R i + Kv n q') i
+  /// What the mean of voltage times current has beyond the product of their means, as logged: free of noise
+  /// in the mean, since both noises are independent. Empty where no power of the samples is known.
+  Sided<Eigen::VectorXd> motor_covariance_W{};
   SupplyAccount motors_at_supply{};
+  /// What the battery's power has beyond mean_supply_power_W() at the mean motion, as the file's robot lets
+  /// expect it of the log's samples. Empty where the motors are logged, or where no sample is finer.
+  Eigen::VectorXd expected_beyond_mean_W{};
   Eigen::VectorXd battery_power_W{};
   Eigen::VectorXd battery_voltage_V{};
   Eigen::VectorXd battery_current_A{};
@@ -69,6 +88,12 @@ struct RunSignals {
   Sided<std::vector<bool>> conducting{};
 
   Eigen::Index size() const { return time_s.size(); }
+
+  /// Direction with which dry friction acts on a wheel at a sample, -1 to 1.
+  [[nodiscard]] double direction(Side side, Eigen::Index j) const {
+    const Eigen::VectorXd& mean = wheel_direction[side];
+    return mean.size() > 0 ? mean[j] : friction_direction(wheel_speed_rad_s[side][j]);
+  }
 
   /// Motion of the body at a sample as the wheels tell it, without creep.
   [[nodiscard]] BodyMotion<double> rolled_motion(const Geometry& geometry, Eigen::Index j) const {

@@ -9,7 +9,6 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/numerics/resample.hpp"
 #include "diagnosis/prediction/rows.hpp"
-#include "diagnosis/signals/friction_direction.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/normal_quantiles.hpp"
 
@@ -211,7 +210,7 @@ double run_scatter_percent(const std::vector<RunSignals>& signals, const ModelPo
       const int s = side == Side::left ? 0 : 1;
       double per_torque_J = 0, per_ohm_J = 0, reading_J2 = 0;
       for (Eigen::Index j = 0; j < run.size(); ++j) {
-        const double direction = friction_direction(run.wheel_speed_rad_s[side][j]);
+        const double direction = run.direction(side, j);
         const double watts_per_ampere = p.voltage_V[side][j] + motor.resistance_ohm * p.current_A[side][j];
         per_torque_J += run.period_s * watts_per_ampere * direction / motor.torque_per_ampere_Nm_A();
         per_ohm_J += run.period_s * p.current_A[side][j] * p.current_A[side][j];

@@ -9,7 +9,9 @@
 #include "diagnosis/checks/dead_channels.hpp"
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/prediction/rows.hpp"
+#include "diagnosis/signals/log_set.hpp"
 #include "diagnosis/values/diagnosis.hpp"
+#include "diagnosis/where/gap.hpp"
 #include "model/simulation/simulate.hpp"
 #include "tests/support/nomad.hpp"
 
@@ -153,6 +155,62 @@ TEST(EffectRows, OfAScrubbingTurnAreNoise) {
       for (const int channel : {kCurrentLeft, kCurrentRight})
         EXPECT_LT(found[channel], 2.0) << drive.name << ", " << moment_Nm << " N m, "
                                        << kChannelNames[static_cast<std::size_t>(channel)];
+    }
+}
+
+/// 0 to 1 to 0 in `duration_s`, with steps of the acceleration at four times.
+double ramp(double time_s, double duration_s) {
+  return std::clamp(std::min(time_s, duration_s - time_s) / 0.4, 0.0, 1.0);
+}
+
+/// Motions whose accelerations jump, with rests between: as prescribed, and as a plan at its limits.
+std::vector<Drive> drives_with_steps() {
+  return {{"turns on the spot",
+           [](double t) {
+             const double part_s = std::fmod(t, 4);
+             return Twist<double>{0, (t < 4 ? 0.8 : -0.8) * ramp(part_s - 0.5, 2.5)};
+           },
+           8, 0},
+          {"straight",
+           [](double t) {
+             const double part_s = std::fmod(t, 4);
+             return Twist<double>{(t < 4 ? 0.3 : -0.3) * ramp(part_s - 0.5, 2.5), 0};
+           },
+           8, 4}};
+}
+
+/// Measured and predicted energy of a perfect model, summed over all runs: relative difference.
+double energy_bias(const std::vector<Run>& runs, const Robot& robot, EnergyAt at) {
+  const Dataset day{.robot = robot, .runs = runs};
+  LogSet logs{.dataset = &day};
+  for (std::size_t r = 0; r < runs.size(); ++r) logs.runs.push_back(r);
+  double measured_J = 0, predicted_J = 0;
+  for (const RunEnergy& run :
+       run_energies(read_signals(logs, 0), ModelPoints(runs.size(), {.robot = robot}), at))
+    measured_J += run.measured_J, predicted_J += run.predicted_J;
+  return predicted_J / measured_J - 1;
+}
+
+Robot recovering(PowerSharing sharing) {
+  Robot robot = testing::nomad();
+  robot.power.sharing = sharing;
+  robot.power.regeneration_efficiency = 0.6;
+  return robot;
+}
+
+/// A perfect model's energy is the measured one however the motors are driven: repeating a day averages noise
+/// away, never a bias of the prediction.
+TEST(NullEnergy, OfDrivesWhoseAccelerationJumpsHasNoBias) {
+  for (const Robot& robot :
+       {testing::nomad(), recovering(PowerSharing::bus), recovering(PowerSharing::wheel)})
+    for (const Drive& drive : drives_with_steps()) {
+      SCOPED_TRACE(std::string(drive.name) + (robot.power.sharing == PowerSharing::bus ? ", bus" : "") +
+                   (robot.power.regeneration_efficiency > 0 ? ", recovers" : ""));
+      auto runs = logs_of(drive, robot, 60, 17);
+      EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::motors_first), 0, 2e-3);
+      EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::battery), 0, 2e-3);
+      std::ranges::transform(runs, runs.begin(), without_motors);
+      EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::battery), 0, 2e-3) << "battery alone";
     }
 }
 

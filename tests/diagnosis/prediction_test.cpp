@@ -140,14 +140,16 @@ TEST(Lagged, FollowsARampBehindItByTheLag) {
 /// difference are known.
 TEST(Prediction, OfThePowerIsTheMeanOfTheProduct) {
   for (const double rate_rad_s : {2.0, 4.0}) {
-    const joulepath::Run drive =
-        testing::synthetic_run(nomad(), "swinging", 15, 3.0, testing::swinging(0.6, 0.3, rate_rad_s, 0.8, 3.0));
-    const RunSignals run = make_run_signals(drive, 0, nomad());
+    const joulepath::Run drive = testing::synthetic_run(nomad(), "swinging", 15, 3.0,
+                                                        testing::swinging(0.6, 0.3, rate_rad_s, 0.8, 3.0));
+    RunSignals run = make_run_signals(drive, 0, nomad());
+    run.motor_covariance_W = {};  // what the log shows of the samples
     const Prediction p = predict(run, {.robot = nomad()});
     for (Side side : kSides) {
       const Eigen::Index inner = run.size() - 6;
-      const Eigen::VectorXd logged_W = run.motor_power_W[side].segment(3, inner),
-                            plain_W = run.motor_voltage_V[side].cwiseProduct(run.motor_current_A[side]).segment(3, inner);
+      const Eigen::VectorXd
+          logged_W = run.motor_power_W[side].segment(3, inner),
+          plain_W = run.motor_voltage_V[side].cwiseProduct(run.motor_current_A[side]).segment(3, inner);
       EXPECT_LT((p.power_W[side].segment(3, inner) - logged_W).norm(), 0.1 * (plain_W - logged_W).norm());
     }
   }
@@ -155,7 +157,8 @@ TEST(Prediction, OfThePowerIsTheMeanOfTheProduct) {
 
 /// Standby and both motors; nothing comes back where regeneration has efficiency 0.
 TEST(Prediction, OfTheBatteryIsStandbyAndMotors) {
-  const RunSignals run = weaving(nomad());
+  RunSignals run = weaving(nomad());
+  run.motors_at_supply = {};  // what the log shows of the samples
   const Prediction p = predict(run, {.robot = nomad()});
   for (Eigen::Index j = 0; j < run.size(); ++j)
     EXPECT_NEAR(p.battery_power_W[j],

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "diagnosis/prediction/dictionary.hpp"
-#include "diagnosis/signals/friction_direction.hpp"
 #include "model/mean_power.hpp"
 
 namespace joulepath {
@@ -35,8 +34,7 @@ class DictionaryCollector {
       if (sign < 0 && !apart) break;
       entry(family, "current", [&](Eigen::Index j, Eigen::MatrixXd& entry_rows) {
         for (Side side : kSides) {
-          const double speed = signals_->wheel_speed_rad_s[side][j];
-          const double direction = friction_direction(speed);
+          const double direction = signals_->direction(side, j);
           const double torque_Nm = direction * size(j, side) * (side == Side::right ? sign : 1);
           entry_rows(j, column(kCurrentLeft, side)) =
               torque_Nm / robot_->motor[side].torque_per_ampere_Nm_A();
