@@ -201,14 +201,15 @@ inline constexpr double kLeastChange = 0.3;
 
 /// Of a wheel's rim. Physical scale.
 inline constexpr double kFastest_m_s = 20.0;
-/// A reading this many times what the battery drives through a standing motor is in another unit. Chosen: a
-/// winding is known better, and a slip of a unit is a factor of 1000.
-inline constexpr double kFarBeyond = 10.0;
+/// A reading this many times what the battery drives through a standing motor, or a wheel this many times as
+/// fast as without a load, is in another unit. Chosen: windings are known better (kMostScale,
+/// kMostMeasuredFactor), and slips of units are factors of 10 and more, of a reading that is near a third.
+inline constexpr double kFarBeyond = 3.0;
 /// Between samples, median. Physical scale.
 inline constexpr double kLongestStep_s = 60.0;
 /// Of an epoch clock: the year 2286. Derived: milliseconds since 1970 are above it, seconds below.
 inline constexpr double kLatestClock_s = 1e10;
-/// From rest to a wheel's greatest speed, at the steepest of the log. Physical scale: a robot needs seconds.
+/// From rest to a wheel's greatest speed, at the steepest rise of the log. Physical scale: a robot needs seconds.
 inline constexpr double kLongestStart_s = 100.0;
 /// And in more samples than this: a log with a sample each minute misses the start. Chosen.
 inline constexpr double kLeastStartSteps = 10.0;

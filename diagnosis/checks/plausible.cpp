@@ -76,19 +76,6 @@ void check_time(const Run& run, Findings& findings) {
     check_slow_clock(run, findings);
 }
 
-void check_wheels(const Trajectory& log, const Geometry& geometry, Findings& findings) {
-  for (Side side : kSides) {
-    const double most = greatest(log.wheel_speed_rad_s[side]);
-    if (most * geometry.wheel_radius_m[side] <= kFastest_m_s) continue;
-    const std::string column = std::string("wheel_speed_") + side_name(side) + "_rad_s";
-    findings.push_back({column,
-                        column + " up to " + four_digits(most) + " rad/s, " +
-                            four_digits(most * geometry.wheel_radius_m[side]) + " m/s at this robot's wheel",
-                        "at most " + four_digits(kFastest_m_s) + " m/s",
-                        "degrees per second, rpm or encoder ticks?"});
-  }
-}
-
 /// Compares the mean speed of the body as logged (or from the pose) with the speed computed from this robot's
 /// wheels.
 void check_robot(const Trajectory& log, const Geometry& geometry, Findings& findings) {
@@ -117,7 +104,6 @@ std::vector<Implausible> implausible_channels(const Run& run, const Robot& robot
   const Trajectory& log = run.log;
   Findings findings;
   check_time(run, findings);
-  check_wheels(log, robot.geometry, findings);
   for (const ColumnBound& bound : column_bounds(robot))
     if (const std::string column(bound.column); greatest_of(column, run) > bound.most)
       findings.push_back({column, column + " up to " + four_digits(greatest_of(column, run)),

@@ -153,7 +153,7 @@ bool names_the_clock(const Run& run) {
 
 /// A clock in a smaller unit, from 0 or from 1970, at the rates of robots' loggers.
 TEST(Clock, InAnotherUnitIsImplausible) {
-  for (const double period_s : {0.002, 0.01, 0.02, 0.05}) {
+  for (const double period_s : {0.001, 0.002, 0.01, 0.02, 0.05}) {
     const joulepath::Run sound = drive("a", 8, 1, 4, period_s);
     EXPECT_FALSE(names_the_clock(sound)) << period_s;
     for (const double unit : {1e3, 1e6, 1e9, 1e-3, 1e-6}) {
@@ -190,6 +190,13 @@ TEST(Clock, OfASlowLogIsPlausible) {
     }
     EXPECT_FALSE(names_the_clock(run)) << period_s;
   }
+  const auto creeps_first = [](double t) {
+    const double speed_m_s = t < 5     ? 0.0
+                             : t < 205 ? std::min(0.2, 0.2 * (t - 5))
+                                       : std::min(0.9, 0.2 + 0.3 * (t - 205));
+    return BodyMotion<double>{.speed_m_s = speed_m_s};
+  };
+  EXPECT_FALSE(names_the_clock(synthetic_run(nomad(), "creeps first", 240, 0, creeps_first, kLogNoise)));
   EXPECT_FALSE(
       names_the_clock(synthetic_run(nomad(), "steady", 600, 0, testing::constant_speed(0.4), kLogNoise)));
 }

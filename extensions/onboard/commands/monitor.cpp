@@ -53,6 +53,7 @@ class MonitorCommand : public Command {
       if (!file) throw ConfigError({{log_, 0, 0}, "", "no such file", "a log, or - for standard input", ""});
       follow(monitor, robot, file);
     }
+    refuse(monitor.judge_end());
     const RowCounts rows = monitor.status().rows;
     if (rows.used == 1 && rows.late > 0)
       throw ConfigError(
@@ -72,11 +73,14 @@ class MonitorCommand : public Command {
     LogLines(robot.geometry, log_name()).follow(stream, [&](const MonitorRow& row) { add(monitor, row); });
   }
 
-  /// A log whose unit is wrong ends the answer: nothing that it says is true.
+  /// A log whose channels are wrong ends the answer: nothing that it says is true.
+  void refuse(const std::optional<Implausible>& odd) const {
+    if (odd) throw ConfigError({{log_name(), 0, 0}, odd->channel, odd->found, odd->accepted, odd->hint});
+  }
+
   void add(Monitor& monitor, const MonitorRow& row) {
     const std::vector<MonitorEvent>& events = monitor.add(row);
-    if (const std::optional<Implausible>& odd = monitor.implausible())
-      throw ConfigError({{log_name(), 0, 0}, odd->channel, odd->found, odd->accepted, odd->hint});
+    refuse(monitor.implausible());
     tell(events);
   }
 

@@ -26,6 +26,8 @@ struct RowColumn {
   double (*of)(const MonitorRow&);
 };
 constexpr RowColumn kRowColumns[] = {
+    {"wheel_speed_left_rad_s", [](const MonitorRow& row) { return row.wheel_speed_rad_s.left; }},
+    {"wheel_speed_right_rad_s", [](const MonitorRow& row) { return row.wheel_speed_rad_s.right; }},
     {"motor_voltage_left_V", [](const MonitorRow& row) { return row.motor_voltage_V.left; }},
     {"motor_voltage_right_V", [](const MonitorRow& row) { return row.motor_voltage_V.right; }},
     {"motor_current_left_A", [](const MonitorRow& row) { return row.motor_current_A.left; }},
@@ -48,6 +50,7 @@ Monitor::Monitor(const Robot& robot, PlannedCourse course, const MonitorOptions&
       course_(std::move(course)),
       options_(options),
       bounds_(column_bounds(robot)),
+      excerpt_(robot),
       progress_(course_),
       meter_(robot.power),
       watch_(robot, options.hours_per_false_alarm) {}
@@ -75,29 +78,12 @@ bool Monitor::is_possible(const MonitorRow& row) {
     return false;
   };
   if (std::abs(row.time_s) > kLatestClock_s) return refuse("time_s", row.time_s, kLatestClock_s, kClockHint);
-  for (const Side side : kSides)
-    if (const double most = kFastest_m_s / robot_.geometry.wheel_radius_m[side],
-        speed = row.wheel_speed_rad_s[side];
-        std::abs(speed) > most)
-      return refuse(std::string("wheel_speed_") + side_name(side) + "_rad_s", speed, most,
-                    "degrees per second, rpm or encoder ticks?");
   for (const RowColumn& column : kRowColumns) {
     const auto bound = std::ranges::find(bounds_, column.name, &ColumnBound::column);
     if (std::abs(column.of(row)) > bound->most)
       return refuse(std::string(column.name), column.of(row), bound->most, bound->hint);
   }
   return !(std::abs(row.heading_rad) > kMostAngle_rad);
-}
-
-/// Milliseconds that are read as seconds show in the wheels' acceleration.
-void Monitor::watch_clock(const MonitorRow& row) {
-  for (const Side side : kSides) {
-    start_[side].add(row.time_s, row.wheel_speed_rad_s[side]);
-    if (start_[side].is_too_slow() && !implausible_)
-      implausible_ = {"time_s",
-                      "a wheel that needs " + four_digits(start_[side].duration_s()) + " s to come to speed",
-                      "at most " + four_digits(kLongestStart_s) + " s", kClockHint};
-  }
 }
 
 bool Monitor::is_usable(const MonitorRow& row) {
@@ -130,12 +116,12 @@ const std::vector<MonitorEvent>& Monitor::add(const MonitorRow& logged) {
   row.time_s -= clock_shift_s_;
   if (!is_usable(row)) return events_;
   last_s_ = row.time_s;
-  watch_clock(row);
   if (std::isnan(next_status_s_)) next_status_s_ = row.time_s + options_.status_every_s;
   const double rim_m_s = rim_speed_m_s(robot_.geometry, row.wheel_speed_rad_s);
   if (row.time_s > before_s) progress_.advance(row.time_s - before_s, 0.5 * (rim_m_s + last_rim_m_s_));
   last_rim_m_s_ = rim_m_s;
   stated_kg_ = std::isnan(row.payload_kg) ? progress_.payload_kg() : row.payload_kg;
+  if (const auto suspect = excerpt_.add(row, stated_kg_); suspect && !implausible_) implausible_ = suspect;
   meter_.add(row);
   if (const auto change = watch_.add(row, stated_kg_)) events_.push_back(told(*change, stated_kg_));
   finish_legs();
@@ -144,6 +130,11 @@ const std::vector<MonitorEvent>& Monitor::add(const MonitorRow& logged) {
     next_status_s_ = row.time_s + options_.status_every_s;
   }
   return events_;
+}
+
+const std::optional<Implausible>& Monitor::judge_end() {
+  if (!implausible_) implausible_ = excerpt_.judged();
+  return implausible_;
 }
 
 MonitorEvent Monitor::told(const CauseChange& change, double stated_kg) const {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "diagnosis/checks/column_bounds.hpp"
-#include "diagnosis/checks/implausible.hpp"
 #include "extensions/onboard/monitor/cause_watch.hpp"
 #include "extensions/onboard/monitor/energy_meter.hpp"
+#include "extensions/onboard/monitor/log_excerpt.hpp"
 #include "extensions/onboard/monitor/planned_course.hpp"
 
 namespace joulepath {
@@ -87,12 +87,14 @@ class Monitor {
   [[nodiscard]] MonitorStatus status() const;
   /// The present leg so far.
   [[nodiscard]] LegExecuted leg_executed() const;
-  /// A channel in another unit, by the checks of logs in files: what was told so far is wrong.
+  /// A channel in another unit, dead, swapped or inverted, by the checks of logs in files: what was told so
+  /// far is wrong.
   [[nodiscard]] const std::optional<Implausible>& implausible() const { return implausible_; }
+  /// The same once more, of a log that has ended.
+  [[nodiscard]] const std::optional<Implausible>& judge_end();
 
  private:
   [[nodiscard]] bool is_possible(const MonitorRow& row);
-  void watch_clock(const MonitorRow& row);
   [[nodiscard]] bool is_usable(const MonitorRow& row);
   [[nodiscard]] bool is_on_the_clock(double time_s);
   [[nodiscard]] MonitorEvent told(const CauseChange& change, double stated_kg) const;
@@ -101,14 +103,14 @@ class Monitor {
   Robot robot_;
   PlannedCourse course_;
   MonitorOptions options_;
-  std::array<ColumnBound, 10> bounds_;
+  std::array<ColumnBound, 12> bounds_;
+  LogExcerpt excerpt_;
   CourseProgress progress_;
   EnergyMeter meter_;
   CauseWatch watch_;
   std::vector<MonitorEvent> events_{};
   RowCounts rows_{};
   std::uint64_t odd_rows_{};  ///< with a number that no robot has
-  Sided<QuickestStart> start_{};
   std::optional<Implausible> implausible_{};
   double clock_shift_s_{};      ///< of the log's clock against the first one
   double doubtful_s_{kAbsent};  ///< log time of the last row that was on another clock

@@ -91,7 +91,7 @@ TEST(SuspectDatasets, AreNamedByCheckAndRefusedElsewhere) {
   for (const auto& [name, channel, found] :
        {std::tuple{"currents_in_milliamperes", "motor_current_left_A", "up to 2.41e+04"},
         std::tuple{"log_of_another_robot", "linear_speed_m_s", "a mean speed of 2.403 m/s"},
-        std::tuple{"speeds_in_rpm", "wheel_speed_left_rad_s", "up to 1.146e+04 rad/s"},
+        std::tuple{"speeds_in_rpm", "wheel_speed_left_rad_s", "up to 1.146e+04"},
         std::tuple{"times_in_microseconds", "time_s", "a sample every 1e+05 s"}}) {
     const std::string file = std::string(JOULEPATH_SOURCE_DIR "/tests/data/suspect/") + name + ".yaml";
     const FileSummary summary = read_any_file(file);
