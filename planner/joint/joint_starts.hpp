@@ -31,6 +31,19 @@ struct LegGoal {
 [[nodiscard]] std::vector<Sketch> words(const Pose& start, const LegGoal& goal, double half_track_m,
                                         const std::vector<double>& radii_m);
 
+/// The sketch of the robot turned by half a turn, driven in reverse.
+[[nodiscard]] Sketch reversed(Sketch sketch);
+
+/// Continues a sketch after a rest, where the direction may jump.
+void append(Sketch& sketch, const Sketch& next);
+
+/// The words of a drive in reverse, and those with one cusp: a straight line backward or forward at one end,
+/// the rest the other way.
+[[nodiscard]] std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                                double radius_m);
+[[nodiscard]] std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                             double radius_m);
+
 /// Arc, line, and a bend and a line for each corner of a route; a last arc, to a heading where one is asked.
 /// `first`, `last`: senses of these arcs, +1 to the left, -1 to the right, 0 the shorter way round.
 [[nodiscard]] Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,

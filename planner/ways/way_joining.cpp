@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/joint/joint_search.hpp"
 #include "planner/legs/leg_timing.hpp"
@@ -15,6 +16,8 @@ using joint::Sketch;
 
 constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
+constexpr std::size_t kMostReverse = 16;  ///< starts with a part in reverse
+constexpr double kReverseRadius_m = 0.25;
 const std::vector<double> kWordRadii_m{0.15, 0.5};
 
 /// Cost of driving a leg along a path by the certified profile at the leg's price; infinite: none.
@@ -50,58 +53,124 @@ bool turns_much(const Sketch& along, const Path& path) {
   return along.effort_m() > kNotable * path.distance_m();
 }
 
-double effort_m(const std::vector<Sketch>& legs) {
-  double sum = 0;
-  for (const Sketch& leg : legs) sum += leg.effort_m();
-  return sum;
+/// Keeps the starts with the least effort.
+std::vector<std::vector<Sketch>> easiest(std::vector<std::vector<Sketch>> starts, std::size_t most) {
+  const auto effort_m = [](const std::vector<Sketch>& legs) {
+    double sum = 0;
+    for (const Sketch& leg : legs) sum += leg.effort_m();
+    return sum;
+  };
+  std::stable_sort(starts.begin(), starts.end(),
+                   [&](const auto& a, const auto& b) { return effort_m(a) < effort_m(b); });
+  if (starts.size() > most) starts.resize(most);
+  return starts;
+}
+
+/// A leg along its route in one direction of travel.
+Sketch along(Pose from, const std::vector<Point2>& route_m, std::optional<double> heading_rad, int begin,
+             int end, double half_track_m, bool back) {
+  if (!back) return joint::along_route(from, route_m, heading_rad, begin, end, half_track_m);
+  from.heading_rad += std::numbers::pi;
+  if (heading_rad) *heading_rad += std::numbers::pi;
+  return joint::reversed(joint::along_route(from, route_m, heading_rad, begin, end, half_track_m));
+}
+
+void append_each(std::vector<std::vector<Sketch>>& starts, std::vector<Sketch> sketches) {
+  for (Sketch& sketch : sketches) starts.push_back({std::move(sketch)});
 }
 
 }  // namespace
 
-joint::DriveLaw RefinedRun::law_of(std::size_t k) const {
+joint::DriveLaw RefinedRun::law_of(std::size_t k, int direction) const {
   const ChoiceContext& context = run_.contexts[k];
   const LegRequest& asked = context.mission.legs[run_.first + k];
   Limits limits = limits_along(context.world.robot, asked.payload);
   if (asked.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *asked.yaw_rate_rad_s);
+  if (direction < 0) limits.speed_m_s = std::min(limits.speed_m_s, limits.reverse_speed_m_s);
   return joint::drive_law(context.plant, limits, 0.5 * (asked.payload.from_kg + asked.payload.to_kg),
-                          parts_[k].path.start(), context.finite_price_W());
+                          parts_[k].path.start(), context.finite_price_W(), direction);
 }
 
-/// Arcs and lines along every route of a single leg, along the chosen routes of several.
-std::vector<std::vector<Sketch>> RefinedRun::rough_paths(std::size_t first,
-                                                         const joint::JointQuery& query) const {
+bool RefinedRun::may_drive(std::size_t k, int direction) const {
+  const LegRequest& asked = run_.contexts[k].mission.legs[run_.first + k];
+  if (direction > 0) return asked.direction != LegDirection::reverse;
+  return asked.direction != LegDirection::forward &&
+         std::isfinite(limits_along(run_.contexts[k].world.robot, asked.payload).reverse_speed_m_s);
+}
+
+/// Arcs and lines along every route of a single leg.
+std::vector<std::vector<Sketch>> RefinedRun::rough_paths(std::size_t k, const joint::JointQuery& query,
+                                                         bool back) const {
+  const double half_track_m = query.laws.front().half_track_m;
+  const joint::LegGoal& goal = query.goals.front();
+  std::vector<std::vector<Sketch>> all;
+  if (back) {
+    append_each(all, joint::reverse_words(query.start, goal, half_track_m, kReverseRadius_m));
+    if (may_drive(k, 1))
+      append_each(all, joint::cusp_words(query.start, goal, half_track_m, kReverseRadius_m));
+  } else {
+    append_each(all, joint::words(query.start, goal, half_track_m, kWordRadii_m));
+  }
+  for (const PooledRoute& route : run_.routes[k].routes)
+    if (route.polyline_m.size() > 2)
+      for (const int begin : {1, -1})
+        for (const int end : goal.heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0})
+          all.push_back(
+              {along(query.start, route.polyline_m, goal.heading_rad, begin, end, half_track_m, back)});
+  return all;
+}
+
+/// Along the chosen routes of several legs; bit i of `backward`: leg i in reverse.
+std::vector<std::vector<Sketch>> RefinedRun::rough_chains(std::size_t first, const joint::JointQuery& query,
+                                                          unsigned backward) const {
   const double half_track_m = query.laws.front().half_track_m;
   std::vector<std::vector<Sketch>> all;
-  const auto along = [&](std::size_t leg, const Pose& from, const PooledRoute& route, int begin, int end) {
-    return joint::along_route(from, route.polyline_m, query.goals[leg].heading_rad, begin, end, half_track_m);
-  };
-  const std::vector<int> lasts =
-      query.goals.back().heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0};
-  if (query.goals.size() == 1) {
-    for (Sketch& word : joint::words(query.start, query.goals[0], half_track_m, kWordRadii_m))
-      all.push_back({std::move(word)});
-    for (const PooledRoute& route : run_.routes[first].routes)
-      if (route.polyline_m.size() > 2)
-        for (const int begin : {1, -1})
-          for (const int end : lasts) all.push_back({along(0, query.start, route, begin, end)});
-  } else {
-    for (const int begin : {1, -1})
-      for (const int end : lasts) {
-        std::vector<Sketch> legs;
-        Pose from = query.start;
-        for (std::size_t i = 0; i < query.goals.size(); ++i) {
-          const bool last = i + 1 == query.goals.size();
-          const PooledRoute& route = run_.routes[first + i].routes[parts_[first + i].way->route];
-          legs.push_back(along(i, from, route, i == 0 ? begin : 0, last ? end : 0));
-          from.heading_rad += legs.back().turn_rad(half_track_m);
-        }
-        all.push_back(std::move(legs));
+  for (const int begin : {1, -1})
+    for (const int end : query.goals.back().heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0}) {
+      std::vector<Sketch> legs;
+      Pose from = query.start;
+      for (std::size_t i = 0; i < query.goals.size(); ++i) {
+        const bool last = i + 1 == query.goals.size();
+        const PooledRoute& route = run_.routes[first + i].routes[parts_[first + i].way->route];
+        legs.push_back(along(from, route.polyline_m, query.goals[i].heading_rad, i == 0 ? begin : 0,
+                             last ? end : 0, half_track_m, (backward >> i & 1U) != 0));
+        from.heading_rad += legs.back().turn_rad(half_track_m);
       }
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return effort_m(a) < effort_m(b); });
-  if (all.size() > kMostStarts) all.resize(kMostStarts);
+      all.push_back(std::move(legs));
+    }
   return all;
+}
+
+/// Starts whose legs drive forward, and those with a part in reverse.
+std::array<std::vector<std::vector<Sketch>>, 2> RefinedRun::joint_starts(
+    std::size_t first, const joint::JointQuery& query) const {
+  std::array<std::vector<std::vector<Sketch>>, 2> starts;
+  const std::size_t count = query.goals.size();
+  for (unsigned backward = 0; backward < 1U << count; ++backward) {
+    bool allowed = true;
+    for (std::size_t i = 0; i < count; ++i)
+      allowed = allowed && may_drive(first + i, (backward >> i & 1U) != 0 ? -1 : 1);
+    if (!allowed) continue;
+    auto more = count == 1 ? rough_paths(first, query, backward != 0) : rough_chains(first, query, backward);
+    auto& group = starts[backward != 0];
+    std::move(more.begin(), more.end(), std::back_inserter(group));
+  }
+  return {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
+}
+
+/// The legs' cost with the paths of the joint program in place of the present ones; infinite: not drivable.
+double RefinedRun::joined_J(std::size_t first, const joint::JointPaths& joined) {
+  for (std::size_t i = 0; i < joined.legs.size(); ++i) {
+    take(first + i, joined.legs[i]);
+    parts_[first + i].spline.reset();
+    parts_[first + i].barred = false;
+  }
+  const std::vector<LegPath> tried = paths();
+  double cost_J = 0;
+  for (std::size_t k = first; k < first + joined.legs.size(); ++k)
+    cost_J +=
+        parts_[k].driving.drivable ? certified_J(tried[k].path, run_.first + k, run_.contexts[k]) : kNoLimit;
+  return cost_J;
 }
 
 void RefinedRun::join(std::size_t first, std::size_t count) {
@@ -116,38 +185,35 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
-    worth_it = worth_it || turns_much(from_present.back(), path);
+    worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
   }
   if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {
-    const ChoiceContext& context = run_.contexts[k];
-    query.laws.push_back(law_of(k));
-    if (!may_join(context.mission.legs[run_.first + k], query.laws.back().limits)) return;
+    query.laws.push_back(law_of(k, 1));
+    query.reverse_laws.push_back(law_of(k, -1));
+    if (!may_join(run_.contexts[k].mission.legs[run_.first + k], query.laws.back().limits)) return;
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
-    found_J += certified_J(present[k].path, run_.first + k, context);
+    found_J += parts_[k].barred ? kNoLimit : certified_J(present[k].path, run_.first + k, run_.contexts[k]);
   }
-  std::vector<std::vector<Sketch>> starts = rough_paths(first, query);
-  starts.insert(starts.begin(), std::move(from_present));
+  auto starts = joint_starts(first, query);
+  if (std::isfinite(found_J)) starts[0].insert(starts[0].begin(), std::move(from_present));
   const std::vector<Part> before = parts_;
   std::vector<Part> best = parts_;
-  for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(starts))) {
-    parts_ = before;
-    double cost_J = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      take(first + i, joined.legs[i]);
-      parts_[first + i].spline.reset();
+  for (auto& group : starts)
+    for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
+      parts_ = before;
+      const double cost_J = joined_J(first, joined);
+      if (!(cost_J < found_J)) continue;
+      found_J = cost_J;
+      best = parts_;
     }
-    const std::vector<LegPath> tried = paths();
-    for (std::size_t k = first; k < first + count; ++k)
-      cost_J += parts_[k].driving.drivable ? certified_J(tried[k].path, run_.first + k, run_.contexts[k])
-                                           : kNoLimit;
-    if (!(cost_J < found_J)) continue;
-    found_J = cost_J;
-    best = parts_;
-  }
   parts_ = std::move(best);
+}
+
+bool RefinedRun::barred() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.barred; });
 }
 
 void RefinedRun::join() {

@@ -21,7 +21,8 @@ bool same_heading(const std::optional<double>& a_rad, double b_rad) {
 
 }  // namespace
 
-RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run)
+RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run,
+                       bool barred)
     : request_(request), run_(run) {
   for (std::size_t k = 0; k < chain.size(); ++k) {
     const Way& way = (*request.legs[k].ways)[chain[k].way];
@@ -30,7 +31,8 @@ RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoic
                       .driving = way.score,
                       .leaves_rad = way.leaves_rad,
                       .arrives_rad = way.arrives_rad,
-                      .turns_at_goal = chain[k].goal_heading_rad.has_value()});
+                      .turns_at_goal = chain[k].goal_heading_rad.has_value(),
+                      .barred = barred || !may_drive(k, 1)});
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <vector>
@@ -17,7 +18,9 @@ namespace joulepath {
 /// at the stops.
 class RefinedRun {
  public:
-  RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run);
+  /// `barred`: the turns of the chain have no room.
+  RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run,
+             bool barred = false);
 
   /// Optimizes the control points of each leg in turn, with the headings of its neighbors fixed; a way that
   /// leaves or reaches a stop in the heading of its neighbor keeps that heading.
@@ -30,6 +33,10 @@ class RefinedRun {
   /// Replaces the curves of up to three consecutive legs by those that optimize path and speed together,
   /// headings at the stops between included, where their certified drive is cheaper.
   void join();
+
+  /// Whether a leg's present path must not be driven: its way needs a turn without room, or drives forward
+  /// where reverse is asked. Only join() finds another one.
+  [[nodiscard]] bool barred() const;
 
   /// The paths of the legs, turns in place included.
   [[nodiscard]] std::vector<LegPath> paths() const;
@@ -47,6 +54,7 @@ class RefinedRun {
     bool turns_at_goal{};  ///< turns after arrival to the heading in which the next leg leaves (or to that of
                            ///< the station)
     bool refined{};
+    bool barred{};
     std::optional<FreeSpline> spline{};  ///< the path's spline, where it is one
   };
   std::optional<double> heading_before(std::size_t k) const;
@@ -69,9 +77,13 @@ class RefinedRun {
                                          const std::optional<double>& arrives_rad);
   const std::optional<StopResult>& stop_swing(std::size_t k, const FreeSpline& arriving);
   void swing_through(std::size_t k, bool checked);
-  joint::DriveLaw law_of(std::size_t k) const;
-  std::vector<std::vector<joint::Sketch>> rough_paths(std::size_t first,
-                                                      const joint::JointQuery& query) const;
+  joint::DriveLaw law_of(std::size_t k, int direction) const;
+  bool may_drive(std::size_t k, int direction) const;
+  using Starts = std::vector<std::vector<joint::Sketch>>;
+  Starts rough_paths(std::size_t k, const joint::JointQuery& query, bool back) const;
+  Starts rough_chains(std::size_t first, const joint::JointQuery& query, unsigned backward) const;
+  std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;
+  double joined_J(std::size_t first, const joint::JointPaths& joined);
   void join(std::size_t first, std::size_t count);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;

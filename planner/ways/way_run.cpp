@@ -86,6 +86,7 @@ class RunChoice {
   }
 
   std::vector<ChainChoice> choose_chain();
+  std::vector<ChainChoice> first_ways() const;
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -181,15 +182,34 @@ std::vector<ChainChoice> RunChoice::choose_chain() {
   return chain;
 }
 
+/// Any ways, for a run without a drivable choice where some leg may be driven in reverse.
+std::vector<ChainChoice> RunChoice::first_ways() const {
+  std::vector<ChainChoice> chain;
+  bool backward = false;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (ways_[k].empty()) return {};
+    const LegRequest& asked = leg(k);
+    chain.push_back({.score = ways_[k].front().score});
+    backward =
+        backward || (asked.direction != LegDirection::forward &&
+                     std::isfinite(limits_along(context(k).world.robot, asked.payload).reverse_speed_m_s));
+  }
+  return backward ? chain : std::vector<ChainChoice>{};
+}
+
 std::vector<LegPath> RunChoice::choose() {
-  const std::vector<ChainChoice> chain = choose_chain();
+  std::vector<ChainChoice> chain = choose_chain();
+  const bool stuck = chain.empty();
+  if (stuck) chain = first_ways();
   if (chain.empty()) return {};
-  RefinedRun refined(request_, chain, run_);
-  if (!run_.quick && steps_.refinement) {
+  RefinedRun refined(request_, chain, run_, stuck);
+  const bool barred = refined.barred(), refines = !run_.quick && steps_.refinement;
+  if (refines && !barred) {
     refined.refine();
     refined.swing();
-    if (steps_.joint) refined.join();
   }
+  if (barred || (refines && steps_.joint)) refined.join();
+  if (refined.barred()) return {};
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {
     paths[k].source = run_.routes[k].routes[way(k, chain).route].searched_by;
