@@ -134,17 +134,6 @@ Pose turned(Pose pose) {
   return pose;
 }
 
-Pose moved(Pose pose, double along_m) {
-  pose.x_m += along_m * std::cos(pose.heading_rad);
-  pose.y_m += along_m * std::sin(pose.heading_rad);
-  return pose;
-}
-
-Sketch straight(double length_m, bool back) {
-  Sketch line{{{0, 0, length_m}}};
-  return back ? reversed(std::move(line)) : line;
-}
-
 }  // namespace
 
 double Sketch::turn_rad(double half_track_m) const {
@@ -167,6 +156,17 @@ Sketch reversed(Sketch sketch) {
   return sketch;
 }
 
+Pose moved(Pose pose, double along_m) {
+  pose.x_m += along_m * std::cos(pose.heading_rad);
+  pose.y_m += along_m * std::sin(pose.heading_rad);
+  return pose;
+}
+
+Sketch straight(double along_m) {
+  Sketch line{{{0, 0, std::abs(along_m)}}};
+  return along_m < 0 ? reversed(std::move(line)) : line;
+}
+
 void append(Sketch& sketch, const Sketch& next) {
   if (!sketch.parts.empty()) sketch.parts.back().rests_after = true;
   sketch.parts.insert(sketch.parts.end(), next.parts.begin(), next.parts.end());
@@ -184,22 +184,21 @@ std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double
   return found;
 }
 
-std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m, double radius_m) {
+std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m, double radius_m,
+                               const std::vector<double>& straight_m) {
   std::vector<Sketch> found;
-  for (const double out_m : {0.3, 0.9, 1.8})
-    for (const bool back_first : {true, false}) {
-      const double way_m = back_first ? -out_m : out_m;
-      const auto between = [&](const Pose& from, const LegGoal& to, bool reverse) {
-        return reverse ? reverse_words(from, to, half_track_m, radius_m)
-                       : words(from, to, half_track_m, {radius_m});
-      };
-      for (const Sketch& rest : between(moved(start, way_m), goal, !back_first)) {
-        append(found.emplace_back(straight(out_m, back_first)), rest);
-      }
+  const auto between = [&](const Pose& from, const LegGoal& to, bool reverse) {
+    return reverse ? reverse_words(from, to, half_track_m, radius_m)
+                   : words(from, to, half_track_m, {radius_m});
+  };
+  for (const double length_m : straight_m)
+    for (const double out_m : {-length_m, length_m}) {
+      for (const Sketch& rest : between(moved(start, out_m), goal, out_m > 0))
+        append(found.emplace_back(straight(out_m)), rest);
       if (!goal.heading_rad) continue;
-      const Pose before = moved({goal.at_m[0], goal.at_m[1], *goal.heading_rad}, way_m);
-      for (const Sketch& first : between(start, {{before.x_m, before.y_m}, goal.heading_rad}, back_first))
-        append(found.emplace_back(first), straight(out_m, !back_first));
+      const Pose before = moved({goal.at_m[0], goal.at_m[1], *goal.heading_rad}, out_m);
+      for (const Sketch& first : between(start, {{before.x_m, before.y_m}, goal.heading_rad}, out_m < 0))
+        append(found.emplace_back(first), straight(-out_m));
     }
   return found;
 }

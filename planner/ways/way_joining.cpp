@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planner/joint/joint_search.hpp"
 #include "planner/legs/leg_timing.hpp"
@@ -16,9 +15,9 @@ using joint::Sketch;
 
 constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
-constexpr std::size_t kMostReverse = 16;  ///< starts with a part in reverse
+constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
 constexpr double kReverseRadius_m = 0.25;
-const std::vector<double> kWordRadii_m{0.15, 0.5};
+const std::vector<double> kWordRadii_m{0.15, 0.5}, kStraight_m{0.3, 0.9, 1.8};
 
 /// Cost of driving a leg along a path by the certified profile at the leg's price; infinite: none.
 double certified_J(const Path& path, std::size_t leg, const ChoiceContext& context) {
@@ -66,15 +65,6 @@ std::vector<std::vector<Sketch>> easiest(std::vector<std::vector<Sketch>> starts
   return starts;
 }
 
-/// A leg along its route in one direction of travel.
-Sketch along(Pose from, const std::vector<Point2>& route_m, std::optional<double> heading_rad, int begin,
-             int end, double half_track_m, bool back) {
-  if (!back) return joint::along_route(from, route_m, heading_rad, begin, end, half_track_m);
-  from.heading_rad += std::numbers::pi;
-  if (heading_rad) *heading_rad += std::numbers::pi;
-  return joint::reversed(joint::along_route(from, route_m, heading_rad, begin, end, half_track_m));
-}
-
 void append_each(std::vector<std::vector<Sketch>>& starts, std::vector<Sketch> sketches) {
   for (Sketch& sketch : sketches) starts.push_back({std::move(sketch)});
 }
@@ -98,33 +88,56 @@ bool RefinedRun::may_drive(std::size_t k, int direction) const {
          std::isfinite(limits_along(run_.contexts[k].world.robot, asked.payload).reverse_speed_m_s);
 }
 
-/// Arcs and lines along every route of a single leg.
-std::vector<std::vector<Sketch>> RefinedRun::rough_paths(std::size_t k, const joint::JointQuery& query,
-                                                         bool back) const {
+/// The drives along a route that the leg's direction allows.
+std::vector<RouteDrive> RefinedRun::drives(std::size_t k) const {
+  std::vector<RouteDrive> drives;
+  for (const RouteDrive drive : kRouteDrives)
+    if ((drive == RouteDrive::reverse || may_drive(k, 1)) &&
+        (drive == RouteDrive::forward || may_drive(k, -1)))
+      drives.push_back(drive);
+  return drives;
+}
+
+/// Words in reverse, and with one cusp: near an end, or at the first place with room to turn.
+std::vector<Sketch> RefinedRun::backward_words(std::size_t k, const joint::JointQuery& query) const {
   const double half_track_m = query.laws.front().half_track_m;
   const joint::LegGoal& goal = query.goals.front();
-  std::vector<std::vector<Sketch>> all;
-  if (back) {
-    append_each(all, joint::reverse_words(query.start, goal, half_track_m, kReverseRadius_m));
-    if (may_drive(k, 1))
-      append_each(all, joint::cusp_words(query.start, goal, half_track_m, kReverseRadius_m));
-  } else {
-    append_each(all, joint::words(query.start, goal, half_track_m, kWordRadii_m));
+  std::vector<Sketch> all = joint::reverse_words(query.start, goal, half_track_m, kReverseRadius_m);
+  if (!may_drive(k, 1)) return all;
+  std::vector<double> straight_m = kStraight_m;
+  for (const int direction : {1, -1}) {
+    const FreeSpace& room = run_.contexts[k].space->any_heading();
+    const Pose at_goal{goal.at_m[0], goal.at_m[1], goal.heading_rad.value_or(0)};
+    if (const auto out_m = way_to_room_m(room, query.start, direction)) straight_m.push_back(*out_m);
+    if (!goal.heading_rad) continue;
+    if (const auto in_m = way_to_room_m(room, at_goal, direction)) straight_m.push_back(*in_m);
   }
+  for (Sketch& word : joint::cusp_words(query.start, goal, half_track_m, kReverseRadius_m, straight_m))
+    all.push_back(std::move(word));
+  return all;
+}
+
+/// Arcs and lines along every route of a single leg.
+RefinedRun::Starts RefinedRun::rough_paths(std::size_t k, const joint::JointQuery& query,
+                                           RouteDrive drive) const {
+  const joint::LegGoal& goal = query.goals.front();
+  Starts all;
   for (const PooledRoute& route : run_.routes[k].routes)
     if (route.polyline_m.size() > 2)
       for (const int begin : {1, -1})
         for (const int end : goal.heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0})
-          all.push_back(
-              {along(query.start, route.polyline_m, goal.heading_rad, begin, end, half_track_m, back)});
+          if (auto sketch =
+                  sketch_along(drive, query.start, goal, route.polyline_m, begin, end,
+                               query.laws.front().half_track_m, run_.contexts[k].space->any_heading()))
+            all.push_back({std::move(*sketch)});
   return all;
 }
 
-/// Along the chosen routes of several legs; bit i of `backward`: leg i in reverse.
-std::vector<std::vector<Sketch>> RefinedRun::rough_chains(std::size_t first, const joint::JointQuery& query,
-                                                          unsigned backward) const {
+/// Along the chosen routes of several legs, each with a drive of its own.
+RefinedRun::Starts RefinedRun::rough_chains(std::size_t first, const joint::JointQuery& query,
+                                            const std::vector<RouteDrive>& drives) const {
   const double half_track_m = query.laws.front().half_track_m;
-  std::vector<std::vector<Sketch>> all;
+  Starts all;
   for (const int begin : {1, -1})
     for (const int end : query.goals.back().heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0}) {
       std::vector<Sketch> legs;
@@ -132,30 +145,54 @@ std::vector<std::vector<Sketch>> RefinedRun::rough_chains(std::size_t first, con
       for (std::size_t i = 0; i < query.goals.size(); ++i) {
         const bool last = i + 1 == query.goals.size();
         const PooledRoute& route = run_.routes[first + i].routes[parts_[first + i].way->route];
-        legs.push_back(along(from, route.polyline_m, query.goals[i].heading_rad, i == 0 ? begin : 0,
-                             last ? end : 0, half_track_m, (backward >> i & 1U) != 0));
-        from.heading_rad += legs.back().turn_rad(half_track_m);
+        auto sketch =
+            sketch_along(drives[i], from, query.goals[i], route.polyline_m, i == 0 ? begin : 0,
+                         last ? end : 0, half_track_m, run_.contexts[first + i].space->any_heading());
+        if (!sketch) break;
+        legs.push_back(std::move(*sketch));
+        from = {query.goals[i].at_m[0], query.goals[i].at_m[1],
+                from.heading_rad + legs.back().turn_rad(half_track_m)};
       }
-      all.push_back(std::move(legs));
+      if (legs.size() == query.goals.size()) all.push_back(std::move(legs));
     }
   return all;
 }
 
+/// Each choice of a drive for each leg.
+std::vector<std::vector<RouteDrive>> RefinedRun::drive_choices(std::size_t first, std::size_t count) const {
+  std::vector<std::vector<RouteDrive>> choices{{}};
+  for (std::size_t k = first; k < first + count; ++k) {
+    std::vector<std::vector<RouteDrive>> longer;
+    for (const auto& choice : choices)
+      for (const RouteDrive drive : drives(k)) {
+        longer.push_back(choice);
+        longer.back().push_back(drive);
+      }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
 /// Starts whose legs drive forward, and those with a part in reverse.
-std::array<std::vector<std::vector<Sketch>>, 2> RefinedRun::joint_starts(
-    std::size_t first, const joint::JointQuery& query) const {
-  std::array<std::vector<std::vector<Sketch>>, 2> starts;
-  const std::size_t count = query.goals.size();
-  for (unsigned backward = 0; backward < 1U << count; ++backward) {
-    bool allowed = true;
-    for (std::size_t i = 0; i < count; ++i)
-      allowed = allowed && may_drive(first + i, (backward >> i & 1U) != 0 ? -1 : 1);
-    if (!allowed) continue;
-    auto more = count == 1 ? rough_paths(first, query, backward != 0) : rough_chains(first, query, backward);
-    auto& group = starts[backward != 0];
+std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
+                                                           const joint::JointQuery& query) const {
+  const bool alone = query.goals.size() == 1;
+  const joint::LegGoal& goal = query.goals.front();
+  std::array<Starts, 2> starts;
+  Starts backward;
+  if (alone && may_drive(first, 1))
+    append_each(starts[0], joint::words(query.start, goal, query.laws.front().half_track_m, kWordRadii_m));
+  if (alone && may_drive(first, -1)) append_each(starts[1], backward_words(first, query));
+  for (const auto& drives : drive_choices(first, query.goals.size())) {
+    auto more = alone ? rough_paths(first, query, drives.front()) : rough_chains(first, query, drives);
+    const bool forward = std::all_of(drives.begin(), drives.end(),
+                                     [](RouteDrive drive) { return drive == RouteDrive::forward; });
+    auto& group = forward ? starts[0] : backward;
     std::move(more.begin(), more.end(), std::back_inserter(group));
   }
-  return {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
+  starts = {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
+  for (auto& start : easiest(std::move(backward), kMostReverse)) starts[1].push_back(std::move(start));
+  return starts;
 }
 
 /// The legs' cost with the paths of the joint program in place of the present ones; infinite: not drivable.

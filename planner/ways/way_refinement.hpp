@@ -8,6 +8,7 @@
 #include "planner/joint/joint_search.hpp"
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
+#include "planner/ways/route_sketch.hpp"
 #include "planner/ways/stop_swing.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_run.hpp"
@@ -18,9 +19,7 @@ namespace joulepath {
 /// at the stops.
 class RefinedRun {
  public:
-  /// `barred`: the turns of the chain have no room.
-  RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run,
-             bool barred = false);
+  RefinedRun(const ChainRequest& request, const std::vector<ChainChoice>& chain, const WayRun& run);
 
   /// Optimizes the control points of each leg in turn, with the headings of its neighbors fixed; a way that
   /// leaves or reaches a stop in the heading of its neighbor keeps that heading.
@@ -80,8 +79,12 @@ class RefinedRun {
   joint::DriveLaw law_of(std::size_t k, int direction) const;
   bool may_drive(std::size_t k, int direction) const;
   using Starts = std::vector<std::vector<joint::Sketch>>;
-  Starts rough_paths(std::size_t k, const joint::JointQuery& query, bool back) const;
-  Starts rough_chains(std::size_t first, const joint::JointQuery& query, unsigned backward) const;
+  std::vector<RouteDrive> drives(std::size_t k) const;
+  std::vector<std::vector<RouteDrive>> drive_choices(std::size_t first, std::size_t count) const;
+  std::vector<joint::Sketch> backward_words(std::size_t k, const joint::JointQuery& query) const;
+  Starts rough_paths(std::size_t k, const joint::JointQuery& query, RouteDrive drive) const;
+  Starts rough_chains(std::size_t first, const joint::JointQuery& query,
+                      const std::vector<RouteDrive>& drives) const;
   std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;
   double joined_J(std::size_t first, const joint::JointPaths& joined);
   void join(std::size_t first, std::size_t count);
