@@ -128,6 +128,12 @@ void draw_open(MissionRequest& mission, Draw& draw, unsigned index, double least
   }
 }
 
+void draw_behind(MissionRequest& mission, Draw& draw) {
+  const double heading_rad = draw.angle_rad(), reach_m = std::exp(draw(0, std::log(10)));
+  mission.start.pose = {15, 15, heading_rad};
+  add_leg(mission, {15 - reach_m * std::cos(heading_rad), 15 - reach_m * std::sin(heading_rad)}, heading_rad);
+}
+
 /// Even cases begin on the floor and end in a slot, the others the other way round; the robot looks into the
 /// slot or out of it.
 void draw_docking(MissionRequest& mission, const World& world, Draw& draw, unsigned index) {
@@ -183,7 +189,8 @@ void draw_places(MissionRequest& mission, const World& world, Draw& draw, unsign
 }  // namespace
 
 const std::vector<std::string>& joint_kinds() {
-  static const std::vector<std::string> kinds{"open", "corner", "docking", "obstacles", "stops", "dead_end"};
+  static const std::vector<std::string> kinds{"open",  "corner",   "docking", "obstacles",
+                                              "stops", "dead_end", "behind"};
   return kinds;
 }
 
@@ -207,6 +214,7 @@ JointCase joint_case(const JointFloors& floors, const std::string& kind, unsigne
   Draw draw(seed, kind, index);
   if (kind == "open") draw_open(one.mission, draw, index, 0.7, 10, 0);
   if (kind == "corner") draw_open(one.mission, draw, index, 0.3, 2, 0.75 * kPi);
+  if (kind == "behind") draw_behind(one.mission, draw);
   if (kind == "docking") draw_docking(one.mission, *one.world, draw, index);
   if (kind == "dead_end") draw_dead_end(one.mission, *one.world, draw, index);
   if (kind == "obstacles") draw_places(one.mission, *one.world, draw, index, 1);

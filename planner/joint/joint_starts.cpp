@@ -178,18 +178,17 @@ LegGoal turned(LegGoal goal) {
 }
 
 std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
-                                  double radius_m) {
-  std::vector<Sketch> found = words(turned(start), turned(goal), half_track_m, {radius_m});
+                                  const std::vector<double>& radii_m) {
+  std::vector<Sketch> found = words(turned(start), turned(goal), half_track_m, radii_m);
   for (Sketch& sketch : found) sketch = reversed(std::move(sketch));
   return found;
 }
 
-std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m, double radius_m,
-                               const std::vector<double>& straight_m) {
+std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                               const std::vector<double>& radii_m, const std::vector<double>& straight_m) {
   std::vector<Sketch> found;
   const auto between = [&](const Pose& from, const LegGoal& to, bool reverse) {
-    return reverse ? reverse_words(from, to, half_track_m, radius_m)
-                   : words(from, to, half_track_m, {radius_m});
+    return reverse ? reverse_words(from, to, half_track_m, radii_m) : words(from, to, half_track_m, radii_m);
   };
   for (const double length_m : straight_m)
     for (const double out_m : {-length_m, length_m}) {

@@ -47,9 +47,10 @@ void append(Sketch& sketch, const Sketch& next);
 /// The words of a drive in reverse, and those with one cusp: a straight line of one of the lengths at one
 /// end, backward or forward, the rest the other way.
 [[nodiscard]] std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
-                                                double radius_m);
+                                                const std::vector<double>& radii_m);
 [[nodiscard]] std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m,
-                                             double radius_m, const std::vector<double>& straight_m);
+                                             const std::vector<double>& radii_m,
+                                             const std::vector<double>& straight_m);
 
 /// Arc, line, and a bend and a line for each corner of a route; a last arc, to a heading where one is asked.
 /// `first`, `last`: senses of these arcs, +1 to the left, -1 to the right, 0 the shorter way round.

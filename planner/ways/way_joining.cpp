@@ -16,8 +16,7 @@ using joint::Sketch;
 constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
 constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
-constexpr double kReverseRadius_m = 0.25;
-const std::vector<double> kWordRadii_m{0.15, 0.5}, kStraight_m{0.3, 0.9, 1.8};
+const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
 
 /// Cost of driving a leg along a path by the certified profile at the leg's price; infinite: none.
 double certified_J(const Path& path, std::size_t leg, const ChoiceContext& context) {
@@ -102,7 +101,7 @@ std::vector<RouteDrive> RefinedRun::drives(std::size_t k) const {
 std::vector<Sketch> RefinedRun::backward_words(std::size_t k, const joint::JointQuery& query) const {
   const double half_track_m = query.laws.front().half_track_m;
   const joint::LegGoal& goal = query.goals.front();
-  std::vector<Sketch> all = joint::reverse_words(query.start, goal, half_track_m, kReverseRadius_m);
+  std::vector<Sketch> all = joint::reverse_words(query.start, goal, half_track_m, kWordRadii_m);
   if (!may_drive(k, 1)) return all;
   std::vector<double> straight_m = kStraight_m;
   for (const int direction : {1, -1}) {
@@ -112,7 +111,7 @@ std::vector<Sketch> RefinedRun::backward_words(std::size_t k, const joint::Joint
     if (!goal.heading_rad) continue;
     if (const auto in_m = way_to_room_m(room, at_goal, direction)) straight_m.push_back(*in_m);
   }
-  for (Sketch& word : joint::cusp_words(query.start, goal, half_track_m, kReverseRadius_m, straight_m))
+  for (Sketch& word : joint::cusp_words(query.start, goal, half_track_m, kCuspRadii_m, straight_m))
     all.push_back(std::move(word));
   return all;
 }

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -313,114 +312,6 @@ TEST(Joint, APlanIsNeverDearerWithIt) {
     options.steps.joint = false;
     EXPECT_LE(with_J, plan_mission(mission, world, options).energy.total_J() * (1 + 1e-6)) << trial;
   }
-}
-
-const PlanOptions kOnFloor{.solver = SolverChoice::fast, .nodes = 100, .accuracy = 1e-3, .baselines = false};
-
-MissionRequest leg_on_a_floor(const Pose& start, const Pose& goal) {
-  MissionRequest mission{.name = "pose", .clearance_m = 0.05};
-  mission.stations["goal"] = {.x_m = goal.x_m, .y_m = goal.y_m, .heading_rad = goal.heading_rad};
-  mission.start.pose = start;
-  mission.legs = {{.to = "goal"}};
-  return mission;
-}
-
-Robot that_reverses(Robot robot, double speed_m_s = 1) {
-  robot.limits->reverse_speed_m_s = speed_m_s;
-  return robot;
-}
-
-Plan plan_on_floor(const MissionRequest& mission, const Robot& robot) {
-  return plan_mission(mission, {.robot = robot, .map = free_grid(400, 300, 0.05)}, kOnFloor);
-}
-
-/// The sign of travel of each curve of a plan.
-std::vector<int> signs(const Plan& plan) {
-  std::vector<int> signs;
-  for (const LegPlan& leg : plan.legs)
-    for (const StretchPlan& stretch : leg.stretches) signs.push_back(travel_sign(stretch.request.piece));
-  return signs;
-}
-
-// A robot that is alike in both directions needs as much for a goal behind it as for one ahead.
-TEST(JointReverse, AGoalBehindCostsWhatOneAheadCosts) {
-  for (const double reach_m : {1.0, 3.0, 6.0, 10.0}) {
-    const Plan behind =
-        plan_on_floor(leg_on_a_floor({14, 7, 0}, {14 - reach_m, 7, 0}), that_reverses(even_nomad()));
-    const Plan ahead = plan_on_floor(leg_on_a_floor({4, 7, 0}, {4 + reach_m, 7, 0}), even_nomad());
-    EXPECT_EQ(signs(behind), std::vector<int>{-1}) << reach_m;
-    EXPECT_NEAR(behind.energy.total_J() / ahead.energy.total_J(), 1, 1e-3) << reach_m;
-  }
-}
-
-TEST(JointReverse, ARobotWithoutASpeedForItNeverDrivesBackward) {
-  for (const int sign : signs(plan_on_floor(leg_on_a_floor({14, 7, 0}, {13, 7, 0}), even_nomad())))
-    EXPECT_GE(sign, 0);
-}
-
-TEST(JointReverse, TheLegsDirectionBindsTheSearch) {
-  MissionRequest mission = leg_on_a_floor({14, 7, 0}, {11, 7, 0});
-  mission.legs.front().direction = LegDirection::forward;
-  for (const int sign : signs(plan_on_floor(mission, that_reverses(even_nomad())))) EXPECT_GE(sign, 0);
-  mission = leg_on_a_floor({4, 7, 0}, {8, 7, 0});
-  mission.legs.front().direction = LegDirection::reverse;
-  for (const int sign : signs(plan_on_floor(mission, that_reverses(even_nomad())))) EXPECT_EQ(sign, -1);
-  EXPECT_THROW((void)plan_on_floor(mission, even_nomad()), ConfigError);
-}
-
-TEST(JointReverse, ItsSpeedIsALimitOfItsOwn) {
-  const Plan plan = plan_on_floor(leg_on_a_floor({14, 7, 0}, {8, 7, 0}), that_reverses(even_nomad(), 0.7));
-  ASSERT_EQ(signs(plan), std::vector<int>{-1});
-  const std::vector<double>& rate = plan.legs[0].stretches[0].profile.rate;
-  EXPECT_LE(*std::max_element(rate.begin(), rate.end()), 0.7 * (1 + 1e-9));
-}
-
-// A short way with much turning is cheaper with a cusp, and no leg dearer than without driving backward.
-TEST(JointReverse, IsNeverDearerThanForwardOnly) {
-  std::mt19937 random(8);
-  std::uniform_real_distribution<> angle(-kPi, kPi), reach(0.3, 3);
-  double saved = 0;
-  for (int trial = 0; trial < 6; ++trial) {
-    const double bearing = angle(random), reach_m = reach(random), heading = angle(random);
-    const MissionRequest mission = leg_on_a_floor(
-        {10, 7, angle(random)}, {10 + reach_m * std::cos(bearing), 7 + reach_m * std::sin(bearing), heading});
-    const double forward_J = plan_on_floor(mission, even_nomad()).energy.total_J();
-    const double any_J = plan_on_floor(mission, that_reverses(even_nomad())).energy.total_J();
-    EXPECT_LE(any_J, forward_J * (1 + 1e-6)) << trial;
-    saved = std::max(saved, 1 - any_J / forward_J);
-  }
-  EXPECT_GT(saved, 0.1);
-}
-
-/// A slot of 0.9 m, 2 m deep, in the lower wall of a room.
-OccupancyGrid slot() {
-  OccupancyGrid grid = free_grid(120, 120, 0.05);
-  for (int row = 0; row < 42; ++row)
-    for (int column = 0; column < 120; ++column)
-      if (row < 2 || column < 51 || column >= 69)
-        grid.occupancy_percent[static_cast<std::size_t>(row * 120 + column)] = 100;
-  return grid;
-}
-
-// The robot is too long to turn in the slot: it drives in forward and comes out backward.
-TEST(JointReverse, LeavesADeadEndThatHasNoRoomToTurn) {
-  MissionRequest mission{.name = "slot", .clearance_m = 0.05};
-  mission.stations = {{"in", {.x_m = 3, .y_m = 0.7}}, {"home", {.x_m = 4.5, .y_m = 4.5}}};
-  mission.start.pose = {1.5, 4.5, 0};
-  mission.legs = {{.to = "in"}, {.to = "home"}};
-  Robot robot = even_nomad();
-  robot.footprint = {.polygon_m = {{-0.4, -0.25}, {0.5, -0.25}, {0.5, 0.25}, {-0.4, 0.25}}};
-  const auto plan_with = [&](const Robot& one) {
-    return plan_mission(mission, {.robot = one, .map = slot()}, kOnFloor);
-  };
-  const Plan stuck = plan_with(robot);
-  ASSERT_TRUE(stuck.infeasibility);
-  EXPECT_NE(stuck.infeasibility->reason.message.find("reverse_speed_m_s"), std::string::npos)
-      << stuck.infeasibility->reason.message;
-  const Plan plan = plan_with(that_reverses(robot));
-  ASSERT_FALSE(plan.infeasibility) << plan.infeasibility->reason.message;
-  const std::vector<int> driven = signs(plan);
-  EXPECT_TRUE(std::count(driven.begin(), driven.end(), -1) > 0);
 }
 
 }  // namespace
