@@ -40,6 +40,9 @@ double at_share(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
+/// Share of half the 90 % interval of a median about it, by the ranks of a binomial distribution.
+double half_interval(std::size_t count) { return 1.645 * 0.5 / std::sqrt(static_cast<double>(count)); }
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -65,11 +68,14 @@ void compare_kind(const JointFloors& floors, Difference difference, const std::s
     change_percent.push_back(100 * (after.energy_J / before.energy_J - 1));
     dearer += after.energy_J > before.energy_J * (1 + kWorse);
   }
+  const double wide = half_interval(change_percent.size());
   std::printf(
-      "| %s | %zu | %+.2f %% | %+.2f %% | %+.2f %% | %+.2f %% | %d | %d / %d / %d | %.2f s | %.2f s |\n",
+      "| %s | %zu | %+.2f %% | %+.2f %% (%+.2f to %+.2f) | %+.2f %% | %+.2f %% | %d | %d / %d / %d | %.2f s "
+      "| %.2f s |\n",
       kind.c_str(), change_percent.size(), mean(change_percent), at_share(change_percent, 0.5),
-      at_share(change_percent, 0), at_share(change_percent, 1), dearer, none, new_ones, lost, mean(before_s),
-      mean(after_s));
+      at_share(change_percent, std::max(0.0, 0.5 - wide)),
+      at_share(change_percent, std::min(1.0, 0.5 + wide)), at_share(change_percent, 0),
+      at_share(change_percent, 1), dearer, none, new_ones, lost, mean(before_s), mean(after_s));
   std::fflush(stdout);
 }
 
@@ -91,7 +97,8 @@ void compare_all(Difference difference, unsigned count, unsigned seed, const cha
       "`benchmarks/ways/joint_cases.hpp`.\n\n",
       title_of(difference), note, setting_of(difference));
   std::puts(
-      "| cases | planned by both | energy, mean | median | best | worst | dearer by 0.05 % or more | planned "
+      "| cases | planned by both | energy, mean | median (90 % interval) | best | worst | dearer by 0.05 % "
+      "or more | planned "
       "by none / only with / only without | CPU each without | with "
       "|\n|---|---|---|---|---|---|---|---|---|---|");
   const JointFloors floors;
