@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "benchmarks/ways/joint_cases.hpp"
 
@@ -47,6 +49,12 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+std::string percent(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%+.2f %%", value);
+  return std::isnan(value) ? "-" : text;
+}
+
 void compare_kind(const JointFloors& floors, Difference difference, const std::string& kind, unsigned count,
                   unsigned seed) {
   std::vector<double> change_percent, before_s, after_s;
@@ -69,13 +77,18 @@ void compare_kind(const JointFloors& floors, Difference difference, const std::s
     dearer += after.energy_J > before.energy_J * (1 + kWorse);
   }
   const double wide = half_interval(change_percent.size());
-  std::printf(
-      "| %s | %zu | %+.2f %% | %+.2f %% (%+.2f to %+.2f) | %+.2f %% | %+.2f %% | %d | %d / %d / %d | %.2f s "
-      "| %.2f s |\n",
-      kind.c_str(), change_percent.size(), mean(change_percent), at_share(change_percent, 0.5),
-      at_share(change_percent, std::max(0.0, 0.5 - wide)),
-      at_share(change_percent, std::min(1.0, 0.5 + wide)), at_share(change_percent, 0),
-      at_share(change_percent, 1), dearer, none, new_ones, lost, mean(before_s), mean(after_s));
+  const auto share = [&](double at) { return percent(at_share(change_percent, std::clamp(at, 0.0, 1.0))); };
+  const std::vector<std::string> cells{
+      kind,
+      std::to_string(change_percent.size()),
+      percent(mean(change_percent)),
+      share(0.5) + " (" + share(0.5 - wide) + " to " + share(0.5 + wide) + ")",
+      share(0),
+      share(1),
+      std::to_string(dearer),
+      std::to_string(none) + " / " + std::to_string(new_ones) + " / " + std::to_string(lost)};
+  for (const std::string& cell : cells) std::printf("| %s ", cell.c_str());
+  std::printf("| %.2f s | %.2f s |\n", mean(before_s), mean(after_s));
   std::fflush(stdout);
 }
 
