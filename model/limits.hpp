@@ -26,6 +26,7 @@ struct Limits {
   double motor_power_W{kNoLimit};         ///< electrical, per motor
   double battery_power_W{kNoLimit};       ///< at the battery's terminals, standby included
   double max_payload_kg{kNoLimit};
+  double reverse_speed_m_s{kNoLimit};  ///< a search drives backward only where it is finite
 };
 
 /// One row of the table of limits. State is LimitState (model/limit_table.hpp).
@@ -122,6 +123,12 @@ inline constexpr std::array kLimitRows{
                     .meaning = "at the battery's terminals, standby included",
                     .field = &Limits::battery_power_W,
                     .value = [](const State& x, Side) { return std::max(0.0, x.battery_power_W); }},
+    LimitRow<State>{.key = "reverse_speed_m_s",
+                    .name = "reverse_speed",
+                    .unit = "m/s",
+                    .meaning = "greatest speed in reverse; a search drives backward only where it is stated",
+                    .field = &Limits::reverse_speed_m_s,
+                    .value = [](const State& x, Side) { return std::max(0.0, -x.motion.speed_m_s); }},
     LimitRow<State>{.key = "max_payload_kg",
                     .name = "max_payload",
                     .unit = "kg",

@@ -1,6 +1,7 @@
 #include "benchmarks/ways/joint_cases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -12,6 +13,8 @@ namespace joulepath::ways {
 namespace {
 
 constexpr double kJointClearance_m = 0.05, kCell_m = 0.05, kPi = std::numbers::pi;
+constexpr std::array kDeadEnds_m{0.9, 1.0, 1.1};
+constexpr double kBetweenDeadEnds_m = 1.5;
 
 class Draw {
  public:
@@ -62,8 +65,28 @@ OccupancyGrid rooms() {
   return grid;
 }
 
-World world_of(const std::string& name, OccupancyGrid grid) {
-  MissionWorld world{.robot = testing::nomad(), .map = std::move(grid)};
+/// Dead ends of 0.9, 1 and 1.1 m, 3 m deep, below a floor of 10 x 5 m.
+OccupancyGrid dead_ends() {
+  OccupancyGrid grid = free_grid(200, 164, kCell_m);
+  fill(grid, 0, 0, 10, 0.2);
+  double x_m = 0;
+  for (const double wide_m : kDeadEnds_m) {
+    fill(grid, x_m, 0.2, x_m + kBetweenDeadEnds_m, 3.2);
+    x_m += kBetweenDeadEnds_m + wide_m;
+  }
+  fill(grid, x_m, 0.2, 10, 3.2);
+  return grid;
+}
+
+/// A robot that turns on the spot within 1.3 m only.
+Robot long_robot() {
+  Robot robot = testing::nomad();
+  robot.footprint = {.polygon_m = {{-0.3, -0.25}, {0.6, -0.25}, {0.6, 0.25}, {-0.3, 0.25}}};
+  return robot;
+}
+
+World world_of(const std::string& name, OccupancyGrid grid, Robot robot = testing::nomad()) {
+  MissionWorld world{.robot = std::move(robot), .map = std::move(grid)};
   RouteSpace space(*world.map, nullptr, world.robot.footprint, kJointClearance_m);
   return {name, std::move(world), std::move(space), {}};
 }
@@ -105,6 +128,12 @@ void draw_open(MissionRequest& mission, Draw& draw, unsigned index, double least
   }
 }
 
+void draw_behind(MissionRequest& mission, Draw& draw) {
+  const double heading_rad = draw.angle_rad(), reach_m = std::exp(draw(0, std::log(10)));
+  mission.start.pose = {15, 15, heading_rad};
+  add_leg(mission, {15 - reach_m * std::cos(heading_rad), 15 - reach_m * std::sin(heading_rad)}, heading_rad);
+}
+
 /// Even cases begin on the floor and end in a slot, the others the other way round; the robot looks into the
 /// slot or out of it.
 void draw_docking(MissionRequest& mission, const World& world, Draw& draw, unsigned index) {
@@ -125,6 +154,23 @@ void draw_docking(MissionRequest& mission, const World& world, Draw& draw, unsig
   }
 }
 
+/// By the index: out of a dead end, nose first in it, to a place with a heading or without; into one, to look
+/// out of it; into one and away again.
+void draw_dead_end(MissionRequest& mission, const World& world, Draw& draw, unsigned index) {
+  const std::size_t which = (index / 4) % kDeadEnds_m.size();
+  double x_m = kBetweenDeadEnds_m;
+  for (std::size_t k = 0; k < which; ++k) x_m += kDeadEnds_m[k] + kBetweenDeadEnds_m;
+  const Pose inside{x_m + 0.5 * kDeadEnds_m[which], draw(1.0, 2.2), -0.5 * kPi};
+  Point2 place_m = free_place(world, draw);
+  while (place_m[1] < 4) place_m = free_place(world, draw);
+  const double heading_rad = draw.angle_rad();
+  mission.start.pose = index % 4 < 2 ? inside : Pose{place_m[0], place_m[1], heading_rad};
+  if (index % 4 == 2) add_leg(mission, {inside.x_m, inside.y_m}, 0.5 * kPi);
+  if (index % 4 == 3) add_leg(mission, {inside.x_m, inside.y_m}, std::nullopt);
+  if (index % 4 == 3) place_m = {draw(1, 9), draw(4.5, 7)};
+  if (index % 4 != 2) add_leg(mission, place_m, index % 4 == 1 ? std::optional(heading_rad) : std::nullopt);
+}
+
 void draw_places(MissionRequest& mission, const World& world, Draw& draw, unsigned index, int legs) {
   const Point2 from_m = free_place(world, draw);
   mission.start.pose = {from_m[0], from_m[1], draw.angle_rad()};
@@ -143,7 +189,8 @@ void draw_places(MissionRequest& mission, const World& world, Draw& draw, unsign
 }  // namespace
 
 const std::vector<std::string>& joint_kinds() {
-  static const std::vector<std::string> kinds{"open", "corner", "docking", "obstacles", "stops"};
+  static const std::vector<std::string> kinds{"open",  "corner",   "docking", "obstacles",
+                                              "stops", "dead_end", "behind"};
   return kinds;
 }
 
@@ -151,10 +198,12 @@ JointFloors::JointFloors() {
   worlds_.push_back(world_of("empty", free_grid(600, 600, kCell_m)));
   worlds_.push_back(world_of("docks", docks()));
   worlds_.push_back(world_of("rooms", rooms()));
+  worlds_.push_back(world_of("dead ends", dead_ends(), long_robot()));
 }
 
 const World& JointFloors::of(const std::string& kind) const {
   if (kind == "docking") return worlds_[1];
+  if (kind == "dead_end") return worlds_[3];
   return kind == "obstacles" || kind == "stops" ? worlds_[2] : worlds_[0];
 }
 
@@ -165,7 +214,9 @@ JointCase joint_case(const JointFloors& floors, const std::string& kind, unsigne
   Draw draw(seed, kind, index);
   if (kind == "open") draw_open(one.mission, draw, index, 0.7, 10, 0);
   if (kind == "corner") draw_open(one.mission, draw, index, 0.3, 2, 0.75 * kPi);
+  if (kind == "behind") draw_behind(one.mission, draw);
   if (kind == "docking") draw_docking(one.mission, *one.world, draw, index);
+  if (kind == "dead_end") draw_dead_end(one.mission, *one.world, draw, index);
   if (kind == "obstacles") draw_places(one.mission, *one.world, draw, index, 1);
   if (kind == "stops") draw_places(one.mission, *one.world, draw, index, 2);
   return one;

@@ -16,8 +16,9 @@ namespace joulepath::joint {
 struct Piece {
   Eigen::Index from{}, to{};  ///< knots
   int sign{1};                ///< 1: phi about 0, forward; -1: phi about pi, in reverse
-  std::size_t law{};          ///< index into the laws
-  bool rests_after{};         ///< the robot stands at its end: phi may jump
+  std::size_t leg{};
+  std::size_t law{};   ///< index into the laws
+  bool rests_after{};  ///< the robot stands at its end: phi may jump
   std::size_t segments{};
 };
 

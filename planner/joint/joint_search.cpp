@@ -133,7 +133,7 @@ std::vector<Path> paths_of(const Program& program, const Eigen::VectorXd& p) {
     paths.back().pieces.push_back(
         Curve(std::move(segments), piece.sign > 0 ? Direction::forward : Direction::reverse));
     segments.clear();
-    if (!last && program.pieces[j + 1].law != piece.law) paths.emplace_back();
+    if (!last && program.pieces[j + 1].leg != piece.leg) paths.emplace_back();
   }
   return paths;
 }
@@ -147,6 +147,8 @@ std::vector<JointPaths> best_joint_paths(const JointQuery& query, std::vector<st
   for (const std::vector<Sketch>& sketches : starts) {
     Candidate candidate{assemble(sketches, query.goals, query.start, half_track_m, kCoarse), {}};
     candidate.start.program.laws = query.laws;
+    candidate.start.program.laws.insert(candidate.start.program.laws.end(), query.reverse_laws.begin(),
+                                        query.reverse_laws.end());
     candidate.start.program.checker = query.checker;
     candidate.solution = solve(candidate.start, {.give_up_J = kGiveUp * best_J});
     ++counts.starts;

@@ -7,12 +7,14 @@
 // Design: docs/decisions/0212-joint-path-and-speed.md
 namespace joulepath::joint {
 
-/// Legs to be planned together: the robot stands at each stop and leaves it in the heading of its arrival.
+/// Legs to be planned together: the robot stands at each stop and leaves it in the heading of its arrival,
+/// forward or in reverse.
 struct JointQuery {
   Pose start{};
   std::vector<LegGoal> goals{};
-  std::vector<DriveLaw> laws{};       ///< per leg
-  const FootprintChecker* checker{};  ///< null: an open floor
+  std::vector<DriveLaw> laws{};          ///< forward, per leg
+  std::vector<DriveLaw> reverse_laws{};  ///< the same; empty: no start drives in reverse
+  const FootprintChecker* checker{};     ///< null: an open floor
 };
 
 /// Paths of the legs and what they cost by the joint program.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace joulepath::joint {
 namespace {
@@ -87,10 +88,10 @@ struct Course {
   }
 };
 
-Course course_of(const Path& path, double half_track_m) {
+Course course_of(std::span<const PathPiece> pieces, double half_track_m) {
   constexpr int kLooks = 120;
   Course course;
-  for (const PathPiece& piece : path.pieces) {
+  for (const PathPiece& piece : pieces) {
     const double length = piece_length(piece);
     for (int i = 0; i < kLooks; ++i) {
       const double step = length / kLooks;
@@ -103,6 +104,34 @@ Course course_of(const Path& path, double half_track_m) {
     }
   }
   return course;
+}
+
+Sketch along_pieces(std::span<const PathPiece> pieces, double half_track_m, std::size_t count) {
+  const Course course = course_of(pieces, half_track_m);
+  const double whole_m = course.tau_m.back();
+  std::vector<double> weight{0.0};
+  for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
+    const double change = i > 0 ? std::abs(course.phi_rad[i] - course.phi_rad[i - 1]) : 0.0;
+    weight.push_back(weight.back() + change + 3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
+  }
+  std::vector<double> knots{0.0};
+  for (std::size_t k = 1; k < count; ++k) {
+    const double part = weight.back() * static_cast<double>(k) / static_cast<double>(count);
+    const auto at =
+        static_cast<std::size_t>(std::lower_bound(weight.begin(), weight.end(), part) - weight.begin());
+    knots.push_back(std::max(course.tau_m[at], knots.back() + kShortestPiece_m));
+  }
+  knots.push_back(std::max(whole_m, knots.back() + kShortestPiece_m));
+  Sketch sketch;
+  const auto phi = [&](double tau) { return std::clamp(course.phi_at(tau), -kMostPhi_rad, kMostPhi_rad); };
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+    sketch.parts.push_back({phi(knots[k]), phi(knots[k + 1]), knots[k + 1] - knots[k]});
+  return sketch;
+}
+
+Pose turned(Pose pose) {
+  pose.heading_rad += kPi;
+  return pose;
 }
 
 }  // namespace
@@ -119,6 +148,58 @@ double Sketch::effort_m() const {
   for (const Part& part : parts)
     sum += part.length_m * (1 + std::abs(std::sin(part.from_rad) + std::sin(part.to_rad)));
   return sum;
+}
+
+Sketch reversed(Sketch sketch) {
+  for (Sketch::Part& part : sketch.parts)
+    part = {kPi - part.from_rad, kPi - part.to_rad, part.length_m, -part.sign, part.rests_after};
+  return sketch;
+}
+
+Pose moved(Pose pose, double along_m) {
+  pose.x_m += along_m * std::cos(pose.heading_rad);
+  pose.y_m += along_m * std::sin(pose.heading_rad);
+  return pose;
+}
+
+Sketch straight(double along_m) {
+  Sketch line{{{0, 0, std::abs(along_m)}}};
+  return along_m < 0 ? reversed(std::move(line)) : line;
+}
+
+void append(Sketch& sketch, const Sketch& next) {
+  if (!sketch.parts.empty()) sketch.parts.back().rests_after = true;
+  sketch.parts.insert(sketch.parts.end(), next.parts.begin(), next.parts.end());
+}
+
+LegGoal turned(LegGoal goal) {
+  if (goal.heading_rad) *goal.heading_rad += kPi;
+  return goal;
+}
+
+std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                  const std::vector<double>& radii_m) {
+  std::vector<Sketch> found = words(turned(start), turned(goal), half_track_m, radii_m);
+  for (Sketch& sketch : found) sketch = reversed(std::move(sketch));
+  return found;
+}
+
+std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                               const std::vector<double>& radii_m, const std::vector<double>& straight_m) {
+  std::vector<Sketch> found;
+  const auto between = [&](const Pose& from, const LegGoal& to, bool reverse) {
+    return reverse ? reverse_words(from, to, half_track_m, radii_m) : words(from, to, half_track_m, radii_m);
+  };
+  for (const double length_m : straight_m)
+    for (const double out_m : {-length_m, length_m}) {
+      for (const Sketch& rest : between(moved(start, out_m), goal, out_m > 0))
+        append(found.emplace_back(straight(out_m)), rest);
+      if (!goal.heading_rad) continue;
+      const Pose before = moved({goal.at_m[0], goal.at_m[1], *goal.heading_rad}, out_m);
+      for (const Sketch& first : between(start, {{before.x_m, before.y_m}, goal.heading_rad}, out_m < 0))
+        append(found.emplace_back(first), straight(-out_m));
+    }
+  return found;
 }
 
 std::vector<Sketch> words(const Pose& start, const LegGoal& goal, double half_track_m,
@@ -158,25 +239,17 @@ Sketch along_route(const Pose& start, const std::vector<Point2>& route_m,
 }
 
 Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
-  const Course course = course_of(path, half_track_m);
-  const double whole_m = course.tau_m.back();
-  std::vector<double> weight{0.0};
-  for (std::size_t i = 0; i < course.phi_rad.size(); ++i) {
-    const double change = i > 0 ? std::abs(course.phi_rad[i] - course.phi_rad[i - 1]) : 0.0;
-    weight.push_back(weight.back() + change + 3 * (course.tau_m[i + 1] - course.tau_m[i]) / whole_m);
-  }
-  std::vector<double> knots{0.0};
-  for (std::size_t k = 1; k < count; ++k) {
-    const double part = weight.back() * static_cast<double>(k) / static_cast<double>(count);
-    const auto at =
-        static_cast<std::size_t>(std::lower_bound(weight.begin(), weight.end(), part) - weight.begin());
-    knots.push_back(std::max(course.tau_m[at], knots.back() + kShortestPiece_m));
-  }
-  knots.push_back(std::max(whole_m, knots.back() + kShortestPiece_m));
   Sketch sketch;
-  const auto phi = [&](double tau) { return std::clamp(course.phi_at(tau), -kMostPhi_rad, kMostPhi_rad); };
-  for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    sketch.parts.push_back({phi(knots[k]), phi(knots[k + 1]), knots[k + 1] - knots[k]});
+  for (std::size_t from = 0, to = 0; from < path.pieces.size(); from = to) {
+    int sign = 0;
+    for (to = from; to < path.pieces.size(); ++to) {
+      const int next = travel_sign(path.pieces[to]);
+      if (sign * next < 0) break;
+      if (next != 0) sign = next;
+    }
+    Sketch part = along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m, count);
+    append(sketch, sign < 0 ? reversed(std::move(part)) : std::move(part));
+  }
   return sketch;
 }
 
@@ -198,7 +271,8 @@ Start assemble(const std::vector<Sketch>& legs, const std::vector<LegGoal>& goal
       program.pieces.push_back({.from = from,
                                 .to = from + 1,
                                 .sign = part.sign,
-                                .law = leg,
+                                .leg = leg,
+                                .law = part.sign > 0 ? leg : legs.size() + leg,
                                 .rests_after = part.rests_after,
                                 .segments = segments});
     }

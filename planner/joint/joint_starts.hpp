@@ -27,9 +27,30 @@ struct LegGoal {
   std::optional<double> heading_rad{};
 };
 
+/// The goal of the robot turned by half a turn.
+[[nodiscard]] LegGoal turned(LegGoal goal);
+
 /// Arc, line, arc between a pose and a goal, in each combination of senses of turning and for the radii.
 [[nodiscard]] std::vector<Sketch> words(const Pose& start, const LegGoal& goal, double half_track_m,
                                         const std::vector<double>& radii_m);
+
+/// The sketch of the robot turned by half a turn, driven in reverse.
+[[nodiscard]] Sketch reversed(Sketch sketch);
+
+/// Continues a sketch after a rest, where the direction may jump.
+void append(Sketch& sketch, const Sketch& next);
+
+/// A straight line, and the pose at its end, in the robot's frame: forward where `along_m` is positive.
+[[nodiscard]] Sketch straight(double along_m);
+[[nodiscard]] Pose moved(Pose pose, double along_m);
+
+/// The words of a drive in reverse, and those with one cusp: a straight line of one of the lengths at one
+/// end, backward or forward, the rest the other way.
+[[nodiscard]] std::vector<Sketch> reverse_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                                const std::vector<double>& radii_m);
+[[nodiscard]] std::vector<Sketch> cusp_words(const Pose& start, const LegGoal& goal, double half_track_m,
+                                             const std::vector<double>& radii_m,
+                                             const std::vector<double>& straight_m);
 
 /// Arc, line, and a bend and a line for each corner of a route; a last arc, to a heading where one is asked.
 /// `first`, `last`: senses of these arcs, +1 to the left, -1 to the right, 0 the shorter way round.

@@ -86,9 +86,11 @@ std::vector<ProfileRequest> stretches_of(const Path& path, const LegRequest& leg
   double offset_m = 0.0;
   for (const PathPiece& piece : path.pieces) {
     const double length_m = is_turn(piece) ? 0.0 : piece_length(piece);
+    Limits here = limits;
+    if (travel_sign(piece) < 0) here.speed_m_s = std::min(here.speed_m_s, here.reverse_speed_m_s);
     requests.push_back({.piece = piece,
                         .plant = plant,
-                        .limits = limits,
+                        .limits = here,
                         .payload = {payload_at_kg(offset_m), payload_at_kg(offset_m + length_m)},
                         .speed_caps = speed_caps_on(piece, offset_m, leg_index, mission.speed_zones,
                                                     world.speed_mask, limits.speed_m_s),

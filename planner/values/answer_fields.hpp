@@ -51,9 +51,9 @@ void each_field(Archive& archive, EnergyByCause& value) {
 template <class Archive>
 void each_field(Archive& archive, Limits& value) {
   auto& [speed, acceleration, deceleration, lateral, yaw_rate, yaw_acceleration, wheel_acceleration, jerk,
-         traction, motor_power, battery_power, max_payload] = value;
+         traction, motor_power, battery_power, max_payload, reverse_speed] = value;
   archive(speed, acceleration, deceleration, lateral, yaw_rate, yaw_acceleration, wheel_acceleration, jerk,
-          traction, motor_power, battery_power, max_payload);
+          traction, motor_power, battery_power, max_payload, reverse_speed);
 }
 
 template <class Archive>

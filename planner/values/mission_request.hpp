@@ -61,6 +61,9 @@ struct PathRequest {
 };
 
 /// One leg: exactly one of `to`, `path`, `motion` (with a path, `to` is the name of its end).
+/// How a search may drive a leg; `any`: also backward, where the robot states a speed for it.
+enum class LegDirection { any, forward, reverse };
+
 struct LegRequest {
   std::string to{};
   std::optional<PathRequest> path{};
@@ -70,6 +73,7 @@ struct LegRequest {
   std::optional<double> deadline_s{};  ///< arrival, counted from the mission's start
   std::optional<double> earliest_s{};  ///< arrival; the robot waits at the stop (time windows of `visit`)
   std::optional<double> duration_s{};  ///< of this leg alone, without dwell
+  LegDirection direction{};
   double start_speed_m_s{};
   double end_speed_m_s{};
   std::optional<double> yaw_rate_rad_s{};  ///< cap on this leg, beside the robot's own

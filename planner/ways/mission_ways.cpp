@@ -1,5 +1,7 @@
 #include "planner/ways/mission_ways.hpp"
 
+#include <cmath>
+
 #include "model/workers.hpp"
 #include "planner/legs/floor_check.hpp"
 #include "planner/legs/prescribed_leg.hpp"
@@ -19,7 +21,8 @@ LegQuestion question_of(const ChoiceContext& context, std::size_t leg) {
                        .price_W = context.price_W,
                        .goal_x_m = stop.x_m,
                        .goal_y_m = stop.y_m,
-                       .goal_heading_rad = stop.heading_rad};
+                       .goal_heading_rad = stop.heading_rad,
+                       .direction = asked.direction};
   for (const SpeedZone& zone : context.mission.speed_zones)
     if (zone.leg == leg) question.zones.push_back({zone.from_m, zone.to_m, zone.speed_m_s});
   return question;
@@ -90,7 +93,12 @@ std::vector<LegPath> MissionWays::choose_together(const Together& legs, const st
 
 LegPath MissionWays::settled(std::size_t leg, const LegStart& start) const {
   const LegRequest& asked = mission_.legs[leg];
-  if (!asked.motion) return leg_path(asked, leg, start, mission_, space_, options_);
+  if (!asked.motion) {
+    LegPath path = leg_path(asked, leg, start, mission_, space_, options_);
+    if (asked.direction == LegDirection::reverse && !path.infeasibility)
+      path.infeasibility = {.constraint = "path", .message = "no way in reverse alone was found"};
+    return path;
+  }
   LegPath way{.source = "motion"};
   if (space_)
     way.infeasibility = blocked_motion(*prescribed_leg(asked, plant_, start.pose).prescribed, *space_);
@@ -106,8 +114,42 @@ LegStart MissionWays::after(std::size_t leg, const LegPath& path, const LegStart
   return {.pose = path.path.end(), .heading_free = false};
 }
 
+void MissionWays::check_direction(std::size_t leg) const {
+  const LegRequest& asked = mission_.legs[leg];
+  if (asked.direction != LegDirection::reverse ||
+      std::isfinite(limits_along(world_.robot, asked.payload).reverse_speed_m_s))
+    return;
+  throw ConfigError({.mark = asked.marks.at("direction"),
+                     .key = asked.marks.key_path("direction"),
+                     .found = "reverse",
+                     .accepted = "any or forward, as the robot file has no limits.reverse_speed_m_s"});
+}
+
+/// Says so where only driving backward would do and is not allowed.
+void MissionWays::tell_of_reverse(std::size_t leg, const LegStart& start, Infeasibility& reason) const {
+  if (mission_.legs[leg].path || mission_.legs[leg].motion || !space_ || !world_.robot.limits) return;
+  const bool stated = std::isfinite(world_.robot.limits->reverse_speed_m_s);
+  if (stated && mission_.legs[leg].direction != LegDirection::forward) return;
+  MissionRequest backward = mission_;
+  backward.legs = {mission_.legs[leg]};
+  backward.legs.front().direction = LegDirection::any;
+  backward.start.pose = start.pose;
+  backward.start.heading_given = !start.heading_free;
+  MissionWorld world = world_;
+  if (!stated) world.robot.limits->reverse_speed_m_s = world.robot.limits->speed_m_s;
+  PlanOptions options = options_;
+  options.answers = {};
+  const std::vector<LegPath> paths =
+      MissionWays(backward, world, space_, plant_, options).choose({0.0}, true);
+  if (paths.empty() || paths.back().infeasibility) return;
+  reason.message += stated
+                        ? "; driving backward would do: `direction: any` for this leg"
+                        : "; driving backward would do: `limits: {reverse_speed_m_s: ...}` in the robot file";
+}
+
 std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, bool quick) const {
   std::vector<LegPath> paths;
+  for (std::size_t leg = 0; leg < mission_.legs.size(); ++leg) check_direction(leg);
   LegStart here{.pose = mission_.start.pose, .heading_free = !mission_.start.heading_given};
   while (paths.size() < mission_.legs.size()) {
     const std::vector<Together> groups = groups_from(paths.size(), here);
@@ -125,6 +167,7 @@ std::vector<LegPath> MissionWays::choose(const std::vector<double>& price_W, boo
     if (paths.size() == mission_.legs.size()) break;
     if (!whole || groups.empty() || !has_choice(paths.size(), here)) {
       LegPath path = settled(paths.size(), here);
+      if (path.infeasibility) tell_of_reverse(paths.size(), here, *path.infeasibility);
       here = after(paths.size(), path, here);
       paths.push_back(std::move(path));
       if (paths.back().infeasibility) return paths;

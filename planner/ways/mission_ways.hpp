@@ -42,6 +42,8 @@ class MissionWays {
   std::vector<LegPath> choose_together(const Together& legs, const std::vector<double>& price_W,
                                        bool quick) const;
   LegPath settled(std::size_t leg, const LegStart& start) const;
+  void tell_of_reverse(std::size_t leg, const LegStart& start, Infeasibility& reason) const;
+  void check_direction(std::size_t leg) const;
   LegStart after(std::size_t leg, const LegPath& path, const LegStart& start) const;
 
   const MissionRequest& mission_;

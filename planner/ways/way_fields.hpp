@@ -65,14 +65,15 @@ struct LegQuestion {
   double goal_x_m{}, goal_y_m{};
   std::optional<double> goal_heading_rad{};
   std::vector<SpeedCap> zones{};
+  LegDirection direction{};
 };
 
 template <class Archive>
 void each_field(Archive& archive, LegQuestion& value) {
   auto& [payload, start_speed_m_s, end_speed_m_s, yaw_rate_rad_s, price_W, goal_x_m, goal_y_m,
-         goal_heading_rad, zones] = value;
+         goal_heading_rad, zones, direction] = value;
   archive(payload, start_speed_m_s, end_speed_m_s, yaw_rate_rad_s, price_W, goal_x_m, goal_y_m,
-          goal_heading_rad, zones);
+          goal_heading_rad, zones, direction);
 }
 
 }  // namespace joulepath

@@ -15,7 +15,8 @@ using joint::Sketch;
 
 constexpr std::size_t kMostTogether = 3;  ///< legs in one program
 constexpr std::size_t kMostStarts = 8;    ///< beside the present paths
-const std::vector<double> kWordRadii_m{0.15, 0.5};
+constexpr std::size_t kMostReverse = 12;  ///< starts with a part in reverse: of words, and of routes
+const std::vector<double> kWordRadii_m{0.15, 0.5}, kCuspRadii_m{0.25}, kStraight_m{0.3, 0.9, 1.8};
 
 /// Cost of driving a leg along a path by the certified profile at the leg's price; infinite: none.
 double certified_J(const Path& path, std::size_t leg, const ChoiceContext& context) {
@@ -50,58 +51,162 @@ bool turns_much(const Sketch& along, const Path& path) {
   return along.effort_m() > kNotable * path.distance_m();
 }
 
-double effort_m(const std::vector<Sketch>& legs) {
-  double sum = 0;
-  for (const Sketch& leg : legs) sum += leg.effort_m();
-  return sum;
+/// Keeps the starts with the least effort.
+std::vector<std::vector<Sketch>> easiest(std::vector<std::vector<Sketch>> starts, std::size_t most) {
+  const auto effort_m = [](const std::vector<Sketch>& legs) {
+    double sum = 0;
+    for (const Sketch& leg : legs) sum += leg.effort_m();
+    return sum;
+  };
+  std::stable_sort(starts.begin(), starts.end(),
+                   [&](const auto& a, const auto& b) { return effort_m(a) < effort_m(b); });
+  if (starts.size() > most) starts.resize(most);
+  return starts;
+}
+
+void append_each(std::vector<std::vector<Sketch>>& starts, std::vector<Sketch> sketches) {
+  for (Sketch& sketch : sketches) starts.push_back({std::move(sketch)});
 }
 
 }  // namespace
 
-joint::DriveLaw RefinedRun::law_of(std::size_t k) const {
+joint::DriveLaw RefinedRun::law_of(std::size_t k, int direction) const {
   const ChoiceContext& context = run_.contexts[k];
   const LegRequest& asked = context.mission.legs[run_.first + k];
   Limits limits = limits_along(context.world.robot, asked.payload);
   if (asked.yaw_rate_rad_s) limits.yaw_rate_rad_s = std::min(limits.yaw_rate_rad_s, *asked.yaw_rate_rad_s);
+  if (direction < 0) limits.speed_m_s = std::min(limits.speed_m_s, limits.reverse_speed_m_s);
   return joint::drive_law(context.plant, limits, 0.5 * (asked.payload.from_kg + asked.payload.to_kg),
-                          parts_[k].path.start(), context.finite_price_W());
+                          parts_[k].path.start(), context.finite_price_W(), direction);
 }
 
-/// Arcs and lines along every route of a single leg, along the chosen routes of several.
-std::vector<std::vector<Sketch>> RefinedRun::rough_paths(std::size_t first,
-                                                         const joint::JointQuery& query) const {
+bool RefinedRun::may_drive(std::size_t k, int direction) const {
+  const LegRequest& asked = run_.contexts[k].mission.legs[run_.first + k];
+  if (direction > 0) return asked.direction != LegDirection::reverse;
+  return asked.direction != LegDirection::forward &&
+         std::isfinite(limits_along(run_.contexts[k].world.robot, asked.payload).reverse_speed_m_s);
+}
+
+/// The drives along a route that the leg's direction allows.
+std::vector<RouteDrive> RefinedRun::drives(std::size_t k) const {
+  std::vector<RouteDrive> drives;
+  for (const RouteDrive drive : kRouteDrives)
+    if ((drive == RouteDrive::reverse || may_drive(k, 1)) &&
+        (drive == RouteDrive::forward || may_drive(k, -1)))
+      drives.push_back(drive);
+  return drives;
+}
+
+/// Words in reverse, and with one cusp: near an end, or at the first place with room to turn.
+std::vector<Sketch> RefinedRun::backward_words(std::size_t k, const joint::JointQuery& query) const {
   const double half_track_m = query.laws.front().half_track_m;
-  std::vector<std::vector<Sketch>> all;
-  const auto along = [&](std::size_t leg, const Pose& from, const PooledRoute& route, int begin, int end) {
-    return joint::along_route(from, route.polyline_m, query.goals[leg].heading_rad, begin, end, half_track_m);
-  };
-  const std::vector<int> lasts =
-      query.goals.back().heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0};
-  if (query.goals.size() == 1) {
-    for (Sketch& word : joint::words(query.start, query.goals[0], half_track_m, kWordRadii_m))
-      all.push_back({std::move(word)});
-    for (const PooledRoute& route : run_.routes[first].routes)
-      if (route.polyline_m.size() > 2)
-        for (const int begin : {1, -1})
-          for (const int end : lasts) all.push_back({along(0, query.start, route, begin, end)});
-  } else {
-    for (const int begin : {1, -1})
-      for (const int end : lasts) {
-        std::vector<Sketch> legs;
-        Pose from = query.start;
-        for (std::size_t i = 0; i < query.goals.size(); ++i) {
-          const bool last = i + 1 == query.goals.size();
-          const PooledRoute& route = run_.routes[first + i].routes[parts_[first + i].way->route];
-          legs.push_back(along(i, from, route, i == 0 ? begin : 0, last ? end : 0));
-          from.heading_rad += legs.back().turn_rad(half_track_m);
-        }
-        all.push_back(std::move(legs));
-      }
+  const joint::LegGoal& goal = query.goals.front();
+  std::vector<Sketch> all = joint::reverse_words(query.start, goal, half_track_m, kWordRadii_m);
+  if (!may_drive(k, 1)) return all;
+  std::vector<double> straight_m = kStraight_m;
+  for (const int direction : {1, -1}) {
+    const FreeSpace& room = run_.contexts[k].space->any_heading();
+    const Pose at_goal{goal.at_m[0], goal.at_m[1], goal.heading_rad.value_or(0)};
+    if (const auto out_m = way_to_room_m(room, query.start, direction)) straight_m.push_back(*out_m);
+    if (!goal.heading_rad) continue;
+    if (const auto in_m = way_to_room_m(room, at_goal, direction)) straight_m.push_back(*in_m);
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return effort_m(a) < effort_m(b); });
-  if (all.size() > kMostStarts) all.resize(kMostStarts);
+  for (Sketch& word : joint::cusp_words(query.start, goal, half_track_m, kCuspRadii_m, straight_m))
+    all.push_back(std::move(word));
   return all;
+}
+
+/// Arcs and lines along every route of a single leg.
+RefinedRun::Starts RefinedRun::rough_paths(std::size_t k, const joint::JointQuery& query,
+                                           RouteDrive drive) const {
+  const joint::LegGoal& goal = query.goals.front();
+  Starts all;
+  for (const PooledRoute& route : run_.routes[k].routes)
+    if (route.polyline_m.size() > 2)
+      for (const int begin : {1, -1})
+        for (const int end : goal.heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0})
+          if (auto sketch =
+                  sketch_along(drive, query.start, goal, route.polyline_m, begin, end,
+                               query.laws.front().half_track_m, run_.contexts[k].space->any_heading()))
+            all.push_back({std::move(*sketch)});
+  return all;
+}
+
+/// Along the chosen routes of several legs, each with a drive of its own.
+RefinedRun::Starts RefinedRun::rough_chains(std::size_t first, const joint::JointQuery& query,
+                                            const std::vector<RouteDrive>& drives) const {
+  const double half_track_m = query.laws.front().half_track_m;
+  Starts all;
+  for (const int begin : {1, -1})
+    for (const int end : query.goals.back().heading_rad ? std::vector<int>{1, -1} : std::vector<int>{0}) {
+      std::vector<Sketch> legs;
+      Pose from = query.start;
+      for (std::size_t i = 0; i < query.goals.size(); ++i) {
+        const bool last = i + 1 == query.goals.size();
+        const PooledRoute& route = run_.routes[first + i].routes[parts_[first + i].way->route];
+        auto sketch =
+            sketch_along(drives[i], from, query.goals[i], route.polyline_m, i == 0 ? begin : 0,
+                         last ? end : 0, half_track_m, run_.contexts[first + i].space->any_heading());
+        if (!sketch) break;
+        legs.push_back(std::move(*sketch));
+        from = {query.goals[i].at_m[0], query.goals[i].at_m[1],
+                from.heading_rad + legs.back().turn_rad(half_track_m)};
+      }
+      if (legs.size() == query.goals.size()) all.push_back(std::move(legs));
+    }
+  return all;
+}
+
+/// Each choice of a drive for each leg.
+std::vector<std::vector<RouteDrive>> RefinedRun::drive_choices(std::size_t first, std::size_t count) const {
+  std::vector<std::vector<RouteDrive>> choices{{}};
+  for (std::size_t k = first; k < first + count; ++k) {
+    std::vector<std::vector<RouteDrive>> longer;
+    for (const auto& choice : choices)
+      for (const RouteDrive drive : drives(k)) {
+        longer.push_back(choice);
+        longer.back().push_back(drive);
+      }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+/// Starts whose legs drive forward, and those with a part in reverse.
+std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
+                                                           const joint::JointQuery& query) const {
+  const bool alone = query.goals.size() == 1;
+  const joint::LegGoal& goal = query.goals.front();
+  std::array<Starts, 2> starts;
+  Starts backward;
+  if (alone && may_drive(first, 1))
+    append_each(starts[0], joint::words(query.start, goal, query.laws.front().half_track_m, kWordRadii_m));
+  if (alone && may_drive(first, -1)) append_each(starts[1], backward_words(first, query));
+  for (const auto& drives : drive_choices(first, query.goals.size())) {
+    auto more = alone ? rough_paths(first, query, drives.front()) : rough_chains(first, query, drives);
+    const bool forward = std::all_of(drives.begin(), drives.end(),
+                                     [](RouteDrive drive) { return drive == RouteDrive::forward; });
+    auto& group = forward ? starts[0] : backward;
+    std::move(more.begin(), more.end(), std::back_inserter(group));
+  }
+  starts = {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
+  for (auto& start : easiest(std::move(backward), kMostReverse)) starts[1].push_back(std::move(start));
+  return starts;
+}
+
+/// The legs' cost with the paths of the joint program in place of the present ones; infinite: not drivable.
+double RefinedRun::joined_J(std::size_t first, const joint::JointPaths& joined) {
+  for (std::size_t i = 0; i < joined.legs.size(); ++i) {
+    take(first + i, joined.legs[i]);
+    parts_[first + i].spline.reset();
+    parts_[first + i].barred = false;
+  }
+  const std::vector<LegPath> tried = paths();
+  double cost_J = 0;
+  for (std::size_t k = first; k < first + joined.legs.size(); ++k)
+    cost_J +=
+        parts_[k].driving.drivable ? certified_J(tried[k].path, run_.first + k, run_.contexts[k]) : kNoLimit;
+  return cost_J;
 }
 
 void RefinedRun::join(std::size_t first, std::size_t count) {
@@ -116,38 +221,35 @@ void RefinedRun::join(std::size_t first, std::size_t count) {
   for (std::size_t k = first; k < first + count; ++k) {
     const Path& path = present[k].path;
     from_present.push_back(joint::along_path(path, half_track_m, pieces_for(path)));
-    worth_it = worth_it || turns_much(from_present.back(), path);
+    worth_it = worth_it || parts_[k].barred || turns_much(from_present.back(), path);
   }
   if (!worth_it) return;
   for (std::size_t k = first; k < first + count; ++k) {
-    const ChoiceContext& context = run_.contexts[k];
-    query.laws.push_back(law_of(k));
-    if (!may_join(context.mission.legs[run_.first + k], query.laws.back().limits)) return;
+    query.laws.push_back(law_of(k, 1));
+    query.reverse_laws.push_back(law_of(k, -1));
+    if (!may_join(run_.contexts[k].mission.legs[run_.first + k], query.laws.back().limits)) return;
     const Pose& goal = request_.legs[k].goal;
     const bool last = k + 1 == first + count;
     query.goals.push_back({{goal.x_m, goal.y_m}, last ? heading_after(k) : std::nullopt});
-    found_J += certified_J(present[k].path, run_.first + k, context);
+    found_J += parts_[k].barred ? kNoLimit : certified_J(present[k].path, run_.first + k, run_.contexts[k]);
   }
-  std::vector<std::vector<Sketch>> starts = rough_paths(first, query);
-  starts.insert(starts.begin(), std::move(from_present));
+  auto starts = joint_starts(first, query);
+  if (std::isfinite(found_J)) starts[0].insert(starts[0].begin(), std::move(from_present));
   const std::vector<Part> before = parts_;
   std::vector<Part> best = parts_;
-  for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(starts))) {
-    parts_ = before;
-    double cost_J = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      take(first + i, joined.legs[i]);
-      parts_[first + i].spline.reset();
+  for (auto& group : starts)
+    for (const joint::JointPaths& joined : joint::best_joint_paths(query, std::move(group))) {
+      parts_ = before;
+      const double cost_J = joined_J(first, joined);
+      if (!(cost_J < found_J)) continue;
+      found_J = cost_J;
+      best = parts_;
     }
-    const std::vector<LegPath> tried = paths();
-    for (std::size_t k = first; k < first + count; ++k)
-      cost_J += parts_[k].driving.drivable ? certified_J(tried[k].path, run_.first + k, run_.contexts[k])
-                                           : kNoLimit;
-    if (!(cost_J < found_J)) continue;
-    found_J = cost_J;
-    best = parts_;
-  }
   parts_ = std::move(best);
+}
+
+bool RefinedRun::barred() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.barred; });
 }
 
 void RefinedRun::join() {

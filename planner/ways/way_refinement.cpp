@@ -32,6 +32,7 @@ RefinedRun::RefinedRun(const ChainRequest& request, const std::vector<ChainChoic
                       .arrives_rad = way.arrives_rad,
                       .turns_at_goal = chain[k].goal_heading_rad.has_value()});
   }
+  for (std::size_t k = 0; k < chain.size(); ++k) parts_[k].barred = !may_drive(k, 1) || !score(k).drivable;
 }
 
 /// The robot's heading before the leg; absent where any heading is possible.
@@ -214,8 +215,10 @@ void RefinedRun::swing_through(std::size_t k, bool checked) {
 }
 
 void RefinedRun::swing_all(bool checked) {
-  for (std::size_t k = 0; k < parts_.size(); ++k) swing(k, checked);
-  for (std::size_t k = 0; k + 1 < parts_.size(); ++k) swing_through(k, checked);
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (!parts_[k].barred) swing(k, checked);
+  for (std::size_t k = 0; k + 1 < parts_.size(); ++k)
+    if (!parts_[k].barred && !parts_[k + 1].barred) swing_through(k, checked);
 }
 
 void RefinedRun::swing() {
@@ -229,7 +232,8 @@ void RefinedRun::swing() {
 }
 
 void RefinedRun::refine() {
-  for (std::size_t k = 0; k < parts_.size(); ++k) refine(k);
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (!parts_[k].barred) refine(k);
 }
 
 std::vector<LegPath> RefinedRun::paths() const {

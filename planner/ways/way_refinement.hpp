@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "planner/joint/joint_search.hpp"
 #include "planner/path/shape/free_spline.hpp"
 #include "planner/ways/leg_path.hpp"
+#include "planner/ways/route_sketch.hpp"
 #include "planner/ways/stop_swing.hpp"
 #include "planner/ways/way_chain.hpp"
 #include "planner/ways/way_run.hpp"
@@ -31,6 +33,10 @@ class RefinedRun {
   /// headings at the stops between included, where their certified drive is cheaper.
   void join();
 
+  /// Whether a leg's present path must not be driven: its way needs a turn without room, or drives forward
+  /// where reverse is asked. Only join() finds another one.
+  [[nodiscard]] bool barred() const;
+
   /// The paths of the legs, turns in place included.
   [[nodiscard]] std::vector<LegPath> paths() const;
 
@@ -47,6 +53,7 @@ class RefinedRun {
     bool turns_at_goal{};  ///< turns after arrival to the heading in which the next leg leaves (or to that of
                            ///< the station)
     bool refined{};
+    bool barred{};
     std::optional<FreeSpline> spline{};  ///< the path's spline, where it is one
   };
   std::optional<double> heading_before(std::size_t k) const;
@@ -69,9 +76,17 @@ class RefinedRun {
                                          const std::optional<double>& arrives_rad);
   const std::optional<StopResult>& stop_swing(std::size_t k, const FreeSpline& arriving);
   void swing_through(std::size_t k, bool checked);
-  joint::DriveLaw law_of(std::size_t k) const;
-  std::vector<std::vector<joint::Sketch>> rough_paths(std::size_t first,
-                                                      const joint::JointQuery& query) const;
+  joint::DriveLaw law_of(std::size_t k, int direction) const;
+  bool may_drive(std::size_t k, int direction) const;
+  using Starts = std::vector<std::vector<joint::Sketch>>;
+  std::vector<RouteDrive> drives(std::size_t k) const;
+  std::vector<std::vector<RouteDrive>> drive_choices(std::size_t first, std::size_t count) const;
+  std::vector<joint::Sketch> backward_words(std::size_t k, const joint::JointQuery& query) const;
+  Starts rough_paths(std::size_t k, const joint::JointQuery& query, RouteDrive drive) const;
+  Starts rough_chains(std::size_t first, const joint::JointQuery& query,
+                      const std::vector<RouteDrive>& drives) const;
+  std::array<Starts, 2> joint_starts(std::size_t first, const joint::JointQuery& query) const;
+  double joined_J(std::size_t first, const joint::JointPaths& joined);
   void join(std::size_t first, std::size_t count);
   void take(std::size_t k, const Path& path);
   PathScore as_driven(std::size_t k) const;

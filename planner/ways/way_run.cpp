@@ -86,6 +86,7 @@ class RunChoice {
   }
 
   std::vector<ChainChoice> choose_chain();
+  std::vector<ChainChoice> ways_without_room() const;
   void add_bent_ways(const std::vector<ChainChoice>& natural);
   void note(const std::string& step, const std::vector<ChainChoice>& chain);
   std::vector<PathAlternative> alternatives(std::size_t k, const std::vector<ChainChoice>& chain) const;
@@ -181,15 +182,35 @@ std::vector<ChainChoice> RunChoice::choose_chain() {
   return chain;
 }
 
+/// Ways as if there were room for every turn, for a run without a drivable choice where a leg may be driven
+/// in reverse; empty where none may.
+std::vector<ChainChoice> RunChoice::ways_without_room() const {
+  bool backward = false;
+  for (std::size_t k = 0; k < size(); ++k)
+    backward =
+        backward || (leg(k).direction != LegDirection::forward &&
+                     std::isfinite(limits_along(context(k).world.robot, leg(k).payload).reverse_speed_m_s));
+  if (!backward) return {};
+  ChainRequest roomy = request_;
+  roomy.may_turn = {};
+  std::vector<ChainChoice> chain = cheapest_chain(roomy, [](std::size_t, const Way&) { return true; });
+  for (std::size_t k = chain.size(); k < size() && !ways_[k].empty(); ++k)
+    chain.push_back({.score = ways_[k].front().score});
+  return chain.size() == size() ? chain : std::vector<ChainChoice>{};
+}
+
 std::vector<LegPath> RunChoice::choose() {
-  const std::vector<ChainChoice> chain = choose_chain();
+  std::vector<ChainChoice> chain = choose_chain();
+  if (chain.empty()) chain = ways_without_room();
   if (chain.empty()) return {};
   RefinedRun refined(request_, chain, run_);
-  if (!run_.quick && steps_.refinement) {
+  const bool refines = !run_.quick && steps_.refinement;
+  if (refines) {
     refined.refine();
     refined.swing();
-    if (steps_.joint) refined.join();
   }
+  if (refined.barred() || (refines && steps_.joint)) refined.join();
+  if (refined.barred()) return {};
   std::vector<LegPath> paths = refined.paths();
   for (std::size_t k = 0; k < size(); ++k) {
     paths[k].source = run_.routes[k].routes[way(k, chain).route].searched_by;

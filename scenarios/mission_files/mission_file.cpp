@@ -71,6 +71,13 @@ LegRequest read_leg(const Node& node, const std::map<std::string, Station>& stat
                                                                  : PathRequest::Frame::start};
   if (const auto motion = node.find("motion")) leg.motion = read_motion(*motion);
   if (const auto payload = node.find("payload_kg")) leg.payload = read_payload_along(*payload);
+  if (const auto direction = node.find("direction")) {
+    if (leg.to.empty()) direction->fail("no such key", "a given path or motion has its own direction");
+    const std::string name = direction->text();
+    leg.direction = name == "reverse"   ? LegDirection::reverse
+                    : name == "forward" ? LegDirection::forward
+                                        : LegDirection::any;
+  }
   if (leg.motion)
     for (const char* key : {"deadline_s", "duration_s", "start_speed_m_s", "end_speed_m_s"})
       if (const auto extra = node.find(key))

@@ -25,6 +25,9 @@ Schema leg_schema() {
               optional("deadline_s", number(kPositive),
                        "arrival at the leg's end, counted from the mission's start"),
               optional("duration_s", number(kPositive), "of this leg alone, without dwell"),
+              optional("direction", choice({"any", "forward", "reverse"}),
+                       "of a leg to a station; any (default): in reverse too, where the robot file has "
+                       "limits.reverse_speed_m_s"),
               optional("start_speed_m_s", number(kNotNegative)),
               optional("end_speed_m_s", number(kNotNegative))})
       .with_exactly_one({"to", "path", "motion"});

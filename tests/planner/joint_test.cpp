@@ -39,7 +39,7 @@ std::vector<JointPaths> paths_between(const Robot& robot, const Pose& start, con
   std::vector<std::vector<Sketch>> starts;
   for (Sketch& word : words(start, goal, robot.geometry.half_track_m, {0.15, 0.5}))
     starts.push_back({std::move(word)});
-  return best_joint_paths({start, {goal}, {law_of(robot)}, checker}, std::move(starts));
+  return best_joint_paths({start, {goal}, {law_of(robot)}, {}, checker}, std::move(starts));
 }
 
 /// The energy of a path by the profile solver, time free.
@@ -69,7 +69,7 @@ TEST(DirectionSegment, ChannelsAreIntegralsOfEachOther) {
 /// Three pieces with a stop after the second one, and two targets.
 Program bent_program(const DriveLaw& law) {
   Program program;
-  program.pieces = {{0, 1, 1, 0, false, 5}, {1, 2, 1, 0, true, 5}, {3, 4, 1, 1, true, 5}};
+  program.pieces = {{0, 1, 1, 0, 0, false, 5}, {1, 2, 1, 0, 0, true, 5}, {3, 4, 1, 1, 1, true, 5}};
   program.knots = 5;
   program.targets = {{1, {0.4, 0.1}, {}}, {2, {0.8, 0.5}, 1.2}};
   program.laws = {law, law};
@@ -264,7 +264,7 @@ TEST(Joint, AFreeHeadingAtAStopIsNoDearerThanAnAskedOne) {
     const Sketch first = along_route({}, {{0, 0}, {3, 1}}, stop_rad, 0, 0, half_track_m);
     const Sketch second =
         along_route({3, 1, first.turn_rad(half_track_m)}, {{3, 1}, {2, 4}}, {}, 0, 0, half_track_m);
-    const auto found = best_joint_paths({{}, goals, {law, law}, nullptr}, {{first, second}});
+    const auto found = best_joint_paths({{}, goals, {law, law}, {}, nullptr}, {{first, second}});
     if (!found.empty()) {
       EXPECT_NEAR(
           wrapped_angle_rad(found[0].legs[0].end().heading_rad - found[0].legs[1].start().heading_rad), 0,
@@ -293,7 +293,7 @@ TEST(Joint, KeepsItsClearanceAndPassesADoorInACurve) {
   const Pose start{2, 1, kPi / 2};
   const LegGoal goal{{6, 4.5}, {}};
   const auto rough = along_route(start, {{2, 1}, {4, 2.85}, {6, 4.5}}, {}, 0, 0, robot.geometry.half_track_m);
-  const auto found = best_joint_paths({start, {goal}, {law_of(robot)}, &checker}, {{rough}});
+  const auto found = best_joint_paths({start, {goal}, {law_of(robot)}, {}, &checker}, {{rough}});
   ASSERT_FALSE(found.empty());
   EXPECT_FALSE(checker.first_collision(found.front().legs.front()));
 }
