@@ -136,12 +136,12 @@ void draw_behind(MissionRequest& mission, Draw& draw) {
 
 /// Even cases begin on the floor and end in a slot, the others the other way round; the robot looks into the
 /// slot or out of it.
-void draw_docking(MissionRequest& mission, const World& world, Draw& draw, unsigned index) {
+void draw_docking(MissionRequest& mission, const World& world, Draw& draw, unsigned index, bool looks_out) {
   const int slot = static_cast<int>(index / 2) % 6;
   double x_m = 0.6;
   for (int k = 0; k < slot; ++k) x_m += 0.6 + 0.8 + 0.1 * (k % 3);
   x_m += 0.5 * (0.8 + 0.1 * (slot % 3));
-  const Pose in_slot{x_m, draw(0.75, 1.2), (index / 12) % 2 ? 0.5 * kPi : -0.5 * kPi};
+  const Pose in_slot{x_m, draw(0.75, 1.2), looks_out ? 0.5 * kPi : -0.5 * kPi};
   Point2 place_m = free_place(world, draw);
   while (place_m[1] < 2.3) place_m = free_place(world, draw);
   const double heading_rad = draw.angle_rad();
@@ -190,7 +190,7 @@ void draw_places(MissionRequest& mission, const World& world, Draw& draw, unsign
 
 const std::vector<std::string>& joint_kinds() {
   static const std::vector<std::string> kinds{"open",  "corner",   "docking", "obstacles",
-                                              "stops", "dead_end", "behind"};
+                                              "stops", "dead_end", "behind",  "docking_back"};
   return kinds;
 }
 
@@ -202,7 +202,7 @@ JointFloors::JointFloors() {
 }
 
 const World& JointFloors::of(const std::string& kind) const {
-  if (kind == "docking") return worlds_[1];
+  if (kind == "docking" || kind == "docking_back") return worlds_[1];
   if (kind == "dead_end") return worlds_[3];
   return kind == "obstacles" || kind == "stops" ? worlds_[2] : worlds_[0];
 }
@@ -215,7 +215,8 @@ JointCase joint_case(const JointFloors& floors, const std::string& kind, unsigne
   if (kind == "open") draw_open(one.mission, draw, index, 0.7, 10, 0);
   if (kind == "corner") draw_open(one.mission, draw, index, 0.3, 2, 0.75 * kPi);
   if (kind == "behind") draw_behind(one.mission, draw);
-  if (kind == "docking") draw_docking(one.mission, *one.world, draw, index);
+  if (kind == "docking") draw_docking(one.mission, *one.world, draw, index, (index / 12) % 2 == 1);
+  if (kind == "docking_back") draw_docking(one.mission, *one.world, draw, index, index % 2 == 0);
   if (kind == "dead_end") draw_dead_end(one.mission, *one.world, draw, index);
   if (kind == "obstacles") draw_places(one.mission, *one.world, draw, index, 1);
   if (kind == "stops") draw_places(one.mission, *one.world, draw, index, 2);

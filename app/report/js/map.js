@@ -62,7 +62,7 @@ jp.floor_map = function ({grid, x = [], y = [], heading = [], speed = [], marks 
       }
       if (grid) draw_picture(context, view, grid, picture);
       draw_cells(context, view, cells);
-      draw_way(context, view, x, y, by_speed);
+      draw_way(context, view, x, y, by_speed, speed);
       draw_marks(context, view, marks);
       const row = cursor ? cursor.row : -1;
       if (row >= 0 && row < x.length) draw_robot(context, view, {x: x[row], y: y[row], heading: heading[row]});

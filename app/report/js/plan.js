@@ -193,7 +193,7 @@ jp.motion_section = function (data) {
   jp.redraws.push(() => { scale.style.background = ramp_css(); });
   const whole = button("Whole map", () => { const on = whole.getAttribute("aria-pressed") !== "true"; whole.setAttribute("aria-pressed", String(on)); map.show_whole(on); }, {"aria-pressed": "false"});
   const section = jp.section("The motion", h("div", {class: "side"},
-    map ? h("div", {class: "stay"}, map.element, h("div", {class: "scale"}, "0", scale, with_unit(v.reduce((a, b) => Math.max(a, Math.abs(b)), 0), "m/s", 3), " ↻ turn in place", data.map ? whole : null),
+    map ? h("div", {class: "stay"}, map.element, h("div", {class: "scale"}, "0", scale, with_unit(v.reduce((a, b) => Math.max(a, Math.abs(b)), 0), "m/s", 3), " ↻ turn in place" + (v.some((one) => one < 0) ? "; light core: in reverse" : ""), data.map ? whole : null),
       turns.length ? h("p", {class: "soft small"}, `${turns.length} turn${turns.length > 1 ? "s" : ""} in place: ` + turns.map((turn) => number(turn.angle_rad * 180 / Math.PI, 3) + "°").join(", ")) : null) : null,
     h("div", {}, axis.element, cursor.element, h("div", {class: "plots"}, plots.map((one) => one.element)))));
   section.classList.add("long");

@@ -66,20 +66,22 @@ export function draw_picture(context, view, grid, picture) {
   context.restore();
 }
 
-/** A way on a light ground, each piece in its color; `faint`: dashed and gray. */
-export function draw_way(context, view, x, y, color_of, faint) {
+/** A way on a light ground, each piece in its color, with a light core where `speed` is negative: in reverse;
+ *  `faint`: dashed and gray. */
+export function draw_way(context, view, x, y, color_of, speed = [], faint = false) {
   context.lineCap = context.lineJoin = "round";
   context.beginPath(); x.forEach((_, k) => context.lineTo(...view.at(x[k], y[k])));
   context.lineWidth = faint ? 2 : 9; context.strokeStyle = faint ? color("soft") : color("map-free");
   if (faint) context.setLineDash([6, 5]);
   context.stroke(); context.setLineDash([]);
   if (faint) return;
-  context.lineWidth = 5;
-  for (let k = 1; k < x.length; ++k) {
-    if (x[k] === x[k - 1] && y[k] === y[k - 1]) continue;
-    context.strokeStyle = color_of(k);
-    context.beginPath(); context.moveTo(...view.at(x[k - 1], y[k - 1])); context.lineTo(...view.at(x[k], y[k])); context.stroke();
-  }
+  const backward = (k) => speed[k - 1] + speed[k] < 0;
+  for (const core of [false, true])
+    for (let k = 1; k < x.length; ++k) {
+      if ((x[k] === x[k - 1] && y[k] === y[k - 1]) || (core && !backward(k))) continue;
+      context.lineWidth = core ? 1.5 : 5; context.strokeStyle = core ? color("map-free") : color_of(k);
+      context.beginPath(); context.moveTo(...view.at(x[k - 1], y[k - 1])); context.lineTo(...view.at(x[k], y[k])); context.stroke();
+    }
 }
 
 /** A text beside a place, above those that are there already (`taken`: their places). */

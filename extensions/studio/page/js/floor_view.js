@@ -42,7 +42,7 @@ function draw_map(context) {
 function draw_motion(context, answer, faint) {
   const m = answer.motion, v = m.linear_speed_m_s, top = Math.max(1e-9, ...v.map(Math.abs));
   const by_limit = (k) => (m.limit[k] < 0 ? free_color() : limit_color(answer.limits[m.limit[k]])), by_speed = (k) => ramp(Math.abs(v[k] + v[k - 1]) / 2 / top);
-  draw_way(context, view, m.position_x_m, m.position_y_m, view.by === "limit" ? by_limit : by_speed, faint);
+  draw_way(context, view, m.position_x_m, m.position_y_m, view.by === "limit" ? by_limit : by_speed, v, faint);
 }
 function draw_handle(context, handle) {
   const [px, py] = view.at(handle.x, handle.y), chosen = handle.chosen;
