@@ -102,22 +102,24 @@ std::vector<Candidate> with_one_more_stop(const MissionRequest& mission, const P
   return candidates;
 }
 
+bool is_cheaper(const Candidate& a, const Candidate& b) { return a.extra_J < b.extra_J; }
+
 /// Takes the candidates out that are tried together: those near the failing leg, and the few before them that
 /// are cheaper by estimate; the cheapest first. Without such: those before the latest leg that is left.
 std::vector<Candidate> take_group(std::vector<Candidate>& left, std::size_t near) {
-  const bool is_first = !left.empty() && left.front().leg >= near;
-  const std::size_t from = is_first ? near : left.empty() ? 0 : left.front().leg;
-  const auto split = std::ranges::stable_partition(left, [&](const Candidate& c) { return c.leg >= from; });
-  std::vector<Candidate> group(std::move_iterator(left.begin()), std::move_iterator(split.begin()));
-  left.erase(left.begin(), split.begin());
-  const double least_J = std::ranges::min_element(group, {}, &Candidate::extra_J)->extra_J;
+  const bool is_first = left.front().leg >= near;
+  const std::size_t from = is_first ? near : left.front().leg;
+  std::vector<Candidate> group, others;
+  for (Candidate& candidate : left) (candidate.leg >= from ? group : others).push_back(std::move(candidate));
+  left = std::move(others);
+  const double least_J = std::min_element(group.begin(), group.end(), is_cheaper)->extra_J;
   for (std::size_t k = 0; is_first && k < kCheapEarlier && !left.empty(); ++k) {
-    const auto cheapest = std::ranges::min_element(left, {}, &Candidate::extra_J);
+    const auto cheapest = std::min_element(left.begin(), left.end(), is_cheaper);
     if (cheapest->extra_J >= least_J) break;
     group.push_back(std::move(*cheapest));
     left.erase(cheapest);
   }
-  std::ranges::stable_sort(group, {}, &Candidate::extra_J);
+  std::stable_sort(group.begin(), group.end(), is_cheaper);
   return group;
 }
 
