@@ -20,9 +20,12 @@ struct LegLoss {
   double lowest_voltage_V{kNoLimit};
 };
 
-/// Time (s) at rest on the battery: waits, and the dwell except at a charger.
-double resting_s(const LegPlan& leg) {
-  double rest_s = leg.charger_W > 0 ? 0.0 : leg.dwell_s;
+/// Part of the standby power (W) that the charger at a leg's stop feeds.
+double fed_W(const LegPlan& leg, double standby_W) { return std::min(leg.charger_W, standby_W); }
+
+/// Time (s) at rest on the battery: waits, and the dwell except where a charger feeds the robot.
+double resting_s(const LegPlan& leg, double standby_W) {
+  double rest_s = leg.charger_W < standby_W ? leg.dwell_s : 0.0;
   for (const StretchPlan& stretch : leg.stretches) rest_s += stretch.profile.wait_s;
   return leg.stretches.empty() && !leg.prescribed ? rest_s + leg.duration_s : rest_s;
 }
@@ -38,9 +41,9 @@ LegLoss loss_on(const LegPlan& leg, const Plant& plant) {
     LegMotion(leg, plant).integrate([&](const EnergyNode& node) { sum.add(node); });
     loss = {sum.battery_loss_J(), sum.lowest_voltage_V()};
   }
-  const double rest_s = resting_s(leg);
+  const double standby_W = plant.robot.power.standby_W, rest_s = resting_s(leg, standby_W);
   if (rest_s == 0) return loss;
-  const BatteryLoad load = battery_load(plant.robot.battery, plant.robot.power.standby_W);
+  const BatteryLoad load = battery_load(plant.robot.battery, standby_W);
   loss.loss_J += load.loss_W * rest_s;
   loss.lowest_voltage_V = std::min(loss.lowest_voltage_V, load.terminal_voltage_V);
   return loss;
@@ -120,14 +123,13 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
                          .lowest_voltage_V = battery.open_circuit_voltage_V};
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     LegPlan& leg = plan.legs[k];
-    const bool charges = leg.charger_W > 0;
     const LegLoss loss = loss_on(leg, plant);
     account.loss_J += loss.loss_J;
     account.lowest_voltage_V = std::min(account.lowest_voltage_V, loss.lowest_voltage_V);
-    // At a charger, standby power comes from the charger.
-    charge.draw(leg.energy.total_J() + loss.loss_J - (charges ? standby_W * leg.dwell_s : 0.0));
+    charge.draw(leg.energy.total_J() + loss.loss_J - fed_W(leg, standby_W) * leg.dwell_s);
     if (!account.fails_on_leg && charge.fraction() < battery.reserve_fraction) account.fails_on_leg = k;
-    if (charges) leg.charged_J = charge.take_up(leg.charger_W - standby_W, leg.dwell_s, charge_to_fraction);
+    if (leg.charger_W > standby_W)
+      leg.charged_J = charge.take_up(leg.charger_W - standby_W, leg.dwell_s, charge_to_fraction);
     account.charged_J += leg.charged_J;
     account.fraction_after_leg.push_back(charge.fraction());
   }
@@ -182,8 +184,9 @@ namespace {
 std::optional<double> planned_resistance_ohm(double guess_ohm, double fails_ohm,
                                              const PlansWithResistance& plans) {
   constexpr int kHalvings = 8;
-  constexpr double kClose = 1.1;
+  constexpr double kClose = 1.1, kNear = 1.09;  // a guess may be the end of what the battery supplies
   double works_ohm = guess_ohm;
+  if (!plans(works_ohm)) fails_ohm = works_ohm, works_ohm /= kNear;
   for (int halvings = 0; !plans(works_ohm); works_ohm *= 0.5, ++halvings) {
     fails_ohm = works_ohm;
     if (halvings == kHalvings) return std::nullopt;

@@ -123,7 +123,10 @@ class PlanRows {
                                  ? 0.0
                                  : rows_.energy_J.back() +
                                        plan_energy_J(plan_, motions_, rows_.time_s.back(), time_s));
+    const double before_rad = rows_.size() == 0 ? sample.site.pose.heading_rad : rows_.heading_rad.back();
     joulepath::append(rows_, plant_, sample, time_s, payload_kg, leg);
+    double& heading_rad = rows_.heading_rad.back();
+    heading_rad = before_rad + wrapped_angle_rad(heading_rad - before_rad);
   }
 
   Trajectory& rows() { return rows_; }

@@ -107,9 +107,49 @@ struct LimitSearch {
   }
 };
 
+/// Curves, four control points (x, y) each, along which a prescribed motion drives forward, in the robot's
+/// frame at the start.
+std::vector<BezierPoints> driven_curves(const PrescribedMotion& motion, double distance_m) {
+  if (!motion.bezier_m.empty()) return motion.bezier_m;
+  if (motion.profile != MotionProfile::arc)
+    return {{{{0, 0}, {distance_m / 3, 0}, {2 * distance_m / 3, 0}, {distance_m, 0}}}};
+  const double radius_m = motion.radius_m.value_or(0.0), angle_rad = motion.angle_rad.value_or(0.0);
+  const double count = std::ceil(std::abs(angle_rad) / 1.6), part_rad = std::abs(angle_rad) / count;
+  const double side = angle_rad < 0 ? -1 : 1, handle_m = 4.0 / 3 * std::tan(part_rad / 4) * radius_m;
+  const auto point = [&](double at_rad, double along_m) {
+    return std::array{radius_m * std::sin(at_rad) + along_m * std::cos(at_rad),
+                      side * (radius_m * (1 - std::cos(at_rad)) + along_m * std::sin(at_rad))};
+  };
+  std::vector<BezierPoints> curves;
+  for (double from = 0; curves.size() < static_cast<std::size_t>(count); from += part_rad)
+    curves.push_back({point(from, 0), point(from, handle_m), point(from + part_rad, -handle_m),
+                      point(from + part_rad, 0)});
+  return curves;
+}
+
+/// What to write instead of a motion that jumps.
+std::string way_out(const PrescribedMotion& motion, double distance_m, double limit_m_s3) {
+  std::ostringstream text;
+  if (motion.reverse) {
+    text << "; without jerk_m_s3 in the robot's limits it is driven";
+    return text.str();
+  }
+  text << "; instead of `motion:` write `path: {bezier_m: [";
+  const char* between = "";
+  for (const BezierPoints& curve : driven_curves(motion, distance_m)) {
+    text << between << "[";
+    for (std::size_t k = 0; k < curve.size(); ++k)
+      text << (k ? ", " : "") << "[" << curve[k][0] << ", " << curve[k][1] << "]";
+    text << "]", between = ", ";
+  }
+  text << "]}`: then the planner finds the speeds within jerk_m_s3 = " << limit_m_s3;
+  return text.str();
+}
+
 /// The verdict on the first of the limits that a motion exceeds. It offers a relaxation only if that is
 /// enough: no other limit is exceeded and the value is finite.
-Infeasibility verdict_of(const std::vector<Excess>& excesses) {
+Infeasibility verdict_of(const std::vector<Excess>& excesses, const PrescribedMotion& motion,
+                         double distance_m) {
   const Excess& worst = excesses.front();
   Infeasibility verdict{.constraint = std::string(worst.row->name),
                         .s = worst.state.arc_length_m,
@@ -126,9 +166,7 @@ Infeasibility verdict_of(const std::vector<Excess>& excesses) {
     verdict.amount = worst.jump_m_s2;
     verdict.unit = "m/s^2";
     text << "the prescribed acceleration jumps by " << worst.jump_m_s2 << " m/s^2 at t = " << worst.time_s
-         << " s, and steps of acceleration keep no limit of jerk; an S-curve does: with `path:` instead of "
-            "`motion:` the leg is planned as one within jerk_m_s3 = "
-         << worst.limit;
+         << " s, and steps of acceleration keep no limit of jerk" << way_out(motion, distance_m, worst.limit);
   }
   for (std::size_t i = 1; i < excesses.size(); ++i)
     text << (i == 1 ? "; it exceeds also " : ", ") << excesses[i].row->name << " by " << excesses[i].amount()
@@ -149,7 +187,7 @@ std::optional<Infeasibility> broken_limit(const LegPlan& planned, std::size_t le
     return limit_fraction(x.value, x.limit) < limit_fraction(y.value, y.limit);
   };
   std::iter_swap(worst.begin(), std::max_element(worst.begin(), worst.end(), less));
-  return verdict_of(worst);
+  return verdict_of(worst, *mission.legs[leg].motion, planned.distance_m);
 }
 
 }  // namespace joulepath

@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "model/watt_hours.hpp"
+#include "planner/path/geometry/polygon_distance.hpp"
 // Design: docs/decisions/0400-visits-and-charging.md
 namespace joulepath {
 namespace {
 
 constexpr int kMostStops = 12;
 constexpr int kMostPlans = 60;  ///< tried; a search without a limit grows with the power of the stops
-/// A stop is tried before the leg that fails and before this many legs ahead of it; the cheapest of these is
-/// taken. Only where none of them helps, it is tried farther ahead.
-constexpr std::size_t kEarlierLegs = 2;
+/// A stop is tried before the leg that fails and before this many legs ahead of it, and at so many places
+/// farther ahead that the estimate calls cheaper than all of these. Only where none of them helps, it is
+/// tried at the others.
+constexpr std::size_t kEarlierLegs = 2, kCheapEarlier = 2;
+/// A stop whose estimate is this many times that of one that helps is not planned.
+constexpr double kDear = 1.3;
 constexpr double kDetourShare = 1.3;  ///< of the straight line, in the estimate of the energy to a charger
 
 bool touches_reserve(const Plan& plan) {
@@ -21,21 +25,22 @@ bool touches_reserve(const Plan& plan) {
 
 bool between_stations(const LegRequest& leg) { return !leg.to.empty() && !leg.path && !leg.motion; }
 
-/// Energy from the start of a leg to a charger, by the failed plan's joules per metre.
-double energy_to_J(const MissionRequest& mission, const Plan& failed, const Plant& plant, std::size_t leg,
-                   const Station& charger) {
-  Pose here = mission.start.pose;
-  if (leg > 0) {
-    const Station& stop = mission.stations.at(mission.legs[leg - 1].to);
-    here = {stop.x_m, stop.y_m, 0.0};
-  }
-  double energy_J = 0.0, distance_m = 0.0;
+/// Energy of a way between two stops, by the failed plan's joules per metre.
+double way_J(const Plan& failed, const Plant& plant, const Point2& from_m, const Point2& to_m) {
+  double energy_J = 0.0, driven_m = 0.0;
   for (const LegPlan& planned : failed.legs) {
     energy_J += planned.energy.total_J() - plant.robot.power.standby_W * planned.dwell_s;
-    distance_m += planned.distance_m;
+    driven_m += planned.distance_m;
   }
-  const double way_m = kDetourShare * std::hypot(charger.x_m - here.x_m, charger.y_m - here.y_m);
-  return distance_m > 0 ? energy_J / distance_m * way_m : 0.0;
+  return driven_m > 0 ? energy_J / driven_m * kDetourShare * distance_m(from_m, to_m) : 0.0;
+}
+
+Point2 place_of(const Station& station) { return {station.x_m, station.y_m}; }
+
+/// Where the robot stands before a leg that begins at a station, or at the mission's start.
+Point2 place_before(const MissionRequest& mission, std::size_t leg) {
+  return leg > 0 ? place_of(mission.stations.at(mission.legs[leg - 1].to))
+                 : Point2{mission.start.pose.x_m, mission.start.pose.y_m};
 }
 
 /// Charging time if the robot drives to a charger before a leg; infinite if the charger is too weak.
@@ -45,7 +50,7 @@ double charging_s(const MissionRequest& mission, const Plan& failed, const Plant
   const BatteryAccount& account = *failed.battery;
   const double before = leg == 0 ? account.start_fraction : account.fraction_after_leg[leg - 1];
   const double missing_J = (mission.charging->to_fraction - before) * kJoulesPerWh * battery.capacity_Wh +
-                           energy_to_J(mission, failed, plant, leg, charger);
+                           way_J(failed, plant, place_before(mission, leg), place_of(charger));
   const double power_W = charger.charger_W - plant.robot.power.standby_W;
   const double stored_W = power_W - battery_load(battery, -power_W).loss_W;
   return stored_W > 0 ? std::max(0.0, missing_J) / stored_W : kNoLimit;
@@ -66,20 +71,56 @@ MissionRequest with_stop(const MissionRequest& mission, std::size_t leg, const s
   return longer;
 }
 
-/// Missions with one more stop, before one of the legs first..last.
-std::vector<MissionRequest> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
-                                               const Plant& plant, std::size_t first, std::size_t last) {
-  std::vector<MissionRequest> missions;
-  for (std::size_t leg = last + 1; leg-- > first;) {
+/// A mission with one more stop, and the energy that the stop adds to it by estimate.
+struct Candidate {
+  MissionRequest mission{};
+  std::size_t leg{};
+  double extra_J{};
+};
+
+/// Missions with one more stop, before one of the legs up to `last`, the latest leg first.
+std::vector<Candidate> with_one_more_stop(const MissionRequest& mission, const Plan& failed,
+                                          const Plant& plant, std::size_t last) {
+  std::vector<Candidate> candidates;
+  for (std::size_t leg = last + 1; leg-- > 0;) {
     const bool stands_at_station = leg == 0 || between_stations(mission.legs[leg - 1]);
     const bool charged_already = leg > 0 && mission.legs[leg - 1].charges;
     if (!stands_at_station || charged_already || !between_stations(mission.legs[leg])) continue;
-    for (const std::string& charger : mission.charging->stations) {
-      const double dwell_s = charging_s(mission, failed, plant, leg, mission.stations.at(charger));
-      if (std::isfinite(dwell_s)) missions.push_back(with_stop(mission, leg, charger, dwell_s));
+    const Point2 here_m = place_before(mission, leg),
+                 goal_m = place_of(mission.stations.at(mission.legs[leg].to));
+    for (const std::string& name : mission.charging->stations) {
+      const Station& charger = mission.stations.at(name);
+      const double dwell_s = charging_s(mission, failed, plant, leg, charger);
+      if (!std::isfinite(dwell_s)) continue;
+      const double detour_J = way_J(failed, plant, here_m, place_of(charger)) +
+                              way_J(failed, plant, place_of(charger), goal_m) -
+                              way_J(failed, plant, here_m, goal_m);
+      candidates.push_back(
+          {with_stop(mission, leg, name, dwell_s), leg, detour_J + plant.robot.power.standby_W * dwell_s});
     }
   }
-  return missions;
+  return candidates;
+}
+
+bool is_cheaper(const Candidate& a, const Candidate& b) { return a.extra_J < b.extra_J; }
+
+/// Takes the candidates out that are tried together: those near the failing leg, and the few before them that
+/// are cheaper by estimate; the cheapest first. Without such: those before the latest leg that is left.
+std::vector<Candidate> take_group(std::vector<Candidate>& left, std::size_t near) {
+  const bool is_first = left.front().leg >= near;
+  const std::size_t from = is_first ? near : left.front().leg;
+  std::vector<Candidate> group, others;
+  for (Candidate& candidate : left) (candidate.leg >= from ? group : others).push_back(std::move(candidate));
+  left = std::move(others);
+  const double least_J = std::min_element(group.begin(), group.end(), is_cheaper)->extra_J;
+  for (std::size_t k = 0; is_first && k < kCheapEarlier && !left.empty(); ++k) {
+    const auto cheapest = std::min_element(left.begin(), left.end(), is_cheaper);
+    if (cheapest->extra_J >= least_J) break;
+    group.push_back(std::move(*cheapest));
+    left.erase(cheapest);
+  }
+  std::stable_sort(group.begin(), group.end(), is_cheaper);
+  return group;
 }
 
 struct Attempt {
@@ -105,25 +146,28 @@ class StopSearch {
     if (stops == kMostStops) return std::nullopt;
     const std::size_t fails = *from.plan.battery->fails_on_leg;
     const std::size_t near = fails - std::min(fails, kEarlierLegs);
-    if (auto plan = best_of(from, near, fails, stops)) return plan;
-    for (std::size_t leg = near; leg-- > 0;)
-      if (auto plan = best_of(from, leg, leg, stops)) return plan;
+    std::vector<Candidate> left = with_one_more_stop(from.mission, from.plan, plant_, fails);
+    while (!left.empty())
+      if (auto plan = best_of(from, take_group(left, near), stops)) return plan;
     return std::nullopt;
   }
 
  private:
-  /// The best plan with a stop before one of these legs, or with more stops where one alone is not enough.
-  std::optional<Plan> best_of(const Attempt& from, std::size_t first, std::size_t last, int stops) {
+  /// The best plan of these, or one with more stops where one alone is not enough.
+  std::optional<Plan> best_of(const Attempt& from, std::vector<Candidate> candidates, int stops) {
     std::vector<Attempt> attempts;
-    std::vector<MissionRequest> candidates = with_one_more_stop(from.mission, from.plan, plant_, first, last);
+    double dear_J = kNoLimit;
     if (!budget_) budget_ = kMostStops * static_cast<int>(candidates.size()) + kMostPlans;
-    for (MissionRequest& longer : candidates) {
+    for (Candidate& candidate : candidates) {
+      const double estimate_J = from.plan.energy.total_J() + candidate.extra_J;
+      if (estimate_J > dear_J) break;
       if ((*budget_)-- <= 0) break;
-      Plan plan = plan_legs_(longer);
+      Plan plan = plan_legs_(candidate.mission);
       // The inserted stop increases the indices of the legs by one; only a breach beyond that is progress.
       const bool further =
           touches_reserve(plan) && *plan.battery->fails_on_leg > *from.plan.battery->fails_on_leg + 1;
-      if (drives(plan) || further) attempts.push_back({std::move(longer), std::move(plan)});
+      if (drives(plan)) dear_J = std::min(dear_J, kDear * estimate_J);
+      if (drives(plan) || further) attempts.push_back({std::move(candidate.mission), std::move(plan)});
     }
     std::stable_sort(attempts.begin(), attempts.end(),
                      [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });

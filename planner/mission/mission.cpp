@@ -199,7 +199,7 @@ Plan plan_given_legs(const MissionRequest& mission, const MissionWorld& world, c
   sum_up(plan, plant, options.accuracy);
   if (options.draft) mark_as_draft(plan);
   plan.battery = battery_account(plan, uncertain_plant, mission.start.battery_fraction.value_or(1.0),
-                                 mission.charging ? mission.charging->to_fraction : 1.0);
+                                 mission.charging ? mission.charging->to_fraction : 0.0);
   if (auto reason = battery_too_small(plan, plant)) {
     const std::size_t leg = *plan.battery->fails_on_leg;
     plan = infeasible(std::move(plan), leg, 0.0, std::move(*reason));

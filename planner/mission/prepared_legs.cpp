@@ -63,10 +63,12 @@ class LegPreparation {
     check_joint(mission_, k);
     if (auto reason = payload_too_heavy(world_.robot, leg, here_)) return reason;
     if (way.infeasibility) return std::move(way.infeasibility);
+    const bool drives = leg.motion || !way.path.pieces.empty();
+    if (drives || charger_W(leg) < world_.robot.power.standby_W)
+      if (auto reason = battery_too_weak(world_.robot, here_)) return reason;
     if (leg.motion) return add_prescribed(leg, k);
-    const bool only_stands = way.path.pieces.empty() && !leg.charges;
     add_path(leg, k, std::move(way));
-    return only_stands ? battery_too_weak(world_.robot, here_) : std::nullopt;
+    return std::nullopt;
   }
 
   PreparedLegs legs() && { return std::move(prepared_); }
@@ -85,6 +87,11 @@ class LegPreparation {
     return std::nullopt;
   }
 
+  /// Of the charger where the leg ends; 0: none.
+  double charger_W(const LegRequest& leg) const {
+    return leg.to.empty() ? 0.0 : mission_.stations.at(leg.to).charger_W;
+  }
+
   void add_path(const LegRequest& leg, std::size_t k, LegPath way) {
     prepared_.timing.emplace_back(stretches_of(way.path, leg, k, mission_, world_, plant_, options_, memory_),
                                   options_.answers);
@@ -97,7 +104,7 @@ class LegPreparation {
                               .dwell_s = leg.dwell_s,
                               .distance_m = way.path.distance_m(),
                               .turned_rad = way.path.turned_rad(),
-                              .charger_W = leg.charges ? mission_.stations.at(leg.to).charger_W : 0.0,
+                              .charger_W = charger_W(leg),
                               .alternatives = std::move(way.alternatives),
                               .improvements = std::move(way.improvements)});
     if (way.path.pieces.empty()) return;

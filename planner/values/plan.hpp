@@ -93,7 +93,7 @@ struct LegPlan {
   double lower_bound_J{};  ///< no profiles of these stretches take less energy from departure to departure
   double gap_percent{};    ///< relative to its energy; where it is driven in least time, relative to its time
   std::optional<double> energy_sigma_J{};  ///< 1-sigma, as of the plan
-  double charger_W{};                      ///< of the charger at its stop, where the planner inserted it
+  double charger_W{};                      ///< of the charger at its stop; 0: none
   double charged_J{};                      ///< energy charged there
   std::optional<PathBound> path_bound{};   ///< absent: not asked for
   std::vector<BaselineTotal> baselines{};

@@ -151,7 +151,7 @@ Json leg_json(const LegPlan& leg) {
             {"improvements", Json::array()},
             {"baselines", Json::array()}};
   add_path_bound(leg.path_bound, leg.energy.total_J(), json);
-  if (leg.charger_W > 0) json["charged_J"] = leg.charged_J;
+  if (leg.charged_J > 0) json["charged_J"] = leg.charged_J;
   for (const StretchPlan& stretch : leg.stretches) json["stretches"].push_back(stretch_json(stretch));
   for (const PathAlternative& alternative : leg.alternatives)
     json["alternatives"].push_back(alternative_json(alternative));

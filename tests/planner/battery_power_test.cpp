@@ -77,6 +77,25 @@ TEST(BatteryPower, StandbyBeyondTheBatteryIsRefusedWithAResistanceThatWorks) {
   expect_supplied(line_and_curve(), robot);
 }
 
+/// Standby that the battery cannot supply fails where the drive begins.
+TEST(BatteryPower, StandbyBeyondTheBatteryFailsAtTheStart) {
+  PrescribedMotion motion{.profile = MotionProfile::trapezoid};
+  motion.speed_m_s = 0.9, motion.distance_m = 4, motion.acceleration_m_s2 = 0.45;
+  MissionRequest prescribed{.name = "prescribed", .legs = {{.motion = motion}}};
+  MissionRequest stand{.name = "stand", .legs = {{.path = PathRequest{.ready = Path{}}, .dwell_s = 5}}};
+  for (MissionRequest mission : {line_and_curve(), prescribed, stand}) {
+    mission.start.pose = {3, -2, 0.7};
+    for (const auto& [resistance_ohm, standby_W] : {std::pair{0.05, 5e3}, {0.05, 1e4}, {20.0, 10.0}}) {
+      const Plan plan = supplied_plan(mission, robot_with(resistance_ohm, standby_W));
+      ASSERT_TRUE(plan.infeasibility) << mission.name;
+      EXPECT_EQ(plan.infeasibility->leg, 0u) << plan.message;
+      EXPECT_EQ(plan.infeasibility->arc_length_m, 0.0) << plan.message;
+      EXPECT_NEAR(plan.infeasibility->reason.x_m, 3, 1e-9) << plan.message;
+      EXPECT_NEAR(plan.infeasibility->reason.y_m, -2, 1e-9) << plan.message;
+    }
+  }
+}
+
 TEST(BatteryPower, AWeakBatteryMakesTheDriveSlower) {
   const Plan strong = supplied_plan(line_and_curve(), robot_with(0.05)),
              weak = supplied_plan(line_and_curve(), robot_with(5.0));

@@ -94,6 +94,29 @@ TEST(TimeSplit, ASearchOfThePriceEndsWhereTimesScatter) {
   }
 }
 
+/// A drive that jumps at one price: the arrival is never at its bound. The search ends all the same, in time,
+/// near the least price that is.
+TEST(TimeSplit, ASearchEndsNearTheLeastPriceWhereTimesJump) {
+  constexpr int kBracket = 8;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double jump_W = std::pow(10, 4 * share(random) - 1), late_s = 5.5 + 3 * share(random),
+                 early_s = 4.0 + 0.9 * share(random), slope = share(random);
+    int solves = 0;
+    TimeSplitRequest request = request_of({{1000, 3}}, {5.0});
+    request.duration_s = [&](std::size_t, double price_W) {
+      ++solves;
+      return price_W < jump_W ? late_s + slope / (1 + price_W) : early_s + 0.1 * slope / (1 + price_W);
+    };
+    const TimeSplit split = split_time(request);
+    ASSERT_FALSE(split.late);
+    EXPECT_LE(split.arrival_s[0], 5.0);
+    EXPECT_LE(split.price_W[0] - jump_W, 2.2e-3 * (1 + jump_W)) << jump_W;
+    EXPECT_LE(solves, 24 + kBracket) << jump_W;
+  }
+}
+
 TEST(TimeSplit, WithoutDeadlinesThePriceOfTimeIsTheLowest) {
   const TimeSplit split = split_time(request_of({{100, 1}, {50, 1}}, {kNone, kNone}));
   EXPECT_EQ(split.price_W, (std::vector<double>{0.0, 0.0}));

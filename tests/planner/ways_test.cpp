@@ -152,7 +152,7 @@ TEST(Charging, AStopIsInsertedOnlyWhereTheReserveWouldBeBreached) {
   EXPECT_GT(charged.battery->charged_J, 0.0);
   double drawn_J = 0.0;
   for (const LegPlan& leg : charged.legs) {
-    EXPECT_EQ(leg.charger_W > 0, leg.charged_J > 0);
+    EXPECT_TRUE(leg.charger_W > 0 || leg.charged_J == 0);
     drawn_J += leg.energy.total_J() - (leg.charger_W > 0 ? robot.power.standby_W * leg.dwell_s : 0.0);
   }
   for (const double fraction : charged.battery->fraction_after_leg)
@@ -200,6 +200,68 @@ TEST(Charging, AChargerOfLessThanStandbyChargesNothing) {
     const auto account = battery_account(plan, {.plant = make_plant(testing::nomad())}, 0.5, 0.9);
     ASSERT_TRUE(account);
     EXPECT_NEAR(account->charged_J, charger_W > 10 ? (charger_W - 10) * 60 : 0.0, 1e-9);
+  }
+}
+
+/// The robot begins at a charger, and three legs later its charge ends: a detour back to the charger costs
+/// more than to charge before the first leg.
+TEST(Charging, AStopWithoutADetourIsTakenHoweverEarly) {
+  MissionRequest mission = round_of_three();
+  mission.stations["far"] = {.x_m = 21, .y_m = 18};
+  mission.legs = {{.to = "east"}, {.to = "far"}, {.to = "north"}, {.to = "far"}, {.to = "north"}};
+  Robot robot = testing::nomad();
+  const Plan enough = plan_of(mission, kCoarse, robot);
+  ASSERT_LE(enough.status, SolveStatus::feasible) << enough.message;
+  mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
+  for (std::size_t fails = 3; fails < 5; ++fails) {
+    double spent_J = -0.5 * enough.legs[fails].energy.total_J();
+    for (std::size_t k = 0; k <= fails; ++k) spent_J += enough.legs[k].energy.total_J();
+    robot.battery.capacity_Wh = 3 * enough.energy.total_J() / 3600;
+    mission.start.battery_fraction =
+        robot.battery.reserve_fraction + spent_J / (3600 * robot.battery.capacity_Wh);
+    const Plan plan = plan_of(mission, kCoarse, robot);
+    ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+    ASSERT_EQ(plan.legs.size(), 6u);
+    EXPECT_GT(plan.legs[0].charged_J, 0.0) << fails;
+    EXPECT_LT(plan.energy.total_J(),
+              enough.energy.total_J() + 1.05 * robot.power.standby_W * plan.legs[0].dwell_s);
+  }
+}
+
+/// A charger that feeds at least standby: the charge does not fall while the robot stays there, whether the
+/// stay ends the mission, begins it or is on the way.
+TEST(Charging, TheChargeDoesNotFallAtAChargerThatFeedsTheRobot) {
+  for (const double charger_W : {10.0, 12.0, 200.0})
+    for (const bool charging : {false, true}) {
+      const auto fractions = [&](double dwell_s) {
+        MissionRequest mission = round_of_three();
+        mission.stations["dock"].charger_W = charger_W;
+        mission.legs = {
+            {.to = "dock", .dwell_s = dwell_s}, {.to = "east"}, {.to = "dock", .dwell_s = dwell_s}};
+        mission.start.battery_fraction = 0.6;
+        if (charging) mission.charging = ChargingRequest{.stations = {"dock"}, .to_fraction = 0.9};
+        const Plan plan = plan_of(mission, kCoarse);
+        EXPECT_LE(plan.status, SolveStatus::feasible) << plan.message;
+        return plan.battery->fraction_after_leg;
+      };
+      const std::vector<double> none = fractions(0), stay = fractions(600);
+      ASSERT_EQ(none.size(), stay.size());
+      EXPECT_GE(stay[0], 0.6 - 1e-12) << charger_W;
+      EXPECT_GE(stay[2], stay[1] + (none[2] - none[1]) - 1e-9) << charger_W;
+      EXPECT_EQ(stay[0] > 0.6, charging && charger_W > 10) << charger_W;
+    }
+}
+
+/// What the charger lacks comes from the battery.
+TEST(Charging, AWeakChargerFeedsItsPart) {
+  for (const double charger_W : {0.0, 4.0, 9.0}) {
+    Plan plan;
+    plan.legs.resize(1);
+    plan.legs[0].charger_W = charger_W, plan.legs[0].dwell_s = 360;
+    plan.legs[0].energy.standby_J = 3600;
+    const auto account = battery_account(plan, {.plant = make_plant(testing::nomad())}, 0.5, 0.9);
+    ASSERT_TRUE(account);
+    EXPECT_NEAR((0.5 - account->end_fraction) * 240, 1 - charger_W / 10, 0.01) << charger_W;
   }
 }
 
