@@ -72,7 +72,7 @@ class Charge {
 
   void draw(double energy_J) {
     net_J_ += energy_J;
-    peak_J_ = std::max(peak_J_, net_J_);
+    peak_J_ = std::max(peak_J_, net_J_ - least_net_J_);
   }
   /// Charges for a time, at most up to a fraction; returns the energy at the terminals.
   double take_up(double power_W, double duration_s, double to_fraction) {
@@ -80,6 +80,7 @@ class Charge {
     const double stored_J =
         std::clamp((to_fraction - fraction()) * capacity_J_, 0.0, std::max(0.0, stored_W * duration_s));
     net_J_ -= stored_J;
+    least_net_J_ = std::min(least_net_J_, net_J_);
     return stored_W > 0 ? stored_J * power_W / stored_W : 0.0;
   }
 
@@ -88,7 +89,8 @@ class Charge {
   double capacity_J_;
   double start_;
   double net_J_{};
-  double peak_J_{};
+  double least_net_J_{};  ///< where the battery was fullest
+  double peak_J_{};       ///< the greatest discharge from there on
 };
 
 }  // namespace

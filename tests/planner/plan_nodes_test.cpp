@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "planner/accounts/edge_energy.hpp"
 #include "planner/accounts/plan_accounts.hpp"
@@ -170,6 +171,26 @@ TEST(Saving, IsTheShareOfTheBaseline) {
 INSTANTIATE_TEST_SUITE_P(JerkAndRegeneration, PlanRows,
                          ::testing::Values(std::pair{kNoLimit, 0.0}, std::pair{kNoLimit, 0.6},
                                            std::pair{1.0, 0.6}));
+
+/// Twice around a loop on the map: the heading goes on where it was, in both files.
+TEST(PlanHeadings, FollowEachOtherOverFullTurns) {
+  const std::vector<BezierPoints> loop{{{{0, 0}, {1.1, 0}, {2, 0.9}, {2, 2}}},
+                                       {{{2, 2}, {2, 3.1}, {1.1, 4}, {0, 4}}},
+                                       {{{0, 4}, {-1.1, 4}, {-2, 3.1}, {-2, 2}}},
+                                       {{{-2, 2}, {-2, 0.9}, {-1.1, 0}, {0, 0}}}};
+  const LegRequest around{.path = PathRequest{.bezier_m = loop, .frame = PathRequest::Frame::map}};
+  const Plan plan = plan_mission({.name = "loops", .legs = {around, around}}, {.robot = testing::nomad()},
+                                 {.solver = SolverChoice::fast, .nodes = 60});
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  const Plant plant = make_plant(testing::nomad());
+  for (const Trajectory& rows : {plan_trajectory(plan, plant), plan_nodes(plan, plant).rows}) {
+    for (std::size_t k = 1; k < rows.size(); ++k)
+      ASSERT_LE(std::abs(rows.heading_rad[k] - rows.heading_rad[k - 1]),
+                2.0 * (rows.time_s[k] - rows.time_s[k - 1]) + 1e-5)
+          << k;
+    EXPECT_NEAR(rows.heading_rad.back() - rows.heading_rad.front(), 4 * std::numbers::pi, 1e-6);
+  }
+}
 
 }  // namespace
 }  // namespace joulepath

@@ -252,6 +252,19 @@ TEST(Charging, TheChargeDoesNotFallAtAChargerThatFeedsTheRobot) {
     }
 }
 
+/// After a charge at the start the mission needs what it draws from then on.
+TEST(Charging, TheRequiredCapacityIsTheGreatestDischarge) {
+  Plan plan;
+  plan.legs.resize(2);
+  plan.legs[0].charger_W = 3610, plan.legs[0].dwell_s = 60, plan.legs[0].energy.standby_J = 600;
+  plan.legs[1].energy.kinetic_J = 36000;
+  const auto account = battery_account(plan, {.plant = make_plant(testing::nomad())}, 0.2, 0.9);
+  ASSERT_TRUE(account);
+  EXPECT_GT(account->charged_J, 36000.0);
+  EXPECT_NEAR(account->required_capacity_Wh, 10.0, 1e-6);
+  EXPECT_EQ(account->missions_per_charge, 21.0);
+}
+
 /// What the charger lacks comes from the battery.
 TEST(Charging, AWeakChargerFeedsItsPart) {
   for (const double charger_W : {0.0, 4.0, 9.0}) {
