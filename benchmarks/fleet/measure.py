@@ -1,4 +1,7 @@
-"""Measures the planner of fleets on seeded fleets with energies of a made-up floor: measure.py OUT HEAD [--short]."""
+"""Measures the planner of fleets on seeded fleets with energies of a made-up floor: measure.py OUT HEAD [--short].
+
+Exit code 1 where a schedule breaks a rule, or brute force or the queue disagrees.
+"""
 
 from __future__ import annotations
 
@@ -21,6 +24,7 @@ from joulepath.fleet._search import first_schedule, improve, search
 from joulepath.fleet._simulate import simulate
 
 NONE = float("inf")
+wrong: list[str] = []  #: what a judge refused
 
 
 class Effort(NamedTuple):
@@ -56,7 +60,9 @@ def proofs(name: str, fleet: Callable[[int], Problem], seeds: range, limit: floa
         seconds.append(time.process_time() - begin)
         proven = status in ("optimal", "infeasible")
         gaps += [] if proven else [1.0 if found is None else 1 - found.bound / found.cost]
-        broken += found is not None and bool(judge.faults(problem, found))
+        faults = judge.faults(problem, found) if found else []
+        wrong.extend(f"{name} {seed}: {fault}" for fault in faults)
+        broken += bool(faults)
         say(f"{name} {seed}: {status}, {seconds[-1]:.1f} s")
     seconds.sort()
     return f"| {name} | {share(len(seeds) - len(gaps), len(seeds))} | {seconds[len(seconds) // 2]:.1f} s " \
@@ -75,8 +81,12 @@ def judges(count: int) -> list[str]:
         equal += brute == cost
         twice += brute != cost and brute > cost and visits > 1
         say(f"judge {seed}: {cost}, brute force {brute}")
+    if equal + twice < count:
+        wrong.append(f"brute force disagrees with {count - equal - twice} of {count} fleets")
     cases = [(r, need) for r in (1, 2, 3, 4) for need in (20_000, 50_000)]
     met = sum(solve(generator.queue(*case), workers=1)[1].cost == generator.queue_cost(*case) for case in cases)  # type: ignore[union-attr]
+    if met < len(cases):
+        wrong.append(f"{len(cases) - met} queues differ from the closed form")
     return [f"| fleets of at most 3 x 7 x 1, three speeds: as cheap as brute force, with one visit of each robot | {share(equal, count)} |",
             f"| ... cheaper, since a robot charges twice | {twice} |",
             f"| queues at one charger, equal to the closed form | {met} of {len(cases)} |"]
@@ -95,6 +105,7 @@ def large(count: int, limit: float) -> list[str]:
         found = improve(problem, start, seed=1, workers=1, limit=limit, tell=lambda _: None, stop=lambda: False)
         cpu_s, low = time.process_time() - begin, bound(problem)
         seen = simulate(problem, found, 1000, seed=1)
+        wrong.extend(f"large {seed}: {fault}" for fault in judge.faults(problem, found))
         dispatcher = (f"{field.cost / 10:.0f}", f"{100 * (1 - found.cost / field.cost):.1f} %") if field else ("none", "")
         lines.append(f"| {seed} | {found.cost / 10:.0f} | {low / 10:.0f} | {100 * (1 - low / found.cost):.1f} % | {dispatcher[0]} | {dispatcher[1]} "
                      f"| {cpu_s:.0f} s | {seen.breaches_binding} of {seen.binding} | {seen.breaches - seen.breaches_binding} of "
@@ -114,7 +125,8 @@ def main(out: str, head: str, short: bool) -> None:
             "| fleets | proven (95 % interval) | CPU time, median | 95 % | worst gap | break a rule |", "|---|---:|---:|---:|---:|---:|", *rows, "",
             "| figure | value |", "|---|---:|", *judged, f"| greatest memory of the process | {memory:.0f} MiB |", "", *far, ""]
     pathlib.Path(out).write_text("\n".join(text), encoding="utf-8")
-    print("\n".join(text))
+    print("\n".join(text + wrong))
+    sys.exit(bool(wrong))
 
 
 if __name__ == "__main__":

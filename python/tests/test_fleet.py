@@ -99,8 +99,9 @@ def test_the_extra_cost_of_an_insertion_is_that_of_the_longer_order():
         assert extra == pytest.approx(min(longer)) and longer[position] == pytest.approx(min(longer))
 
 
-def test_a_neighborhood_has_each_mission_once():
-    problem = generator.large(1, robots=5, missions=30, chargers=2)
+@pytest.mark.parametrize("chargers", [0, 2])
+def test_a_neighborhood_has_each_mission_once(chargers):
+    problem = generator.large(1, robots=5, missions=30, chargers=chargers)
     neighborhood, orders = Neighborhood(problem, random.Random(3)), inserted(problem)
     for _ in range(30):
         orders = neighborhood.of(orders)

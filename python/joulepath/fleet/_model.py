@@ -55,9 +55,10 @@ class FleetModel:
         self._add_chargers()
         self.model.add_circuit(self.arcs)
         self._add_cuts()
-        self.sets = None if most is None else sets_of(problem, most, self.limits)
-        if self.sets is not None:
-            self._add_sets(self.sets)
+        sets, self.low = None if most is None else sets_of(problem, most, self.limits), self.limits.low
+        if sets is not None:
+            self.low = max(self.low, sets.bound)
+            self._add_sets(sets)
         if most is not None:
             self.model.add(sum(self.cost) <= most)
         self.model.minimize(sum(self.cost))
@@ -433,6 +434,8 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     """
     fleet = FleetModel(problem, None if start is None else start.cost)
     if start is not None:
+        if fleet.low >= start.cost:
+            return "optimal", replace(start, bound=start.cost, proven=True)
         fleet.hint(start)
     solver = cp_model.CpSolver()
     solver.parameters.random_seed = seed
@@ -445,11 +448,11 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     if status == cp_model.INFEASIBLE:
         return "infeasible", None
     if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        return "unknown", None
+        return ("unknown", None) if start is None else ("feasible", replace(start, bound=fleet.low))
     found = fleet.schedule(solver)
     word = "optimal" if status == cp_model.OPTIMAL else "feasible"
     cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
-    return word, Schedule(found.routes, cost, min(found.bound, cost), status == cp_model.OPTIMAL)
+    return word, Schedule(found.routes, cost, min(max(found.bound, fleet.low), cost), status == cp_model.OPTIMAL)
 
 
 __all__ = ["NEVER", "FleetModel", "solve"]

@@ -8,7 +8,7 @@ import random
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ._problem import Problem
+from ._problem import NEVER, Problem
 
 REMOVED = 10  #: missions of one removal, on average
 LONGEST = 10  #: of the strings
@@ -63,7 +63,7 @@ class Estimate:
             used += way_upper + upper + standby * (end - clock)
             paid += way_motion + motion
             if used > held:
-                end += (used - held) / power if power else math.inf
+                end += (used - held) / power if power else NEVER
                 used = held
             if end > due_s:
                 if save_s and late_price:
