@@ -127,8 +127,8 @@ class Estimate:
 
     def _charging(self, r: int, used: float) -> float:
         """Standby while a robot charges what it uses beyond its battery."""
-        short = used - self.held[r]
-        return self.problem.kind(r).standby * short / self.power[self.problem.robots[r].type] if short > 0 else 0.0
+        short, power = used - self.held[r], self.power[self.problem.robots[r].type]
+        return self.problem.kind(r).standby * short / power if power and short > 0 else 0.0
 
 
 def inserted(problem: Problem) -> list[list[int]]:
