@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import random
 
@@ -19,9 +20,9 @@ def _ways(chance: random.Random, places: dict[str, tuple[float, float]]) -> dict
     return ways
 
 
-def _speeds(way_m: float, load: float) -> tuple[Drive, ...]:
+def _speeds(way_m: float, load: float, speeds: tuple[float, ...] = (0.7, 1.0)) -> tuple[Drive, ...]:
     return undominated([drive(way_m / v + 3, way_m * load * (28 + 14 * v * v), 0.03 * way_m * load * (28 + 14 * v * v), k)
-                        for k, v in enumerate((0.7, 1.0))])
+                        for k, v in enumerate(speeds)])
 
 
 def small(seed: int, robots: int = 4, missions: int = 12, chargers: int = 2, speeds: int = 2) -> Problem:
@@ -50,6 +51,49 @@ def _mission(chance: random.Random, index: int, names: list[str], ways: dict[tup
     ready_s = chance.choice((0, 0, chance.randint(0, 600)))
     allowed = tuple(range(robots)) if chance.random() < 0.8 else tuple(sorted(chance.sample(range(robots), max(1, robots - 1))))
     return Mission(f"m{index}", first, last, {0: drives}, allowed, ready_s, ready_s + chance.randint(400, 1500), 500)
+
+
+def tight(seed: int, robots: int = 4, missions: int = 12, chargers: int = 2) -> Problem:
+    """Exactly so many robots, missions and chargers: three speeds of each leg, up to four stops with other payloads, narrow
+    windows, batteries that make most robots charge. A third of the fleets has two types of robots, a third has equal robots."""
+    chance, kind = random.Random(f"tight fleet {seed} {robots} {missions} {chargers}"), seed % 3
+    places = {f"p{i}": (chance.uniform(0, 40), chance.uniform(0, 25)) for i in range(robots + missions)}
+    names, scales = list(places), (1.0, 1.3) if kind == 1 else (1.0,)
+    ways = {(t, a, b): drives for t, scale in enumerate(scales) for (a, b), drives in _three_speeds(chance, places, scale).items()}
+    fleet = [Robot(f"r{r}", chance.randrange(len(scales)), chance.choice(names), chance.randint(80_000, 200_000),
+                   chance.choice((0, 0, 60)), NEVER, chance.choice((0, 20_000))) for r in range(robots)]
+    if kind == 2:
+        fleet = [dataclasses.replace(fleet[0], name=x.name) for x in fleet]
+    stations = tuple(Charger(p, 1, chance.choice((1500, 2500)), chance.choice((700, 1000)), chance.choice((0.5, 0.8)))
+                     for p in chance.sample(names, chargers))
+    types = tuple(RobotType(round(300_000 * x), 40_000, round(100 * x)) for x in scales)
+    span_s = 120 * missions // robots
+    return Problem(types, tuple(fleet), stations, tuple(_delivery(chance, m, ways, fleet, names, span_s) for m in range(missions)), ways)
+
+
+def _three_speeds(chance: random.Random, places: dict[str, tuple[float, float]], scale: float) -> dict[tuple[str, str], tuple[Drive, ...]]:
+    ways = {}
+    for (a, (xa, ya)), (b, (xb, yb)) in itertools.product(places.items(), repeat=2):
+        way_m = (abs(xa - xb) + abs(ya - yb)) * chance.uniform(1.0, 1.2) + 2.0
+        ways[a, b] = (Drive(0, 0, 0),) if a == b else _speeds(way_m, scale, (0.6, 0.8, 1.0))
+    return ways
+
+
+def _delivery(chance: random.Random, index: int, ways: dict[tuple[int, str, str], tuple[Drive, ...]], fleet: list[Robot],
+              names: list[str], span_s: int) -> Mission:
+    """Two to four stops, with another payload on each leg."""
+    stops, dwell_s = chance.sample(names, chance.randint(2, 4)), chance.randint(10, 40)
+    loads = [chance.choice((1.0, 1.15, 1.3, 1.5)) for _ in stops[1:]]
+    allowed = range(len(fleet)) if chance.random() < 0.7 else sorted(chance.sample(range(len(fleet)), max(1, len(fleet) - 1)))
+    drives = {}
+    for t in {fleet[r].type for r in allowed}:
+        legs = [(load, ways[t, a, b]) for load, a, b in zip(loads, stops, stops[1:])]
+        drives[t] = undominated([Drive(dwell_s + sum(leg[k].duration_s for _, leg in legs), round(sum(x * leg[k].motion for x, leg in legs)),
+                                       math.ceil(sum(x * leg[k].upper for x, leg in legs)), k) for k in range(3)])
+    ready_s = chance.choice((0, chance.randint(0, span_s)))
+    own_s = max(d[0].duration_s for d in drives.values())
+    return Mission(f"m{index}", stops[0], stops[-1], drives, tuple(allowed), ready_s, ready_s + own_s + chance.randint(20, 240),
+                   chance.choice((200, 500, 2000)))
 
 
 def queue(robots: int, need: int, power: int = 1100) -> Problem:

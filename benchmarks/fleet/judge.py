@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
-from typing import Iterator, NamedTuple
+from typing import Callable, Iterator, NamedTuple
 
-from joulepath.fleet._problem import Problem, Schedule
+from joulepath.fleet._problem import Drive, Problem, Schedule
 
 
 def faults(problem: Problem, schedule: Schedule) -> list[str]:
@@ -90,47 +91,74 @@ Sequence = tuple[Stop, ...]
 NOWHERE = Driven(math.inf)
 
 
-def least_cost(problem: Problem) -> float:
-    """The least cost of a small fleet, by brute force over assignments, orders, speeds and visits; infinite where nothing works.
+def least_cost(problem: Problem, below: float = math.inf) -> float:
+    """The least cost of a small fleet, by brute force over assignments, orders, speeds and visits; infinite where nothing costs
+    less than ``below``.
 
-    At most one visit of each robot. Each robot's sequences are costed alone; combinations are tried from the cheapest on, and
-    each is timed with all orders of its visits at the chargers.
+    At most one visit of each robot, chargers of one place. Each robot's sequences are costed alone; combinations of them are timed
+    with all orders of their visits at the chargers.
     """
-    sequences = [_sequences(problem, r) for r in range(len(problem.robots))]
-    everything = frozenset(range(len(problem.missions)))
-    best = math.inf
-    for lower, chosen in sorted(_combinations(sequences, everything), key=lambda item: item[0]):
-        if lower >= best:
-            break
-        best = min(best, _timed(problem, chosen))
-    return best
+    sequences = [_sequences(problem, r, below) for r in range(len(problem.robots))]
+    return _combined(problem, sequences, frozenset(range(len(problem.missions))), below)
 
 
-def _sequences(problem: Problem, r: int) -> dict[frozenset[int], list[tuple[float, Sequence]]]:
+def _rest(problem: Problem, r: int) -> Callable[[str, frozenset[int]], float]:
+    """What no continuation of a robot's sequence costs less than, when the other robots drive the rest: a way to each mission, at the
+    cheapest speeds, whenever, with full batteries."""
+    robots = [r, *(other for other in range(len(problem.robots)) if other != r)]
+
+    def price(t: int, d: Drive) -> float:
+        return d.motion + problem.types[t].standby * d.duration_s
+
+    @functools.cache
+    def step(t: int, place: str, m: int) -> float:
+        first, drives = problem.missions[m].first, problem.missions[m].drives[t]
+        direct = min(price(t, way) for way in problem.ways[t, place, first])
+        by = (price(t, problem.ways[t, place, c.place][0]) + price(t, problem.ways[t, c.place, first][0]) for c in problem.chargers)
+        return min([direct, *by]) + min(price(t, d) for d in drives)
+
+    @functools.cache
+    def least(n: int, place: str, left: frozenset[int]) -> float:
+        if not left:
+            return 0.0
+        mine = (m for m in left if robots[n] in problem.missions[m].robots)
+        costs = [step(problem.robots[robots[n]].type, place, m) + least(n, problem.missions[m].last, left - {m}) for m in mine]
+        if n + 1 < len(robots):
+            costs.append(least(n + 1, problem.robots[robots[n + 1]].start, left))
+        return min(costs, default=math.inf)
+
+    return lambda place, left: least(0, place, left)
+
+
+def _sequences(problem: Problem, r: int, below: float) -> dict[frozenset[int], list[tuple[float, Sequence]]]:
     """Of each set of missions: the robot's sequences and what they cost alone, from the cheapest to the first without a visit:
-    that one waits for nobody."""
+    that one waits for nobody. Sequences that are too dear, whatever the others do, are left out."""
     found: dict[frozenset[int], list[tuple[float, Sequence]]] = {frozenset(): [(0.0, ())]}
-    mine = [m for m, mission in enumerate(problem.missions) if r in mission.robots]
-    for count in range(1, len(mine) + 1):
-        for order in itertools.permutations(mine, count):
-            for steps in _choices(problem, r, order):
-                if (cost := _drive(problem, r, steps, 0).cost) < math.inf:
-                    found.setdefault(frozenset(order), []).append((cost, steps))
+    everything, rest = frozenset(range(len(problem.missions))), _rest(problem, r)
+
+    def extend(steps: Sequence, driven: frozenset[int]) -> None:
+        for m in everything - driven:
+            if r not in problem.missions[m].robots:
+                continue
+            after, later = driven | {m}, rest(problem.missions[m].last, everything - driven - {m})
+            for stop in _stops(problem, r, steps, m):
+                if (cost := _drive(problem, r, (*steps, stop), 0).cost) + later < below:
+                    found.setdefault(after, []).append((cost, (*steps, stop)))
+                    extend((*steps, stop), after)
+
+    extend((), frozenset())
     return {key: _to_first_free(sorted(steps, key=lambda item: item[0])) for key, steps in found.items()}
 
 
-def _choices(problem: Problem, r: int, order: tuple[int, ...]) -> Iterator[Sequence]:
-    kind, place, steps = problem.robots[r].type, problem.robots[r].start, []
-    for m in order:
-        mission = problem.missions[m]
-        steps.append([(k, s) for k in range(len(problem.ways[kind, place, mission.first])) for s in range(len(mission.drives[kind]))])
-        place = mission.last
-    for speeds in itertools.product(*steps):
-        stops = tuple(Stop(m, k, s, None) for m, (k, s) in zip(order, speeds))
-        yield stops
-        for n, c in itertools.product(range(len(stops)), range(len(problem.chargers))):
-            if stops[n].way == 0:
-                yield stops[:n] + (stops[n]._replace(charger=c),) + stops[n + 1:]
+def _stops(problem: Problem, r: int, steps: Sequence, m: int) -> Iterator[Stop]:
+    """All ways and speeds of a robot's next mission; by a charger where it had no visit before."""
+    t, mission = problem.robots[r].type, problem.missions[m]
+    place = problem.missions[steps[-1].mission].last if steps else problem.robots[r].start
+    visited = any(stop.charger is not None for stop in steps)
+    ways: list[tuple[int, int | None]] = [(k, None) for k in range(len(problem.ways[t, place, mission.first]))]
+    ways += [] if visited else [(0, c) for c in range(len(problem.chargers))]
+    for (way, charger), speed in itertools.product(ways, range(len(mission.drives[t]))):
+        yield Stop(m, way, speed, charger)
 
 
 def _to_first_free(steps: list[tuple[float, Sequence]]) -> list[tuple[float, Sequence]]:
@@ -138,17 +166,31 @@ def _to_first_free(steps: list[tuple[float, Sequence]]) -> list[tuple[float, Seq
     return steps[:free + 1]
 
 
-def _combinations(sequences: list[dict[frozenset[int], list[tuple[float, Sequence]]]], left: frozenset[int],
-                  r: int = 0) -> Iterator[tuple[float, tuple[Sequence, ...]]]:
-    if r == len(sequences):
-        if not left:
-            yield 0.0, ()
-        return
-    for key, steps in sequences[r].items():
-        if key <= left:
-            for lower, rest in _combinations(sequences, left - key, r + 1):
-                for cost, sequence in steps:
-                    yield cost + lower, (sequence, *rest)
+def _combined(problem: Problem, sequences: list[dict[frozenset[int], list[tuple[float, Sequence]]]], everything: frozenset[int],
+              below: float) -> float:
+    best = below
+
+    @functools.cache
+    def tail(r: int, left: frozenset[int]) -> float:
+        """What robots from the r-th on cost at least, each alone."""
+        if r == len(sequences):
+            return math.inf if left else 0.0
+        return min((steps[0][0] + tail(r + 1, left - key) for key, steps in sequences[r].items() if key <= left), default=math.inf)
+
+    def choose(r: int, left: frozenset[int], cost: float, chosen: tuple[Sequence, ...]) -> None:
+        nonlocal best
+        if r == len(sequences):
+            best = min(best, _timed(problem, chosen))
+            return
+        for key, steps in sequences[r].items():
+            rest = tail(r + 1, left - key) if key <= left else math.inf
+            for alone, sequence in steps:
+                if cost + alone + rest >= best:
+                    break
+                choose(r + 1, left - key, cost + alone, (*chosen, sequence))
+
+    choose(0, everything, 0.0, ())
+    return best if best < below else math.inf
 
 
 def _drive(problem: Problem, r: int, steps: Sequence, not_before: int) -> Driven:

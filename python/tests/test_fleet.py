@@ -16,10 +16,12 @@ import generator  # noqa: E402
 import judge  # noqa: E402
 
 from joulepath import fleet  # noqa: E402
-from joulepath.fleet._bound import bound  # noqa: E402
+from joulepath.fleet._alone import sets_of  # noqa: E402
+from joulepath.fleet._bound import Limits, bound  # noqa: E402
 from joulepath.fleet._model import solve  # noqa: E402
+from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E402
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
-from joulepath.fleet._routes import dispatched, drive_orders, inserted  # noqa: E402
+from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
 from joulepath.fleet._search import improve, search  # noqa: E402
 from joulepath.fleet._simulate import simulate  # noqa: E402
 
@@ -49,6 +51,61 @@ def test_brute_force_over_permutations_finds_the_same_cost(seed):
     most_visits = max(sum(step.visit is not None for step in route) for route in found.routes)
     assert found.cost == brute or (most_visits > 1 and found.cost < brute)  # brute force has one visit of each robot
     assert bound(problem) <= found.cost
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_brute_force_finds_no_cheaper_schedule_of_three_speeds_and_narrow_windows(seed):
+    problem = generator.tight(seed, robots=2, missions=4, chargers=1)
+    status, found = search(problem, workers=1)
+    if found is None:
+        assert status == "infeasible" and judge.least_cost(problem) == float("inf")
+        return
+    assert status == "optimal" and judge.faults(problem, found) == []
+    brute = judge.least_cost(problem, found.cost + 1)
+    most_visits = max(sum(step.visit is not None for step in route) for route in found.routes)
+    assert brute == found.cost or (most_visits > 1 and found.cost < brute)  # brute force has one visit of each robot
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_known_cost_loses_no_schedule_that_is_as_cheap(seed):
+    """Limits, and sets of missions that cost a robot too much, are those of dearer schedules."""
+    problem = generator.tight(seed, robots=2, missions=4, chargers=1)
+    _, found = search(problem, workers=1)
+    assert found is not None
+    limits = Limits(problem, found.cost)
+    sets = sets_of(problem, found.cost, limits)
+    assert bound(problem) <= sets.bound <= found.cost
+    for r, route in enumerate(found.routes):
+        assert sum(1 << step.mission for step in route) in sets.costs[r]
+        for step in route:
+            drive = problem.missions[step.mission].drives[problem.robots[r].type][step.speed]
+            assert limits.soonest_start(step.mission) <= step.start_s
+            assert step.start_s + drive.duration_s <= limits.latest_end(step.mission)
+            assert limits.speed(step.mission, problem.robots[r].type, step.speed)
+    again = solve(problem, workers=1, start=found)
+    assert again[0] == "optimal" and again[1].cost == found.cost
+
+
+def test_the_extra_cost_of_an_insertion_is_that_of_the_longer_order():
+    """Where no place is skipped and no charge is needed: the estimate ends early only where the rest of an order stays as it was."""
+    problem = generator.tight(4, robots=1, missions=8, chargers=1)
+    problem = dataclasses.replace(problem, types=tuple(dataclasses.replace(x, capacity=10**7) for x in problem.types),
+                                  robots=tuple(dataclasses.replace(x, level=10**7) for x in problem.robots))
+    estimate, chance = Estimate(problem), random.Random(1)
+    for _ in range(20):
+        m, *order = chance.sample(range(8), 8)
+        longer = [estimate.cost(0, [*order[:n], m, *order[n:]]) - estimate.cost(0, order) for n in range(8)]
+        extra, position = estimate.insertion(0, order, estimate.states(0, order), m)
+        assert extra == pytest.approx(min(longer)) and longer[position] == pytest.approx(min(longer))
+
+
+@pytest.mark.parametrize("chargers", [0, 2])
+def test_a_neighborhood_has_each_mission_once(chargers):
+    problem = generator.large(1, robots=5, missions=30, chargers=chargers)
+    neighborhood, orders = Neighborhood(problem, random.Random(3)), inserted(problem)
+    for _ in range(30):
+        orders = neighborhood.of(orders)
+        assert sorted(m for order in orders for m in order) == list(range(30))
 
 
 @pytest.mark.parametrize(("robots", "need"), [(1, 20_000), (2, 30_000), (3, 50_000)])
@@ -124,7 +181,7 @@ def test_the_judge_sees_broken_rules():
         route = found.routes[r][:n] + (changed,) + found.routes[r][n + 1:]
         return judge.faults(problem, dataclasses.replace(found, routes=found.routes[:r] + (route,) + found.routes[r + 1:]))
 
-    assert broken(dataclasses.replace(step, start_s=step.start_s - 1))
+    assert broken(dataclasses.replace(step, start_s=step.visit.to_s - 1))
     assert broken(dataclasses.replace(step, visit=dataclasses.replace(step.visit, target=step.visit.target + 10**6)))
     assert broken(dataclasses.replace(step, visit=dataclasses.replace(step.visit, to_s=step.visit.from_s)))
 

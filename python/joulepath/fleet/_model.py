@@ -6,10 +6,13 @@ A visit of a charger belongs to the node after which it happens. Levels of batte
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from ortools.sat.python import cp_model
 
+from ._alone import Sets, sets_of
+from ._bound import Limits
 from ._problem import NEVER, Drive, Problem, Schedule, Step, Visit
 from ._routes import account
 
@@ -28,18 +31,17 @@ class FleetModel:
     def __init__(self, problem: Problem, most: int | None = None) -> None:
         """``most``: the cost of a known schedule; dearer ones are left out."""
         self.problem, self.model = problem, cp_model.CpModel()
-        self.horizon, self.spare = problem.horizon_s(), NEVER * 1000
-        if most is not None:
-            self.spare = most - sum(min(d.motion for drives in x.drives.values() for d in drives) for x in problem.missions)
-            standby = min(kind.standby for kind in problem.types)
-            if standby > 0:
-                self.horizon = min(self.horizon, max(x.from_s for x in problem.robots) + self.spare // standby + 1)
+        self.limits = Limits(problem, most)
+        self.horizon = min(problem.horizon_s(), max(x.from_s for x in problem.robots) + self.limits.present_s + 1)
         self.robots, self.missions = range(len(problem.robots)), range(len(problem.missions))
         self.most = max(kind.capacity for kind in problem.types)
+        self.equals = [(a, b) for group in _groups(problem) for a, b in zip(group, group[1:])]
         self.cost: list[Any] = []
         self.busy_s: list[Any] = []  # durations of everything that robots do
         self.spent: list[Any] = []  # upper bounds of their energies
         self.gained: list[Any] = []
+        self.bought: list[Any] = []
+        self.charging: list[Any] = []
         self.arcs: list[tuple[int, int, Any]] = []
         self.taken: dict[tuple[int, int, int, int, int], Any] = {}  # node, mission, type, charger or -1, way -> literal
         self._add_missions()
@@ -53,20 +55,27 @@ class FleetModel:
         self._add_chargers()
         self.model.add_circuit(self.arcs)
         self._add_cuts()
+        sets, self.low = None if most is None else sets_of(problem, most, self.limits), self.limits.low
+        if sets is not None:
+            self.low = max(self.low, sets.bound)
+            self._add_sets(sets)
         if most is not None:
             self.model.add(sum(self.cost) <= most)
         self.model.minimize(sum(self.cost))
 
     def _add_missions(self) -> None:
         m, p = self.model, self.problem
-        self.start = [m.new_int_var(min(x.ready_s, self.horizon), self.horizon, f"start{j}") for j, x in enumerate(p.missions)]
+        self.soonest = [min(self.horizon, self.limits.soonest_start(j)) for j in self.missions]
+        self.latest = [min(self.horizon, self.limits.latest_end(j)) for j in self.missions]
+        self.start = [m.new_int_var(self.soonest[j], self.horizon, f"start{j}") for j in self.missions]
         self.level = [m.new_int_var(0, self.most, f"level{j}") for j in self.missions]
         self.assigned = [{r: m.new_bool_var(f"robot{r}_{j}") for r in x.robots} for j, x in enumerate(p.missions)]
         self.speed: list[dict[tuple[int, int], Any]] = []
         self.nodes: list[Node] = []
         for j, mission in enumerate(p.missions):
             m.add_exactly_one(self.assigned[j].values())
-            speed = {(t, k): m.new_bool_var(f"speed{j}_{t}_{k}") for t, drives in mission.drives.items() for k in range(len(drives))}
+            speed = {(t, k): m.new_bool_var(f"speed{j}_{t}_{k}") for t, drives in mission.drives.items() for k in range(len(drives))
+                     if self.limits.speed(j, t, k)}
             for t in mission.drives:
                 m.add(sum(v for (u, _), v in speed.items() if u == t) ==
                       sum(v for r, v in self.assigned[j].items() if p.robots[r].type == t))
@@ -78,8 +87,7 @@ class FleetModel:
         drives = [(v, mission.drives[t][k], p.types[t]) for (t, k), v in self.speed[j].items()]
         duration = sum(v * d.duration_s for v, d, _ in drives)
         need = sum(v * (d.upper + kind.standby * d.duration_s) for v, d, kind in drives)
-        latest = min(self.horizon, mission.due_s + self.spare // mission.late_price) if mission.late_price else self.horizon
-        end = m.new_int_var(0, latest, f"end{j}")
+        end = m.new_int_var(0, self.latest[j], f"end{j}")
         m.add(end == self.start[j] + duration)
         after = m.new_int_var(0, self.most, f"after{j}")
         m.add(after == self.level[j] - need)
@@ -88,7 +96,7 @@ class FleetModel:
         self.busy_s.append(duration)
         self.spent += [v * d.upper for v, d, _ in drives]
         if mission.late_price and mission.due_s < self.horizon:
-            late = m.new_int_var(0, self.horizon, f"late{j}")
+            late = m.new_int_var(0, max(0, self.latest[j] - mission.due_s), f"late{j}")
             m.add(late >= end - mission.due_s)
             self.cost.append(mission.late_price * late)
         for r, literal in self.assigned[j].items():
@@ -131,11 +139,15 @@ class FleetModel:
         for t in self._types(node, j):
             standby = p.types[t].standby
             for k, way in enumerate(p.ways[t, node.place, mission.first]):
+                if not self._possible(node, j, t, -1, k):
+                    continue
                 literal = self._taken(literals, node, j, t, -1, k, way)
                 m.add(self.start[j] >= node.end + way.duration_s).only_enforce_if(literal)
                 m.add(self.level[j] <= node.level - way.upper - standby * (self.start[j] - node.end)).only_enforce_if(literal)
             for c, charger in enumerate(p.chargers):
                 way = p.ways[t, charger.place, mission.first][0]
+                if not self._possible(node, j, t, c, 0):
+                    continue
                 literal = self._taken(literals, node, j, t, c, 0, way)
                 m.add(self.start[j] >= node.done + way.duration_s).only_enforce_if(literal)  # type: ignore[attr-defined]
                 m.add(self.level[j] <= node.target - way.upper  # type: ignore[attr-defined]
@@ -146,6 +158,17 @@ class FleetModel:
         m.add(sum(literals) == arc)
         self.arcs.append((node.index, len(self.robots) + j, arc))
         self._add_same_robot(node, j, arc)
+
+    def _possible(self, node: Node, j: int, t: int, c: int, k: int) -> bool:
+        """Whether a way is cheap enough, and short enough for the latest end of its mission."""
+        if not self.limits.way((node.index, j), t, c, k):
+            return False
+        p, first = self.problem, self.problem.missions[j].first
+        before = node.index - len(self.robots)
+        leaves = p.robots[node.index].from_s if before < 0 else self.soonest[before] + _shortest(p, before)
+        place = node.place if c < 0 else p.chargers[c].place
+        way_s = p.ways[t, place, first][k].duration_s + (0 if c < 0 else p.ways[t, node.place, place][0].duration_s)
+        return leaves + way_s + min(d.duration_s for d in p.missions[j].drives[t]) <= self.latest[j]
 
     def _taken(self, literals: list[Any], node: Node, j: int, t: int, c: int, k: int, way: Drive) -> Any:
         literal = self.model.new_bool_var(f"way{node.index}_{j}_{t}_{c}_{k}")
@@ -243,6 +266,8 @@ class FleetModel:
             fastest = max(c.power for c in self.problem.chargers) - min(kind.standby for kind in self.problem.types)
             m.add(gain <= fastest * node.charge)
             self.busy_s.append(node.charge)
+            self.bought.append(gain)
+            self.charging.append(node.charge)
             # a charge is net of the standby, which the robot's whole time includes
             self.gained.append(max(kind.standby for kind in self.problem.types) * node.charge)
         self.gained.append(gain)
@@ -254,21 +279,86 @@ class FleetModel:
         m.add(sum(present) >= sum(self.busy_s))
         m.add(sum((x.level - p.kind(r).reserve) for r, x in enumerate(p.robots)) + sum(self.gained) >=
               sum(self.spent) + sum(p.kind(r).standby * present[r] for r in self.robots))
+        for r in self.robots:
+            self._add_presence(r, present[r])
+        self._add_purchases(present)
+        self._add_order_of_equals()
+
+    def _mine(self, r: int) -> list[int]:
+        return [j for j in self.missions if r in self.assigned[j]]
+
+    def _add_presence(self, r: int, present: Any) -> None:
+        """A robot's time after each moment at which a mission can start first covers its missions from then on, with ways."""
+        p, m, t, mine = self.problem, self.model, self.problem.robots[r].type, self._mine(r)
+        own_s, way_s = {j: self._own_s(j, t) for j in mine}, {j: self.limits.way_to(j, t)[0] for j in mine}
+        for j in mine:
+            later = [k for k in mine if self.soonest[k] >= self.soonest[j]]
+            head_s = self.soonest[j] - p.robots[r].from_s - max(way_s[k] for k in later)  # the first of them has its way before
+            m.add(present >= head_s * self.assigned[j][r] + sum((own_s[k] + way_s[k]) * self.assigned[k][r] for k in later))
+        m.add_no_overlap([m.new_optional_fixed_size_interval_var(self.start[j] - way_s[j], way_s[j] + own_s[j], self.assigned[j][r], "")
+                          for j in mine])
+
+    def _add_purchases(self, present: list[Any]) -> None:
+        """What a robot spends beyond its battery it buys, in visits of its own."""
+        p, m = self.problem, self.model
+        visits = [sum(node.visits.values()) for node in self.nodes]
+        if not p.chargers or not any(node.visits for node in self.nodes):
+            return
+        bought, charging, own = [], [], []
         for r, robot in enumerate(p.robots):
-            m.add(present[r] >= sum(min(d.duration_s for d in p.missions[j].drives[robot.type]) * self.assigned[j][r]
-                                    for j in self.missions if r in self.assigned[j]))
-        alike: dict[tuple[Any, ...], int] = {}
-        for r, robot in enumerate(p.robots):
-            key = (robot.type, robot.start, robot.level, robot.from_s, robot.to_s, robot.use_price,
-                   tuple(r in x.robots for x in p.missions))
-            if key in alike:
-                m.add_implication(self.unused[alike[key]], self.unused[r])
-            alike[key] = r
+            kind, mine, literal = p.kind(r), self._mine(r), m.new_bool_var(f"buys{r}")
+            own.append(m.new_int_var(0, len(mine) + 1, f"visits{r}"))
+            bought.append(m.new_int_var(0, kind.capacity * (len(mine) + 1), f"bought{r}"))
+            charging.append(m.new_int_var(0, self.horizon, f"charging{r}"))
+            m.add(own[r] >= literal)
+            m.add(own[r] <= (len(mine) + 1) * literal)
+            m.add(charging[r] <= self.horizon * literal)
+            m.add(bought[r] <= (kind.capacity - kind.reserve) * own[r])
+            m.add(bought[r] <= (max(c.power for c in p.chargers) - kind.standby) * charging[r])
+            least = {j: (min(d.upper for d in p.missions[j].drives[robot.type]), *self.limits.way_to(j, robot.type)) for j in mine}
+            m.add(robot.level - kind.reserve + bought[r] >= kind.standby * (present[r] - charging[r]) +
+                  sum((mission + way) * self.assigned[j][r] for j, (mission, _, way) in least.items()))
+            m.add(present[r] >= charging[r] + sum((self._own_s(j, robot.type) + way_s) * self.assigned[j][r]
+                                                  for j, (_, way_s, _) in least.items()))
+        m.add(sum(bought) <= sum(self.bought))
+        m.add(sum(charging) <= sum(self.charging))
+        m.add(sum(own) <= sum(visits))
+
+    def _own_s(self, j: int, t: int) -> int:
+        return min(d.duration_s for d in self.problem.missions[j].drives[t])
+
+    def _add_sets(self, sets: Sets) -> None:
+        """Each robot drives one of the sets of missions that are left for it; all of them cost what they cost at least."""
+        m, prices = self.model, []
+        for r, costs in enumerate(sets.costs):
+            literals = {mask: m.new_bool_var(f"set{r}_{mask}") for mask in costs}
+            m.add_exactly_one(literals.values())
+            for j in self._mine(r):
+                m.add(sum(v for mask, v in literals.items() if mask >> j & 1) == self.assigned[j][r])
+            prices += [costs[mask] * v for mask, v in literals.items()]
+        m.add(sum(self.cost) >= sum(prices))
+        m.add(sum(self.cost) >= sets.bound)
+
+    def _add_order_of_equals(self) -> None:
+        """Of equal robots, the one with the first of their missions comes first."""
+        for first, second in self.equals:
+            for j in self.missions:
+                if second in self.assigned[j]:
+                    self.model.add(self.assigned[j][second] <= sum(self.assigned[i][first] for i in range(j) if first in self.assigned[i]))
+            self.model.add_implication(self.unused[first], self.unused[second])
+
+    def in_order(self, schedule: Schedule) -> Schedule:
+        """The schedule with the routes of equal robots in the model's order."""
+        routes = list(schedule.routes)
+        for group in _groups(self.problem):
+            for r, route in zip(group, sorted((routes[r] for r in group), key=lambda route: min((x.mission for x in route), default=NEVER))):
+                routes[r] = route
+        return replace(schedule, routes=tuple(routes))
 
     def hint(self, schedule: Schedule) -> None:
         """Starts the search at a schedule."""
         m = self.model
-        for r, route in enumerate(schedule.routes):
+        for r, route in enumerate(self.in_order(schedule).routes):
             m.add_hint(self.unused[r], not route)
             node = self.nodes[r]
             for step in route:
@@ -309,6 +399,20 @@ class FleetModel:
         return Schedule(tuple(routes), round(solver.objective_value), round(solver.best_objective_bound))
 
 
+def _groups(problem: Problem) -> list[list[int]]:
+    """Equal robots."""
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for r, x in enumerate(problem.robots):
+        key = (x.type, x.start, x.level, x.from_s, x.to_s, x.use_price, tuple(r in m.robots for m in problem.missions))
+        groups.setdefault(key, []).append(r)
+    return list(groups.values())
+
+
+def _shortest(problem: Problem, m: int) -> int:
+    """Duration of a mission at its quickest."""
+    return min(d.duration_s for drives in problem.missions[m].drives.values() for d in drives)
+
+
 class _Progress(cp_model.CpSolverSolutionCallback):
     def __init__(self, tell: Any, stop: Any) -> None:
         super().__init__()
@@ -330,6 +434,8 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     """
     fleet = FleetModel(problem, None if start is None else start.cost)
     if start is not None:
+        if fleet.low >= start.cost:
+            return "optimal", replace(start, bound=start.cost, proven=True)
         fleet.hint(start)
     solver = cp_model.CpSolver()
     solver.parameters.random_seed = seed
@@ -342,11 +448,11 @@ def solve(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 1
     if status == cp_model.INFEASIBLE:
         return "infeasible", None
     if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        return "unknown", None
+        return ("unknown", None) if start is None else ("feasible", replace(start, bound=fleet.low))
     found = fleet.schedule(solver)
     word = "optimal" if status == cp_model.OPTIMAL else "feasible"
     cost = account(problem, found.routes)  # a schedule that is not proven may have slack in its variables
-    return word, Schedule(found.routes, cost, min(found.bound, cost), status == cp_model.OPTIMAL)
+    return word, Schedule(found.routes, cost, min(max(found.bound, fleet.low), cost), status == cp_model.OPTIMAL)
 
 
 __all__ = ["NEVER", "FleetModel", "solve"]

@@ -1,15 +1,12 @@
-"""Schedules without a solver: routes driven in the order of time, the dispatcher of the field, and a regret insertion."""
+"""Schedules without a solver: orders of missions driven in the order of time, and the dispatcher of the field."""
 
 from __future__ import annotations
 
 import heapq
-import math
-import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from ._problem import Drive, Problem, Robot, RobotType, Schedule, Step, Visit
-
+from ._problem import Drive, Problem, RobotType, Schedule, Step, Visit
 
 QUEUES_S = (0, 200, 800)  #: waits at chargers that orders are driven for
 
@@ -50,8 +47,9 @@ def route_cost(problem: Problem, r: int, route: Sequence[Step]) -> int:
 class Drivers:
     """Drives robots one step at a time; chargers serve in the order of calls."""
 
-    def __init__(self, problem: Problem) -> None:
-        self.problem = problem
+    def __init__(self, problem: Problem, to_dock: dict[tuple[int, str], int] | None = None) -> None:
+        """``to_dock``: what ``to_dock()`` found before, for the same problem."""
+        self.problem, self._to_dock = problem, {} if to_dock is None else to_dock
         self.at = [_At(x.start, x.from_s, x.level) for x in problem.robots]
         self.taken: list[list[tuple[int, int]]] = [[(a, b) for d, a, b in problem.busy if d == c] for c in range(len(problem.chargers))]
 
@@ -68,8 +66,10 @@ class Drivers:
     def to_dock(self, r: int, place: str) -> int:
         """Energy that a robot needs to reach its nearest charger; 0 without chargers."""
         p, t = self.problem, self.problem.robots[r].type
-        needs = [_need(p.ways[t, place, c.place][0], p.types[t]) for c in p.chargers if (t, place, c.place) in p.ways]
-        return min(needs, default=0)
+        if (t, place) not in self._to_dock:
+            needs = [_need(p.ways[t, place, c.place][0], p.types[t]) for c in p.chargers if (t, place, c.place) in p.ways]
+            self._to_dock[t, place] = min(needs, default=0)
+        return self._to_dock[t, place]
 
     def needed(self, r: int, m: int, place: str, clock: int) -> int:
         """Energy for a mission from a place, waiting included."""
@@ -131,15 +131,16 @@ def _late_choice(drives: tuple[Drive, ...], late_s: Callable[[Drive], int]) -> i
     return next((k for k, d in enumerate(drives) if late_s(d) <= 0), len(drives) - 1)
 
 
-def drive_orders(problem: Problem, orders: Sequence[Sequence[int]]) -> Schedule | None:
+def drive_orders(problem: Problem, orders: Sequence[Sequence[int]], waits_s: Sequence[int] = QUEUES_S,
+                 to_dock: dict[tuple[int, str], int] | None = None) -> Schedule | None:
     """Robots drive their missions in a given order and charge when the next one would not leave them the way to a charger, with
     standby for a wait there: the cheapest of several waits."""
-    found = [schedule for wait_s in QUEUES_S if (schedule := _driven(problem, orders, wait_s)) is not None]
+    found = [schedule for wait_s in waits_s if (schedule := _driven(problem, orders, wait_s, to_dock)) is not None]
     return min(found, key=lambda schedule: schedule.cost, default=None)
 
 
-def _driven(problem: Problem, orders: Sequence[Sequence[int]], wait_s: int) -> Schedule | None:
-    drivers, left = Drivers(problem), [list(order) for order in orders]
+def _driven(problem: Problem, orders: Sequence[Sequence[int]], wait_s: int, to_dock: dict[tuple[int, str], int] | None) -> Schedule | None:
+    drivers, left = Drivers(problem, to_dock), [list(order) for order in orders]
     queue = [(at.clock, r) for r, at in enumerate(drivers.at) if left[r]]
     heapq.heapify(queue)
     while queue:
@@ -205,79 +206,3 @@ def _dispatch(drivers: Drivers, r: int, m: int, low: float, high: float) -> bool
         near = sorted(range(len(p.chargers)), key=lambda c: p.ways[robot.type, at.place, p.chargers[c].place][0].duration_s)
         return any(drivers.go(r, m, (c, round(high * kind.capacity))) for c in near) or drivers.go(r, m, None)
     return drivers.go(r, m, None)
-
-
-def inserted(problem: Problem) -> list[list[int]]:
-    """Orders of missions by regret insertion: the mission that loses most by its second best robot goes first."""
-    orders: list[list[int]] = [[] for _ in problem.robots]
-    costs, left = [0.0] * len(problem.robots), set(range(len(problem.missions)))
-    best: dict[tuple[int, int], tuple[float, int]] = {(m, r): _insertion(problem, r, orders[r], 0.0, m)
-                                                      for m in left for r in problem.missions[m].robots}
-    while left:
-        def regret(m: int) -> tuple[float, float, int]:
-            found = sorted(best[m, r][0] for r in problem.missions[m].robots)
-            return (found[min(1, len(found) - 1)] - found[0], -found[0], -m)
-
-        m = max(left, key=regret)
-        r = min(problem.missions[m].robots, key=lambda r: (best[m, r][0], r))
-        extra, position = best[m, r]
-        orders[r].insert(position, m)
-        costs[r] += extra
-        left.remove(m)
-        for other in left:
-            if r in problem.missions[other].robots:
-                best[other, r] = _insertion(problem, r, orders[r], costs[r], other)
-    return orders
-
-
-def _insertion(problem: Problem, r: int, order: list[int], cost: float, m: int) -> tuple[float, int]:
-    """Extra cost and position of a mission in an order."""
-    tries = ((sequence_cost(problem, r, [*order[:n], m, *order[n:]]) - cost, n) for n in range(len(order) + 1))
-    return min(tries)
-
-
-def sequence_cost(problem: Problem, r: int, order: Sequence[int]) -> float:
-    """Cost of an order of missions at the cheapest speeds; energy above the battery's is charged at the fastest charger."""
-    if not order:
-        return 0.0
-    robot: Robot = problem.robots[r]
-    kind = problem.types[robot.type]
-    place, clock, cost, used = robot.start, float(robot.from_s), float(robot.use_price), 0.0
-    power = max((c.power - kind.standby for c in problem.chargers), default=0)
-    for m in order:
-        mission = problem.missions[m]
-        way, speed = problem.ways[robot.type, place, mission.first][0], mission.drives[robot.type][0]
-        start = max(clock + way.duration_s, mission.ready_s)
-        end = start + speed.duration_s
-        used += way.upper + speed.upper + kind.standby * (end - clock)
-        short = used - (robot.level - kind.reserve)
-        if short > 0:
-            if not power:
-                return math.inf
-            end, used = end + short / power, used - short
-        cost += way.motion + speed.motion + mission.late_price * max(0.0, end - mission.due_s)
-        place, clock = mission.last, end
-    if clock > robot.to_s:
-        cost += 1e7 * (clock - robot.to_s)
-    return cost + kind.standby * (clock - robot.from_s)
-
-
-def reinserted(problem: Problem, orders: Sequence[Sequence[int]], chance: random.Random) -> list[list[int]]:
-    """Orders with some missions, near each other in place or time, taken out and inserted where they cost least."""
-    missions = problem.missions
-    center = missions[chance.randrange(len(missions))]
-    t = next(iter(center.drives))
-
-    def far(m: int) -> float:
-        way = problem.ways.get((t, missions[m].last, center.first)) or problem.ways.get((t, center.last, missions[m].first))
-        return (way[0].duration_s if way else 0) + 0.2 * abs(missions[m].ready_s - center.ready_s) + chance.uniform(0, 60)
-
-    taken = sorted(range(len(missions)), key=far)[:chance.randint(3, 8)]
-    left = [[m for m in order if m not in taken] for order in orders]
-    costs = [sequence_cost(problem, r, order) for r, order in enumerate(left)]
-    chance.shuffle(taken)
-    for m in taken:
-        (extra, position), r = min((_insertion(problem, r, left[r], costs[r], m), r) for r in missions[m].robots)
-        left[r].insert(position, m)
-        costs[r] += extra
-    return left

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,17 +10,20 @@ from dataclasses import replace
 from ._bound import bound
 from ._model import solve
 from ._problem import UNITS_PER_J, Problem, Schedule, Step
-from ._routes import account, dispatched, drive_orders, inserted, reinserted
+from ._orders import Neighborhood, inserted
+from ._routes import QUEUES_S, account, dispatched, drive_orders
 
 SMALL = 16  #: missions of one constraint program
-ROUNDS_PER_S = 25  #: reinsertions per second of the limit, which half of it is for
+ROUNDS = 400  #: reinsertions before it
+ROUNDS_PER_S = 30  #: reinsertions per second of the limit, which three quarters of it are for
+WARM, COLD = 3e-3, 1e-4  #: dearer schedules that the reinsertions go on from, relative, at their begin and end
 REPAIR = 0.5  #: deterministic time of one repair
 Tell = Callable[[str], None]
 Stop = Callable[[], bool]
 
 
 def first_schedule(problem: Problem) -> Schedule | None:
-    """The cheaper one of a regret insertion and a dispatcher; None where both run out of energy or time."""
+    """The cheaper one of a greedy insertion and a dispatcher; None where both run out of energy or time."""
     found = [schedule for schedule in (drive_orders(problem, inserted(problem)), dispatched(problem)) if schedule is not None]
     return min(found, key=lambda schedule: schedule.cost, default=None)
 
@@ -30,6 +34,8 @@ def search(problem: Problem, *, seed: int = 1, workers: int = 8, limit: float = 
     say, ended = tell or (lambda _: None), stop or (lambda: False)
     start = first_schedule(problem)
     if len(problem.missions) <= SMALL or start is None:
+        if start is not None:
+            start = rearranged(problem, start, random.Random(seed), ROUNDS, ended)
         status, best = solve(problem, seed=seed, workers=workers, limit=limit, start=start, stop=ended,
                              tell=lambda cost, low: say(_line(cost, low)))
         if best is None and start is not None:
@@ -46,24 +52,42 @@ def _line(cost: float, low: float) -> str:
 def improve(problem: Problem, start: Schedule, *, seed: int, workers: int, limit: float, tell: Tell, stop: Stop) -> Schedule:
     """Large-neighborhood search: first, missions are taken out of routes and inserted anew; then CP-SAT plans the ends of two
     robots' routes anew, while all others stay."""
-    chance, low, best = random.Random(seed), bound(problem), start
-    tell(_line(best.cost, low))
-    orders = [[step.mission for step in route] for route in best.routes]
-    for _ in range(round(ROUNDS_PER_S * limit / 2)):
-        if stop():
-            return best
-        tried = reinserted(problem, orders, chance)
-        found = drive_orders(problem, tried)
-        if found is not None and found.cost < best.cost:
-            best, orders = found, tried
-            tell(_line(best.cost, low))
-    for _ in range(round(limit / 2 / REPAIR)):
+    chance, low = random.Random(seed), bound(problem)
+
+    def news(schedule: Schedule) -> None:
+        tell(_line(schedule.cost, low))
+
+    news(start)
+    best = rearranged(problem, start, chance, round(0.75 * ROUNDS_PER_S * limit), stop, news)
+    for _ in range(round(limit / 4 / REPAIR)):
         if stop():
             return best
         better = repaired(problem, best, chance, workers)
         if better.cost < best.cost:
             best = better
-            tell(_line(best.cost, low))
+            news(best)
+    return best
+
+
+def rearranged(problem: Problem, start: Schedule, chance: random.Random, rounds: int, stop: Stop,
+               news: Callable[[Schedule], None] = lambda _: None) -> Schedule:
+    """The best schedule of a simulated annealing over orders of missions."""
+    neighborhood, to_dock = Neighborhood(problem, chance), {}  # type: tuple[Neighborhood, dict[tuple[int, str], int]]
+    orders, here, best, wait_s = [[step.mission for step in route] for route in start.routes], start.cost, start, QUEUES_S[1]
+    for n in range(rounds):
+        if stop():
+            break
+        tried = neighborhood.of(orders)
+        if n % 20 == 0:
+            wait_s = chance.choice(QUEUES_S)
+        found = drive_orders(problem, tried, (wait_s,), to_dock)
+        warmth = WARM * (COLD / WARM) ** (n / rounds) * best.cost
+        if found is None or found.cost >= here - warmth * math.log(1.0 - chance.random()):
+            continue
+        orders, here = tried, found.cost
+        if found.cost < best.cost:
+            best = found
+            news(best)
     return best
 
 
