@@ -174,7 +174,9 @@ double energy_sigma_J(const Robot& robot, const Trajectory& log, const EstimateO
     const EnergyEstimate estimate = estimate_energy(plant, log, options);
     return estimate.by_cause.total_J() + estimate.battery_loss_J;
   };
-  double variance_J2 = 0;
+  const double model_J = robot.model_energy_sigma().value_or(0) *
+                         estimate_energy(make_plant(robot), log, options).by_cause.motion_J();
+  double variance_J2 = model_J * model_J;
   for (const Nuisance& nuisance : nuisances_of(robot)) {
     const double half_J = (energy_J(nuisance, nuisance.sigma) - energy_J(nuisance, -nuisance.sigma)) / 2;
     variance_J2 += half_J * half_J;

@@ -97,6 +97,12 @@ struct Robot {
   Footprint footprint{};
   std::vector<EffectSetting> effects{};
   std::map<std::string, double> uncertainty{};  ///< relative 1-sigma by key; none: unknown
+  /// Relative 1-sigma of the model's energy of motion, one error for a whole mission, beside the errors of
+  /// the constants; nothing: not measured.
+  std::optional<double> model_energy_sigma() const {
+    const auto stated = uncertainty.find("model_energy");
+    return stated == uncertainty.end() ? std::nullopt : std::optional(stated->second);
+  }
 
   double total_mass_kg(double payload_kg) const {
     return inertia.chassis_mass_kg + 2 * inertia.wheel_mass_kg + payload_kg;

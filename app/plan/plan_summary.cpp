@@ -79,14 +79,14 @@ void print_path_bound(std::ostream& stream, const Plan& plan) {
          << " J in this time, gap <= " << figure(path_gap_percent(bound, plan.energy.total_J()), 2) << " %\n";
 }
 
-void print_battery(std::ostream& stream, const BatteryAccount& battery) {
+void print_battery(std::ostream& stream, const BatteryAccount& battery, bool is_upper_bound) {
   stream << "battery " << figure(100 * battery.start_fraction, 4) << " % -> "
          << figure(100 * battery.end_fraction, 5) << " %";
   if (battery.interval_95)
     stream << " (95 %: " << figure(100 * (*battery.interval_95)[0], 5) << " to "
            << figure(100 * (*battery.interval_95)[1], 5) << ")";
   stream << ", needs " << figure(battery.required_capacity_Wh, 4) << " Wh"
-         << (battery.interval_95 ? " (95 % upper bound)" : "") << ", "
+         << (is_upper_bound ? " (95 % upper bound)" : " expected") << ", "
          << std::to_string(static_cast<long>(battery.missions_per_charge)) << " such missions per charge\n";
 }
 
@@ -145,7 +145,7 @@ void print_plan_summary(std::ostream& stream, const Plan& plan, const std::strin
            << optimality_text(plan) << ", replay " << figure(plan.replay_energy_J, 6)
            << " J, worst violation " << figure(plan.worst_violation, 2) << "\n";
     print_path_bound(stream, plan);
-    if (plan.battery) print_battery(stream, *plan.battery);
+    if (plan.battery) print_battery(stream, *plan.battery, plan.sigma_has_model_error);
     stream << "uncertainty " << uncertainty_text(plan) << "\n";
   }
   stream << "results in " << directory << "\n";

@@ -98,16 +98,21 @@ class Charge {
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant) {
   std::vector<double> leg_variance_J2(plan.legs.size(), 0.0);
   double variance_J2 = 0.0;
-  for (std::size_t i = 0; i < plant.shifted.size(); ++i) {
+  const auto add = [&](const auto& shift_of_leg_J) {
     double sum_J = 0.0;
     for (std::size_t k = 0; k < plan.legs.size(); ++k) {
-      const double shift_J = sigma_shift_J(plan.legs[k], plant, i);
+      const double shift_J = shift_of_leg_J(plan.legs[k]);
       leg_variance_J2[k] += shift_J * shift_J;
       sum_J += shift_J;
     }
     variance_J2 += sum_J * sum_J;
-  }
+  };
+  for (std::size_t i = 0; i < plant.shifted.size(); ++i)
+    add([&](const LegPlan& leg) { return sigma_shift_J(leg, plant, i); });
+  const std::optional<double> of_model = plant.plant.robot.model_energy_sigma();
+  add([&](const LegPlan& leg) { return of_model.value_or(0) * leg.energy.motion_J(); });
   if (variance_J2 <= 0) return;
+  plan.sigma_has_model_error = of_model.has_value();
   plan.energy_sigma_J = std::sqrt(variance_J2);
   for (std::size_t k = 0; k < plan.legs.size(); ++k)
     plan.legs[k].energy_sigma_J = std::sqrt(leg_variance_J2[k]);
@@ -140,7 +145,9 @@ std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& 
     const double half_width = kNormal95 * *plan.energy_sigma_J / (battery.capacity_Wh * kJoulesPerWh);
     account.interval_95 = {account.end_fraction - half_width, account.end_fraction + half_width};
   }
-  const double margin_J = kNormal95OneSided * plan.energy_sigma_J.value_or(0.0);
+  // A bound without the model's own error is none.
+  const double margin_J =
+      plan.sigma_has_model_error ? kNormal95OneSided * plan.energy_sigma_J.value_or(0.0) : 0.0;
   account.required_capacity_Wh = (charge.peak_J() + margin_J) / kJoulesPerWh;
   const double usable_Wh = battery.capacity_Wh * (1.0 - battery.reserve_fraction);
   account.missions_per_charge =

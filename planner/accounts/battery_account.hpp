@@ -10,8 +10,9 @@ namespace joulepath {
 /// State of charge along a plan, with the loss in the internal resistance; absent where the robot file gives
 /// no capacity. At legs with a charger the battery charges during the dwell, up to a fraction. The 95 %
 /// interval comes from the robot file's uncertainty, propagated to the energy to first order; without one
-/// there is none. Missions per charge are counted down to the reserve, at the upper bound. Sets the plan's
-/// sigmas and the charged energy of its legs.
+/// there is none. Missions per charge are counted down to the reserve, at the upper bound where the interval
+/// holds the model's own error, else at the expected energy. Sets the plan's sigmas and the charged energy of
+/// its legs.
 [[nodiscard]] std::optional<BatteryAccount> battery_account(Plan& plan, const UncertainPlant& plant,
                                                             double start_fraction,
                                                             double charge_to_fraction = 1.0);
@@ -32,8 +33,8 @@ void blame_battery(Plan& plan, const Robot& robot, const PayloadAlongLeg& payloa
 
 /// 1-sigma of the energy (J) of a plan and of each of its legs: root of the sum of squares over the entries
 /// of `uncertainty:`, each propagated through the power model along the planned motion by central
-/// differences. Errors of the legs are correlated, so the plan's sigma is above the root sum of squares of
-/// the legs. Where all constants are exact, or none is stated, nothing is set.
+/// differences, and the model's own error. Errors of the legs are correlated, so the plan's sigma is above
+/// the root sum of squares of the legs. Where all constants are exact, or none is stated, nothing is set.
 void find_energy_sigmas(Plan& plan, const UncertainPlant& plant);
 
 }  // namespace joulepath

@@ -143,6 +143,7 @@ struct Plan {
   EnergyByCause energy{};
   /// 1-sigma of energy from the robot file's `uncertainty:`; absent where the file states none.
   std::optional<double> energy_sigma_J{};
+  bool sigma_has_model_error{};  ///< false: of the constants alone
   double duration_s{};
   double distance_m{};
   double lower_bound_J{};  ///< no profiles of these paths take less; NaN with a leg of least time

@@ -225,9 +225,11 @@ void add_results(const Plan& plan, Json& json) {
 }  // namespace
 
 const char* uncertainty_text(const Plan& plan) {
-  return plan.energy_sigma_J
-             ? "of the robot file's constants alone"
-             : "unknown: the robot file states none in uncertainty:; calibrate and diagnose measure it";
+  if (!plan.energy_sigma_J)
+    return "unknown: the robot file states none in uncertainty:; calibrate and diagnose measure it";
+  return plan.sigma_has_model_error
+             ? "of the robot file's constants and of the model"
+             : "of the robot file's constants alone: it states no model_energy in uncertainty:";
 }
 
 std::string plan_json_text(const Plan& plan, const std::optional<PlanRobot>& robot) {

@@ -89,7 +89,8 @@ Schema leg_result_schema() {
 Schema battery_result_schema() {
   return open(map({required("start_fraction", result()), required("end_fraction", result()),
                    required("interval_95", nullable(interval()), "of the end fraction; null: unknown"),
-                   required("required_capacity_Wh", result(), "95 % upper bound where the interval is known"),
+                   required("required_capacity_Wh", result(),
+                            "95 % upper bound where the interval holds the model's error"),
                    required("missions_per_charge", result())}));
 }
 

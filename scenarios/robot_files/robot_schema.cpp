@@ -93,6 +93,8 @@ Schema uncertainty_schema() {
     for (const auto& key : section.keys)
       if (key.name != "sharing") keys.push_back(optional(key.name, number(kFraction)));
   keys.push_back(optional("payload_kg", number(kFraction)));
+  keys.push_back(optional("model_energy", number(kFraction),
+                          "of the model itself: relative 1-sigma of a mission's energy of motion"));
   return map(std::move(keys));
 }
 
@@ -110,7 +112,8 @@ Schema robot_schema() {
        optional("power", power_schema()), optional("battery", battery_schema()),
        optional("footprint", footprint_schema()),
        optional("effects", effect_list_schema(), "effects added to the nominal model"),
-       optional("uncertainty", uncertainty_schema(), "relative 1-sigma of the calibration; absent: unknown")}));
+       optional("uncertainty", uncertainty_schema(),
+                "relative 1-sigma of the calibration; absent: unknown")}));
 }
 
 }  // namespace joulepath

@@ -291,7 +291,13 @@ TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyThereIsNone) {
   EXPECT_NEAR(sum_J, sigma_J, 1e-9 * sum_J);
   ASSERT_TRUE(plan.battery);
   const double drawn_J = plan.energy.total_J() + plan.battery->loss_J;
-  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * sigma_J, 1e-4 * drawn_J)
+  EXPECT_NEAR(plan.battery->required_capacity_Wh * 3600, drawn_J, 1e-9 * drawn_J)
+      << "a bound without the model's error is none";
+  robot.uncertainty["model_energy"] = 0.06;
+  const Plan bounded = plan_of(round_of_three(), kCoarse, robot);
+  const double both_J = std::hypot(sigma_J, 0.06 * bounded.energy.motion_J());
+  EXPECT_NEAR(bounded.energy_sigma_J.value(), both_J, 1e-6 * both_J);
+  EXPECT_NEAR(bounded.battery->required_capacity_Wh * 3600, drawn_J + 1.6449 * both_J, 1e-4 * drawn_J)
       << "nineteen in twenty missions take less";
 }
 

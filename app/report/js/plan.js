@@ -138,7 +138,7 @@ jp.battery_section = function (plan) {
   if (!battery || !is_number(battery.end_fraction)) return null;
   const interval = battery.interval_95;
   return jp.section("Battery",
-    h("p", {}, [`From ${fraction(battery.start_fraction, 5)} to ${fraction(battery.end_fraction, 5)}. `, interval ? `95 % interval of the end: ${fraction(interval[0], 5)} to ${fraction(interval[1], 5)}. ` : typeof plan.uncertainty === "string" ? `Uncertainty ${plan.uncertainty}. ` : "",
+    h("p", {}, [`From ${fraction(battery.start_fraction, 5)} to ${fraction(battery.end_fraction, 5)}. `, interval ? `95 % interval of the end: ${fraction(interval[0], 5)} to ${fraction(interval[1], 5)}. ` : "", typeof plan.uncertainty === "string" ? `Uncertainty ${plan.uncertainty}. ` : "",
       is_number(battery.required_capacity_Wh) ? `Capacity needed: ${with_unit(battery.required_capacity_Wh, "Wh")}. ` : "",
       is_number(battery.missions_per_charge) ? `Missions per charge: ${short(Math.floor(battery.missions_per_charge), 7)}. ` : "",
       battery.charged_J > 0 ? `Charged on the way: ${with_unit(battery.charged_J, "J")}. ` : "",

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -65,11 +68,43 @@ TEST(PlanFile, ACapacityWithoutUncertaintyIsTheExpectedEnergy) {
   const Json known = plan_json(robot);
   robot.uncertainty.clear();
   const Json unknown = plan_json(robot);
+  EXPECT_TRUE(known.at("uncertainty").get<std::string>().ends_with("of the model"));
   EXPECT_EQ(unknown.at("energy_J"), known.at("energy_J"));
   EXPECT_EQ(unknown.at("battery").at("end_fraction"), known.at("battery").at("end_fraction"));
   EXPECT_LT(unknown.at("battery").at("required_capacity_Wh"), known.at("battery").at("required_capacity_Wh"));
   EXPECT_NEAR(unknown.at("battery").at("required_capacity_Wh").get<double>() * 3600,
               unknown.at("energy_J").get<double>() + unknown.at("battery_loss_J").get<double>(), 1e-6);
+}
+
+/// Relative errors of the source paper's model on straight runs, percent [P1, Table 5].
+constexpr std::array kErrorsOfThePaper{7.42,  5.29, 3.82, 7.89, 9.25, 3.13, 0.13, 3.69, 5.11, 8.46,
+                                       5.99,  6.70, 0.69, 0.53, 2.85, 7.33, 7.20, 0.75, 0.20, 1.92,
+                                       10.86, 8.10, 6.70, 5.33, 0.17, 8.80, 9.85, 6.52, 7.94, 5.04};
+
+/// The paper's runs lie within intervals of the other runs' error, and hardly within those of the constants.
+TEST(PlanFile, IntervalsOfTheNomadHoldTheMeasuredRuns) {
+  Robot robot = read_robot(JOULEPATH_SOURCE_DIR "/scenarios/robots/nomad_super_scout.yaml");
+  double squares = 0;
+  for (double error : kErrorsOfThePaper) squares += error * error;
+  const auto runs = static_cast<double>(kErrorsOfThePaper.size());
+  EXPECT_NEAR(robot.model_energy_sigma().value(), std::sqrt(squares / runs) / 100, 5e-4);
+  const auto half_width_percent = [&] {
+    const Json plan = plan_json(robot);
+    const double half_J =
+        plan.at("energy_interval_95_J").at(1).get<double>() - plan.at("energy_J").get<double>();
+    return 100 * half_J / plan.at("motion_energy_J").get<double>();
+  };
+  const auto held = [&](auto&& width_of) {
+    return std::ranges::count_if(kErrorsOfThePaper, [&](double error) { return error < width_of(error); });
+  };
+  EXPECT_GE(held([&](double error) {
+              robot.uncertainty["model_energy"] = std::sqrt((squares - error * error) / (runs - 1)) / 100;
+              return half_width_percent();
+            }),
+            27);
+  robot.uncertainty.erase("model_energy");
+  const double of_constants = half_width_percent();
+  EXPECT_LT(held([&](double) { return of_constants; }), 15);
 }
 
 }  // namespace
