@@ -61,19 +61,26 @@ TEST(PrescribedLimits, WithoutALimitTheMotionIsPlanned) {
   EXPECT_EQ(verdict_of(planned(mission_of(arc()), unlimited())), nullptr);
 }
 
+/// The arc itself, backward for the row that limits driving backward.
+MissionRequest mission_for(const Limit& row) {
+  PrescribedMotion motion = arc();
+  motion.reverse = row.name == "reverse_speed";
+  return mission_of(motion);
+}
+
 /// The value that the verdict offers is the one that the motion uses: a little more is enough, a tenth less
 /// is exceeded by that tenth.
 TEST(PrescribedLimits, EveryRowOfTheTableIsHeld) {
   for (const Limit& row : kLimits) {
     if (row.value == nullptr || row.name == "jerk") continue;
-    const Plan hopeless = planned(mission_of(arc()), with_limit(row, 1e-3));
+    const Plan hopeless = planned(mission_for(row), with_limit(row, 1e-3));
     ASSERT_NE(verdict_of(hopeless), nullptr) << row.name << " is not held";
     EXPECT_EQ(verdict_of(hopeless)->constraint, row.name);
     ASSERT_EQ(verdict_of(hopeless)->relaxation.count(std::string(row.key)), 1u) << row.name;
     const double used = verdict_of(hopeless)->relaxation.at(std::string(row.key));
-    EXPECT_EQ(verdict_of(planned(mission_of(arc()), with_limit(row, used * 1.0001))), nullptr) << row.name;
+    EXPECT_EQ(verdict_of(planned(mission_for(row), with_limit(row, used * 1.0001))), nullptr) << row.name;
 
-    const Plan tight = planned(mission_of(arc()), with_limit(row, 0.9 * used));
+    const Plan tight = planned(mission_for(row), with_limit(row, 0.9 * used));
     ASSERT_NE(verdict_of(tight), nullptr) << row.name;
     EXPECT_EQ(tight.status, SolveStatus::infeasible);
     EXPECT_NEAR(verdict_of(tight)->amount, 0.1 * used, 1e-9 * used) << row.name;
