@@ -145,6 +145,9 @@ class SimulateCommand : public Command {
   }
 
   int run() override {
+    if (ideal_ && repeat_ > 1)
+      throw UsageError("--ideal-sensors and --repeat " + std::to_string(repeat_) +
+                       " exclude each other: runs without noise are the same");
     OutputDirectory out(out_, names_of_files(inputs_.size() * repeat_), common_.force);
     std::vector<EffectSetting> effects;
     for (const std::string& text : effects_) effects.push_back(parse_effect(text));

@@ -134,6 +134,25 @@ std::vector<Draft> drafts_of(const Examination& x, const Refit& fitted, JudgedMo
   return drafts;
 }
 
+/// A gap (percent) that is no more than noise and below the materiality floor.
+bool is_noise(const Examination& x, double gap, const Refit& fitted) {
+  return gap < 100 * kMaterialEnergy && gap <= kFloorsLeft * noise_floor_percent(x, fitted);
+}
+
+/// A gap of noise, of causes that are all below the materiality floor, is none: they are listed, however sure
+/// they are.
+bool is_no_gap(const Examination& x, double before, const Validation& v) {
+  return v.judgment.verdict != Verdict::no_gap && v.judgment.sizes.greatest < 1 &&
+         is_noise(x, before, v.fitted);
+}
+
+void list_what_is_no_gap(const Examination& x, Validation& v) {
+  v = {.judgment = {.verdict = Verdict::no_gap}, .listed = v.judgment.sizes.of_names};
+  std::erase_if(v.listed, [](const SmallEffect& effect) { return effect.size >= 1; });
+  v.fitted = fit_names(x, {});
+  v.model = judged_model(x, v.fitted);
+}
+
 /// The first part of the names that is better than the file on held-out runs and that the program reads.
 /// Constants are moved only where that reduces the gap. Names that widen it by more than kMaterialGap_percent
 /// are withdrawn.
@@ -157,6 +176,13 @@ void choose_correction(const Examination& x, double before, Validation& v) {
     if (v.judgment.verdict == Verdict::explained) v.judgment.verdict = Verdict::partly_explained;
     return;
   }
+  // Names that make no held-out signal better, for a gap of noise, explain nothing.
+  if (is_noise(x, before, v.fitted)) {
+    const std::string withdrawn = in_words(v.judgment.named);
+    list_what_is_no_gap(x, v);
+    v.judgment.notes.push_back(withdrawn + " fits the runs, and makes no held-out signal better: not named");
+    return;
+  }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out gap: none is written");
   if (before > kMaterialGap_percent && v.judgment.verdict == Verdict::explained)
     v.judgment.verdict = Verdict::partly_explained;
@@ -172,19 +198,6 @@ void choose_correction(const Examination& x, double before, Validation& v) {
 /// The gap of one or two held-out runs is mostly scatter between runs: more of it is tolerated.
 double caution(const Examination& x) {
   return x.runs.validation.runs.size() < kFewHeldOut ? kCautionFactor : 1.0;
-}
-
-/// A gap that is no more than noise, of causes that are all below the materiality floor, is none: they are
-/// listed, however sure they are.
-bool is_no_gap(const Examination& x, double before, const Validation& v) {
-  return v.judgment.verdict != Verdict::no_gap && v.judgment.sizes.greatest < 1 &&
-         before < 100 * kMaterialEnergy && before <= kFloorsLeft * noise_floor_percent(x, v.fitted);
-}
-
-void list_what_is_no_gap(const Examination& x, Validation& v) {
-  v = {.judgment = {.verdict = Verdict::no_gap}, .listed = v.judgment.sizes.of_names};
-  v.fitted = fit_names(x, {});
-  v.model = judged_model(x, v.fitted);
 }
 
 /// What the names leave of the held-out energy gap, beyond noise, is a part that is not explained.

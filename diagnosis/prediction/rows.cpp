@@ -1,5 +1,6 @@
 #include "diagnosis/prediction/rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,21 +54,27 @@ bool moves_steadily(const RunSignals& signals, Eigen::Index j) {
   return true;
 }
 
-/// Doubt about the motor power as the supply counts it: of its sign, where it changes within the kernel or
-/// the current is below its ripple; and of its mean, where the acceleration may jump. The variance of a jump
-/// of size 1 is 1/4, its slope tells 1/(2 pi).
-double doubtful_W(const PowerSupply& supply, const Prediction& prediction, Eigen::Index j) {
-  constexpr double kOfAJump = std::numbers::pi / 2 - 1;
+/// Motor power whose sign is in doubt as the supply counts it: it changes within the kernel, or the current
+/// is below its ripple, which no sample of a log shows.
+double mixed_W(const PowerSupply& supply, const Prediction& prediction, Eigen::Index j) {
   Sided<double> mean_W, change_W;
-  double product_W = 0;
   for (Side side : kSides) {
-    const double voltage_V = prediction.voltage_V[side][j];
     mean_W[side] = prediction.power_W[side][j];
-    change_W[side] = std::hypot(prediction.power_change_W[side][j], kBlurredCurrent_A * voltage_V);
-    product_W += std::abs(mean_W[side] - voltage_V * prediction.current_A[side][j]);
+    change_W[side] =
+        std::hypot(prediction.power_change_W[side][j], kBlurredCurrent_A * prediction.voltage_V[side][j]);
   }
-  return kOfAJump * product_W +
-         (1 - supply.regeneration_efficiency) * supply_shares(supply.sharing, mean_W, change_W).mixed_W;
+  return supply_shares(supply.sharing, mean_W, change_W).mixed_W;
+}
+
+/// Doubt about a predicted mean of V i, where the acceleration may jump. The variance of a jump of size 1 is
+/// 1/4, its slope tells 1/(2 pi).
+double jump_W(const Prediction& prediction, Eigen::Index j) {
+  constexpr double kOfAJump = std::numbers::pi / 2 - 1;
+  double product_W = 0;
+  for (Side side : kSides)
+    product_W +=
+        std::abs(prediction.power_W[side][j] - prediction.voltage_V[side][j] * prediction.current_A[side][j]);
+  return kOfAJump * product_W;
 }
 
 /// The battery's power less standby and what the motors take, which the log shows, or else the model. Rows
@@ -86,8 +93,9 @@ void fill_driver(const RunSignals& signals, const ModelPoint& point, const Predi
     if (shown)
       driver_W[j] +=
           supply_W(signals, point.robot.power, prediction, j) - motors.supply_W(point.robot.power, j);
-    const double doubt_W =
-        shown ? (1 - recovered) * motors.mixed_W[j] : doubtful_W(point.robot.power, prediction, j);
+    const double sign_W = mixed_W(point.robot.power, prediction, j),
+                 doubt_W = shown ? (1 - recovered) * std::max(motors.mixed_W[j], sign_W)
+                                 : (1 - recovered) * sign_W + jump_W(prediction, j);
     rows.present(j, kDriverPower) = doubt_W <= least_W && (shown || moves_steadily(signals, j));
   }
   rows.value.col(kDriverPower) = driver_W;

@@ -184,13 +184,12 @@ Samples product(const Samples& a, const Samples& b) {
   return result;
 }
 
-/// Power of a measured current without a logged voltage: (R i + Kv n q') i with the winding of the robot
-/// file.
-Samples power_by_winding_W(const Motor& motor, const Samples& speed_rad_s, const Samples& current_A) {
-  Samples power(current_A.size());
-  for (std::size_t k = 0; k < power.size(); ++k)
-    power[k] = motor_voltage_V(motor, current_A[k], speed_rad_s[k]) * current_A[k];
-  return power;
+/// Voltage of a measured current where none is logged: R i + Kv n q' with the winding of the robot file.
+Samples winding_V(const Motor& motor, const Samples& speed_rad_s, const Samples& current_A) {
+  Samples voltage(current_A.size());
+  for (std::size_t k = 0; k < voltage.size(); ++k)
+    voltage[k] = motor_voltage_V(motor, current_A[k], speed_rad_s[k]);
+  return voltage;
 }
 
 /// Accelerations and jerks without noise, and where the body turns.
@@ -296,20 +295,22 @@ SupplyAccount account_of(const Sided<Samples>& power, PowerSharing sharing, cons
 /// Voltage, current and power of both motors; the power by the winding where no voltage is logged.
 void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& log, const Robot& robot,
                  const Sided<Samples>& logged_wheels, double delay_s) {
+  const auto mean = [&](const Samples& samples) { return thinner.smooth(thinner.on_grid(samples, delay_s)); };
   Sided<Samples> counted;  // V i where it is logged: what the driver row compares
   for (Side side : kSides) {
-    signals.motor_voltage_V[side] = thinner.smooth(thinner.on_grid(log.motor_voltage_V[side], delay_s));
-    signals.motor_current_A[side] = thinner.smooth(thinner.on_grid(log.motor_current_A[side], delay_s));
-    counted[side] = product(log.motor_voltage_V[side], log.motor_current_A[side]);
-    Samples power = log.motor_power_W[side].empty() ? counted[side] : log.motor_power_W[side];
-    if (power.empty())
-      power = power_by_winding_W(robot.motor[side], logged_wheels[side], log.motor_current_A[side]);
-    signals.motor_power_W[side] = thinner.smooth(thinner.on_grid(power, delay_s));
-    if (!counted[side].empty())
-      signals.motor_covariance_W[side] =
-          thinner.smooth(thinner.on_grid(counted[side], delay_s)) -
-          signals.motor_voltage_V[side].cwiseProduct(signals.motor_current_A[side]);
-    if (counted[side].empty()) counted[side] = std::move(power);
+    const Samples& current_A = log.motor_current_A[side];
+    signals.motor_voltage_V[side] = mean(log.motor_voltage_V[side]);
+    signals.motor_current_A[side] = mean(current_A);
+    const Samples voltage_V = log.motor_voltage_V[side].empty()
+                                  ? winding_V(robot.motor[side], logged_wheels[side], current_A)
+                                  : log.motor_voltage_V[side];
+    const Samples product_W = product(voltage_V, current_A);
+    if (!product_W.empty())
+      signals.motor_covariance_W[side] = mean(product_W) - mean(voltage_V).cwiseProduct(mean(current_A));
+    const Samples& power = log.motor_power_W[side].empty() ? product_W : log.motor_power_W[side];
+    signals.motor_power_W[side] = mean(power);
+    counted[side] = log.motor_voltage_V[side].empty() ? power : product_W;
+    if (counted[side].empty()) counted[side] = power;
   }
   signals.motors_at_supply = account_of(counted, robot.power.sharing, thinner, delay_s);
   mark_conducting(signals, robot);

@@ -4,6 +4,9 @@
 #include <limits>
 
 #include "diagnosis/evidence/boxed_fit.hpp"
+#include "diagnosis/evidence/linear_fit.hpp"
+#include "diagnosis/evidence/materiality.hpp"
+#include "diagnosis/numerics/indices.hpp"
 #include "diagnosis/thresholds.hpp"
 #include "model/text_of_list.hpp"
 // Design: docs/decisions/0506-verdict.md
@@ -36,6 +39,17 @@ int constant_that_wins(const Examination& x, bool nothing_won) {
                                                                                                   : -1;
 }
 
+/// What a calibration constant's deviation (its column) changes, over the materiality floor.
+double size_of_constant(const Examination& x, int column) {
+  const Equations& equations = x.id.equations;
+  const Eigen::VectorXd parameters =
+      fit_parameters(equations, every(equations.runs.size()), {}, x.id.dispersion);
+  const auto owner = static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(column)].owner);
+  ModelState without{.nuisance_fraction = std::vector<double>(x.id.nuisances.size(), 0.0)}, with_it = without;
+  with_it.nuisance_fraction[owner] = parameters[column];
+  return materiality(impact_between(x.id.signals, x.point_of(with_it), x.point_of(without)));
+}
+
 /// A constant beyond its uncertainty is reported as the effect that changes the same number; the verdict is
 /// unexplained if the catalog has none, or if the race gives it hardly any probability.
 Judgment judge_constant(const Examination& x, const Names& names, int column) {
@@ -47,7 +61,7 @@ Judgment judge_constant(const Examination& x, const Names& names, int column) {
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +
                         ", further from its value than calibration errors",
-          .sizes = {.greatest = kBeyondCalibration}};
+          .sizes = {.greatest = size_of_constant(x, column)}};
 }
 
 }  // namespace

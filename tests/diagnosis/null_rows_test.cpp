@@ -102,6 +102,11 @@ Eigen::VectorXd chi_square_per_row(const std::vector<Run>& runs, const Robot& ro
   return result;
 }
 
+Run without_voltages(Run run) {
+  for (Side side : kSides) run.log.motor_voltage_V[side].clear();
+  return run;
+}
+
 Run without_motors(Run run) {
   for (Side side : kSides) run.log.motor_voltage_V[side].clear(), run.log.motor_current_A[side].clear();
   return run;
@@ -209,6 +214,8 @@ TEST(NullEnergy, OfDrivesWhoseAccelerationJumpsHasNoBias) {
       auto runs = logs_of(drive, robot, 60, 17);
       EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::motors_first), 0, 2e-3);
       EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::battery), 0, 2e-3);
+      std::ranges::transform(runs, runs.begin(), without_voltages);
+      EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::motors_first), 0, 2e-3) << "no voltage";
       std::ranges::transform(runs, runs.begin(), without_motors);
       EXPECT_NEAR(energy_bias(runs, robot, EnergyAt::battery), 0, 2e-3) << "battery alone";
     }
@@ -227,12 +234,16 @@ TEST(FollowedChannel, OfASoundBatteryIsAllThatIsExpected) {
 }
 
 /// A day of both drives, each repeated.
-Diagnosis diagnosed_day(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
+Dataset day_of(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
   Dataset day{.robot = testing::nomad()};
   for (const Drive& drive : drives())
     for (joulepath::Run& run : logs_of(drive, day.robot, 8, ++seed, effects))
       day.runs.push_back(std::move(run));
-  return diagnose(day);
+  return day;
+}
+
+Diagnosis diagnosed_day(std::uint64_t seed, const std::vector<EffectSetting>& effects = {}) {
+  return diagnose(day_of(seed, effects));
 }
 
 TEST(NullDay, OfDrivesThatRepeatHasNoGap) {
@@ -241,6 +252,33 @@ TEST(NullDay, OfDrivesThatRepeatHasNoGap) {
     EXPECT_EQ(answer.verdict, Verdict::no_gap);
     EXPECT_TRUE(answer.causes.empty());
   }
+}
+
+/// A gyro that is stamped half a sample late changes no energy.
+TEST(NullDay, OfALateGyroHasNoGap) {
+  Dataset day = day_of(100);
+  for (joulepath::Run& run : day.runs) {
+    std::vector<double>& gyro = run.log.gyro_yaw_rate_rad_s;
+    for (std::size_t i = gyro.size(); i-- > 1;) gyro[i] = 0.5 * (gyro[i] + gyro[i - 1]);
+  }
+  EXPECT_EQ(diagnose(day).verdict, Verdict::no_gap);
+}
+
+/// Steps of 1.5 m/s^2, faster than a kernel resolves, are no slip of the wheels.
+TEST(NullDay, OfAccelerationsThatJumpHasNoGap) {
+  Dataset day{.robot = testing::nomad()};
+  const std::vector<Drive> drives{{"steps",
+                                   [](double t) {
+                                     const double part_s = std::fmod(t, 3);
+                                     return Twist<double>{(t < 3 ? 0.6 : -0.6) * ramp(part_s - 0.5, 2), 0};
+                                   },
+                                   6, 0},
+                                  drives_with_steps().front()};
+  for (const Drive& drive : drives)
+    for (joulepath::Run& run : logs_of(drive, day.robot, 12, 41)) day.runs.push_back(std::move(run));
+  const Diagnosis answer = diagnose(day);
+  EXPECT_EQ(answer.verdict, Verdict::no_gap);
+  EXPECT_TRUE(answer.causes.empty());
 }
 
 /// An effect far below what a user would notice, whose gap is that of noise, is listed at most.
