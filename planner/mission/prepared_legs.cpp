@@ -87,9 +87,10 @@ class LegPreparation {
     return std::nullopt;
   }
 
-  /// Of the charger where the leg ends; 0: none.
+  /// Of the charger at the station where the leg ends; 0: none, as at a place that an order names.
   double charger_W(const LegRequest& leg) const {
-    return leg.to.empty() ? 0.0 : mission_.stations.at(leg.to).charger_W;
+    const auto station = mission_.stations.find(leg.to);
+    return station == mission_.stations.end() ? 0.0 : station->second.charger_W;
   }
 
   void add_path(const LegRequest& leg, std::size_t k, LegPath way) {

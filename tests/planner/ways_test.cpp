@@ -278,6 +278,16 @@ TEST(Charging, AWeakChargerFeedsItsPart) {
   }
 }
 
+/// An order names places that are no stations.
+TEST(Charging, APlaceThatIsNoStationHasNoCharger) {
+  LegRequest leg{.path = PathRequest{.bezier_m = {{{{0, 0}, {1, 0}, {2, 0}, {3, 0}}}}}};
+  leg.to = "n7";
+  const MissionRequest mission{.name = "order", .legs = {leg}};
+  const Plan plan = plan_mission(mission, {.robot = testing::nomad()}, kCoarse);
+  ASSERT_LE(plan.status, SolveStatus::feasible) << plan.message;
+  EXPECT_EQ(plan.legs[0].charger_W, 0.0);
+}
+
 TEST(EnergyBand, ErrorsOfLegsAreCorrelatedAndWithoutUncertaintyThereIsNone) {
   Robot robot = testing::nomad();
   EXPECT_FALSE(plan_of(round_of_three(), kCoarse, robot).energy_sigma_J);
