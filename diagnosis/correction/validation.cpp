@@ -176,11 +176,12 @@ void choose_correction(const Examination& x, double before, Validation& v) {
     if (v.judgment.verdict == Verdict::explained) v.judgment.verdict = Verdict::partly_explained;
     return;
   }
-  // Names that make no held-out signal better, for a gap of noise, explain nothing.
-  if (is_noise(x, before, v.fitted)) {
+  // Names that lift a gap out of its noise explain nothing.
+  if (const double after = gap_percent(x, v.model);
+      after > before && is_noise(x, before, v.fitted) && !is_noise(x, after, v.fitted)) {
     const std::string withdrawn = in_words(v.judgment.named);
     list_what_is_no_gap(x, v);
-    v.judgment.notes.push_back(withdrawn + " fits the runs, and makes no held-out signal better: not named");
+    v.judgment.notes.push_back(withdrawn + " fits the runs, and widens a held-out gap of noise: not named");
     return;
   }
   v.judgment.notes.push_back("no part of the correction shrinks the held-out gap: none is written");

@@ -1,6 +1,5 @@
 #include "diagnosis/prediction/rows.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -93,9 +92,9 @@ void fill_driver(const RunSignals& signals, const ModelPoint& point, const Predi
     if (shown)
       driver_W[j] +=
           supply_W(signals, point.robot.power, prediction, j) - motors.supply_W(point.robot.power, j);
-    const double sign_W = mixed_W(point.robot.power, prediction, j),
-                 doubt_W = shown ? (1 - recovered) * std::max(motors.mixed_W[j], sign_W)
-                                 : (1 - recovered) * sign_W + jump_W(prediction, j);
+    const double doubt_W =
+        shown ? (1 - recovered) * motors.mixed_W[j]
+              : (1 - recovered) * mixed_W(point.robot.power, prediction, j) + jump_W(prediction, j);
     rows.present(j, kDriverPower) = doubt_W <= least_W && (shown || moves_steadily(signals, j));
   }
   rows.value.col(kDriverPower) = driver_W;

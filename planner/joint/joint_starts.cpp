@@ -248,7 +248,8 @@ Sketch along_path(const Path& path, double half_track_m, std::size_t count) {
       if (next != 0) sign = next;
     }
     Sketch part = along_pieces(std::span(path.pieces).subspan(from, to - from), half_track_m, count);
-    append(sketch, sign < 0 ? reversed(std::move(part)) : std::move(part));
+    if (sign < 0) part = reversed(std::move(part));
+    append(sketch, std::move(part));
   }
   return sketch;
 }

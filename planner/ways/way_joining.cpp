@@ -186,11 +186,11 @@ std::array<RefinedRun::Starts, 2> RefinedRun::joint_starts(std::size_t first,
     auto more = alone ? rough_paths(first, query, drives.front()) : rough_chains(first, query, drives);
     const bool forward = std::all_of(drives.begin(), drives.end(),
                                      [](RouteDrive drive) { return drive == RouteDrive::forward; });
-    auto& group = forward ? starts[0] : backward;
-    std::move(more.begin(), more.end(), std::back_inserter(group));
+    std::move(more.begin(), more.end(), std::back_inserter(forward ? starts[0] : backward));
   }
   starts = {easiest(std::move(starts[0]), kMostStarts), easiest(std::move(starts[1]), kMostReverse)};
-  for (auto& start : easiest(std::move(backward), kMostReverse)) starts[1].push_back(std::move(start));
+  Starts reversing = easiest(std::move(backward), kMostReverse);
+  std::move(reversing.begin(), reversing.end(), std::back_inserter(starts[1]));
   return starts;
 }
 
