@@ -309,8 +309,7 @@ void fill_motors(RunSignals& signals, const Thinner& thinner, const Trajectory& 
       signals.motor_covariance_W[side] = mean(product_W) - mean(voltage_V).cwiseProduct(mean(current_A));
     const Samples& power = log.motor_power_W[side].empty() ? product_W : log.motor_power_W[side];
     signals.motor_power_W[side] = mean(power);
-    counted[side] = log.motor_voltage_V[side].empty() ? power : product_W;
-    if (counted[side].empty()) counted[side] = power;
+    counted[side] = log.motor_voltage_V[side].empty() || current_A.empty() ? power : product_W;
   }
   signals.motors_at_supply = account_of(counted, robot.power.sharing, thinner, delay_s);
   mark_conducting(signals, robot);
