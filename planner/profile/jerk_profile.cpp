@@ -99,7 +99,10 @@ std::optional<Profile> fastest_by_jerk(const ProfileRequest& request) {
   const Limits& limits = request.limits;
   const double acceleration = std::max(limits.acceleration_m_s2, limits.deceleration_m_s2);
   if (request.start_rate > 0 || request.end_rate > 0 || !std::isfinite(acceleration)) return std::nullopt;
-  return fastest_s_curve(piece_length(request.piece), limits.speed_m_s, acceleration, limits.jerk_m_s3);
+  const double speed_m_s = travel_sign(request.piece) < 0
+                               ? std::min(limits.speed_m_s, limits.reverse_speed_m_s)
+                               : limits.speed_m_s;
+  return fastest_s_curve(piece_length(request.piece), speed_m_s, acceleration, limits.jerk_m_s3);
 }
 
 /// Compares a profile with the bound of the problem without the jerk limit.

@@ -88,7 +88,8 @@ void PlaceTable::tabulate_loads() {
 
 void PlaceTable::update_caps() {
   const Limits& limits = request_.limits;
-  const std::array<double, 3> now{limits.speed_m_s, limits.yaw_rate_rad_s, limits.lateral_acceleration_m_s2};
+  const std::array now{limits.speed_m_s, limits.reverse_speed_m_s, limits.yaw_rate_rad_s,
+                       limits.lateral_acceleration_m_s2};
   if (!caps_.empty() && now == caps_for_) return;
   caps_for_ = now;
   caps_.assign(s_.size(), {});

@@ -39,7 +39,7 @@ class PlaceTable {
   std::vector<nlp::Segment> segments_{};
   std::vector<Laws> per_kg_{};
   std::vector<nlp::RateCap> caps_{};  ///< at the nodes
-  std::array<double, 3> caps_for_{};  ///< speed, yaw rate, lateral acceleration
+  std::array<double, 4> caps_for_{};  ///< speed, reverse speed, yaw rate, lateral acceleration
   std::vector<nlp::Tightening> no_tightenings_{};
   double longest_{};
 };

@@ -17,6 +17,7 @@ struct RateCap {
 
 /// Speed, yaw rate and lateral acceleration bound the rate alone:
 ///   u^2 <= (v_max/|along|)^2,  (omega_max/|turn|)^2,  a_lat/|along turn|.
+/// In reverse v_max is the lesser one of speed and reverse speed.
 inline RateCap rate_cap(const ProfileRequest& request, const PathRates& rates, double s) {
   const Limits& limits = request.limits;
   RateCap cap;
@@ -27,6 +28,7 @@ inline RateCap rate_cap(const ProfileRequest& request, const PathRates& rates, d
   const double turn = std::abs(rates.turn);
   if (rates.along != 0) {
     lower(square(limits.speed_m_s), "speed");
+    if (rates.along < 0) lower(square(limits.reverse_speed_m_s), "reverse_speed");
     for (const SpeedCap& zone : request.speed_caps)
       if (s >= zone.from_m && s <= zone.to_m) lower(square(zone.speed_m_s), "speed");
   }

@@ -20,6 +20,7 @@ namespace joulepath {
 namespace {
 
 const PathPiece kCurve = Curve({BezierSegment({{{0, 0}, {1.5, 0}, {2.7, 1.2}, {2.7, 2.7}}})});
+const PathPiece kBackward = straight_piece({}, 3, Direction::reverse);
 const PathPiece kTurn = TurnInPlace{{}, -2.5};
 
 ProfileRequest fastest_drive(const PathPiece& piece) {
@@ -71,9 +72,13 @@ void expect_costs_time_and_holds(const PathPiece& piece, const Tightened& one) {
 }
 
 class EveryLimit : public ::testing::TestWithParam<Tightened> {};
+class EveryLimitBackward : public ::testing::TestWithParam<Tightened> {};
 class EveryLimitOfATurn : public ::testing::TestWithParam<Tightened> {};
 
 TEST_P(EveryLimit, CostsTimeAndHoldsBetweenTheNodes) { expect_costs_time_and_holds(kCurve, GetParam()); }
+TEST_P(EveryLimitBackward, CostsTimeAndHoldsBetweenTheNodes) {
+  expect_costs_time_and_holds(kBackward, GetParam());
+}
 TEST_P(EveryLimitOfATurn, CostsTimeAndHoldsBetweenTheNodes) {
   expect_costs_time_and_holds(kTurn, GetParam());
 }
@@ -95,7 +100,12 @@ const std::vector<Tightened> kInATurn{limit("yaw_rate", 0.8),         limit("yaw
                                       limit("motor_power", 1.2),      limit("battery_power", 12),
                                       limit("motor_current", 0.35),   limit("motor_voltage", 3)};
 
+const std::vector<Tightened> kDrivenBackward{limit("reverse_speed", 0.4), limit("acceleration", 0.2),
+                                             limit("deceleration", 0.2)};
+
 INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimit, ::testing::ValuesIn(kOnACurve),
+                         [](const auto& one) { return one.param.limit; });
+INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitBackward, ::testing::ValuesIn(kDrivenBackward),
                          [](const auto& one) { return one.param.limit; });
 INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn, ::testing::ValuesIn(kInATurn),
                          [](const auto& one) { return one.param.limit; });
@@ -104,9 +114,10 @@ INSTANTIATE_TEST_SUITE_P(OfTheRobotFile, EveryLimitOfATurn, ::testing::ValuesIn(
 TEST(EveryLimitOfTheTable, IsTightenedAbove) {
   for (const Limit& row : kLimits) {
     if (row.value == nullptr || row.name == "jerk") continue;
-    EXPECT_TRUE(std::any_of(kOnACurve.begin(), kOnACurve.end(), [&](const Tightened& one) {
-      return one.limit == row.name;
-    })) << row.name;
+    const auto tightens = [&](const Tightened& one) { return one.limit == row.name; };
+    EXPECT_TRUE(std::any_of(kOnACurve.begin(), kOnACurve.end(), tightens) ||
+                std::any_of(kDrivenBackward.begin(), kDrivenBackward.end(), tightens))
+        << row.name;
   }
 }
 
