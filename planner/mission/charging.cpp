@@ -141,20 +141,20 @@ class StopSearch {
  public:
   StopSearch(const Plant& plant, const PlanLegs& plan_legs) : plant_(plant), plan_legs_(plan_legs) {}
 
-  /// A plan with more stops than `from`; nothing where none is found.
-  std::optional<Plan> beyond(const Attempt& from, int stops) {
+  /// A mission with more stops than `from` that drives; nothing where none is found.
+  std::optional<Attempt> beyond(const Attempt& from, int stops) {
     if (stops == kMostStops) return std::nullopt;
     const std::size_t fails = *from.plan.battery->fails_on_leg;
     const std::size_t near = fails - std::min(fails, kEarlierLegs);
     std::vector<Candidate> left = with_one_more_stop(from.mission, from.plan, plant_, fails);
     while (!left.empty())
-      if (auto plan = best_of(from, take_group(left, near), stops)) return plan;
+      if (auto found = best_of(from, take_group(left, near), stops)) return found;
     return std::nullopt;
   }
 
  private:
-  /// The best plan of these, or one with more stops where one alone is not enough.
-  std::optional<Plan> best_of(const Attempt& from, std::vector<Candidate> candidates, int stops) {
+  /// The best one of these, or one with more stops where one alone is not enough.
+  std::optional<Attempt> best_of(const Attempt& from, std::vector<Candidate> candidates, int stops) {
     std::vector<Attempt> attempts;
     double dear_J = kNoLimit;
     if (!budget_) budget_ = kMostStops * static_cast<int>(candidates.size()) + kMostPlans;
@@ -172,8 +172,8 @@ class StopSearch {
     std::stable_sort(attempts.begin(), attempts.end(),
                      [](const Attempt& a, const Attempt& b) { return rank(a.plan) > rank(b.plan); });
     for (Attempt& attempt : attempts) {
-      if (drives(attempt.plan)) return std::move(attempt.plan);
-      if (auto plan = beyond(attempt, stops + 1)) return plan;
+      if (drives(attempt.plan)) return std::move(attempt);
+      if (auto found = beyond(attempt, stops + 1)) return found;
     }
     return std::nullopt;
   }
@@ -186,9 +186,11 @@ class StopSearch {
 }  // namespace
 
 Plan charge_on_the_way(Plan failed, const MissionRequest& mission, const Plant& plant,
-                       const PlanLegs& plan_legs) {
+                       const PlanLegs& plan_unrefined, const PlanLegs& plan_legs) {
   if (!mission.charging || !touches_reserve(failed)) return failed;
-  if (auto plan = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) return *std::move(plan);
+  if (const auto found = StopSearch(plant, plan_unrefined).beyond({mission, failed}, 0))
+    if (Plan plan = plan_legs(found->mission); drives(plan)) return plan;
+  if (auto found = StopSearch(plant, plan_legs).beyond({mission, failed}, 0)) return std::move(found->plan);
   failed.message = failed.infeasibility->reason.message += "; no charging stop that was tried prevents it";
   return failed;
 }

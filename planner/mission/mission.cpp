@@ -248,7 +248,12 @@ Plan plan_with_stops(const MissionRequest& mission, const MissionWorld& world, c
     Plan other = plan_given_legs(legs, world, plain, space, plant, known);
     return other.status == SolveStatus::infeasible ? chosen : other;
   };
-  return charge_on_the_way(plan_legs(mission), mission, plant, plan_legs);
+  const auto plan_unrefined = [&](const MissionRequest& legs) {
+    PlanOptions unrefined = options;
+    unrefined.steps.refinement = false;
+    return plan_given_legs(legs, world, unrefined, space, plant, known);
+  };
+  return charge_on_the_way(plan_legs(mission), mission, plant, plan_unrefined, plan_legs);
 }
 
 /// Plans the stops of `visit:`, or gives the verdict that no order of them is possible.
