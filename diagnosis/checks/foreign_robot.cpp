@@ -97,9 +97,11 @@ bool add_windings(const Robot& robot, const std::vector<RunSignals>& runs, std::
 
 /// Torque of both motors = (m r^2 + 2 J) w' + friction + viscous losses, the payload's part taken off; the
 /// jerk's column takes up a delay. The torque per ampere differs from the file's as the voltage per speed
-/// does.
-bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
+/// does. What is told is the inertia at the wheels with the runs' payload, not the mass: that takes the
+/// wheels' radius.
+bool add_inertia(const Robot& robot, const std::vector<RunSignals>& runs, std::vector<LogRatio>& ratios) {
   SmallFit<4> fit;
+  double payload = 0, weight = 0;
   const double radius_m = 0.5 * (robot.geometry.wheel_radius_m.left + robot.geometry.wheel_radius_m.right),
                torque_Nm_A = robot.motor.left.torque_per_ampere_Nm_A() * std::exp(ratios.back().ratio);
   for (const RunSignals& run : runs)
@@ -114,13 +116,17 @@ bool add_mass(const Robot& robot, const std::vector<RunSignals>& runs, std::vect
       const double torque_Nm = torque_Nm_A * (run.motor_current_A.left[j] + run.motor_current_A.right[j]);
       fit.add({rate, forward ? 1.0 : -1.0, speed, jerk},
               torque_Nm - run.payload_kg[j] * radius_m * radius_m * rate);
+      payload += run.payload_kg[j] * rate * rate, weight += rate * rate;
     }
   std::array<double, 1> value{}, error{};
-  const double file_kg =
-      robot.total_mass_kg(0.0) + 2 * robot.inertia.wheel_axle_inertia_kg_m2 / (radius_m * radius_m);
-  return fit.solve(value, error) &&
-         add_ratio("mass that the wheels accelerate", "kg", file_kg, value[0] / (radius_m * radius_m),
-                   error[0] / (radius_m * radius_m), kMostInertia, ratios);
+  const double file_kg_m2 =
+      robot.total_mass_kg(0.0) * radius_m * radius_m + 2 * robot.inertia.wheel_axle_inertia_kg_m2;
+  if (!fit.solve(value, error) || !add_ratio("inertia that the wheels accelerate", "kg m^2", file_kg_m2,
+                                             value[0], error[0], kMostInertia, ratios))
+    return false;
+  const double payload_kg_m2 = payload / weight * radius_m * radius_m;
+  ratios.back().constant.in_file += payload_kg_m2, ratios.back().constant.in_runs += payload_kg_m2;
+  return true;
 }
 
 /// Whether one factor on voltages, currents or wheel speeds brings all constants into their boxes.
@@ -140,7 +146,7 @@ bool is_scaled_channel(const std::vector<LogRatio>& ratios) {
 std::vector<ForeignConstant> foreign_constants(const Robot& robot, const std::vector<RunSignals>& runs,
                                                bool may_be_scaled) {
   std::vector<LogRatio> ratios;
-  if (!add_windings(robot, runs, ratios) || !add_mass(robot, runs, ratios)) return {};
+  if (!add_windings(robot, runs, ratios) || !add_inertia(robot, runs, ratios)) return {};
   if (may_be_scaled && is_scaled_channel(ratios)) return {};
   std::vector<ForeignConstant> foreign;
   for (const LogRatio& one : ratios)

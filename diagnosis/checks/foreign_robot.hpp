@@ -8,7 +8,7 @@
 namespace joulepath {
 
 /// Constants by which the runs are those of another robot than the file's: the windings' resistance, the
-/// voltage per wheel speed, and the mass that a wheel's torque accelerates, each by least squares over all
+/// voltage per wheel speed, and the inertia that the wheels accelerate, each by least squares over all
 /// runs with voltages and currents. A constant counts where it is surely beyond the boxes of the channels'
 /// relations. Empty where the runs do not determine them, and, if a channel may be scaled, where one scale of
 /// one channel explains all: a fault of the log.

@@ -50,18 +50,27 @@ double size_of_constant(const Examination& x, int column) {
   return materiality(impact_between(x.id.signals, x.point_of(with_it), x.point_of(without)));
 }
 
-/// A constant beyond its uncertainty is reported as the effect that changes the same number; the verdict is
-/// unexplained if the catalog has none, or if the race gives it hardly any probability.
+/// A constant beyond its uncertainty is reported as the effect that changes the same number: whatever its
+/// size where the race is sure of it, else as one candidate of several, with the size of the constant's
+/// deviation. The verdict is unexplained if the catalog has no such effect, or if the race gives it hardly
+/// any probability.
 Judgment judge_constant(const Examination& x, const Names& names, int column) {
+  Sizes sizes{.greatest = size_of_constant(x, column)};
   if (const int candidate = effect_of_constant(x.id, column); candidate >= 0) {
     const ActiveEffect effect{x.id.equations.candidates[static_cast<std::size_t>(candidate)], {0.0}};
-    if (probability_of(names, effect) >= kLeastProbabilityOfConstant)
+    const std::string label = effect.candidate.label();
+    const double probability = probability_of(names, effect);
+    if (probability >= kLeastProbabilityNamed)
       return {.verdict = Verdict::explained, .named = {effect}, .sizes = {.greatest = kBeyondCalibration}};
+    sizes.of_names = {
+        {label, probability, evidence_for(x.id.equations, x.id.explanations, label), sizes.greatest}};
+    if (probability >= kLeastProbabilityOfConstant)
+      return {.verdict = Verdict::ambiguous, .named = {effect}, .sizes = std::move(sizes)};
   }
   return {.verdict = Verdict::unexplained,
           .depends_on = "goes with " + calibration_name(x.id, column) +
                         ", further from its value than calibration errors",
-          .sizes = {.greatest = size_of_constant(x, column)}};
+          .sizes = std::move(sizes)};
 }
 
 }  // namespace

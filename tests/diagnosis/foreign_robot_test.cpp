@@ -12,6 +12,8 @@
 namespace joulepath {
 namespace {
 
+constexpr double kMeanPayload_kg = 4;
+
 Dataset day_of(const Robot& real, const Robot& file) {
   Dataset dataset{.robot = file};
   for (unsigned r = 0; r < 6; ++r) {
@@ -52,13 +54,30 @@ TEST(ForeignRobot, IsToldByTheConstantsThatDiffer) {
   for (const double factor : {8.0, 0.1}) {
     const auto foreign = foreign_in(day_of(testing::nomad(), with_mass(factor)));
     ASSERT_EQ(foreign.size(), 1u) << factor;
-    EXPECT_EQ(foreign[0].unit, "kg");
-    EXPECT_NEAR(foreign[0].in_runs, testing::nomad().total_mass_kg(0) + 2 * 0.0281 / 0.01, 1.5);
+    EXPECT_EQ(foreign[0].unit, "kg m^2");
+    EXPECT_NEAR(foreign[0].in_runs, 0.01 * testing::nomad().total_mass_kg(kMeanPayload_kg) + 2 * 0.0281,
+                0.03);
   }
   const auto motor = foreign_in(day_of(testing::nomad(), with_motor(0.2, 3)));
   ASSERT_EQ(motor.size(), 2u);
   EXPECT_NEAR(motor[0].in_runs, 2.74, 0.1);
   EXPECT_NEAR(motor[1].in_runs, 0.069 * 24.9, 0.02);
+}
+
+/// What the sentence states of the runs is theirs, whatever wheels the file has.
+TEST(ForeignRobot, WhatTheRunsHaveDoesNotDependOnTheFile) {
+  for (const double radius : {0.35, 0.7, 1.6})
+    for (const double mass : {0.1, 8.0}) {
+      Robot file = with_mass(mass);
+      for (const Side side : kSides) file.geometry.wheel_radius_m[side] *= radius;
+      for (const ForeignConstant& one : foreign_in(day_of(testing::nomad(), file))) {
+        const double true_value = one.unit == "ohm" ? 2.74
+                                  : one.unit == "kg m^2"
+                                      ? 0.01 * testing::nomad().total_mass_kg(kMeanPayload_kg) + 2 * 0.0281
+                                      : 0.069 * 24.9;
+        EXPECT_NEAR(one.in_runs, true_value, 0.1 * true_value) << one.name << ' ' << radius << ' ' << mass;
+      }
+    }
 }
 
 TEST(ForeignRobot, IsNotSeenInItsOwnFileNorInAScaledChannel) {
@@ -121,8 +140,8 @@ TEST(ForeignRobot, EndsTheDiagnosisWithoutACorrection) {
   EXPECT_TRUE(d.causes.empty());
   EXPECT_FALSE(d.corrected_robot);
   const std::string said = diagnosis_sentence(d);
-  EXPECT_EQ(said.rfind("Unexplained: the robot file does not describe this robot: mass that the wheels ", 0),
-            0u)
+  EXPECT_EQ(
+      said.rfind("Unexplained: the robot file does not describe this robot: inertia that the wheels ", 0), 0u)
       << said;
 }
 

@@ -10,6 +10,7 @@
 #include "diagnosis/numerics/parallel.hpp"
 #include "diagnosis/prediction/rows.hpp"
 #include "diagnosis/signals/log_set.hpp"
+#include "diagnosis/thresholds.hpp"
 #include "diagnosis/values/diagnosis.hpp"
 #include "diagnosis/where/gap.hpp"
 #include "model/simulation/simulate.hpp"
@@ -254,14 +255,31 @@ TEST(NullDay, OfDrivesThatRepeatHasNoGap) {
   }
 }
 
+/// Stamps the samples of a channel by a share of the sample time late.
+void delay(std::vector<double>& channel, double share) {
+  for (std::size_t i = channel.size(); i-- > 1;)
+    channel[i] = (1 - share) * channel[i] + share * channel[i - 1];
+}
+
 /// A gyro that is stamped half a sample late changes no energy.
 TEST(NullDay, OfALateGyroHasNoGap) {
   Dataset day = day_of(100);
-  for (joulepath::Run& run : day.runs) {
-    std::vector<double>& gyro = run.log.gyro_yaw_rate_rad_s;
-    for (std::size_t i = gyro.size(); i-- > 1;) gyro[i] = 0.5 * (gyro[i] + gyro[i - 1]);
-  }
+  for (joulepath::Run& run : day.runs) delay(run.log.gyro_yaw_rate_rad_s, 0.5);
   EXPECT_EQ(diagnose(day).verdict, Verdict::no_gap);
+}
+
+/// However little the channels of the motors are late: what explains the runs is likelier than not.
+TEST(LateChannels, AreExplainedOnlyByALikelyCause) {
+  for (const double share : {0.15, 0.25, 0.4, 0.6}) {
+    Dataset day = day_of(100);
+    for (joulepath::Run& run : day.runs)
+      for (const Side side : kSides)
+        delay(run.log.motor_current_A[side], share), delay(run.log.motor_voltage_V[side], share);
+    const Diagnosis answer = diagnose(day);
+    if (answer.verdict != Verdict::explained) continue;
+    ASSERT_FALSE(answer.causes.empty()) << share;
+    EXPECT_GE(answer.causes.front().probability, kLeastProbabilityNamed) << share;
+  }
 }
 
 /// Steps of 1.5 m/s^2, faster than a kernel resolves, are no slip of the wheels.

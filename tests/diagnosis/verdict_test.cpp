@@ -83,10 +83,14 @@ TEST(Judgment, NamesAConstantFarOutsideItsUncertaintyOnly) {
     const Judgment far = judged(constant_at(sigmas));
     EXPECT_EQ(far.verdict, Verdict::unexplained) << sigmas;
     EXPECT_NE(far.depends_on.find("friction"), std::string::npos) << far.depends_on;
-    const Judgment law = judged(constant_at(sigmas, 0.995), {.probabilities = {{"coulomb_friction", 0.2}}});
-    EXPECT_EQ(law.verdict, Verdict::explained) << "the law that changes the same number";
-    ASSERT_EQ(law.named.size(), 1u);
-    EXPECT_EQ(law.named[0].candidate.label(), "coulomb_friction");
+    for (const auto& [probability, verdict] :
+         {std::pair{0.2, Verdict::ambiguous}, std::pair{0.8, Verdict::explained}}) {
+      const Judgment law =
+          judged(constant_at(sigmas, 0.995), {.probabilities = {{"coulomb_friction", probability}}});
+      EXPECT_EQ(law.verdict, verdict) << "the law that changes the same number";
+      ASSERT_EQ(law.named.size(), 1u);
+      EXPECT_EQ(law.named[0].candidate.label(), "coulomb_friction");
+    }
     for (const double probability : {0.0, 0.01}) {
       const Judgment unlikely =
           judged(constant_at(sigmas, 0.995), {.probabilities = {{"coulomb_friction", probability}}});

@@ -22,9 +22,9 @@ TEST(ContinuousPlan, RowsOfEveryExportFollowEachOtherAndTheStartIsTheMissions) {
     expect_continuous(rows_of(plan_nodes(plan.plan, plan.plant).rows), duration_s,
                       plan.name + ", profile.csv");
     expect_continuous(rows_of(Json::parse(export_nav2_path(input).files[0].content)["poses"]), duration_s,
-                      plan.name + ", nav2_path");
+                      plan.name + ", nav2_path", true);
     expect_continuous(rows_of(Json::parse(export_trajectory(input).files[0].content)["points"]), duration_s,
-                      plan.name + ", trajectory");
+                      plan.name + ", trajectory", true);
     const Pose& start = plan.mission.start.pose;
     EXPECT_NEAR(motion.position_x_m[0], start.x_m, 1e-9) << plan.name;
     EXPECT_NEAR(motion.position_y_m[0], start.y_m, 1e-9) << plan.name;

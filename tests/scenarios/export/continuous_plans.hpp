@@ -90,6 +90,39 @@ inline MissionRequest motion_before_a_way() {
   return mission;
 }
 
+/// Turns by more than a full circle: arcs to either side, turns in place, stays between them.
+inline MissionRequest full_circles() {
+  const auto arc = [](double angle_rad) {
+    return LegRequest{.motion = PrescribedMotion{.profile = MotionProfile::arc,
+                                                 .acceleration_m_s2 = 0.3,
+                                                 .speed_m_s = 0.6,
+                                                 .radius_m = 1.5,
+                                                 .angle_rad = angle_rad}};
+  };
+  const LegRequest spin{.motion = PrescribedMotion{.profile = MotionProfile::spin,
+                                                   .angle_rad = 2.5,
+                                                   .yaw_rate_rad_s = 1.0,
+                                                   .yaw_acceleration_rad_s2 = 1.0}};
+  MissionRequest mission{.name = "circles"};
+  mission.start.pose = {1, 1, 3.0};
+  mission.start.heading_given = true;
+  mission.legs = {arc(7.5), stay(1), arc(-14.0), stay(1), spin, spin, spin, stay(1)};
+  return mission;
+}
+
+/// A loop of curves to the left, twice around: each piece states its heading within one turn.
+inline MissionRequest loops() {
+  MissionRequest mission{.name = "loops"};
+  mission.start.pose = {0, 0, 0};
+  const std::vector<BezierPoints> circle{{{{0, 0}, {1.1, 0}, {2, 0.9}, {2, 2}}},
+                                         {{{2, 2}, {2, 3.1}, {1.1, 4}, {0, 4}}},
+                                         {{{0, 4}, {-1.1, 4}, {-2, 3.1}, {-2, 2}}},
+                                         {{{-2, 2}, {-2, 0.9}, {-1.1, 0}, {0, 0}}}};
+  for (int k = 0; k < 2; ++k)
+    mission.legs.push_back({.path = PathRequest{.bezier_m = circle, .frame = PathRequest::Frame::map}});
+  return mission;
+}
+
 inline const std::vector<PlannedMission>& continuous_plans() {
   static const std::vector<PlannedMission> all{
       planned("given paths", stays_along_given_paths()),
@@ -97,6 +130,8 @@ inline const std::vector<PlannedMission>& continuous_plans() {
       planned("stations", stays_at_stations(true)),
       planned("stations, free heading", stays_at_stations(false)),
       planned("a motion before a way", motion_before_a_way()),
+      planned("full circles", full_circles()),
+      planned("loops", loops()),
       planned("stays only", {.name = "stays", .start = {.pose = {5, -7, 1}}, .legs = {stay(2), stay(1)}})};
   return all;
 }
@@ -106,7 +141,9 @@ struct Row {
   double time_s{}, x_m{}, y_m{}, heading_rad{};
 };
 
-inline void expect_continuous(const std::vector<Row>& rows, double duration_s, const std::string& what) {
+/// `wraps`: orientations that know no full turns.
+inline void expect_continuous(const std::vector<Row>& rows, double duration_s, const std::string& what,
+                              bool wraps = false) {
   ASSERT_FALSE(rows.empty()) << what;
   EXPECT_NEAR(rows.back().time_s, duration_s, 1e-6) << what;
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -114,7 +151,8 @@ inline void expect_continuous(const std::vector<Row>& rows, double duration_s, c
     const double dt = to.time_s - from.time_s;
     EXPECT_GE(dt, 0) << what << " row " << k;
     ASSERT_LE(std::hypot(to.x_m - from.x_m, to.y_m - from.y_m), kFastest_m_s * dt + 1e-5) << what << " " << k;
-    ASSERT_LE(std::abs(wrapped_angle_rad(to.heading_rad - from.heading_rad)), kFastest_rad_s * dt + 1e-5)
+    const double turned_rad = to.heading_rad - from.heading_rad;
+    ASSERT_LE(std::abs(wraps ? wrapped_angle_rad(turned_rad) : turned_rad), kFastest_rad_s * dt + 1e-5)
         << what << " row " << k;
   }
 }
