@@ -1,5 +1,6 @@
 #include "planner/legs/leg_timing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/profile/profile_solver.hpp"
@@ -18,12 +19,17 @@ TimeGoal goal_for(double price_W, double given_s) {
 
 }  // namespace
 
+ProfileRequest LegTiming::question(ProfileRequest stretch, double price_W, SolverChoice solver) const {
+  stretch.time = goal_for(price_W, given_s_);
+  stretch.solver = solver;
+  return stretch;
+}
+
 const std::vector<ProfileResult>& LegTiming::solve(double price_W, SolverChoice solver) {
   auto [entry, fresh] = solved_.try_emplace({price_W, solver});
   if (fresh)
-    for (ProfileRequest request : stretches_) {
-      request.time = goal_for(price_W, given_s_);
-      request.solver = solver;
+    for (const ProfileRequest& stretch : stretches_) {
+      const ProfileRequest request = question(stretch, price_W, solver);
       entry->second.push_back(remembered(
           answers_, "profile", [&] { return solve_profile(request); }, request));
     }
@@ -36,10 +42,26 @@ void LegTiming::solve_roughly(bool roughly) {
 }
 
 double LegTiming::duration_s(double price_W, SolverChoice solver) {
+  const bool jerk = std::any_of(stretches_.begin(), stretches_.end(), [](const ProfileRequest& stretch) {
+    return std::isfinite(stretch.limits.jerk_m_s3);
+  });
+  if (jerk && std::isfinite(price_W) && !solved_.contains({price_W, solver}))
+    return unproven_duration_s(price_W, solver);
   double sum_s = 0.0;
   for (const ProfileResult& result : solve(price_W, solver))
     if (result.profile) sum_s += result.profile->duration_s();
   return sum_s;
+}
+
+double LegTiming::unproven_duration_s(double price_W, SolverChoice solver) {
+  auto [entry, fresh] = unproven_s_.try_emplace({price_W, solver}, 0.0);
+  if (fresh)
+    for (const ProfileRequest& stretch : stretches_) {
+      const ProfileRequest request = question(stretch, price_W, solver);
+      entry->second += remembered(
+          answers_, "driving_time", [&] { return driving_time_s(request).value_or(0.0); }, request);
+    }
+  return entry->second;
 }
 
 double LegTiming::least_s(SolverChoice solver) {

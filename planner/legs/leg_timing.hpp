@@ -35,16 +35,24 @@ class LegTiming {
     forget();
   }
 
-  void forget() { solved_.clear(); }
+  void forget() {
+    solved_.clear();
+    unproven_s_.clear();
+  }
 
   /// Whether stretches are solved as drafts (ProfileRequest::draft).
   void solve_roughly(bool roughly);
 
  private:
+  ProfileRequest question(ProfileRequest stretch, double price_W, SolverChoice solver) const;
+  /// duration_s() without the bounds of solve().
+  double unproven_duration_s(double price_W, SolverChoice solver);
+
   std::vector<ProfileRequest> stretches_{};
   SharedAnswers answers_{};
   double given_s_{kNoLimit};
   std::map<std::pair<double, SolverChoice>, std::vector<ProfileResult>> solved_{};
+  std::map<std::pair<double, SolverChoice>, double> unproven_s_{};
 };
 
 }  // namespace joulepath

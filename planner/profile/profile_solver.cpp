@@ -343,6 +343,15 @@ std::optional<double> least_time_found_s(ProfileRequest request) {
   return found.profile ? std::optional(found.profile->duration_s()) : std::nullopt;
 }
 
+std::optional<double> driving_time_s(const ProfileRequest& request) {
+  const bool open = std::isinf(request.time.duration_s) && request.time.mode != TimeMode::minimum_time;
+  ProfileResult found;
+  if (open && jerk_limited(request) && request.limits.jerk_m_s3 > 0 && !senseless(request))
+    found = find_profile_with_jerk_limit(request);
+  if (!found.profile) found = solve_profile(request);
+  return found.profile ? std::optional(found.profile->duration_s()) : std::nullopt;
+}
+
 ProfileResult solve_profile(const ProfileRequest& request) {
   stop_if_asked();
   if (std::optional<Infeasibility> verdict = senseless(request)) {

@@ -15,4 +15,8 @@ namespace joulepath {
 /// finds no profile.
 [[nodiscard]] std::optional<double> least_time_found_s(ProfileRequest request);
 
+/// Duration (s) of solve_profile()'s profile; nothing where it finds none. A search for a price of time asks
+/// for no more: with a jerk limit most of the work is the bound of the problem without it, left out here.
+[[nodiscard]] std::optional<double> driving_time_s(const ProfileRequest& request);
+
 }  // namespace joulepath
