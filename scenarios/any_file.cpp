@@ -57,7 +57,8 @@ FileSummary summary_of_robot(const std::string& file) {
 
 FileSummary summary_of_map(const std::string& file, const ReadOptions& options) {
   const OccupancyGrid grid = read_map(file, {}, options);
-  return {"map", std::to_string(grid.width) + " x " + std::to_string(grid.height) + " cells", {}};
+  return {"map", std::to_string(grid.width) + " x " + std::to_string(grid.height) + " cells",
+          map_notes(file, options)};
 }
 
 FileSummary summary_of_mission(const std::string& file, const ReadOptions& options) {

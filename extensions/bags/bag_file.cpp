@@ -17,13 +17,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_folder(const std::string& file) {
+bool is_bag_name(const fs::path& file) { return file.extension() == ".db3" || file.extension() == ".mcap"; }
+
+/// The bags in a folder; rosbag2 numbers them: name_9.db3 comes before name_10.db3.
+std::vector<std::string> bags_in(const std::string& folder) {
+  std::vector<std::string> files;
   std::error_code ignored;
-  return fs::is_directory(file, ignored) && fs::exists(fs::path(file) / "metadata.yaml", ignored);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (is_bag_name(entry.path())) files.push_back(entry.path().string());
+  std::ranges::sort(files, {}, [](const std::string& file) { return std::pair(file.size(), file); });
+  return files;
 }
 
-/// The files of a folder, in the order of its metadata. A file outside of the folder is refused.
+bool has_metadata(const std::string& folder) {
+  std::error_code ignored;
+  return fs::exists(fs::path(folder) / "metadata.yaml", ignored);
+}
+
+bool is_folder(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_directory(file, ignored) && (has_metadata(file) || !bags_in(file).empty());
+}
+
+/// The files of a folder, in the order of its metadata, or, without it, of their numbers. A file outside of
+/// the folder is refused.
 std::vector<std::string> files_of(const std::string& folder, const NamedBy& named_by) {
+  if (!has_metadata(folder)) return bags_in(folder);
   const Document metadata = Document::load((fs::path(folder) / "metadata.yaml").string(), named_by);
   std::vector<std::string> files;
   for (const Node& name : metadata.root()["rosbag2_bagfile_information"]["relative_file_paths"].items()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <string_view>
 
 #include "extensions/nav2/exports.hpp"
 #include "model/text_of_list.hpp"
@@ -28,18 +29,26 @@ constexpr Parameter kParameters[] = {
     {"desired_linear_vel", &ControllerFile::speed_m_s},  // RPP
     {"rotate_to_heading_angular_vel", &ControllerFile::turn_rate_rad_s},
     {"max_angular_accel", &ControllerFile::turn_acceleration_rad_s2},
+    {"max_linear_vel", &ControllerFile::speed_m_s},  // RPP since its dynamic window
+    {"max_angular_vel", &ControllerFile::yaw_rate_rad_s},
+    {"max_linear_accel", &ControllerFile::acceleration_m_s2},
+    {"max_linear_decel", &ControllerFile::deceleration_m_s2, Sign::negative},
+    {"max_angular_decel", &ControllerFile::yaw_deceleration_rad_s2, Sign::negative},
     {"vx_max", &ControllerFile::speed_m_s},  // MPPI
     {"wz_max", &ControllerFile::yaw_rate_rad_s},
     {"ax_max", &ControllerFile::acceleration_m_s2},
     {"ax_min", &ControllerFile::deceleration_m_s2, Sign::negative},
     {"az_max", &ControllerFile::yaw_acceleration_rad_s2},
-    {"max_vel_x", &ControllerFile::speed_m_s},  // DWB
+    {"max_vel_x", &ControllerFile::speed_m_s},  // DWB and TEB
     {"max_speed_xy", &ControllerFile::speed_m_s},
     {"max_vel_theta", &ControllerFile::yaw_rate_rad_s},
     {"acc_lim_x", &ControllerFile::acceleration_m_s2},
     {"decel_lim_x", &ControllerFile::deceleration_m_s2, Sign::negative},
     {"acc_lim_theta", &ControllerFile::yaw_acceleration_rad_s2},
     {"decel_lim_theta", &ControllerFile::yaw_deceleration_rad_s2, Sign::negative},
+    {"v_linear_max", &ControllerFile::speed_m_s},  // Graceful
+    {"v_angular_max", &ControllerFile::yaw_rate_rad_s},
+    {"deceleration_max", &ControllerFile::deceleration_m_s2},
 };
 
 /// A parameter with a value along x and one about z.
@@ -48,20 +57,43 @@ struct PlanarParameter {
   Field along, about;
   Sign sign{Sign::positive};
 };
-/// Of the velocity smoother, as [x, y, theta].
-constexpr PlanarParameter kTriples[] = {
+/// Of the velocity smoother, as [x, y, theta] or [x, y, z, roll, pitch, yaw].
+constexpr PlanarParameter kTwists[] = {
     {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
     {"max_accel", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
     {"max_decel", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
      Sign::negative},
 };
 
-/// Of diff_drive_controller, in linear: x: and angular: z:.
-constexpr PlanarParameter kAxes[] = {
-    {"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s},
-    {"max_acceleration", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
-    {"max_deceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
-     Sign::negative},
+/// Of diff_drive_controller, below linear.x and angular.z, and the flag that switches each off.
+struct AxisParameter {
+  PlanarParameter parameter;
+  const char* flag;
+};
+constexpr AxisParameter kAxes[] = {
+    {{"max_velocity", &ControllerFile::speed_m_s, &ControllerFile::yaw_rate_rad_s}, "has_velocity_limits"},
+    {{"max_acceleration", &ControllerFile::acceleration_m_s2, &ControllerFile::yaw_acceleration_rad_s2},
+     "has_acceleration_limits"},
+    {{"min_acceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
+      Sign::negative},
+     "has_acceleration_limits"},
+    {{"max_deceleration", &ControllerFile::deceleration_m_s2, &ControllerFile::yaw_deceleration_rad_s2,
+      Sign::negative},
+     "has_acceleration_limits"},
+};
+
+/// What a kind of plugin (by a part of its type's name) does beside its limits, which no comparison models.
+struct PluginKind {
+  const char* type;
+  const char* beside;
+};
+constexpr PluginKind kPluginKinds[] = {
+    {"RegulatedPurePursuit", "slower in curves, near obstacles and on the approach to the goal"},
+    {"MPPI", "sampled controls and their critics"},
+    {"DWB", "the choice among sampled speeds by its critics"},
+    {"Graceful", "slower in curves and on the approach to the goal"},
+    {"Teb", "times stretched near obstacles"},
+    {"RotationShim", "a turn towards the path before the primary controller drives"},
 };
 
 /// Sizes beyond these have a wrong unit or digit.
@@ -93,39 +125,139 @@ bool holds_one_of(const std::string& key, const char* const (&words)[n]) {
   return std::ranges::any_of(words, [&](const char* word) { return key.find(word) != std::string::npos; });
 }
 
+/// The row of a table with this key; its end where there is none.
+template <class Row, std::size_t n>
+const Row* row_of(const Row (&rows)[n], const std::string& key) {
+  return std::ranges::find_if(rows, [&](const Row& row) { return key == row.key; });
+}
+
 /// Whether a key names a speed or an acceleration that this reader does not know.
 bool is_unknown_motion(const std::string& key, const Node& value) {
-  const auto has_key = [&](const auto& parameter) { return key == parameter.key; };
-  if (std::ranges::any_of(kParameters, has_key) || std::ranges::any_of(kTriples, has_key)) return false;
+  if (row_of(kParameters, key) != std::end(kParameters) || row_of(kTwists, key) != std::end(kTwists))
+    return false;
   if (!holds_one_of(key, kMotionWords) || holds_one_of(key, kOtherWords)) return false;
   return value.kind() == Value::Kind::list ||
          (value.kind() == Value::Kind::scalar && parse_number(value.text()).has_value());
 }
 
+/// Parameters with one prefix: `FollowPath`, `linear.x`. A file may nest them or write dots.
+struct ParameterGroup {
+  std::string prefix{};
+  std::vector<std::pair<std::string, Node>> values{};
+
+  std::optional<Node> find(std::string_view key) const {
+    for (const auto& [name, value] : values)
+      if (name == key) return value;
+    return std::nullopt;
+  }
+  bool ends_with(std::string_view part) const {
+    return prefix == part || prefix.ends_with("." + std::string(part));
+  }
+};
+
+/// The groups of a map, in the file's order.
+class ParameterGroups {
+ public:
+  explicit ParameterGroups(const Node& parameters) { add(parameters, ""); }
+  const std::vector<ParameterGroup>& all() const { return groups_; }
+
+ private:
+  void add(const Node& node, const std::string& prefix) {
+    group(prefix);
+    for (const auto& [key, value] : node.entries()) {
+      const std::string name = prefix.empty() ? key : prefix + "." + key;
+      const std::size_t dot = name.rfind('.');
+      if (value.kind() == Value::Kind::map)
+        add(value, name);
+      else
+        group(dot == std::string::npos ? "" : name.substr(0, dot))
+            .values.emplace_back(name.substr(dot == std::string::npos ? 0 : dot + 1), value);
+    }
+  }
+  ParameterGroup& group(const std::string& prefix) {
+    const auto found = std::ranges::find(groups_, prefix, &ParameterGroup::prefix);
+    return found != groups_.end() ? *found : groups_.emplace_back(ParameterGroup{.prefix = prefix});
+  }
+
+  std::vector<ParameterGroup> groups_{};
+};
+
+/// "FollowPath.vx_max in line 7".
+std::string place_of(const Node& value) {
+  return value.path() + " in line " + std::to_string(value.mark().line);
+}
+
+/// A drive's settings in one group of parameters.
+struct Driver {
+  std::string name{};  ///< its prefix, below the node's
+  ControllerFile settings{};
+  std::vector<Node> unknown{};
+  const PluginKind* kind{};
+};
+
 class ControllerReader {
  public:
-  ControllerFile take() { return std::move(settings_); }
+  explicit ControllerReader(std::string plugin) : plugin_(std::move(plugin)) {}
 
   /// Reads every node of a parameter file. Of a file without `ros__parameters`, a part of one, all counts.
-  void read(const Node& root) {
-    if (!read_nodes(root, "")) look(root, {});
-    if (plugins_.size() > 1)
-      root.fail_found("several controllers that drive: " + text_of_list(plugins_), "one",
-                      "leave the one to compare in the file, or in controller_plugins");
-    if (unknown_.empty()) return;
-    const std::string keys = text_of_list(unknown_, [](const Node& key) { return key.path(); });
-    unknown_.front().fail_found(
-        "speeds or accelerations of unknown names: " + keys,
-        "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB) or diff_drive_controller",
-        "remove those that do not limit the drive, and write the others under a known name");
+  ControllerFile read(const Node& root) {
+    refuse_ros_1(root);
+    if (!read_nodes(root, "") && root.kind() == Value::Kind::map) look(root, {});
+    choose_plugin(root);
+    ControllerFile settings;
+    std::vector<Node> unknown;
+    for (Driver& driver : drivers_) {
+      merge(driver.settings, settings);
+      if (driver.kind != nullptr) {
+        settings.not_modelled.push_back(driver.name + ": " + driver.kind->beside);
+        for (const Node& value : driver.unknown) settings.unused.push_back(place_of(value));
+      } else {
+        unknown.insert(unknown.end(), driver.unknown.begin(), driver.unknown.end());
+      }
+    }
+    if (!unknown.empty()) fail_unknown(unknown);
+    return settings;
   }
 
  private:
+  static void refuse_ros_1(const Node& root) {
+    for (const char* name : {"TebLocalPlannerROS", "DWAPlannerROS", "TrajectoryPlannerROS"})
+      if (const auto found = root.kind() == Value::Kind::map ? root.find(name) : std::nullopt)
+        found->fail_found("parameters of ROS 1", "a parameter file of ROS 2, with ros__parameters",
+                          "write its speeds and accelerations as velocity_smoother's");
+  }
+
+  [[noreturn]] static void fail_unknown(const std::vector<Node>& unknown) {
+    const std::string keys = text_of_list(unknown, [](const Node& key) { return key.path(); });
+    unknown.front().fail_found(
+        "speeds or accelerations of unknown names: " + keys,
+        "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB, Graceful, TEB) or "
+        "diff_drive_controller",
+        "remove those that do not limit the drive, and write the others under a known name");
+  }
+
+  /// Of several controllers that drive, the one that the caller names is left.
+  void choose_plugin(const Node& root) {
+    const auto is_other = [&](const Driver& driver) { return driver.name != plugin_; };
+    std::vector<std::string> names;
+    for (const Driver& driver : drivers_)
+      if (!driver.name.empty()) names.push_back(driver.name);
+    const bool known = std::ranges::find(names, plugin_) != names.end();
+    if (!plugin_.empty() && !known)
+      root.fail_found("no controller " + plugin_ + " that drives",
+                      names.empty() ? "a file with such a controller" : "one of " + text_of_list(names));
+    if (known)
+      std::erase_if(drivers_, [&](const Driver& d) { return !d.name.empty() && is_other(d); });
+    else if (names.size() > 1)
+      root.fail_found("several controllers that drive: " + text_of_list(names), "one",
+                      "choose it with --plugin NAME, or leave it alone in controller_plugins");
+  }
+
   /// Whether the file has nodes; those that do not drive are left out.
   bool read_nodes(const Node& node, const std::string& name) {
     if (node.kind() != Value::Kind::map) return false;
     if (const auto parameters = node.find("ros__parameters")) {
-      look(*parameters, roles_of(name, *parameters));
+      if (parameters->kind() == Value::Kind::map) look(*parameters, roles_of(name, *parameters));
       return true;
     }
     bool found = false;
@@ -133,20 +265,21 @@ class ControllerReader {
     return found;
   }
 
-  /// Reads the parameters of a map, and of the maps in it; where it lists its controllers, of those.
+  /// Reads the groups of a node's parameters; where it lists its controllers, those of the list.
   void look(const Node& node, const Roles& roles) {
-    if (node.kind() != Value::Kind::map) return;
     const auto listed = node.find("controller_plugins");
-    std::size_t numbers = 0, triples = 0;
-    for (const auto& [key, value] : node.entries()) {
-      if (value.kind() == Value::Kind::scalar && roles.plugins) numbers += read_number(key, value);
-      if (value.kind() == Value::Kind::list && roles.smoother) triples += read_triple(key, value);
-      if (key == "linear" || key == "angular") read_axis(value, key == "linear");
-      if (!listed || names_item(*listed, key)) look(value, roles);
+    const auto is_left_out = [&](const ParameterGroup& group) {
+      return listed && !group.prefix.empty() &&
+             !names_item(*listed, group.prefix.substr(0, group.prefix.find('.')));
+    };
+    const ParameterGroups groups(node);
+    for (const ParameterGroup& group : groups.all()) {
+      if (is_left_out(group)) continue;
+      if (group.ends_with("linear.x")) read_axis(group, true);
+      if (group.ends_with("angular.z")) read_axis(group, false);
+      if (roles.plugins) read_plugin(group);
+      if (roles.smoother) read_smoother(group);
     }
-    const bool is_plugin = roles.plugins && (numbers > 0 || node.has("plugin"));
-    const std::size_t unknown = is_plugin || triples > 0 ? note_unknown(node) : 0;
-    if (is_plugin && numbers + unknown > 0) plugins_.push_back(node.path());
   }
 
   static bool names_item(const Node& list, const std::string& name) {
@@ -155,58 +288,93 @@ class ControllerReader {
            });
   }
 
-  std::size_t note_unknown(const Node& node) {
-    const std::size_t before = unknown_.size();
-    for (const auto& [key, value] : node.entries())
-      if (is_unknown_motion(key, value)) unknown_.push_back(value);
-    return unknown_.size() - before;
+  static const PluginKind* kind_of(const ParameterGroup& group) {
+    const auto type = group.find("plugin");
+    if (!type || type->kind() != Value::Kind::scalar) return nullptr;
+    const auto found = std::ranges::find_if(kPluginKinds, [&](const PluginKind& kind) {
+      return type->text().find(kind.type) != std::string::npos;
+    });
+    return found != std::end(kPluginKinds) ? found : nullptr;
   }
 
-  void take_least(Field field, Sign sign, const Node& value) {
+  static std::vector<Node> unknown_in(const ParameterGroup& group) {
+    std::vector<Node> unknown;
+    for (const auto& [key, value] : group.values)
+      if (is_unknown_motion(key, value)) unknown.push_back(value);
+    return unknown;
+  }
+
+  void read_plugin(const ParameterGroup& group) {
+    Driver driver{.name = group.prefix, .kind = kind_of(group)};
+    for (const auto& [key, value] : group.values)
+      if (const Parameter* row = row_of(kParameters, key);
+          row != std::end(kParameters) && value.kind() == Value::Kind::scalar)
+        take_least(driver.settings, row->field, row->sign, value);
+    if (driver.settings.read.empty() && !group.find("plugin")) return;
+    driver.unknown = unknown_in(group);
+    if (!driver.settings.read.empty() || !driver.unknown.empty()) drivers_.push_back(std::move(driver));
+  }
+
+  void read_smoother(const ParameterGroup& group) {
+    Driver driver;
+    for (const auto& [key, value] : group.values) {
+      const PlanarParameter* row = row_of(kTwists, key);
+      if (row == std::end(kTwists) || value.kind() != Value::Kind::list) continue;
+      const std::vector<Node> items = value.items();
+      if (items.size() != 3 && items.size() != 6) value.fail("[x, y, theta] or [x, y, z, roll, pitch, yaw]");
+      take_least(driver.settings, row->along, row->sign, items.front());
+      take_least(driver.settings, row->about, row->sign, items.back());
+    }
+    if (driver.settings.read.empty()) return;
+    driver.unknown = unknown_in(group);
+    drivers_.push_back(std::move(driver));
+  }
+
+  void read_axis(const ParameterGroup& axis, bool along) {
+    Driver driver;
+    for (const AxisParameter& row : kAxes) {
+      const auto flag = axis.find(row.flag);
+      const auto value = axis.find(row.parameter.key);
+      if (value && !(flag && !flag->boolean()))
+        take_least(driver.settings, along ? row.parameter.along : row.parameter.about, row.parameter.sign,
+                   *value);
+    }
+    if (!driver.settings.read.empty()) drivers_.push_back(std::move(driver));
+  }
+
+  /// Zero and `.nan` are no limit.
+  static void take_least(ControllerFile& settings, Field field, Sign sign, const Node& value) {
+    if (value.kind() == Value::Kind::scalar && is_nan(value.text())) return;
     const bool down = sign == Sign::negative;
     const double size = down ? -value.number() : value.number();
-    if (size == 0) return;  // no limit
+    if (size == 0) return;
     if (!(size >= kLeastSize && size <= kMostSize))
       value.fail(down ? "from -100 to -0.001 (SI units; decelerations are negative), or 0: no limit"
                       : "from 0.001 to 100 (SI units), or 0: no limit");
-    std::optional<double>& known = settings_.*field;
+    std::optional<double>& known = settings.*field;
     known = std::min(known.value_or(size), size);
-    settings_.read.push_back(value.path());
+    settings.read.push_back(value.path());
+    settings.lines.push_back(value.mark().line);
   }
 
-  /// Whether the key is one of a plugin.
-  bool read_number(const std::string& key, const Node& value) {
-    const Parameter* found =
-        std::ranges::find_if(kParameters, [&](const Parameter& parameter) { return key == parameter.key; });
-    if (found == std::end(kParameters)) return false;
-    take_least(found->field, found->sign, value);
-    return true;
+  static bool is_nan(const std::string& text) {
+    return text == ".nan" || text == ".NaN" || text == ".NAN" || text == "nan";
   }
 
-  /// Whether the key is one of the velocity smoother.
-  bool read_triple(const std::string& key, const Node& value) {
-    const PlanarParameter* found =
-        std::ranges::find_if(kTriples, [&](const PlanarParameter& triple) { return key == triple.key; });
-    if (found == std::end(kTriples)) return false;
-    const std::vector<Node> items = value.items();
-    if (items.size() != 3) value.fail("[x, y, theta]");
-    take_least(found->along, found->sign, items[0]);
-    take_least(found->about, found->sign, items[2]);
-    return true;
+  static void merge(const ControllerFile& from, ControllerFile& into) {
+    for (const Field field :
+         {&ControllerFile::speed_m_s, &ControllerFile::acceleration_m_s2, &ControllerFile::deceleration_m_s2,
+          &ControllerFile::yaw_rate_rad_s, &ControllerFile::turn_rate_rad_s,
+          &ControllerFile::yaw_acceleration_rad_s2, &ControllerFile::yaw_deceleration_rad_s2,
+          &ControllerFile::turn_acceleration_rad_s2})
+      if (const std::optional<double>& value = from.*field)
+        into.*field = std::min((into.*field).value_or(*value), *value);
+    into.read.insert(into.read.end(), from.read.begin(), from.read.end());
+    into.lines.insert(into.lines.end(), from.lines.begin(), from.lines.end());
   }
 
-  void read_axis(const Node& axes, bool along) {
-    if (axes.kind() != Value::Kind::map) return;
-    const std::optional<Node> axis = axes.find(along ? "x" : "z");
-    if (!axis || axis->kind() != Value::Kind::map) return;
-    for (const PlanarParameter& parameter : kAxes)
-      if (const auto value = axis->find(parameter.key))
-        take_least(along ? parameter.along : parameter.about, parameter.sign, *value);
-  }
-
-  ControllerFile settings_{};
-  std::vector<std::string> plugins_{};  ///< places of the controllers that drive
-  std::vector<Node> unknown_{};
+  std::string plugin_{};  ///< empty: the file has one that drives
+  std::vector<Driver> drivers_{};
 };
 
 /// The settings for each leg in the result of export --to controller.
@@ -235,19 +403,17 @@ double least(std::initializer_list<std::optional<double>> settings) {
 
 }  // namespace
 
-ControllerFile read_controller_settings(const std::string& file) {
+ControllerFile read_controller_settings(const std::string& file, const std::string& plugin) {
   const Document document = Document::load(file);
   const std::string kind = inferred_kind(document.root());
   if (kind == "controller") return {.file = file, .legs = legs_of(document)};
-  ControllerReader reader;
-  reader.read(document.root());
-  ControllerFile settings = reader.take();
+  ControllerFile settings = ControllerReader(plugin).read(document.root());
   if (settings.read.empty())
-    document.root().fail_found((kind.empty() ? "" : "a file of kind " + kind + " with ") +
-                                   std::string("no speed and no acceleration of a controller"),
-                               "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB) or "
-                               "diff_drive_controller, or the "
-                               "result of export --to controller");
+    document.root().fail_found(
+        (kind.empty() ? "" : "a file of kind " + kind + " with ") +
+            std::string("no speed and no acceleration of a controller"),
+        "parameters of velocity_smoother, controller_server (RPP, MPPI, DWB, Graceful, "
+        "TEB) or diff_drive_controller, or the result of export --to controller");
   return settings;
 }
 

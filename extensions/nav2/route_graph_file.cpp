@@ -43,8 +43,9 @@ class GraphReader {
     graph_.nodes.push_back({id, x_m, y_m});
   }
 
-  /// Edges may share an id, as two of Nav2's own depot graph do.
-  void add_edge(const Node& properties, const Node& geometry) {
+  /// Edges may share an id, as two of Nav2's own depot graph do. Without coordinates an edge is straight: the
+  /// route server reads none.
+  void add_edge(const Node& properties, const std::optional<Node>& geometry) {
     RouteGraph::Edge edge{
         .id = properties["id"].integer(),
         .start = index(properties["startid"]),
@@ -52,11 +53,11 @@ class GraphReader {
         .speed_limit_m_s = read_limit(properties, "abs_speed_limit", 1e-3, "from 0.001 to 100 m/s"),
         .speed_limit_percent = read_limit(properties, "speed_limit", 0.1, "from 0.1 to 100 percent")};
     std::vector<std::vector<Node>> lines;
-    const Node coordinates = geometry["coordinates"];
-    if (geometry["type"].text() == "MultiLineString")
-      for (const auto& line : coordinates.items()) lines.push_back(line.items());
-    else
-      lines.push_back(coordinates.items());
+    const std::optional<Node> coordinates = geometry ? geometry->find("coordinates") : std::nullopt;
+    if (coordinates && geometry->text_or("type", "") == "MultiLineString")
+      for (const auto& line : coordinates->items()) lines.push_back(line.items());
+    else if (coordinates)
+      lines.push_back(coordinates->items());
     for (const auto& line : lines)
       for (std::size_t i = 0; i < line.size(); ++i) {
         const auto [x_m, y_m] = read_point(line[i]);
@@ -82,6 +83,16 @@ class GraphReader {
   std::map<long, std::size_t> index_of_{};
 };
 
+/// By the type of its geometry; without one, by the nodes that it names.
+bool is_edge(const Node& feature) {
+  const std::optional<Node> geometry = feature.find("geometry"),
+                            type = geometry ? geometry->find("type") : std::nullopt;
+  if (!type) return feature["properties"].has("startid");
+  const bool line = type->text() == "LineString" || type->text() == "MultiLineString";
+  if (!line && type->text() != "Point") type->fail("Point, LineString or MultiLineString");
+  return line;
+}
+
 }  // namespace
 
 RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
@@ -95,12 +106,9 @@ RouteGraph read_route_graph(const std::string& file, const NamedBy& named_by) {
   const auto features = root["features"].items();
   for (const bool lines : {false, true})
     for (const auto& feature : features) {
-      const Node geometry = feature["geometry"], type = geometry["type"];
-      const bool line = type.text() == "LineString" || type.text() == "MultiLineString";
-      if (!line && type.text() != "Point") type.fail("Point, LineString or MultiLineString");
-      if (line != lines) continue;
-      line ? reader.add_edge(feature["properties"], geometry)
-           : reader.add_node(feature["properties"], geometry);
+      if (is_edge(feature) != lines) continue;
+      lines ? reader.add_edge(feature["properties"], feature.find("geometry"))
+            : reader.add_node(feature["properties"], feature["geometry"]);
     }
   RouteGraph graph = reader.take();
   if (graph.nodes.empty()) root["features"].fail_found("no points", "at least one node (Point)");

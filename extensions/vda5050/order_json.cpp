@@ -113,8 +113,8 @@ void write_leg(OrderWriter& writer, const LegPlan& leg, const std::vector<double
 
 Json order_with_speeds(const ExportInput& input, const PartSpeeds& speeds) {
   Json order = Json::parse(read_text_file(input.mission.order_file));
-  const bool version_2 = order["version"].get<std::string>().rfind("2.", 0) == 0;
-  const char* key = version_2 ? "maxSpeed" : "maximumSpeed";
+  const bool version_3 = order["version"].get<std::string>().rfind("3.", 0) == 0;
+  const char* key = version_3 ? "maximumSpeed" : "maxSpeed";
   std::vector<Json*> edges;
   for (Json& edge : order["edges"]) edges.push_back(&edge);
   std::stable_sort(edges.begin(), edges.end(),

@@ -43,22 +43,23 @@ Schema trajectory_schema() {
 }
 
 Schema edge_schema() {
-  return open(map({required("edgeId", text()), required("sequenceId", integer(kNotNegative)),
-                   required("released", boolean()), optional("startNodeId", text()),
-                   optional("endNodeId", text()), optional("maxSpeed", number(kSpeed), "m/s, version 2"),
-                   optional("maximumSpeed", number(kSpeed), "m/s, version 3"),
-                   optional("maxRotationSpeed", number(kSpeed), "rad/s"),
-                   optional("maximumRotationSpeed", number(kSpeed), "rad/s"),
-                   optional("orientation", number(kHalfTurn), "rad"),
-                   optional("orientationType", choice({"TANGENTIAL", "GLOBAL"})),
-                   optional("trajectory", trajectory_schema(), "a NURBS; absent: straight"),
-                   required("actions", list(action_schema()))}));
+  return open(
+      map({required("edgeId", text()), required("sequenceId", integer(kNotNegative)),
+           required("released", boolean()), optional("startNodeId", text()), optional("endNodeId", text()),
+           optional("maxSpeed", number(kSpeed), "m/s, versions 1.1 and 2"),
+           optional("maximumSpeed", number(kSpeed), "m/s, version 3"),
+           optional("maxRotationSpeed", number(kSpeed), "rad/s"),
+           optional("maximumRotationSpeed", number(kSpeed), "rad/s"),
+           optional("orientation", number(kHalfTurn), "rad"),
+           optional("orientationType", choice({"TANGENTIAL", "GLOBAL"})),
+           optional("trajectory", trajectory_schema(), "a NURBS; absent: straight"),
+           required("actions", list(action_schema()))}));
 }
 
 }  // namespace
 
 Schema order_schema() {
-  return open(map({required("version", text(), "2.x or 3.x"), optional("orderId", text()),
+  return open(map({required("version", text(), "1.1, 2.x or 3.x"), optional("orderId", text()),
                    required("nodes", list(node_schema(), 1)), required("edges", list(edge_schema()))}));
 }
 

@@ -168,8 +168,9 @@ Order order_from(const Document& document) {
   const Node root = document.root();
   check_value(root, schema);
   Order order{.file = document.file(), .id = root.text_or("orderId", ""), .version = root["version"].text()};
-  if (order.version.rfind("2.", 0) != 0 && order.version.rfind("3.", 0) != 0)
-    root["version"].fail("2.x or 3.x", "the versions of VDA 5050 that are read");
+  const auto is_version = [&](const char* start) { return order.version.rfind(start, 0) == 0; };
+  if (!is_version("1.1") && !is_version("2.") && !is_version("3."))
+    root["version"].fail("1.1, 2.x or 3.x", "the versions of VDA 5050 that are read");
   const std::vector<Node> nodes = sorted(root["nodes"]), edges = sorted(root["edges"]);
   check_order(root, nodes, edges);
   std::set<std::string> maps;

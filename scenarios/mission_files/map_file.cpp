@@ -1,6 +1,8 @@
 #include "scenarios/mission_files/map_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "scenarios/document_kind.hpp"
 #include "scenarios/robot_files/physical_bounds.hpp"
@@ -8,6 +10,8 @@
 
 namespace joulepath {
 namespace {
+
+constexpr long kSavedAsUnknown = 205;  ///< of 255: the grey of unknown cells in images of map savers
 
 enum class Mode { trinary, scale, raw };
 
@@ -48,7 +52,7 @@ Interpretation read_interpretation(const Node& root) {
 }  // namespace
 
 Schema map_schema() {
-  return with_physical_bounds(map(
+  return open(with_physical_bounds(map(
       {optional("schema", text(), "joulepath/map/1; Nav2's maps have no such line"),
        required("image", text(), "PGM or PNG, relative to this file"),
        optional("mode", choice({"trinary", "scale", "raw"}), "default trinary"),
@@ -56,11 +60,36 @@ Schema map_schema() {
        required("origin", list(number(), 3, 3), "[x, y, yaw] of the image's lower left corner, m and rad"),
        optional("negate", choice({"0", "1", "false", "true", "False", "True", "FALSE", "TRUE"}),
                 "white is occupied"),
-       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))}));
+       required("occupied_thresh", number(kFraction)), required("free_thresh", number(kFraction))})));
 }
 
 std::string map_image_file(const std::string& file, const ReadOptions& options) {
   return resolve_file(Document::load(file).root()["image"], options);
+}
+
+std::vector<std::string> map_notes(const std::string& file, const ReadOptions& options) {
+  const Document document = Document::load(file);
+  const Node root = document.root();
+  std::vector<std::string> notes;
+  const Schema schema = map_schema();
+  for (const auto& [key, value] : root.entries())
+    if (std::ranges::find(schema.keys, key, &Schema::Key::name) == schema.keys.end())
+      notes.push_back(key + ": not read, as Nav2 does not read it either");
+  const Interpretation meaning = read_interpretation(root);
+  if (meaning.mode == Mode::raw) return notes;
+  const Image image = read_image(resolve_file(root["image"], options), NamedBy(root["image"]));
+  const auto saved_as_unknown = std::ranges::count_if(image.shade, [&](double shade) {
+    return std::lround(shade * 255) == kSavedAsUnknown && cell_value(shade, false, meaning) == 0;
+  });
+  if (saved_as_unknown > 0) {
+    char share[16];
+    std::snprintf(share, sizeof share, "%.3g",
+                  100.0 * static_cast<double>(saved_as_unknown) / static_cast<double>(image.shade.size()));
+    notes.push_back(
+        "free_thresh: " + root["free_thresh"].text() + " counts grey " + std::to_string(kSavedAsUnknown) +
+        ", with which map savers mark unknown cells, as free floor: " + share + " % of the cells");
+  }
+  return notes;
 }
 
 OccupancyGrid read_map(const std::string& file, const NamedBy& named_by, const ReadOptions& options) {

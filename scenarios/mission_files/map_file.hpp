@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/path/floor/occupancy_grid.hpp"
 #include "scenarios/text/schema.hpp"
@@ -15,6 +16,10 @@ namespace joulepath {
 ///   free_thresh, unknown between; scale: linear between, transparent pixels unknown; raw: the pixel's value.
 [[nodiscard]] OccupancyGrid read_map(const std::string& file, const NamedBy& named_by = {},
                                      const ReadOptions& options = {});
+
+/// What a user of a map may not expect: keys that are not read, and free floor that a map saver wrote as
+/// unknown. Throws ConfigError.
+[[nodiscard]] std::vector<std::string> map_notes(const std::string& file, const ReadOptions& options = {});
 
 /// The image that a map file names. Throws ConfigError.
 [[nodiscard]] std::string map_image_file(const std::string& file, const ReadOptions& options = {});

@@ -102,6 +102,16 @@ void check_groups(const Node& node, const Schema& schema) {
   }
 }
 
+/// The hint for a required key that is absent: of a map that accepts further keys, with one that resembles
+/// it.
+std::string required_hint(const Node& node, const Schema& schema, const std::string& name) {
+  std::vector<std::string> others;
+  for (const auto& entry : node.value().entries)
+    if (!key_named(schema, entry.key)) others.push_back(entry.key);
+  const std::string near = nearest_word(name, others);
+  return "this key is required" + (near.empty() ? "" : "; " + near + " is not read");
+}
+
 void check_map(const Node& node, const Schema& schema) {
   if (node.kind() != Value::Kind::map) node.fail(accepted_by(schema));
   if (!schema.open) check_unknown_keys(node, schema);
@@ -109,8 +119,8 @@ void check_map(const Node& node, const Schema& schema) {
     const bool present = std::any_of(node.value().entries.begin(), node.value().entries.end(),
                                      [&](const auto& entry) { return entry.key == key.name; });
     if (key.required && !present)
-      throw ConfigError(
-          {node.mark(), node.path_of(key.name), "nothing", accepted_by(key.schema), "this key is required"});
+      throw ConfigError({node.mark(), node.path_of(key.name), "nothing", accepted_by(key.schema),
+                         required_hint(node, schema, key.name)});
   }
   check_groups(node, schema);
   if (node.value().entries.size() < schema.min_items || node.value().entries.size() > schema.max_items)

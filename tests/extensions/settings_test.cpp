@@ -176,9 +176,8 @@ constexpr const char* kSmoother =
 
 /// A limit under a name that this reader does not know would leave the robot's own limit in force.
 TEST(ControllerFile, ASpeedOfAnUnknownNameIsNamed) {
-  for (const std::string key :
-       {"max_linear_vel: 0.3", "v_linear_max: 0.3", "max_linear_decel: -0.4", "cruise_speed: 0.3",
-        "deceleration_max: 0.5", "max_trans_vel: 0.3", "linear_velocity: 0.3", "rotational_acc_lim: 1.0"}) {
+  for (const std::string key : {"linear_vel_max: 0.3", "max_decel_linear: -0.4", "cruise_speed: 0.3",
+                                "max_trans_vel: 0.3", "linear_velocity: 0.3", "rotational_acc_lim: 1.0"}) {
     const std::string name = key.substr(0, key.find(':'));
     for (const std::string& text :
          {kSmoother +
@@ -247,6 +246,76 @@ TEST(ControllerFile, OtherNodesAreLeftOut) {
     EXPECT_EQ(file.speed_m_s, 0.5) << other;
     EXPECT_EQ(file.yaw_rate_rad_s, 2.0) << other;
   }
+}
+
+/// One limit in each way in which a file may write it.
+TEST(ControllerFile, EveryFormThatItsProgramReadsIsTheSameLimit) {
+  const ScratchDirectory directory;
+  const auto plugin = [](const std::string& type, const std::string& keys) {
+    return "controller_server: {ros__parameters: {FollowPath: {plugin: " + type + ", " + keys + "}}}\n";
+  };
+  const auto axes = [](const std::string& keys) {
+    return "diff_drive_controller: {ros__parameters: {" + keys + "}}\n";
+  };
+  for (const std::string& text :
+       {plugin("nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController",
+               "max_linear_vel: 0.3, max_angular_vel: 1.1, max_linear_decel: -0.4"),
+        plugin("nav2_mppi_controller::MPPIController", "vx_max: 0.3, wz_max: 1.1, ax_min: -0.4"),
+        plugin("dwb_core::DWBLocalPlanner", "max_vel_x: 0.3, max_vel_theta: 1.1, decel_lim_x: -0.4"),
+        plugin("nav2_graceful_controller::GracefulController",
+               "v_linear_max: 0.3, v_angular_max: 1.1, deceleration_max: 0.4"),
+        std::string("controller_server: {ros__parameters: {FollowPath.vx_max: 0.3, FollowPath.wz_max: 1.1, "
+                    "FollowPath.ax_min: -0.4}}\n"),
+        std::string("velocity_smoother: {ros__parameters: {max_velocity: [0.3, 0, 1.1], "
+                    "max_decel: [-0.4, 0, 0]}}\n"),
+        std::string("velocity_smoother: {ros__parameters: {max_velocity: [0.3, 0, 0, 0, 0, 1.1], "
+                    "max_decel: [-0.4, 0, 0, 0, 0, 0]}}\n"),
+        axes("linear: {x: {max_velocity: 0.3, min_acceleration: -0.4, max_acceleration: .nan}}, "
+             "angular: {z: {max_velocity: 1.1}}"),
+        axes("linear: {x: {max_velocity: 0.3, max_deceleration: -0.4}}, angular: {z: {max_velocity: 1.1, "
+             "has_acceleration_limits: false, max_acceleration: 0.1}}"),
+        axes("linear.x.max_velocity: 0.3, linear.x.min_acceleration: -0.4, angular.z.max_velocity: 1.1, "
+             "linear.x.has_velocity_limits: true")}) {
+    const ControllerFile file = read_controller_settings(directory.write("p.yaml", text));
+    EXPECT_EQ(file.speed_m_s, 0.3) << text;
+    EXPECT_EQ(file.yaw_rate_rad_s, 1.1) << text;
+    EXPECT_EQ(file.deceleration_m_s2, 0.4) << text;
+    EXPECT_EQ(file.acceleration_m_s2, std::nullopt) << text;
+    EXPECT_EQ(file.yaw_acceleration_rad_s2, std::nullopt) << text;
+    EXPECT_EQ(file.lines, std::vector<int>(file.read.size(), 1));
+  }
+}
+
+TEST(ControllerFile, WhatAKnownControllerDoesBesideIsSaid) {
+  const ScratchDirectory directory;
+  const ControllerFile file = read_controller_settings(directory.write(
+      "p.yaml",
+      "controller_server:\n  ros__parameters:\n    FollowPath:\n      plugin: a::GracefulController\n"
+      "      v_linear_max: 0.3\n      cruise_speed: 0.2\n"));
+  EXPECT_EQ(file.lines, std::vector<int>{5});
+  ASSERT_EQ(file.unused.size(), 1u);
+  EXPECT_NE(file.unused[0].find("cruise_speed in line 6"), std::string::npos) << file.unused[0];
+  ASSERT_EQ(file.not_modelled.size(), 1u);
+  EXPECT_NE(file.not_modelled[0].find("FollowPath: slower in curves"), std::string::npos);
+}
+
+TEST(ControllerFile, OneOfSeveralIsChosenByName) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write(
+      "p.yaml",
+      kSmoother +
+          std::string("controller_server: {ros__parameters: {controller_plugins: [FollowPath, Docking], "
+                      "FollowPath: {plugin: a::B, vx_max: 0.4}, Docking: {plugin: a::B, vx_max: "
+                      "0.05}}}\n"));
+  EXPECT_EQ(read_controller_settings(file, "FollowPath").speed_m_s, 0.4);
+  EXPECT_EQ(read_controller_settings(file, "Docking").speed_m_s, 0.05);
+  EXPECT_EQ(read_controller_settings(file, "Docking").acceleration_m_s2, 0.5) << "the smoother's holds, too";
+  EXPECT_THROW((void)read_controller_settings(file, "Dock"), ConfigError);
+}
+
+TEST(ControllerFile, ParametersOfRos1AreCalledSo) {
+  EXPECT_NE(refusal_of("TebLocalPlannerROS: {max_vel_x: 0.4, acc_lim_x: 0.5}\n").find("ROS 1"),
+            std::string::npos);
 }
 
 TEST(ControllerFile, AFileWithoutSpeedsIsRefused) {

@@ -183,6 +183,19 @@ TEST_F(ForeignBags, AFileIsReadOnceAsTheMetadataNamesIt) {
   EXPECT_NE(reading(scratch_.at("bag")).error.find("each file once"), std::string::npos);
 }
 
+/// rosbag2 numbers its files: the tenth comes after the ninth.
+TEST_F(ForeignBags, AFolderWithoutMetadataIsReadInTheOrderOfItsNumbers) {
+  std::filesystem::create_directories(scratch_.at("bag"));
+  const auto part = [&](const std::string& name, int time_ns) {
+    std::filesystem::rename(
+        database({table(kTopics), table(kMessageTable), "INSERT INTO topics VALUES(1, 'a', 't', 'cdr')",
+                  "INSERT INTO messages VALUES(1, " + std::to_string(time_ns) + ", 'x')"}),
+        scratch_.at("bag/" + name));
+  };
+  part("run_10.db3", 30), part("run_9.db3", 20);
+  EXPECT_EQ(reading(scratch_.at("bag")).times_ns, (std::vector<std::uint64_t>{20, 30}));
+}
+
 TEST_F(ForeignBags, DeepAndLongLinesAreNoStates) {
   const std::string state =
       R"({"timestamp": "2026-05-01T10:00:10Z", "serialNumber": "agv", "velocity": {"vx": 0.1}, "batteryState": {}})";

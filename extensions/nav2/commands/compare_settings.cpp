@@ -19,26 +19,46 @@ class SettingsComparison : public PlanComparison {
     line.option(
         "--controller", controller_,
         "parameter file of Nav2 or ros2_control (YAML): compares the energy of its speeds and accelerations");
+    line.option("--plugin", plugin_, "with --controller: the plugin that drives, where the file has several");
   }
 
   [[nodiscard]] bool is_asked() const override { return !controller_.empty(); }
 
   int run(const Plan& plan, const AnalysisOptions& options, OutputDirectory& out,
           const std::string& result_file) override {
-    const ControllerFile settings = read_controller_settings(controller_);
+    const ControllerFile settings = read_controller_settings(controller_, plugin_);
     const ControllerLoss loss = loss_of(plan, drive_with(plan, settings));
-    nlohmann::json result{{"schema", "joulepath/loss/1"}, {"of", controller_}, {"parameters", settings.read}};
+    nlohmann::json result{{"schema", "joulepath/loss/1"},
+                          {"of", controller_},
+                          {"parameters", settings.read},
+                          {"unused", settings.unused},
+                          {"not_modelled", settings.not_modelled}};
     result.update(loss_json(loss));
     if (writes_analysis(options)) {
       out.write(result_file, result.dump(1) + "\n");
       out.commit();
     }
-    if (prints_analysis_table(options, result)) print_loss(std::cout, plan, loss);
+    if (prints_analysis_table(options, result)) {
+      print_reading(settings);
+      print_loss(std::cout, plan, loss);
+    }
     return kDone;
   }
 
  private:
-  std::string controller_{};
+  static void print_reading(const ControllerFile& settings) {
+    const auto line = [](const char* what, const std::vector<std::string>& of) {
+      for (const std::string& one : of) std::cout << what << one << '\n';
+    };
+    std::vector<std::string> read;
+    for (std::size_t k = 0; k < settings.read.size(); ++k)
+      read.push_back(settings.read[k] + " in line " + std::to_string(settings.lines[k]));
+    line("read: ", read);
+    line("not used: ", settings.unused);
+    line("not modelled: ", settings.not_modelled);
+  }
+
+  std::string controller_{}, plugin_{};
 };
 
 }  // namespace

@@ -35,6 +35,27 @@ std::string collection(const std::vector<std::string>& features) {
   return text + "]}";
 }
 
+/// Route servers read no geometry of edges.
+TEST(RouteGraphFile, EdgesWithoutGeometryAreStraight) {
+  const ScratchDirectory scratch;
+  for (const char* geometry :
+       {R"("geometry": null)", R"("geometry": {"type": "MultiLineString"})",
+        R"("geometry": {"type": "LineString", "coordinates": []})", R"("bbox": [0, 0, 1, 1])"}) {
+    const RouteGraph graph = read_route_graph(scratch.write(
+        "g.geojson",
+        collection(
+            {std::string(R"({"type": "Feature", "properties": {"id": 9, "startid": 1, "endid": 2}, )") +
+                 geometry + "}",
+             point(1, 0, 0), point(2, 4, 0)})));
+    ASSERT_EQ(graph.edges.size(), 1u) << geometry;
+    EXPECT_TRUE(graph.edges[0].via_m.empty());
+    EXPECT_EQ(graph.nodes[graph.edges[0].end].x_m, 4);
+  }
+  EXPECT_THROW((void)read_route_graph(scratch.write(
+                   "g.geojson", collection({R"({"type": "Feature", "properties": {"id": 1}})"}))),
+               ConfigError);
+}
+
 /// A square of 4 m, once round, and a straight edge of 8 m out of it.
 std::string square() {
   return collection({point(1, 0, 0), point(2, 4, 0), point(3, 4, 4), point(4, 0, 4), point(5, 12, 0),

@@ -52,12 +52,19 @@ TEST(Order, AMissionWithAnOrderNeedsNoMap) {
   EXPECT_EQ(read_mission(file).legs.size(), 1u);
 }
 
-TEST(Order, BothVersionsGiveTheSameMission) {
+TEST(Order, AllVersionsGiveTheSameMission) {
   const ScratchDirectory scratch;
   const std::string v2 = scratch.write(
       "2.json",
       order(node(0, 0, 0) + "," + node(2, 3, 0, ", \"allowedDeviationXY\": 0.1") + "," + node(4, 3, 2),
             edge(1, ", \"maxSpeed\": 0.4") + "," + edge(3, ", \"maxRotationSpeed\": 0.2"), "2.1.0"));
+  const std::string v1 = scratch.write(
+      "1.json",
+      order(node(0, 0, 0) + "," + node(2, 3, 0, ", \"allowedDeviationXY\": 0.1") + "," + node(4, 3, 2),
+            edge(1, ", \"maxSpeed\": 0.4") + "," + edge(3), "1.1.1"));
+  EXPECT_EQ(path_of(mission_of(v1)).distance_m(), path_of(mission_of(v2)).distance_m());
+  EXPECT_EQ(mission_of(v1).speed_zones.at(0).speed_m_s, 0.4);
+  EXPECT_THROW((void)mission_of(scratch.write("0.json", order(node(0, 0, 0), "", "1.0.0"))), ConfigError);
   const std::string v3 = scratch.write(
       "3.json", order(node(0, 0, 0) + "," +
                           node(2, 3, 0, ", \"allowedDeviationXY\": {\"a\": 0.3, \"b\": 0.1, \"theta\": 0}") +

@@ -54,6 +54,30 @@ TEST(MapFile, ThresholdsMakeThreeKindsOfCell) {
   }
 }
 
+/// Map savers write unknown cells as grey 205, which 0.25 counts as free and 0.196 does not.
+TEST(MapFile, FreeFloorThatWasSavedAsUnknownIsNoted) {
+  const ScratchDirectory scratch;
+  scratch.write("m.pgm", "P2 4 1 255 254 205 0 0");
+  const auto notes = [&](const std::string& more) {
+    return map_notes(scratch.write("m.yaml", map_yaml("m.pgm", "occupied_thresh: 0.65\n" + more)));
+  };
+  ASSERT_EQ(notes("free_thresh: 0.25\n").size(), 1u);
+  EXPECT_NE(notes("free_thresh: 0.25\n")[0].find("25 % of the cells"), std::string::npos);
+  for (const char* sound :
+       {"free_thresh: 0.196\n", "free_thresh: 0.25\nmode: raw\n", "free_thresh: 0.25\nnegate: 1\n"})
+    EXPECT_TRUE(notes(sound).empty()) << sound;
+}
+
+TEST(MapFile, KeysThatNav2IgnoresAreNotedNotRefused) {
+  const ScratchDirectory scratch;
+  scratch.write("m.pgm", "P2 1 1 255 254");
+  const std::string file = scratch.write(
+      "m.yaml", map_yaml("m.pgm", "occupied_thresh: 0.65\nfree_thresh: 0.196\nmap_type: occupancy\n"));
+  EXPECT_EQ(read_map(file).occupancy_percent, std::vector<std::int8_t>{0});
+  ASSERT_EQ(map_notes(file).size(), 1u);
+  EXPECT_EQ(map_notes(file)[0].rfind("map_type: ", 0), 0u);
+}
+
 TEST(MapFile, ScaleIsLinearBetweenThresholdsAndRawIsThePixel) {
   const ScratchDirectory scratch;
   scratch.write("m.pgm", "P2 4 1 100 100 75 50 0");
