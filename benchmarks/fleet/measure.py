@@ -17,7 +17,7 @@ import generator
 import judge
 
 from joulepath.fleet._bound import bound
-from joulepath.fleet._model import solve
+from joulepath.fleet._solve import solve
 from joulepath.fleet._problem import Problem
 from joulepath.fleet._routes import dispatched
 from joulepath.fleet._search import first_schedule, improve, search

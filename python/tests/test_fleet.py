@@ -18,7 +18,7 @@ import judge  # noqa: E402
 from joulepath import fleet  # noqa: E402
 from joulepath.fleet._alone import sets_of  # noqa: E402
 from joulepath.fleet._bound import Limits, bound  # noqa: E402
-from joulepath.fleet._model import solve  # noqa: E402
+from joulepath.fleet._solve import solve  # noqa: E402
 from joulepath.fleet._orders import Estimate, Neighborhood, inserted  # noqa: E402
 from joulepath.fleet._problem import NEVER, Charger  # noqa: E402
 from joulepath.fleet._routes import dispatched, drive_orders  # noqa: E402
