@@ -30,6 +30,11 @@ TEST(LegEnergies, AQuickerPointTakesMoreEnergy) {
   for (const LegPoint& point : points) EXPECT_GT(point.sigma_J, 0.0);
 }
 
+TEST(LegEnergies, TheMarginIsTheModelsErrorOfARobotThatStatesNone) {
+  const LegPoint cheapest = leg("dock", "shelf", 0.0).front();
+  EXPECT_NEAR(cheapest.sigma_J, 0.05 * cheapest.motion_J, 1e-6 * cheapest.motion_J);  // energy_margin: 0.05
+}
+
 TEST(LegEnergies, APayloadTakesMoreEnergy) {
   EXPECT_GT(leg("dock", "shelf", 10.0).front().motion_J, leg("dock", "shelf", 0.0).front().motion_J);
 }
